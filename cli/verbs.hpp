@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+namespace trivela::cli {
+
+/// Exit codes of every verb.
+enum ExitCode : int { kDone = 0, kFailed = 1, kBadUsage = 2, kDoneWithLoss = 3 };
+
+/// Arguments that parse but make no sense together; `main` prints it and exits with kBadUsage.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Each adds its subcommand with flags, help and a callback that sets `exit_code`.
+void add_match(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_solve(CLI::App& app, int& exit_code);
+void add_align(CLI::App& app, int& exit_code);
+void add_predict(CLI::App& app, int& exit_code);
+
+}  // namespace trivela::cli
