@@ -1,0 +1,126 @@
+#include "config/toml_source.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+namespace trivela::config {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+std::string text_of(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&out](const auto& value) { out << value; });
+  return out.str();
+}
+
+}  // namespace
+
+TomlSource parse_text(std::string_view text, std::string name) {
+  try {
+    toml::table root = toml::parse(text, name);
+    return {std::move(name), std::move(root)};
+  } catch (const toml::parse_error& error) {
+    throw Error{fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description())};
+  }
+}
+
+TomlSource parse_file(const std::filesystem::path& path) {
+  std::ifstream in{path, std::ios::binary};
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw Error{fmt::format("{}: cannot read the configuration", path.string())};
+  return parse_text(text.str(), path.string());
+}
+
+const toml::node* TableReader::find(std::string_view key) {
+  asked_.emplace_back(key);
+  return table_.get(key);
+}
+
+void TableReader::fail(std::string_view key, const toml::node& node, const std::string& what) const {
+  throw Error{fmt::format("{}:{}: {}{}{} = {}: {}", file_, node.source().begin.line, section_, section_.empty() ? "" : ".",
+                          key, text_of(node), what)};
+}
+
+void TableReader::check_range(std::string_view key, double value, Range range) {
+  if (value < range.min || value > range.max) {
+    fail(key, *table_.get(key), fmt::format("must lie in [{}, {}]", range.min, range.max));
+  }
+}
+
+void TableReader::read_number(std::string_view key, double& value, const Range* range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_number()) fail(key, *node, "expected a number");
+  const double number = *node->value<double>();
+  if (!std::isfinite(number)) fail(key, *node, "expected a finite number");
+  if (range != nullptr) check_range(key, number, *range);
+  value = number;
+}
+
+void TableReader::read_angle(std::string_view key, double& value_rad, const Range* range_deg) {
+  double value_deg = value_rad / kRadPerDeg;
+  const double before = value_deg;
+  read_number(key, value_deg, range_deg);
+  if (value_deg != before) value_rad = value_deg * kRadPerDeg;
+}
+
+bool TableReader::read_integer(std::string_view key, std::int64_t& value, Range range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  if (!node->is_integer()) fail(key, *node, "expected a whole number");
+  value = *node->value<std::int64_t>();
+  check_range(key, static_cast<double>(value), range);
+  return true;
+}
+
+void TableReader::operator()(std::string_view key, bool& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) fail(key, *node, "expected true or false");
+  value = *node->value<bool>();
+}
+
+void TableReader::operator()(std::string_view key, std::string& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) fail(key, *node, "expected a string");
+  value = *node->value<std::string>();
+}
+
+void TableReader::operator()(std::string_view key, std::vector<double>& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  std::vector<double> numbers;
+  for (const toml::node& element : array_of(key, *node)) {
+    if (!element.is_number() || !std::isfinite(*element.value<double>())) fail(key, element, "expected finite numbers");
+    numbers.push_back(*element.value<double>());
+  }
+  value = std::move(numbers);
+}
+
+const toml::table& TableReader::table_of(std::string_view key, const toml::node& node) const {
+  if (!node.is_table()) fail(key, node, "expected a table");
+  return *node.as_table();
+}
+
+const toml::array& TableReader::array_of(std::string_view key, const toml::node& node) const {
+  if (!node.is_array()) fail(key, node, "expected an array");
+  return *node.as_array();
+}
+
+void TableReader::refuse_unknown_keys() const {
+  for (const auto& [key, node] : table_) {
+    if (std::find(asked_.begin(), asked_.end(), key.str()) == asked_.end()) {
+      throw Error{fmt::format("{}:{}: {}{}{}: unknown key", file_, key.source().begin.line, section_,
+                              section_.empty() ? "" : ".", key.str())};
+    }
+  }
+}
+
+}  // namespace trivela::config

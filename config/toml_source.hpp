@@ -1,0 +1,117 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <toml++/toml.h>
+#include <vector>
+
+#include "config/error.hpp"
+#include "config/field_types.hpp"
+
+namespace trivela::config {
+
+/// A parsed TOML file that knows its name, for error messages.
+struct TomlSource {
+  std::string file;
+  toml::table root;
+};
+
+/// Reads and parses `path`; throws Error naming file and line when it is missing or malformed.
+TomlSource parse_file(const std::filesystem::path& path);
+
+/// Parses `text`, calling it `name` in messages.
+TomlSource parse_text(std::string_view text, std::string name);
+
+/// Sets the struct fields that a TOML table names and refuses everything else in it. Fields that the table does not name
+/// keep their value, so that a file overrides defaults. Throws Error for an unknown key, a wrong type, a value that is
+/// not finite or outside its Range, naming file, line, key and value.
+class TableReader {
+ public:
+  TableReader(const std::string& file, const toml::table& table, std::string section)
+      : file_(file), table_(table), section_(std::move(section)) {}
+
+  void operator()(std::string_view key, double& value) { read_number(key, value, nullptr); }
+  void operator()(std::string_view key, double& value, auto range) {
+    const Range limits{range.min, range.max};
+    read_number(key, value, &limits);
+  }
+  void operator()(std::string_view key, AngleField auto angle) { read_angle(key, angle.rad, nullptr); }
+  void operator()(std::string_view key, AngleField auto angle, auto range) {
+    const Range limits{range.min, range.max};
+    read_angle(key, angle.rad, &limits);
+  }
+  void operator()(std::string_view key, bool& value);
+  void operator()(std::string_view key, std::string& value);
+  void operator()(std::string_view key, std::vector<double>& value);
+  void operator()(std::string_view key, std::vector<double>& value, auto range) {
+    (*this)(key, value);
+    for (const double number : value) check_range(key, number, Range{range.min, range.max});
+  }
+  template <std::integral I>
+    requires(!std::same_as<I, bool>)
+  void operator()(std::string_view key, I& value, auto... range) {
+    double limits[] = {0.0, 4294967295.0};
+    ((limits[0] = range.min, limits[1] = range.max), ...);
+    std::int64_t number = static_cast<std::int64_t>(value);
+    if (read_integer(key, number, Range{limits[0], limits[1]})) value = static_cast<I>(number);
+  }
+  template <NamedEnum E>
+  void operator()(std::string_view key, E& value) {
+    if (const toml::node* node = find(key)) value = enum_of<E>(key, *node);
+  }
+  template <NamedEnum E>
+  void operator()(std::string_view key, std::vector<E>& value) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    value.clear();
+    for (const toml::node& element : array_of(key, *node)) value.push_back(enum_of<E>(key, element));
+  }
+  template <Section S>
+  void operator()(std::string_view key, S& section) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    TableReader inner{file_, table_of(key, *node), section_.empty() ? std::string{key} : section_ + "." + std::string{key}};
+    fields(inner, section);
+    inner.refuse_unknown_keys();
+  }
+
+  /// Throws Error at the first key that no field asked for.
+  void refuse_unknown_keys() const;
+
+ private:
+  const toml::node* find(std::string_view key);
+  void read_number(std::string_view key, double& value, const Range* range);
+  void read_angle(std::string_view key, double& value_rad, const Range* range_deg);
+  bool read_integer(std::string_view key, std::int64_t& value, Range range);
+  void check_range(std::string_view key, double value, Range range);
+  const toml::table& table_of(std::string_view key, const toml::node& node) const;
+  const toml::array& array_of(std::string_view key, const toml::node& node) const;
+  [[noreturn]] void fail(std::string_view key, const toml::node& node, const std::string& what) const;
+
+  template <NamedEnum E>
+  E enum_of(std::string_view key, const toml::node& node) const {
+    std::string known;
+    if (const auto text = node.value<std::string>()) {
+      for (const auto& [name, value] : Names<E>::entries) {
+        if (name == *text) return value;
+      }
+    }
+    for (const auto& entry : Names<E>::entries) known += (known.empty() ? "" : ", ") + std::string{entry.first};
+    fail(key, node, "expected one of: " + known);
+  }
+
+  const std::string& file_;
+  const toml::table& table_;
+  std::string section_;
+  std::vector<std::string> asked_;
+};
+
+/// Overrides `target` with what `source` names.
+template <Section S>
+void read_into(const TomlSource& source, S& target) {
+  TableReader reader{source.file, source.root, ""};
+  fields(reader, target);
+  reader.refuse_unknown_keys();
+}
+
+}  // namespace trivela::config
