@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace trivela::bus {
+
+/// Where a participant lives: a DDS domain (0..100: above, its ports lie where Linux gives out ephemeral ones) and
+/// Cyclone's configuration of it. An empty xml leaves the configuration to the environment (CYCLONEDDS_URI).
+struct DomainConfig {
+  std::uint32_t domain_id = 0;
+  std::string xml;
+
+  bool operator==(const DomainConfig&) const = default;
+};
+
+/// config/cyclonedds/loopback.xml as built in: this machine alone, and of it only those with the same domain and tag.
+/// Ignores the environment. Throws Error if the id is outside 0..100 or the tag has other characters than [A-Za-z0-9._-].
+DomainConfig loopback(std::uint32_t domain_id, std::string_view tag);
+
+/// The configuration in a Cyclone XML file. Throws Error if the id is outside 0..100 or the file cannot be read.
+DomainConfig from_file(std::uint32_t domain_id, const std::filesystem::path& file);
+
+/// Whatever CYCLONEDDS_URI says, Cyclone's defaults without it. Throws Error if the id is outside 0..100.
+DomainConfig from_environment(std::uint32_t domain_id);
+
+}  // namespace trivela::bus

@@ -1,0 +1,96 @@
+// What the code generated from the IDL says about each message type.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+struct dds_topic_descriptor;
+
+namespace trivela::bus {
+
+/// QoS profile of a topic, @profile in the IDL; what each means stands in idl/README.md.
+enum class Profile { kState, kOrder, kEvent };
+
+/// One field of a message: its name, its @unit ("" without one) and whether it is part of the key.
+struct Field {
+  std::string_view name;
+  std::string_view unit;
+  bool key;
+};
+
+/// One value of an IDL enum and its label: lower case without the enum's common prefix.
+template <class Enum>
+struct Enumerator {
+  Enum value;
+  const char* label;
+};
+
+/// Specialised by the generated code for each struct T of the IDL: `name`, `fields`, `visit(message, f)`; for a topic
+/// also `topic`, `profile` and `descriptor()`.
+template <class T>
+struct meta;
+
+/// Specialised by the generated code for each enum of the IDL: `name`, `enumerators`.
+template <class T>
+struct enumeration;
+
+/// A struct of the IDL, topic or nested.
+template <class T>
+concept Struct = requires {
+  meta<std::remove_const_t<T>>::fields;
+};
+
+/// A struct of the IDL that a topic carries.
+template <class T>
+concept Message = Struct<T> && requires {
+  meta<T>::topic;
+};
+
+/// An enum of the IDL.
+template <class T>
+concept Enumeration = requires {
+  enumeration<T>::enumerators;
+};
+
+/// Calls f(name, unit, field) for each field of the message in the order of the IDL. Arrays come as arrays, enums as
+/// enums, nested structs as structs. A non-const message gives fields that may be written.
+template <class T, class F>
+requires Struct<T>
+constexpr void visit_fields(T& message, F&& f) { meta<std::remove_const_t<T>>::visit(message, f); }
+
+/// The names of T's fields in the order of the IDL.
+template <Struct T>
+constexpr auto field_names() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array<std::string_view, sizeof...(I)>{meta<T>::fields[I].name...};
+  }
+  (std::make_index_sequence<meta<T>::fields.size()>{});
+}
+
+/// The label of an enum's value, e.g. "wide_left" for OUTCOME_WIDE_LEFT; "invalid" for a number outside the enum (the
+/// bus does not check the range).
+template <Enumeration E>
+constexpr const char* label(E value) {
+  for (const auto& e : enumeration<E>::enumerators)
+    if (e.value == value) return e.label;
+  return "invalid";
+}
+
+/// The value with that label, if there is one.
+template <Enumeration E>
+constexpr std::optional<E> from_label(std::string_view text) {
+  for (const auto& e : enumeration<E>::enumerators)
+    if (text == e.label) return e.value;
+  return std::nullopt;
+}
+
+}  // namespace trivela::bus
+
+namespace trivela::msg {
+using bus::label;
+using bus::visit_fields;
+}  // namespace trivela::msg
