@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace trivela::hal {
+
+enum class KickerFault { kNone, kCharger, kCoil, kLink };
+
+/// One reading of the kicker.
+struct KickerSample {
+  std::int64_t t_ns = 0;
+  double charge = 0.0;  ///< capacitor energy, 0..1
+  bool armed = false;   ///< the arm switch
+  KickerFault fault = KickerFault::kNone;
+};
+
+/// The kicker: its state in, kicks out. One thread at a time.
+class Kicker {
+ public:
+  /// Makes the kicker safe.
+  virtual ~Kicker() = default;
+
+  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
+  virtual std::optional<KickerSample> read(std::chrono::nanoseconds timeout) = 0;
+
+  /// Energises the coil at `t_ns` for the set-point `power`. The device does what it is told: whether the order is
+  /// fresh, in range and wanted is its caller's business. Ignored after make_safe().
+  virtual void fire(std::int64_t kick_id, double power, std::int64_t t_ns) = 0;
+
+  /// Nothing is energised from now on. May be called again.
+  virtual void make_safe() noexcept = 0;
+
+  /// No sample will ever come again.
+  virtual bool ended() const = 0;
+};
+
+}  // namespace trivela::hal

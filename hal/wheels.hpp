@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "kicking/geometry/frames.hpp"
+
+namespace trivela::hal {
+
+/// One reading of wheels and gyro.
+struct WheelSample {
+  std::int64_t t_ns = 0;
+  int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
+  std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
+  std::optional<double> gyro_radps;     ///< counter-clockwise
+};
+
+/// The base: wheel speeds in, set-points out. One thread at a time.
+class Wheels {
+ public:
+  /// Leaves the base at a set-point of zero.
+  virtual ~Wheels() = default;
+
+  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
+  virtual std::optional<WheelSample> read(std::chrono::nanoseconds timeout) = 0;
+
+  /// Asks for a velocity in R; a backend without motors records it. `t_ns` is the instant it answers. A set-point that
+  /// is not finite is one of zero.
+  virtual void drive(const kicking::Twist& set_point, std::int64_t t_ns) = 0;
+
+  /// No sample will ever come again.
+  virtual bool ended() const = 0;
+};
+
+}  // namespace trivela::hal

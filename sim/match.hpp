@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "sim/commands.hpp"
+#include "sim/scenario.hpp"
+#include "sim/sensors.hpp"
+#include "sim/truth.hpp"
+
+namespace trivela::sim {
+
+/// A match of one robot against the opponents, half after half, one possession of the ball after another.
+///
+/// A possession: the referee stops the game for `possession.stop_s`, the robot stands at the drawn pose with the ball
+/// in its handler; then play starts and the robot has the drawn velocity at once (it gained the ball on the run). It
+/// ends with a kick (when the ball crossed, was blocked, came to rest or flew for `flight_limit_s`), with a dispute
+/// (the opponent is at the ball) or with the time limit, which a ball carried over a field line counts as. A coil
+/// energised before the end of a possession wins: its ball leaves first.
+///
+/// Possession n of a half depends on (seed, n) alone, so that every half and every policy meets the same poses,
+/// opponents and noise: the draws of one role never shift another's. Between steps the world stands still; the same
+/// seed and the same commands give the same bits.
+///
+///     while (!match.done()) { publish(match.sense()); report(match.step(commands)); }
+class Match {
+ public:
+  /// `halves` halves of `half_minutes` minutes each; a half ends with the possession under way and one more stop, after
+  /// which the observers have seen everything. Throws std::runtime_error naming key and value for a scenario that
+  /// first_problem() refuses, fewer than 1 or more than 255 halves, or a duration that is not positive.
+  Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes);
+  ~Match();
+  Match(Match&&) noexcept;
+  Match& operator=(Match&&) noexcept;
+
+  /// True after the last step of the last half.
+  bool done() const;
+
+  /// What the sensors and the referee say now.
+  Sensors sense() const;
+
+  /// Plays one cycle: the base follows `commands.drive` from now on, a fire energises the coil at its instant, at once
+  /// if that has passed. A drive set-point that is not finite is one of zero: the robot brakes. A fire is ignored if
+  /// its power is not finite or while a kick is under way. Without a ball in the handler, or while the referee has
+  /// stopped the game, it drains the capacitor and has no KickTruth. Must not be called when done().
+  StepEvents step(const Commands& commands);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trivela::sim

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <vector>
+
+/// Every input of the simulated world: a named value with its unit and its source. "Assumption" marks a number that no
+/// publication gives; results depend on it and reports must say so. SI throughout; angles in rad.
+namespace trivela::sim {
+
+struct Field {
+  double goal_line_y_m = 9.0;        ///< 18 x 12 m field of the paper
+  double side_line_x_m = 6.0;        ///< 18 x 12 m field of the paper
+  double goal_half_width_m = 1.0;    ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_width 2000 mm
+  double goal_height_m = 1.0;        ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_height 1000 mm
+  double frame_thickness_m = 0.125;  ///< posts: CAMBADA release 1.0 cambada.conf.xml; bar: assumption, the same
+};
+
+struct Ball {
+  double mass_kg = 0.43;                   ///< FIFA size 5: 0.43 +- 0.02 kg
+  double radius_m = 0.11;                  ///< FIFA size 5: circumference 0.69 +- 0.01 m
+  double air_density_kgpm3 = 1.2;          ///< air at 20 degrees C
+  double drag_coefficient = 0.25;          ///< fit to Hawk-Eye flights of footballs at 7-10 m/s
+  double gravity_mps2 = 9.81;              ///< standard
+  double restitution_ratio = 0.65;         ///< vertical speed kept in a bounce; assumption within 0.6-0.75 for carpet
+  double retention_ratio = 0.8;            ///< horizontal speed kept in a bounce; Hawk-Eye flights on grass
+  double roll_below_mps = 0.3;             ///< a bounce slower than this ends in rolling; assumption
+  double rolling_deceleration_mps2 = 0.5;  ///< assumption
+  double frame_restitution_ratio = 0.5;    ///< speed kept when post or bar throws the ball back; assumption
+  double body_restitution_ratio = 0.3;     ///< speed kept when an opponent's body throws the ball back; assumption
+};
+
+/// The robot's base while it dribbles.
+struct Robot {
+  double max_speed_mps = 2.2;                 ///< CAMBADA release 1.0: dribbling <= 2.2 m/s
+  double max_acceleration_mps2 = 2.5;         ///< assumption, braking included
+  double max_turn_rate_radps = 2.5;           ///< Falcons configuration: 2.5 rad/s with the ball
+  double max_turn_acceleration_radps2 = 4.0;  ///< assumption; Falcons configuration says 3 rad/s2
+  double ball_offset_m = 0.27;                ///< robot centre to ball centre; CAMBADA release 1.0
+  /// Where the wheels sit, counter-clockwise from +x of R; each drives along the counter-clockwise tangent. Assumption:
+  /// 30, 150 and 270 degrees, two in front, one behind.
+  std::vector<double> wheel_angles_rad{0.5235987755982988, 2.6179938779914944, 4.71238898038469};
+  double wheel_distance_m = 0.22;  ///< assumption for a base of 0.52 m
+  double wheel_radius_m = 0.05;    ///< assumption
+};
+
+/// The electromagnetic kicker. The table is *true*: what leaves the robot at rest, before drag. Its default is the one
+/// whose drag flights give CAMBADA's published *effective* table (release 1.0 kicker.map, robot 1) when they are
+/// measured by apex and range; see true_exit().
+struct Kicker {
+  std::vector<double> powers{15, 20, 25, 30, 35, 40, 45, 50};
+  std::vector<double> exit_speeds_mps{6.087298,  7.549161,  8.721521,  9.65186,
+                                      10.358872, 10.782613, 11.091813, 11.175526};
+  std::vector<double> exit_elevations_rad{0.63417893, 0.63026363, 0.62666896, 0.62356544,
+                                          0.62107594, 0.61953496, 0.61838909, 0.61807589};
+  double speed_scale_ratio = 1.0;  ///< this robot's speed against the table; 1: as calibrated
+  double delay_s = 0.060;          ///< coil energised to ball released; CAMBADA release 1.0: 50 ms mean, 80 ms max
+  double delay_sd_s = 0.015;       ///< CAMBADA release 1.0: the spread between mean and max
+  double speed_sd_ratio = 0.02;    ///< assumption
+  double direction_sd_rad = 0.026179938779914945;  ///< 1.5 degrees; assumption
+  double transfer_forward_ratio = 1.0;   ///< ball-point velocity that the ball keeps; 1: rigid body, no floor loss
+  double transfer_backward_ratio = 1.0;  ///< the same when driving backwards
+  double transfer_lateral_ratio = 1.0;   ///< the same sideways; Table 1 of the paper is explained by 1
+  double charge_per_kick_ratio = 0.5;    ///< capacitor energy that the highest power takes; assumption
+  double recharge_per_s = 0.333;         ///< capacitor energy regained a second; assumption: 3 s from empty to full
+};
+
+/// How the robot gains the ball: the distributions that each opportunity is drawn from.
+struct Possession {
+  double goal_distance_min_m = 3.0;                     ///< ball to goal line; assumption
+  double goal_distance_max_m = 9.0;                     ///< assumption
+  double lateral_max_m = 3.0;                           ///< ball to the middle line, either side; assumption
+  double aim_error_sd_rad = 1.2217304763960306;         ///< 70 degrees, heading against the goal centre; assumption
+  double speed_min_mps = 0.3;                           ///< assumption
+  double speed_max_mps = 2.0;                           ///< assumption
+  double travel_direction_sd_rad = 0.7853981633974483;  ///< 45 degrees, velocity against heading; assumption
+  double time_limit_s = 8.0;                            ///< the possession ends without a kick; assumption
+  double stop_s = 1.0;                                  ///< the referee's stop before each possession; assumption
+  double flight_limit_s = 3.0;                          ///< a ball that has not crossed by then is short; assumption
+  double after_crossing_s = 0.2;  ///< play goes on so that cameras see the ball behind the line; assumption
+};
+
+/// The nearest opponent: it keeps up with the ball and closes at a constant rate.
+struct Opponent {
+  double distance_median_m = 1.5;   ///< log-normal; published MSL log of 2016, n = 19: median 1.50 m
+  double distance_sigma_ln = 0.55;  ///< the same log: quartiles 1.24 and 2.01 m
+  double closing_min_mps = 0.8;     ///< assumption
+  double closing_max_mps = 2.0;     ///< assumption
+  double dispute_distance_m = 0.5;  ///< opponent centre to ball centre; assumption
+  double body_radius_m = 0.26;      ///< rules: 52 x 52 x 80 cm
+  double body_height_m = 0.8;       ///< rules: 52 x 52 x 80 cm
+};
+
+/// Noise of wheels and gyro.
+struct Odometry {
+  double wheel_sd_radps = 0.6;       ///< white, each sample; assumption: 3 cm/s at the rim
+  double slip_sd_ratio = 0.02;       ///< scale error of a wheel, constant in a possession; assumption
+  double gyro_sd_radps = 0.02;       ///< white, each sample; assumption
+  double gyro_bias_sd_radps = 0.01;  ///< constant in a possession; assumption
+};
+
+/// The robot's camera. Its pose error has a white part and a slow one that a filter cannot average away:
+/// sqrt(0.05^2 + 0.11^2) m gives the published localisation noise of 0.12 m.
+struct Vision {
+  double latency_s = 0.06;              ///< exposure to publication; assumption within CAMBADA's 140 ms sense-to-act
+  double position_white_sd_m = 0.05;    ///< per axis and frame; assumption
+  double position_slow_sd_m = 0.11;     ///< per axis, Gauss-Markov; assumption
+  double heading_white_sd_rad = 0.010;  ///< assumption
+  double heading_slow_sd_rad = 0.010;   ///< Gauss-Markov; assumption
+  double slow_time_s = 2.0;             ///< correlation time of the slow parts; assumption
+  double ball_sd_m = 0.02;              ///< per axis, a ball at the robot; assumption
+  double ball_sd_ratio = 0.02;          ///< grows with the distance; assumption
+  double ball_range_m = 8.0;            ///< farther balls are not seen; assumption
+  double ball_height_max_m = 0.4;       ///< higher balls are not taken for a ball on the floor; assumption
+  double opponent_sd_m = 0.14;          ///< per axis; MSL log of 2016: obstacle against robot, median 0.20 m
+  double opponent_range_m = 6.0;        ///< assumption
+  double dropout_ratio = 0.02;          ///< frames without a pose, a ball, an opponent, each; assumption
+};
+
+/// The camera that follows the ball in flight, referred to the goal seen in the same picture.
+struct FlightCamera {
+  double latency_s = 0.04;      ///< assumption
+  double position_sd_m = 0.03;  ///< per axis and frame; assumption
+  double dropout_ratio = 0.02;  ///< frames without a ball; assumption
+};
+
+struct Scenario {
+  double cycle_s = 0.02;     ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
+  double substep_s = 0.001;  ///< longest step of the physics
+  Field field;
+  Ball ball;
+  Robot robot;
+  Kicker kicker;
+  Possession possession;
+  Opponent opponent;
+  Odometry odometry;
+  Vision vision;
+  FlightCamera flight_camera;
+};
+
+}  // namespace trivela::sim

@@ -1,0 +1,161 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sim/scenario.hpp"
+
+/// The keys of a scenario, each named once with the range it may take: `fields(visitor, struct)` calls
+/// `visitor(key, member, range)` for each member and `visitor(key, struct)` for each nested struct. Found by ADL.
+namespace trivela::sim {
+
+/// An angle in rad that a file shows in degrees.
+struct Degrees {
+  double& rad;
+};
+
+/// The values that a member may take, both ends included, in the unit of its key.
+struct Range {
+  double min;
+  double max;
+};
+
+inline constexpr Range kRatio{0.0, 1.0};
+
+template <class V>
+void fields(V& v, Field& f) {
+  v("goal_line_y_m", f.goal_line_y_m, Range{1.0, 30.0});
+  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
+  v("goal_half_width_m", f.goal_half_width_m, Range{0.3, 5.0});
+  v("goal_height_m", f.goal_height_m, Range{0.3, 5.0});
+  v("frame_thickness_m", f.frame_thickness_m, Range{0.0, 0.5});
+}
+
+template <class V>
+void fields(V& v, Ball& b) {
+  v("mass_kg", b.mass_kg, Range{0.05, 2.0});
+  v("radius_m", b.radius_m, Range{0.02, 0.25});
+  v("air_density_kgpm3", b.air_density_kgpm3, Range{0.0, 2.0});
+  v("drag_coefficient", b.drag_coefficient, Range{0.0, 2.0});
+  v("gravity_mps2", b.gravity_mps2, Range{1.0, 20.0});
+  v("restitution_ratio", b.restitution_ratio, Range{0.0, 0.95});
+  v("retention_ratio", b.retention_ratio, kRatio);
+  v("roll_below_mps", b.roll_below_mps, Range{0.05, 5.0});
+  v("rolling_deceleration_mps2", b.rolling_deceleration_mps2, Range{0.0, 20.0});
+  v("frame_restitution_ratio", b.frame_restitution_ratio, kRatio);
+  v("body_restitution_ratio", b.body_restitution_ratio, kRatio);
+}
+
+template <class V>
+void fields(V& v, Robot& r) {
+  v("max_speed_mps", r.max_speed_mps, Range{0.1, 10.0});
+  v("max_acceleration_mps2", r.max_acceleration_mps2, Range{0.1, 50.0});
+  v("max_turn_rate_radps", r.max_turn_rate_radps, Range{0.1, 30.0});
+  v("max_turn_acceleration_radps2", r.max_turn_acceleration_radps2, Range{0.1, 200.0});
+  v("ball_offset_m", r.ball_offset_m, Range{0.1, 0.6});
+  v("wheel_angles_rad", r.wheel_angles_rad, Range{-6.3, 6.3});
+  v("wheel_distance_m", r.wheel_distance_m, Range{0.02, 0.6});
+  v("wheel_radius_m", r.wheel_radius_m, Range{0.005, 0.3});
+}
+
+template <class V>
+void fields(V& v, Kicker& k) {
+  v("powers", k.powers, Range{0.0, 1000.0});
+  v("exit_speeds_mps", k.exit_speeds_mps, Range{0.1, 40.0});
+  v("exit_elevations_rad", k.exit_elevations_rad, Range{0.0, 1.5});
+  v("speed_scale_ratio", k.speed_scale_ratio, Range{0.1, 3.0});
+  v("delay_s", k.delay_s, Range{0.0, 1.0});
+  v("delay_sd_s", k.delay_sd_s, Range{0.0, 0.5});
+  v("speed_sd_ratio", k.speed_sd_ratio, Range{0.0, 0.3});
+  v("direction_sd_deg", Degrees{k.direction_sd_rad}, Range{0.0, 30.0});
+  v("transfer_forward_ratio", k.transfer_forward_ratio, Range{0.0, 1.5});
+  v("transfer_backward_ratio", k.transfer_backward_ratio, Range{0.0, 1.5});
+  v("transfer_lateral_ratio", k.transfer_lateral_ratio, Range{0.0, 1.5});
+  v("charge_per_kick_ratio", k.charge_per_kick_ratio, kRatio);
+  v("recharge_per_s", k.recharge_per_s, Range{0.0, 100.0});
+}
+
+template <class V>
+void fields(V& v, Possession& p) {
+  v("goal_distance_min_m", p.goal_distance_min_m, Range{0.5, 18.0});
+  v("goal_distance_max_m", p.goal_distance_max_m, Range{0.5, 18.0});
+  v("lateral_max_m", p.lateral_max_m, Range{0.0, 10.0});
+  v("aim_error_sd_deg", Degrees{p.aim_error_sd_rad}, Range{0.0, 360.0});
+  v("speed_min_mps", p.speed_min_mps, Range{0.0, 10.0});
+  v("speed_max_mps", p.speed_max_mps, Range{0.0, 10.0});
+  v("travel_direction_sd_deg", Degrees{p.travel_direction_sd_rad}, Range{0.0, 360.0});
+  v("time_limit_s", p.time_limit_s, Range{0.1, 120.0});
+  v("stop_s", p.stop_s, Range{0.0, 60.0});
+  v("flight_limit_s", p.flight_limit_s, Range{0.1, 30.0});
+  v("after_crossing_s", p.after_crossing_s, Range{0.0, 10.0});
+}
+
+template <class V>
+void fields(V& v, Opponent& o) {
+  v("distance_median_m", o.distance_median_m, Range{0.1, 100.0});
+  v("distance_sigma_ln", o.distance_sigma_ln, Range{0.0, 3.0});
+  v("closing_min_mps", o.closing_min_mps, Range{0.0, 10.0});
+  v("closing_max_mps", o.closing_max_mps, Range{0.0, 10.0});
+  v("dispute_distance_m", o.dispute_distance_m, Range{0.0, 5.0});
+  v("body_radius_m", o.body_radius_m, Range{0.0, 1.0});
+  v("body_height_m", o.body_height_m, Range{0.0, 2.0});
+}
+
+template <class V>
+void fields(V& v, Odometry& o) {
+  v("wheel_sd_radps", o.wheel_sd_radps, Range{0.0, 100.0});
+  v("slip_sd_ratio", o.slip_sd_ratio, Range{0.0, 0.5});
+  v("gyro_sd_radps", o.gyro_sd_radps, Range{0.0, 10.0});
+  v("gyro_bias_sd_radps", o.gyro_bias_sd_radps, Range{0.0, 10.0});
+}
+
+template <class V>
+void fields(V& v, Vision& s) {
+  v("latency_s", s.latency_s, Range{0.0, 0.5});
+  v("position_white_sd_m", s.position_white_sd_m, Range{0.0, 5.0});
+  v("position_slow_sd_m", s.position_slow_sd_m, Range{0.0, 5.0});
+  v("heading_white_sd_deg", Degrees{s.heading_white_sd_rad}, Range{0.0, 90.0});
+  v("heading_slow_sd_deg", Degrees{s.heading_slow_sd_rad}, Range{0.0, 90.0});
+  v("slow_time_s", s.slow_time_s, Range{0.001, 1000.0});
+  v("ball_sd_m", s.ball_sd_m, Range{0.0, 5.0});
+  v("ball_sd_ratio", s.ball_sd_ratio, kRatio);
+  v("ball_range_m", s.ball_range_m, Range{0.0, 100.0});
+  v("ball_height_max_m", s.ball_height_max_m, Range{0.0, 10.0});
+  v("opponent_sd_m", s.opponent_sd_m, Range{0.0, 5.0});
+  v("opponent_range_m", s.opponent_range_m, Range{0.0, 100.0});
+  v("dropout_ratio", s.dropout_ratio, kRatio);
+}
+
+template <class V>
+void fields(V& v, FlightCamera& c) {
+  v("latency_s", c.latency_s, Range{0.0, 0.5});
+  v("position_sd_m", c.position_sd_m, Range{0.0, 5.0});
+  v("dropout_ratio", c.dropout_ratio, kRatio);
+}
+
+template <class V>
+void fields(V& v, Scenario& s) {
+  v("cycle_s", s.cycle_s, Range{0.001, 0.5});
+  v("substep_s", s.substep_s, Range{0.00001, 0.01});
+  v("field", s.field);
+  v("ball", s.ball);
+  v("robot", s.robot);
+  v("kicker", s.kicker);
+  v("possession", s.possession);
+  v("opponent", s.opponent);
+  v("odometry", s.odometry);
+  v("vision", s.vision);
+  v("flight_camera", s.flight_camera);
+}
+
+/// What is wrong with a scenario: the dotted key and a sentence.
+struct Problem {
+  std::string key;
+  std::string why;
+};
+
+/// The first rule that `scenario` breaks: a value outside its range, a minimum above its maximum, tables of unequal
+/// length, powers that do not rise, a base of other than 3 or 4 wheels. None: the scenario can be played.
+std::optional<Problem> first_problem(const Scenario& scenario);
+
+}  // namespace trivela::sim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "kicking/geometry/frames.hpp"
+
+namespace trivela::sim {
+
+/// Wheels and gyro. Wheel i turns at (-sin(angle_i) vx + cos(angle_i) vy + distance omega) / radius, plus noise.
+struct WheelSample {
+  int wheel_count = 0;
+  std::array<double, 4> wheel_radps{};
+  double gyro_radps = 0.0;
+};
+
+/// The kicker's own state.
+struct KickerSample {
+  double charge = 1.0;  ///< capacitor energy, 0..1
+  bool armed = true;    ///< the arm switch
+};
+
+/// A point of the floor plan.
+struct PlanPoint {
+  double x_m = 0.0;
+  double y_m = 0.0;
+};
+
+/// One frame of the robot's camera.
+struct VisionFrame {
+  std::int64_t t_exposure_ns = 0;
+  std::optional<kicking::Pose> pose;  ///< self-localisation in F
+  std::optional<PlanPoint> ball;      ///< in R
+  std::optional<PlanPoint> opponent;  ///< in R
+};
+
+/// One observation of the ball by the flight camera, in F, z above the floor.
+struct FlightFrame {
+  struct Point {
+    double x_m = 0.0;
+    double y_m = 0.0;
+    double z_m = 0.0;
+  };
+  std::int64_t t_exposure_ns = 0;
+  std::optional<Point> ball;
+};
+
+/// The referee's last word.
+struct RefereeWord {
+  int half = 1;
+  bool playing = false;
+  std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
+};
+
+/// Everything that the robot is told at t_ns.
+struct Sensors {
+  std::int64_t t_ns = 0;
+  WheelSample wheels;
+  KickerSample kicker;
+  VisionFrame vision;
+  FlightFrame flight;
+  RefereeWord referee;
+};
+
+}  // namespace trivela::sim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kicking/geometry/frames.hpp"
+#include "kicking/outcome/outcome.hpp"
+
+namespace trivela::sim {
+
+/// A point or a velocity in F, z up.
+struct Vec3 {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+};
+
+/// Where the ball's centre passed the plane of the goal line, in F.
+struct Crossing {
+  double x_m = 0.0;
+  double z_m = 0.0;
+};
+
+/// What became of a kick; one row per ball released.
+struct KickTruth {
+  std::int64_t t_ns = 0;  ///< when it was settled
+  std::int64_t kick_id = 0;
+  int half = 1;
+  std::uint32_t possession_id = 0;
+  kicking::Outcome outcome{};
+  std::optional<Crossing> crossing;
+  std::int64_t release_t_ns = 0;
+  Vec3 release_position_m;    ///< ball centre
+  Vec3 release_velocity_mps;  ///< over ground
+  /// Distance of the crossing from the nearest edge that would change the outcome; for a short ball, of its nearest
+  /// point from the goal line; none for a blocked one.
+  std::optional<double> margin_m;
+};
+
+enum class PossessionEnd { kKicked, kDisputed, kTimedOut };
+
+/// How a possession ended.
+struct PossessionTruth {
+  std::int64_t t_ns = 0;
+  int half = 1;
+  std::uint32_t possession_id = 0;
+  PossessionEnd ending = PossessionEnd::kTimedOut;
+  std::int64_t start_t_ns = 0;  ///< play started
+  kicking::Pose start;          ///< robot in F at that instant
+};
+
+/// What was settled during one step.
+struct StepEvents {
+  std::vector<KickTruth> kicks;
+  std::vector<PossessionTruth> possessions;
+};
+
+}  // namespace trivela::sim
