@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "kicking/alignment/release_predictor.hpp"
+#include "kicking/geometry/frames.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "kicking/policy/policy_config.hpp"
+#include "kicking/robot_model.hpp"
+
+namespace trivela::kicking {
+
+/// kStopped: drive, brake, turn, settle, kick: "a two-step behaviour", the method before the paper.
+/// kMoving: the paper's: alignment is evaluated in parallel with the motion.
+enum class PolicyName { kStopped, kMoving };
+
+/// Why a policy fires or holds, in the order of the wire's DecisionReason.
+enum class Reason {
+  kFire,
+  kNotPlaying,
+  kNoBall,
+  kKickerNotReady,
+  kOrderPending,
+  kApproaching,
+  kTurning,
+  kSettling,
+  kNotAligned,
+  kOutOfRange,
+  kStaleState
+};
+
+/// "stopped", "moving".
+const char* name(PolicyName policy);
+/// "fire", "not_playing", ...
+const char* name(Reason reason);
+
+/// What one cycle knows.
+struct PolicyInput {
+  std::int64_t t_ns = 0;  ///< instant at which pose and twist hold
+  Pose pose{};            ///< in F
+  Twist twist{};          ///< in R
+  bool playing = false;
+  bool possession = false;
+  std::uint32_t possession_id = 0;
+  bool kicker_ready = false;
+  double state_age_s = 0.0;                   ///< of the older of world state and kicker status
+  std::optional<double> opponent_distance_m;  ///< for the record; neither policy looks at it
+};
+
+/// What a policy remembers from cycle to cycle. A new possession starts it afresh.
+struct PolicyMemory {
+  std::optional<std::uint32_t> possession_id;
+  std::optional<std::int64_t> fired_t_ns;  ///< last order of this possession
+  bool aligned_before = false;             ///< moving: in the previous cycle
+  bool turning = false;                    ///< stopped: has come to rest, turns or settles
+  std::optional<std::int64_t> settling_since_t_ns;
+};
+
+/// One decision with every number behind it.
+struct Judgement {
+  bool fire = false;
+  Reason reason = Reason::kNotPlaying;
+  double target_x_m = 0.0;  ///< aim point in F
+  double target_y_m = 0.0;
+  double target_z_m = 0.0;
+  double distance_m = 0.0;           ///< ball centre to target, horizontal
+  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
+  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
+  std::optional<double> power;       ///< set-point, fractional
+  double alpha_rad = 0.0;            ///< right positive
+  double beta_rad = 0.0;             ///< with the sign of omega
+  bool aligned = false;
+  std::optional<double> offset_right_m;
+  double left_m = 0.0;
+  double right_m = 0.0;
+  std::optional<Crossing> predicted;  ///< of an order that goes out now
+  Twist drive{};                      ///< command until the next cycle, in R
+};
+
+/// Fire or hold? A pure function of its arguments but for the policy's own memory, which it brings up to date; nothing
+/// allocates. A policy that is not in charge is judged by the same function with a memory of its own. It never fires
+/// when the game stands, the ball is not held, the kicker is not ready, the state is older than max_state_age_s or not
+/// finite, no set-point reaches the target height, or an order of this possession is pending.
+Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                const PolicyInput& input, PolicyMemory& memory);
+
+}  // namespace trivela::kicking

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "kicking/alignment/alignment.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::kicking {
+
+/// Exit speed for the target's height at its distance.
+/// kPaper: the range law of section 2.2, the ball lands on the goal line. kExtendedRange: the released code's D = d + h
+/// / tan(theta). kExact: the parabola through the target.
+enum class HeightLaw { kPaper, kExtendedRange, kExact };
+
+/// Exit speed of a moving robot. kPaper: V_kick = V0 - k v cos(theta) (section 2.2), distance as of now.
+/// kExact: velocities added at the ball's point, at the release.
+enum class MotionLaw { kPaper, kExact };
+
+/// Direction of a moving robot's kick. kPaperLine: alpha and beta are lines through the origin (sections 3.2, 3.3).
+/// kPhysical: alpha by velocity addition at the ball's point, beta the turn until the release (delay and half a cycle).
+enum class AlphaLaw { kPaperLine, kPhysical };
+
+/// How to decide and to drive. The defaults are meant to be played: heights by the exact law, direction by the paper's
+/// lines.
+struct PolicyConfig {
+  HeightLaw height_law = HeightLaw::kExact;
+  MotionLaw motion_law = MotionLaw::kExact;
+  AlphaLaw alpha_law = AlphaLaw::kPaperLine;
+  /// S1 and S2 of the moving policy (paper, section 3.4).
+  AlignmentRule alignment{};
+
+  /// Aim point on the goal line: x in F; height of the ball's centre over the floor (kicker.map: 0.70 m).
+  double target_x_m = 0.0;
+  double target_height_m = 0.70;
+  /// Older world states and kicker statuses are not acted upon: the released predictor's 140 ms from sensing to
+  /// release.
+  double max_state_age_s = 0.14;
+  /// Control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms).
+  double cycle_s = 0.02;
+  /// After an order the same possession fires again only when this long has passed: the order was refused (assumed).
+  double order_hold_s = 0.5;
+
+  /// Stopped policy: heading tolerance (CAMBADA release 1.0: kick_max_deg_error 1), time at rest (Falcons: 0.25 s).
+  double aim_tolerance_rad = radians(1.0);
+  double settle_s = 0.25;
+  /// At rest below these; three standard deviations of filtered odometry noise (assumed 0.05 m/s, 0.05 rad/s).
+  double rest_speed_mps = 0.15;
+  double rest_turn_rate_radps = 0.15;
+  /// How sharply the stopped policy turns onto the target: turn rate per heading error near zero (assumed).
+  double stopped_turn_gain_hz = 6.0;
+  /// The same for the moving policy, which turns through the target instead of creeping up to it: above 1 / beta slope
+  /// (assumed).
+  double moving_turn_gain_hz = 12.0;
+
+  /// Limits with the ball: forward (CAMBADA: dribbling 2.2 m/s), sideways and backward (Falcons: 0.5 m/s).
+  double max_forward_mps = 2.2;
+  double max_sideways_mps = 0.5;
+  /// Speed that the moving policy does not fall below on its way to the goal, and that the stopped one approaches with
+  /// (assumed).
+  double min_dribble_mps = 0.5;
+  double approach_mps = 1.5;
+  /// Neither policy drives the robot's centre closer to the target than this, braking with max_brake (assumed).
+  double keep_off_m = 2.5;
+  double max_brake_mps2 = 2.5;
+  /// Turning with the ball (Falcons: 2.5 rad/s; acceleration assumed 4 rad/s2, of which the profile uses three
+  /// quarters).
+  double max_turn_rate_radps = 2.5;
+  double max_turn_acceleration_radps2 = 4.0;
+};
+
+}  // namespace trivela::kicking

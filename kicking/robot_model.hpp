@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kicking/ballistics/transfer.hpp"
+#include "kicking/calibration/power_table.hpp"
+#include "kicking/constants.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::kicking {
+
+/// What a decision knows of its robot. The defaults are robot 1 of CAMBADA (release 1.0, config/kicker.map; laser
+/// calibration).
+struct RobotModel {
+  /// Effective: apex height and range of lobs, drag-free.
+  EffectiveTable table{{15, 5.97}, {20, 7.33},  {25, 8.39},  {30, 9.21},
+                       {35, 9.82}, {40, 10.18}, {45, 10.44}, {50, 10.51}};
+  /// Elevation of the kick over the floor (kicker.map).
+  double exit_angle_rad = radians(36.78);
+  /// For the paper's V_kick law: k of kicker.map forward; the released code halves it when the robot reverses; lateral
+  /// is unused.
+  Transfer transfer_paper{0.70, 0.35, 1.0};
+  /// For the exact law and the predictor. Full forward and lateral transfer reproduces both k = 0.70 and Table 1;
+  /// backward is assumed half, as the released code has it. None was measured apart.
+  Transfer transfer_exact{1.0, 0.5, 1.0};
+  /// From the order to the release of the ball. The released code says 50 ms on average, 80 ms at most; assumed in
+  /// between.
+  double delay_s = 0.06;
+  /// Robot centre to ball centre, forward (released code).
+  double ball_offset_m = 0.27;
+  /// Slope of alpha over vx: least squares through the origin over Table 1 (8.617644 deg per m/s).
+  double alpha_slope_rad_per_mps = radians(8.617644);
+  /// Slope of beta over omega. Figure 10 has no published numbers: delay + ball offset / ball speed + half a cycle is
+  /// about 0.11 s.
+  double beta_slope_s = 0.12;
+  Ball ball{};
+};
+
+}  // namespace trivela::kicking
