@@ -39,7 +39,9 @@ template <class E>
 struct Names;
 
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires { Names<E>::entries.size(); };
+concept NamedEnum = std::is_enum_v<E> && requires {
+  Names<E>::entries.size();
+};
 
 /// Stands for any visitor when asking whether a type lists its fields.
 struct AnyVisitor {
@@ -48,6 +50,8 @@ struct AnyVisitor {
 };
 
 template <class T>
-concept Section = requires(AnyVisitor v, T& t) { fields(v, t); };
+concept Section = requires(AnyVisitor v, T& t) {
+  fields(v, t);
+};
 
 }  // namespace trivela::config

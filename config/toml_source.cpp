@@ -43,8 +43,8 @@ const toml::node* TableReader::find(std::string_view key) {
 }
 
 void TableReader::fail(std::string_view key, const toml::node& node, const std::string& what) const {
-  throw Error{fmt::format("{}:{}: {}{}{} = {}: {}", file_, node.source().begin.line, section_, section_.empty() ? "" : ".",
-                          key, text_of(node), what)};
+  throw Error{fmt::format("{}:{}: {}{}{} = {}: {}", file_, node.source().begin.line, section_,
+                          section_.empty() ? "" : ".", key, text_of(node), what)};
 }
 
 void TableReader::check_range(std::string_view key, double value, Range range) {

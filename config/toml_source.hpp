@@ -1,8 +1,8 @@
 #pragma once
 
+#include <toml++/toml.h>
 #include <filesystem>
 #include <string>
-#include <toml++/toml.h>
 #include <vector>
 
 #include "config/error.hpp"
@@ -22,9 +22,9 @@ TomlSource parse_file(const std::filesystem::path& path);
 /// Parses `text`, calling it `name` in messages.
 TomlSource parse_text(std::string_view text, std::string name);
 
-/// Sets the struct fields that a TOML table names and refuses everything else in it. Fields that the table does not name
-/// keep their value, so that a file overrides defaults. Throws Error for an unknown key, a wrong type, a value that is
-/// not finite or outside its Range, naming file, line, key and value.
+/// Sets the struct fields that a TOML table names and refuses everything else in it. Fields that the table does not
+/// name keep their value, so that a file overrides defaults. Throws Error for an unknown key, a wrong type, a value
+/// that is not finite or outside its Range, naming file, line, key and value.
 class TableReader {
  public:
   TableReader(const std::string& file, const toml::table& table, std::string section)
@@ -48,8 +48,7 @@ class TableReader {
     for (const double number : value) check_range(key, number, Range{range.min, range.max});
   }
   template <std::integral I>
-    requires(!std::same_as<I, bool>)
-  void operator()(std::string_view key, I& value, auto... range) {
+  requires(!std::same_as<I, bool>) void operator()(std::string_view key, I& value, auto... range) {
     double limits[] = {0.0, 4294967295.0};
     ((limits[0] = range.min, limits[1] = range.max), ...);
     std::int64_t number = static_cast<std::int64_t>(value);
@@ -70,7 +69,8 @@ class TableReader {
   void operator()(std::string_view key, S& section) {
     const toml::node* node = find(key);
     if (node == nullptr) return;
-    TableReader inner{file_, table_of(key, *node), section_.empty() ? std::string{key} : section_ + "." + std::string{key}};
+    TableReader inner{file_, table_of(key, *node),
+                      section_.empty() ? std::string{key} : section_ + "." + std::string{key}};
     fields(inner, section);
     inner.refuse_unknown_keys();
   }

@@ -10,8 +10,8 @@
 
 namespace trivela::config {
 
-/// Writes every field of a struct as TOML that TableReader reads back to the same values; numbers in their shortest exact
-/// form. Sub-tables come after the plain keys of their table, as TOML demands.
+/// Writes every field of a struct as TOML that TableReader reads back to the same values; numbers in their shortest
+/// exact form. Sub-tables come after the plain keys of their table, as TOML demands.
 class TableText {
  public:
   explicit TableText(std::string section) : section_(std::move(section)) {}
@@ -26,8 +26,7 @@ class TableText {
     list(key, value, [](double element) { return number(element); });
   }
   template <std::integral I>
-    requires(!std::same_as<I, bool>)
-  void operator()(std::string_view key, const I& value, auto...) {
+  requires(!std::same_as<I, bool>) void operator()(std::string_view key, const I& value, auto...) {
     line(key, fmt::format("{}", value));
   }
   template <NamedEnum E>

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/field_types.hpp"
+#include "kicking/robot_model.hpp"
+
+namespace trivela::config {
+
+/// An omnidirectional base: wheel i sits at wheel_angles_rad[i], counter-clockwise from +x of R, and drives along the
+/// counter-clockwise tangent. Defaults: three wheels, two in front and one behind (an assumption; no published
+/// geometry).
+struct WheelBase {
+  std::vector<double> wheel_angles_rad{0.5235987755982988, 2.6179938779914944, 4.71238898038469};
+  double wheel_distance_m = 0.22;
+  double wheel_radius_m = 0.05;
+};
+
+/// One robot's file: who it is, where its numbers come from, its kick model and its wheels.
+struct Robot {
+  std::string name = "cambada_1";
+  std::string source = "CAMBADA release 1.0 (2015), config/kicker.map, robots 1, 2 and 4";
+  kicking::RobotModel model{};
+  WheelBase base{};
+};
+
+/// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be
+/// whole: kind, powers and exit speeds. Throws Error: also for a table of kind "true", which the drag-free laws of the
+/// policies must not be given, and for set-points that do not rise.
+Robot load_robot(const std::filesystem::path& path);
+
+/// The robot as TOML that load_robot() reads back.
+std::string to_toml_text(const Robot& robot);
+
+}  // namespace trivela::config

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "config/field_types.hpp"
+#include "config/robot.hpp"
+
+/// The keys of a robot's file, each named once.
+namespace trivela::kicking {
+
+template <class V>
+void fields(V& v, Transfer& t) {
+  v("forward_ratio", t.forward, config::Range{0.0, 1.5});
+  v("backward_ratio", t.backward, config::Range{0.0, 1.5});
+  v("lateral_ratio", t.lateral, config::Range{0.0, 1.5});
+}
+
+template <class V>
+void fields(V& v, RobotModel& m) {
+  v("exit_angle_deg", config::Degrees{m.exit_angle_rad}, config::Range{5.0, 80.0});
+  v("delay_s", m.delay_s, config::Range{0.0, 0.5});
+  v("ball_offset_m", m.ball_offset_m, config::Range{0.1, 0.6});
+  v("alpha_slope_deg_per_mps", config::Degrees{m.alpha_slope_rad_per_mps}, config::Range{-45.0, 45.0});
+  v("beta_slope_s", m.beta_slope_s, config::Range{0.0, 1.0});
+  v("ball_mass_kg", m.ball.mass_kg, config::Range{0.05, 2.0});
+  v("ball_radius_m", m.ball.radius_m, config::Range{0.02, 0.25});
+  v("transfer_paper", m.transfer_paper);
+  v("transfer_exact", m.transfer_exact);
+}
+
+}  // namespace trivela::kicking
+
+namespace trivela::config {
+
+template <>
+struct Names<kicking::TableKind> {
+  static constexpr std::array<std::pair<std::string_view, kicking::TableKind>, 2> entries{
+      {{"effective", kicking::TableKind::kEffective}, {"true", kicking::TableKind::kTrue}}};
+};
+
+/// The table as the file has it, before it is known to be one.
+struct TableColumns {
+  kicking::TableKind kind = kicking::TableKind::kEffective;
+  std::vector<double> powers;
+  std::vector<double> exit_speeds_mps;
+};
+
+struct RobotFile {
+  Robot robot;
+  TableColumns table;
+};
+
+template <class V>
+void fields(V& v, TableColumns& t) {
+  v("kind", t.kind);
+  v("powers", t.powers, Range{0.0, 1e6});
+  v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
+}
+
+template <class V>
+void fields(V& v, WheelBase& b) {
+  v("wheel_angles_rad", b.wheel_angles_rad, Range{-6.3, 6.3});
+  v("wheel_distance_m", b.wheel_distance_m, Range{0.02, 0.6});
+  v("wheel_radius_m", b.wheel_radius_m, Range{0.005, 0.3});
+}
+
+template <class V>
+void fields(V& v, RobotFile& f) {
+  v("name", f.robot.name);
+  v("source", f.robot.source);
+  v("table", f.table);
+  v("kicker", f.robot.model);
+  v("base", f.robot.base);
+}
+
+}  // namespace trivela::config

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/scenario.hpp"
+
+namespace trivela::config {
+
+/// Reads config/scenarios/NAME.toml; what it does not name keeps the default of sim::Scenario. Throws Error.
+sim::Scenario load_scenario(const std::filesystem::path& path);
+
+/// Every value of the scenario as TOML that load_scenario() reads back.
+std::string to_toml_text(const sim::Scenario& scenario);
+
+}  // namespace trivela::config

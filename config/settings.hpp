@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/field_types.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "kicking/policy/policy.hpp"
+
+namespace trivela::config {
+
+/// Which robot this is and how its cycle runs.
+struct Run {
+  std::uint32_t robot_id = 1;
+  double cycle_s = 0.02;  ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
+  bool lockstep = false;  ///< wait for every input of a cycle and tell the simulator when it is finished
+  std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
+  std::string scenario = "scenarios/default.toml";  ///< simulator alone
+  std::string log_level = "info";                   ///< trace, debug, info, warn, error, off
+};
+
+/// The DDS domain.
+struct Domain {
+  std::uint32_t domain_id = 42;
+  std::string tag = "trivela";  ///< discovery tag: participants of different tags never hear each other
+  std::string dds_file;         ///< a Cyclone configuration for a team network; empty: loopback
+};
+
+/// The devices.
+struct Hal {
+  std::string wheels = "sim";  ///< sim or replay
+  std::string kicker = "sim";
+  std::string replay_log;  ///< the match log that `replay` reads
+};
+
+/// Noise of the wheel odometry.
+struct Odometry {
+  double wheel_sd_radps = 1.0;        ///< noise and slip of one wheel's speed
+  double gyro_sd_radps = 0.02;        ///< noise of the gyro
+  double drift_ratio = 0.05;          ///< position error per metre driven
+  double heading_drift_ratio = 0.02;  ///< heading error per radian turned
+};
+
+/// Filters of the world state.
+struct WorldState {
+  double pose_sd_m = 0.12;  ///< self-localisation, per frame and axis
+  double pose_sd_heading_rad = 0.03;
+  double relocalise_distance_m = 1.0;   ///< an innovation beyond it is a kidnapped robot ...
+  std::uint32_t relocalise_frames = 3;  ///< ... when this many frames in a row agree
+  double history_s = 0.5;               ///< odometry kept to look up the exposure of a frame
+  double velocity_time_constant_s = 0.03;
+  double ball_time_constant_s = 0.04;
+  double ball_forget_s = 0.5;          ///< a ball not seen for longer is unknown
+  double handler_half_width_m = 0.12;  ///< possession: ball centre within this of the handler's axis ...
+  double handler_reach_m = 0.10;       ///< ... and of its resting place
+  double possession_debounce_s = 0.04;
+};
+
+/// The policy in charge of each half; the last one goes on for all that follow.
+struct KickDecision {
+  std::vector<kicking::PolicyName> policy_by_half = {kicking::PolicyName::kMoving};
+  bool shadows = true;             ///< judge with the other policies as well
+  double order_validity_s = 0.05;  ///< an order older than this is refused
+};
+
+/// What the driver refuses.
+struct KickerDriver {
+  double min_interval_s = 0.5;        ///< between two kicks
+  double min_charge_ratio = 0.9;      ///< of the full capacitor energy
+  double future_tolerance_s = 0.005;  ///< an order from further ahead is refused
+  double link_timeout_s = 0.1;        ///< no device sample for longer: fault
+};
+
+/// Tracking of a shot.
+struct ShotObserver {
+  double history_s = 0.6;         ///< frames kept for a receipt that arrives late
+  double time_out_s = 3.5;        ///< after the release; what has not crossed by then is short
+  double ball_sd_m = 0.03;        ///< of one observation and axis
+  std::uint32_t fit_frames = 10;  ///< frames before the goal line that the crossing is fitted to
+  double lost_s = 0.3;            ///< without an observation for longer the ball is lost
+  double rest_speed_mps = 0.3;    ///< slower is at rest
+};
+
+struct Recorder {
+  std::string log = "match.db";
+  std::uint32_t queue_capacity = 65536;
+  double group_commit_s = 0.1;
+};
+
+/// Everything a node takes from default.toml, defaults included.
+struct Settings {
+  Run run;
+  Domain domain;
+  Hal hal;
+  kicking::Goal goal;
+  kicking::PolicyConfig policy;
+  Odometry odometry;
+  WorldState world_state;
+  KickDecision kick_decision;
+  KickerDriver kicker_driver;
+  ShotObserver shot_observer;
+  Recorder recorder;
+};
+
+/// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.
+Settings load_settings(const std::filesystem::path& path);
+
+/// Every setting as TOML.
+std::string to_toml_text(const Settings& settings);
+
+}  // namespace trivela::config

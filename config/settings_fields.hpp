@@ -1,0 +1,185 @@
+#pragma once
+
+#include "config/field_types.hpp"
+#include "config/settings.hpp"
+
+/// The keys of default.toml, each named once.
+namespace trivela::config {
+
+template <>
+struct Names<kicking::PolicyName> {
+  static constexpr std::array<std::pair<std::string_view, kicking::PolicyName>, 2> entries{
+      {{"stopped", kicking::PolicyName::kStopped}, {"moving", kicking::PolicyName::kMoving}}};
+};
+template <>
+struct Names<kicking::HeightLaw> {
+  static constexpr std::array<std::pair<std::string_view, kicking::HeightLaw>, 3> entries{
+      {{"paper", kicking::HeightLaw::kPaper},
+       {"extended_range", kicking::HeightLaw::kExtendedRange},
+       {"exact", kicking::HeightLaw::kExact}}};
+};
+template <>
+struct Names<kicking::MotionLaw> {
+  static constexpr std::array<std::pair<std::string_view, kicking::MotionLaw>, 2> entries{
+      {{"paper", kicking::MotionLaw::kPaper}, {"exact", kicking::MotionLaw::kExact}}};
+};
+template <>
+struct Names<kicking::AlphaLaw> {
+  static constexpr std::array<std::pair<std::string_view, kicking::AlphaLaw>, 2> entries{
+      {{"paper_line", kicking::AlphaLaw::kPaperLine}, {"physical", kicking::AlphaLaw::kPhysical}}};
+};
+template <>
+struct Names<kicking::Extension> {
+  static constexpr std::array<std::pair<std::string_view, kicking::Extension>, 2> entries{
+      {{"max", kicking::Extension::kMax}, {"add", kicking::Extension::kAdd}}};
+};
+
+}  // namespace trivela::config
+
+namespace trivela::kicking {
+
+template <class V>
+void fields(V& v, Goal& g) {
+  using config::Range;
+  v("y_m", g.y_m, Range{1.0, 30.0});
+  v("half_width_m", g.half_width_m, Range{0.3, 5.0});
+  v("height_m", g.height_m, Range{0.3, 5.0});
+  v("post_width_m", g.post_width_m, Range{0.0, 0.5});
+}
+
+template <class V>
+void fields(V& v, AlignmentRule& a) {
+  using config::Degrees, config::Range;
+  v("half_width_m", a.half_width_m, Range{0.0, 2.0});
+  v("extension", a.extension);
+  v("reach_m", a.reach_m, Range{1.0, 100.0});
+  v("beta_limit_deg", Degrees{a.beta_limit_rad}, Range{0.0, 85.0});
+}
+
+template <class V>
+void fields(V& v, PolicyConfig& p) {
+  using config::Degrees, config::Range;
+  v("height_law", p.height_law);
+  v("motion_law", p.motion_law);
+  v("alpha_law", p.alpha_law);
+  v("target_x_m", p.target_x_m, Range{-1.5, 1.5});
+  v("target_height_m", p.target_height_m, Range{0.11, 2.0});
+  v("max_state_age_s", p.max_state_age_s, Range{0.0, 2.0});
+  v("cycle_s", p.cycle_s, Range{0.0005, 0.5});
+  v("order_hold_s", p.order_hold_s, Range{0.0, 10.0});
+  v("aim_tolerance_deg", Degrees{p.aim_tolerance_rad}, Range{0.05, 30.0});
+  v("settle_s", p.settle_s, Range{0.0, 5.0});
+  v("rest_speed_mps", p.rest_speed_mps, Range{0.0, 2.0});
+  v("rest_turn_rate_radps", p.rest_turn_rate_radps, Range{0.0, 5.0});
+  v("stopped_turn_gain_hz", p.stopped_turn_gain_hz, Range{0.1, 100.0});
+  v("moving_turn_gain_hz", p.moving_turn_gain_hz, Range{0.1, 100.0});
+  v("max_forward_mps", p.max_forward_mps, Range{0.0, 10.0});
+  v("max_sideways_mps", p.max_sideways_mps, Range{0.0, 10.0});
+  v("min_dribble_mps", p.min_dribble_mps, Range{0.0, 10.0});
+  v("approach_mps", p.approach_mps, Range{0.0, 10.0});
+  v("keep_off_m", p.keep_off_m, Range{0.0, 10.0});
+  v("max_brake_mps2", p.max_brake_mps2, Range{0.1, 50.0});
+  v("max_turn_rate_radps", p.max_turn_rate_radps, Range{0.0, 30.0});
+  v("max_turn_acceleration_radps2", p.max_turn_acceleration_radps2, Range{0.0, 200.0});
+  v("alignment", p.alignment);
+}
+
+}  // namespace trivela::kicking
+
+namespace trivela::config {
+
+template <class V>
+void fields(V& v, Run& r) {
+  v("robot_id", r.robot_id, Range{1, 255});
+  v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
+  v("lockstep", r.lockstep);
+  v("robot", r.robot);
+  v("scenario", r.scenario);
+  v("log_level", r.log_level);
+}
+
+template <class V>
+void fields(V& v, Domain& d) {
+  v("domain_id", d.domain_id, Range{0, 100});
+  v("tag", d.tag);
+  v("dds_file", d.dds_file);
+}
+
+template <class V>
+void fields(V& v, Hal& h) {
+  v("wheels", h.wheels);
+  v("kicker", h.kicker);
+  v("replay_log", h.replay_log);
+}
+
+template <class V>
+void fields(V& v, Odometry& o) {
+  v("wheel_sd_radps", o.wheel_sd_radps, Range{1e-6, 100.0});
+  v("gyro_sd_radps", o.gyro_sd_radps, Range{1e-6, 10.0});
+  v("drift_ratio", o.drift_ratio, Range{0.0, 1.0});
+  v("heading_drift_ratio", o.heading_drift_ratio, Range{0.0, 1.0});
+}
+
+template <class V>
+void fields(V& v, WorldState& w) {
+  v("pose_sd_m", w.pose_sd_m, Range{1e-4, 5.0});
+  v("pose_sd_heading_deg", Degrees{w.pose_sd_heading_rad}, Range{0.01, 90.0});
+  v("relocalise_distance_m", w.relocalise_distance_m, Range{0.05, 20.0});
+  v("relocalise_frames", w.relocalise_frames, Range{1, 1000});
+  v("history_s", w.history_s, Range{0.01, 10.0});
+  v("velocity_time_constant_s", w.velocity_time_constant_s, Range{1e-4, 1.0});
+  v("ball_time_constant_s", w.ball_time_constant_s, Range{1e-4, 1.0});
+  v("ball_forget_s", w.ball_forget_s, Range{0.01, 10.0});
+  v("handler_half_width_m", w.handler_half_width_m, Range{0.01, 0.5});
+  v("handler_reach_m", w.handler_reach_m, Range{0.01, 0.5});
+  v("possession_debounce_s", w.possession_debounce_s, Range{0.0, 2.0});
+}
+
+template <class V>
+void fields(V& v, KickDecision& k) {
+  v("policy_by_half", k.policy_by_half);
+  v("shadows", k.shadows);
+  v("order_validity_s", k.order_validity_s, Range{0.001, 1.0});
+}
+
+template <class V>
+void fields(V& v, KickerDriver& k) {
+  v("min_interval_s", k.min_interval_s, Range{0.0, 10.0});
+  v("min_charge_ratio", k.min_charge_ratio, Range{0.0, 1.0});
+  v("future_tolerance_s", k.future_tolerance_s, Range{0.0, 1.0});
+  v("link_timeout_s", k.link_timeout_s, Range{0.001, 10.0});
+}
+
+template <class V>
+void fields(V& v, ShotObserver& s) {
+  v("history_s", s.history_s, Range{0.05, 10.0});
+  v("time_out_s", s.time_out_s, Range{0.2, 30.0});
+  v("ball_sd_m", s.ball_sd_m, Range{1e-4, 1.0});
+  v("fit_frames", s.fit_frames, Range{3, 1000});
+  v("lost_s", s.lost_s, Range{0.02, 5.0});
+  v("rest_speed_mps", s.rest_speed_mps, Range{0.0, 5.0});
+}
+
+template <class V>
+void fields(V& v, Recorder& r) {
+  v("log", r.log);
+  v("queue_capacity", r.queue_capacity, Range{1, 10000000});
+  v("group_commit_s", r.group_commit_s, Range{0.001, 10.0});
+}
+
+template <class V>
+void fields(V& v, Settings& s) {
+  v("run", s.run);
+  v("domain", s.domain);
+  v("hal", s.hal);
+  v("goal", s.goal);
+  v("policy", s.policy);
+  v("odometry", s.odometry);
+  v("world_state", s.world_state);
+  v("kick_decision", s.kick_decision);
+  v("kicker_driver", s.kicker_driver);
+  v("shot_observer", s.shot_observer);
+  v("recorder", s.recorder);
+}
+
+}  // namespace trivela::config

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/messages.hpp"
+#include "config/settings.hpp"
+#include "hal/kicker.hpp"
+
+namespace trivela::nodes {
+
+/// The set-points that a robot's kicker accepts.
+struct PowerRange {
+  double min;
+  double max;
+};
+
+/// The last word on every order: the one place that decides whether the coil may be energised.
+///
+/// An order passes when, in this order, the device is sound (no fault, samples not older than link_timeout_s), the
+/// power is finite and inside the set-points, the kicker is armed (switch on, game playing), the order is neither older
+/// than its valid_until_t_ns nor from more than future_tolerance_s ahead, its kick_id was not answered before and the
+/// last kick is at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails
+/// is the refusal.
+class OrderGate {
+ public:
+  OrderGate(const config::KickerDriver& settings, PowerRange power) : settings_(settings), power_(power) {}
+
+  void device(const hal::KickerSample& sample) { sample_ = sample; }
+  void playing(bool value) { playing_ = value; }
+
+  /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
+  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns);
+
+  /// Switch on, device heard of, game playing.
+  bool armed() const { return sample_ && sample_->armed && playing_; }
+
+  /// An order within range that came at `now_t_ns` would be accepted.
+  bool ready(std::int64_t now_t_ns) const;
+
+  std::int64_t last_kick_id() const { return last_kick_id_; }
+  bool last_accepted() const { return last_accepted_; }
+  std::uint32_t handled() const { return handled_; }
+  std::uint32_t refused() const { return refused_; }
+
+ private:
+  bool sound(std::int64_t now_t_ns) const;
+  bool rested(std::int64_t now_t_ns) const;
+  bool charged() const { return sample_ && sample_->charge >= settings_.min_charge_ratio; }
+  msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
+
+  config::KickerDriver settings_;
+  PowerRange power_;
+  std::optional<hal::KickerSample> sample_;
+  bool playing_ = false;
+  std::optional<std::int64_t> last_fire_t_ns_;
+  std::int64_t last_kick_id_ = 0;
+  bool last_accepted_ = false;
+  std::uint32_t handled_ = 0;
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,37 @@
+#include "nodes/odometry/wheel_odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivela::nodes {
+
+std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::span<const double> wheel_radps,
+                                                      std::optional<double> gyro_radps) {
+  const bool finite = std::all_of(wheel_radps.begin(), wheel_radps.end(), [](double w) { return std::isfinite(w); });
+  if (!finite || wheel_radps.size() < static_cast<std::size_t>(kinematics_.wheel_count())) return std::nullopt;
+  if (last_t_ns_ && t_ns <= *last_t_ns_) return std::nullopt;
+
+  kicking::Twist twist = kinematics_.twist(wheel_radps);
+  const Eigen::Vector3d variance = kinematics_.twist_variance(noise_.wheel_sd_radps);
+  double var_omega = variance.z();
+  if (gyro_radps && std::isfinite(*gyro_radps)) {
+    const double var_gyro = noise_.gyro_sd_radps * noise_.gyro_sd_radps;
+    twist.omega_radps = (twist.omega_radps * var_gyro + *gyro_radps * var_omega) / (var_gyro + var_omega);
+    var_omega = var_omega * var_gyro / (var_gyro + var_omega);
+  }
+  estimate_.twist = twist;
+  estimate_.var_v_m2ps2 = std::max(variance.x(), variance.y());
+  estimate_.var_omega_rad2ps2 = var_omega;
+  if (last_t_ns_) {
+    const double dt_s = static_cast<double>(t_ns - *last_t_ns_) * 1e-9;
+    estimate_.pose = kicking::advance(estimate_.pose, twist, dt_s);
+    const double path_m = std::hypot(twist.vx_mps, twist.vy_mps) * dt_s;
+    const double turn_rad = twist.omega_radps * dt_s;
+    estimate_.var_position_m2 += std::pow(noise_.drift_ratio * path_m, 2) + estimate_.var_v_m2ps2 * dt_s * dt_s;
+    estimate_.var_heading_rad2 += std::pow(noise_.heading_drift_ratio * turn_rad, 2) + var_omega * dt_s * dt_s;
+  }
+  last_t_ns_ = t_ns;
+  return estimate_;
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,41 @@
+#include "nodes/world_state/ball_filter.hpp"
+
+#include <cmath>
+
+namespace trivela::nodes {
+namespace {
+
+constexpr double kJump_m = 0.5;
+
+}  // namespace
+
+bool BallFilter::in_handler() const {
+  if (!position_m_) return false;
+  const Eigen::Vector2d off = *position_m_ - handler_;
+  return std::abs(off.x()) <= settings_.handler_half_width_m && std::abs(off.y()) <= settings_.handler_reach_m;
+}
+
+void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m) {
+  if (ball_m && ball_m->allFinite()) {
+    const double dt_s = static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9;
+    const bool anew = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kJump_m;
+    const double gain = anew ? 1.0 : 1.0 - std::exp(-dt_s / settings_.ball_time_constant_s);
+    position_m_ = anew ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
+    seen_t_ns_ = t_exposure_ns;
+  } else if (position_m_ && static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9 > settings_.ball_forget_s) {
+    position_m_.reset();
+    possession_ = false;
+    differs_since_ns_.reset();
+  }
+  if (in_handler() == possession_) {
+    differs_since_ns_.reset();
+    return;
+  }
+  if (!differs_since_ns_) differs_since_ns_ = t_exposure_ns;
+  if (static_cast<double>(t_exposure_ns - *differs_since_ns_) * 1e-9 >= settings_.possession_debounce_s) {
+    possession_ = !possession_;
+    differs_since_ns_.reset();
+  }
+}
+
+}  // namespace trivela::nodes

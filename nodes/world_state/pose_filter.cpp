@@ -1,0 +1,58 @@
+#include "nodes/world_state/pose_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivela::nodes {
+
+using kicking::Pose;
+
+void PoseFilter::predict(std::int64_t t_ns, const Pose& odometry, double var_position_m2, double var_heading_rad2) {
+  if (!history_.empty()) {
+    pose_ = compose(pose_, relative(history_.latest(), odometry));
+    var_position_m2_ += std::max(0.0, var_position_m2 - last_var_position_m2_);
+    var_heading_rad2_ += std::max(0.0, var_heading_rad2 - last_var_heading_rad2_);
+  }
+  last_var_position_m2_ = var_position_m2;
+  last_var_heading_rad2_ = var_heading_rad2;
+  history_.add(t_ns, odometry);
+}
+
+std::optional<Pose> PoseFilter::pose_at(std::int64_t t_ns) const {
+  const auto then = history_.at(t_ns);
+  if (!then || !localised_) return std::nullopt;
+  return compose(pose_, relative(history_.latest(), *then));
+}
+
+void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
+  const auto odometry_then = history_.at(t_exposure_ns);
+  if (!odometry_then || !std::isfinite(seen.x_m + seen.y_m + seen.heading_rad)) return;
+  const Pose driven_since = relative(*odometry_then, history_.latest());
+  const double var_seen_m2 = settings_.pose_sd_m * settings_.pose_sd_m;
+  const double var_seen_rad2 = settings_.pose_sd_heading_rad * settings_.pose_sd_heading_rad;
+  const Pose then = compose(pose_, relative(history_.latest(), *odometry_then));
+  const double dx_m = seen.x_m - then.x_m;
+  const double dy_m = seen.y_m - then.y_m;
+  far_frames_ = std::hypot(dx_m, dy_m) > settings_.relocalise_distance_m ? far_frames_ + 1 : 0;
+  if (!localised_ || far_frames_ >= settings_.relocalise_frames) {
+    localised_ = true;
+    far_frames_ = 0;
+    var_position_m2_ = var_seen_m2;
+    var_heading_rad2_ = var_seen_rad2;
+    pose_ = compose(seen, driven_since);
+    return;
+  }
+  if (far_frames_ > 0) return;
+  const double gain = var_position_m2_ / (var_position_m2_ + var_seen_m2);
+  const double gain_heading = var_heading_rad2_ / (var_heading_rad2_ + var_seen_rad2);
+  const Pose corrected{then.x_m + gain * dx_m, then.y_m + gain * dy_m,
+                       then.heading_rad + gain_heading * kicking::wrap_angle(seen.heading_rad - then.heading_rad)};
+  var_position_m2_ *= 1.0 - gain;
+  var_heading_rad2_ *= 1.0 - gain_heading;
+  pose_ = compose(corrected, driven_since);
+}
+
+double PoseFilter::sd_position_m() const { return std::sqrt(var_position_m2_); }
+double PoseFilter::sd_heading_rad() const { return std::sqrt(var_heading_rad2_); }
+
+}  // namespace trivela::nodes

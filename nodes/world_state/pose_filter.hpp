@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "config/settings.hpp"
+#include "kicking/geometry/frames.hpp"
+#include "nodes/world_state/pose_history.hpp"
+
+namespace trivela::nodes {
+
+/// Where the robot is: odometry carried forward, corrected by self-localisation at the instant its picture was taken.
+///
+/// A frame exposed at t_e is compared with the pose that odometry gives for t_e; the correction
+///
+///     pose(t_e) += K (seen - pose(t_e)),   K = P / (P + R)
+///
+/// is then carried to now along the odometry driven since. P grows with odometry's variance. A run of
+/// `relocalise_frames` innovations beyond `relocalise_distance_m` means that somebody moved the robot: the pose is set.
+class PoseFilter {
+ public:
+  explicit PoseFilter(const config::WorldState& settings) : settings_(settings), history_(settings.history_s) {}
+
+  /// Odometry's pose in its own frame and its accumulated variances at t_ns.
+  void predict(std::int64_t t_ns, const kicking::Pose& odometry, double var_position_m2, double var_heading_rad2);
+
+  /// Self-localisation of a picture taken at `t_exposure_ns`; ignored before the first predict().
+  void correct(std::int64_t t_exposure_ns, const kicking::Pose& seen);
+
+  /// Pose in F at the last prediction; nullopt before the first correction.
+  std::optional<kicking::Pose> pose() const { return localised_ ? std::optional{pose_} : std::nullopt; }
+  double sd_position_m() const;
+  double sd_heading_rad() const;
+
+  /// The pose in F that the robot had at t_ns within the history, by the present estimate.
+  std::optional<kicking::Pose> pose_at(std::int64_t t_ns) const;
+
+ private:
+  config::WorldState settings_;
+  PoseHistory history_;
+  bool localised_ = false;
+  kicking::Pose pose_{};
+  double var_position_m2_ = 0.0;
+  double var_heading_rad2_ = 0.0;
+  double last_var_position_m2_ = 0.0;
+  double last_var_heading_rad2_ = 0.0;
+  std::uint32_t far_frames_ = 0;
+};
+
+}  // namespace trivela::nodes
