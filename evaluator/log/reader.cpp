@@ -1,0 +1,214 @@
+#include "evaluator/log/reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "evaluator/log/schema.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+Value value_of(const SQLite::Column& column) {
+  if (column.isInteger()) return column.getInt64();
+  if (column.isFloat()) return column.getDouble();
+  if (column.isText()) return column.getString();
+  return std::monostate{};
+}
+
+std::optional<double> number_of(const Value& value) {
+  const auto* const number = std::get_if<double>(&value);
+  return number != nullptr ? std::optional(*number) : std::nullopt;
+}
+
+std::optional<std::int64_t> integer_of(const Value& value) {
+  const auto* const integer = std::get_if<std::int64_t>(&value);
+  return integer != nullptr ? std::optional(*integer) : std::nullopt;
+}
+
+std::string text_of(const Value& value) {
+  const auto* const text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : std::string();
+}
+
+std::optional<Crossing> crossing_of(const Value& outcome, const Value& x_cross_m, const Value& z_cross_m) {
+  if (!std::holds_alternative<std::string>(outcome)) return std::nullopt;
+  return Crossing{text_of(outcome), number_of(x_cross_m), number_of(z_cross_m)};
+}
+
+// Opens and checks; SQLite's own words follow ours.
+std::unique_ptr<SQLite::Database> open(const fs::path& path) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error(fmt::format("there is no match log {}", path.string()));
+  try {
+    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 5000);
+    database->exec("PRAGMA trusted_schema = OFF; PRAGMA temp_store = MEMORY;");
+    const int application_id = database->execAndGet("PRAGMA application_id").getInt();
+    const int version = database->execAndGet("PRAGMA user_version").getInt();
+    if (application_id != kApplicationId || version < 1) {
+      throw std::runtime_error(fmt::format("{} is not a match log", path.string()));
+    }
+    if (version > kSchemaVersion) {
+      throw std::runtime_error(fmt::format("{} is a match log of version {}; this program reads version {} and older",
+                                           path.string(), version, kSchemaVersion));
+    }
+    const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
+    if (check != "ok") throw std::runtime_error(fmt::format("the match log {} is damaged: {}", path.string(), check));
+    return database;
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() == SQLITE_NOTADB) {
+      throw std::runtime_error(fmt::format("{} is not a match log", path.string()));
+    }
+    if (error.getErrorCode() == SQLITE_CORRUPT) {
+      throw std::runtime_error(fmt::format("the match log {} is damaged: {}", path.string(), error.what()));
+    }
+    throw std::runtime_error(fmt::format("cannot read the match log {}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+struct Reader::Impl {
+  explicit Impl(const fs::path& path_) : path(path_.string()), database(open(path_)) {
+    fs::path wal = path_;
+    wal += "-wal";
+    has_wal = fs::exists(wal);
+  }
+
+  std::string path;
+  bool has_wal = false;
+  std::unique_ptr<SQLite::Database> database;
+};
+
+Reader::Reader(const fs::path& path) : impl_(std::make_unique<Impl>(path)) {}
+Reader::~Reader() = default;
+
+void Reader::query(std::string_view sql, const RowFunction& fn) const {
+  try {
+    SQLite::Statement statement(*impl_->database, std::string(sql));
+    std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
+    while (statement.executeStep()) {
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
+      fn(row);
+    }
+  } catch (const SQLite::Exception& error) {
+    throw std::runtime_error(fmt::format("cannot read the match log {}: {}", impl_->path, error.what()));
+  }
+}
+
+void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
+                          const RowFunction& fn) const {
+  const auto schema = columns_of(*impl_->database, table);
+  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", impl_->path, table));
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(*schema, name, &Column::name) != schema->end();
+  };
+  for (const std::string& column : columns) {
+    if (has(column)) continue;
+    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, impl_->path, column));
+  }
+  std::vector<std::string> order;
+  for (const char* const key : {"session_id", "robot_id", "seq", "shadow_index"}) {
+    if (has(key)) order.push_back(key);
+  }
+  query(fmt::format("SELECT {} FROM {}{}{}", fmt::join(columns, ", "), table, order.empty() ? "" : " ORDER BY ",
+                    fmt::join(order, ", ")),
+        fn);
+}
+
+std::vector<RecordedSession> Reader::sessions() const {
+  std::vector<RecordedSession> sessions;
+  query(
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config_toml, "
+      "config_sha256, seed, software_version, scenario, simulated, idl FROM sessions ORDER BY started_t_ns, session_id",
+      [&](std::span<const Value> row) {
+        RecordedSession session;
+        session.session_id = *integer_of(row[0]);
+        session.uuid = text_of(row[1]);
+        if (const auto robot_id = integer_of(row[2])) session.robot_id = static_cast<int>(*robot_id);
+        session.started_t_ns = *integer_of(row[3]);
+        session.closed_t_ns = integer_of(row[4]);
+        session.simulated_clock = text_of(row[5]) == "simulated";
+        session.realtime_offset_ns = *integer_of(row[6]);
+        session.config_toml = text_of(row[7]);
+        session.config_sha256 = text_of(row[8]);
+        session.seed = integer_of(row[9]);
+        session.software_version = text_of(row[10]);
+        session.scenario = text_of(row[11]);
+        session.simulated = *integer_of(row[12]) != 0;
+        session.idl = text_of(row[13]);
+        sessions.push_back(std::move(session));
+      });
+  for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {
+    const auto session = std::ranges::find(sessions, *integer_of(row[0]), &RecordedSession::session_id);
+    if (session == sessions.end()) return;
+    session->policies.push_back({static_cast<int>(*integer_of(row[1])), text_of(row[2])});
+  });
+  return sessions;
+}
+
+std::vector<Kick> Reader::kicks() const {
+  std::vector<Kick> kicks;
+  query(
+      "SELECT session_id, robot_id, kick_id, t_ns, half, possession_id, policy, order_seq, accepted, refusal, outcome, "
+      "x_cross_m, z_cross_m, sd_cross_m, truth_outcome, truth_x_cross_m, truth_z_cross_m, truth_margin_m FROM kicks "
+      "ORDER BY session_id, t_ns, robot_id",
+      [&](std::span<const Value> row) {
+        Kick kick;
+        kick.session_id = *integer_of(row[0]);
+        kick.robot_id = static_cast<int>(*integer_of(row[1]));
+        kick.kick_id = *integer_of(row[2]);
+        kick.t_ns = *integer_of(row[3]);
+        kick.half = static_cast<int>(*integer_of(row[4]));
+        kick.possession_id = *integer_of(row[5]);
+        kick.policy = text_of(row[6]);
+        kick.ordered = integer_of(row[7]).has_value();
+        if (const auto accepted = integer_of(row[8])) kick.accepted = *accepted != 0;
+        kick.refusal = text_of(row[9]);
+        kick.observed = crossing_of(row[10], row[11], row[12]);
+        kick.sd_cross_m = number_of(row[13]);
+        kick.truth = crossing_of(row[14], row[15], row[16]);
+        kick.truth_margin_m = number_of(row[17]);
+        kicks.push_back(std::move(kick));
+      });
+  return kicks;
+}
+
+std::vector<Loss> Reader::losses() const {
+  std::vector<Loss> losses;
+  query(
+      "SELECT stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
+      "sum(out_of_order) FROM losses GROUP BY stream ORDER BY stream",
+      [&](std::span<const Value> row) {
+        losses.push_back({.stream = text_of(row[0]),
+                          .received = *integer_of(row[1]),
+                          .lost = *integer_of(row[2]),
+                          .gaps = *integer_of(row[3]),
+                          .overflow = *integer_of(row[4]),
+                          .nan_refused = *integer_of(row[5]),
+                          .rejected = *integer_of(row[6]),
+                          .out_of_order = *integer_of(row[7])});
+      });
+  return losses;
+}
+
+std::vector<std::string> Reader::warnings() const {
+  std::vector<std::string> warnings;
+  for (const RecordedSession& session : sessions()) {
+    if (session.closed_t_ns) continue;
+    warnings.push_back(fmt::format("session {} was not closed: {}", session.uuid,
+                                   impl_->has_wal
+                                       ? "its recorder still runs or was killed, the last rows may be missing"
+                                       : "no -wal file lies beside the log, its last part may be missing"));
+  }
+  for (const Loss& loss : losses()) {
+    if (loss.missing() > 0) warnings.push_back(fmt::format("{}: {} rows are missing", loss.stream, loss.missing()));
+  }
+  return warnings;
+}
+
+}  // namespace trivela::evaluator::log

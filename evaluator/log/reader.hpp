@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluator/log/loss.hpp"
+#include "evaluator/log/session.hpp"
+#include "evaluator/log/value.hpp"
+
+namespace trivela::evaluator::log {
+
+/// A session as it stands in a log.
+struct RecordedSession : Session {
+  std::int64_t session_id = 0;
+  std::optional<std::int64_t> closed_t_ns;  ///< none: never finalised
+  std::string config_sha256;
+};
+
+/// What a robot or the simulator says about the end of a kick.
+struct Crossing {
+  std::string outcome;              ///< label, e.g. "on_target"
+  std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F
+  std::optional<double> z_cross_m;
+};
+
+/// A decision that fired with what followed it (view `kicks`).
+struct Kick {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::int64_t kick_id = 0;
+  std::int64_t t_ns = 0;
+  int half = 0;
+  std::int64_t possession_id = 0;
+  std::string policy;
+  bool ordered = false;                  ///< an order is in the log
+  std::optional<bool> accepted;          ///< none: no receipt
+  std::string refusal;                   ///< label of the receipt; empty: no receipt
+  std::optional<Crossing> observed;      ///< latest outcome
+  std::optional<double> sd_cross_m;      ///< of the observed crossing
+  std::optional<Crossing> truth;         ///< of the simulator
+  std::optional<double> truth_margin_m;  ///< true crossing to the nearest edge of another outcome
+};
+
+/// Called with the cells of one row, in the order of the columns asked for.
+using RowFunction = std::function<void(std::span<const Value>)>;
+
+/// Reads a match log and never changes it; a log whose recorder was killed opens too.
+class Reader {
+ public:
+  /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of a newer version,
+  /// or is damaged.
+  explicit Reader(const std::filesystem::path& path);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// Sentences on sessions that were not closed and on rows that were lost.
+  std::vector<std::string> warnings() const;
+
+  std::vector<RecordedSession> sessions() const;
+
+  /// Every kick by session and time.
+  std::vector<Kick> kicks() const;
+
+  /// Counters by stream, summed over the sessions.
+  std::vector<Loss> losses() const;
+
+  /// Calls `fn` for each row of a table, ordered by session, robot and seq as far as the table has them.
+  /// Throws std::runtime_error naming a table or column that does not exist.
+  void for_each_row(std::string_view table, const std::vector<std::string>& columns, const RowFunction& fn) const;
+
+  /// Calls `fn` for each row of a query. Throws std::runtime_error where the query fails or would write.
+  void query(std::string_view sql, const RowFunction& fn) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trivela::evaluator::log

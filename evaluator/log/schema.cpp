@@ -1,0 +1,61 @@
+#include "evaluator/log/schema.hpp"
+
+#include <fmt/format.h>
+
+#include "evaluator/log/digest.hpp"
+#include "evaluator/log/schema.sql.hpp"
+
+namespace trivela::evaluator::log {
+
+void create_log(SQLite::Database& database, const Session& session) {
+  const std::int64_t session_id = session_id_of(session.uuid);
+  SQLite::Transaction transaction(database);
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kSchemaVersion));
+  database.exec(kSchemaSql);
+
+  SQLite::Statement insert(database,
+                           "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, clock, realtime_offset_ns, "
+                           "config_toml, config_sha256, seed, software_version, scenario, simulated, idl) "
+                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(1, session_id);
+  insert.bind(2, session.uuid);
+  if (session.robot_id) insert.bind(3, *session.robot_id);
+  insert.bind(4, session.started_t_ns);
+  insert.bind(5, session.simulated_clock ? "simulated" : "steady");
+  insert.bind(6, session.realtime_offset_ns);
+  insert.bind(7, session.config_toml);
+  insert.bind(8, sha256(session.config_toml));
+  if (session.seed) insert.bind(9, *session.seed);
+  insert.bind(10, session.software_version);
+  insert.bind(11, session.scenario);
+  insert.bind(12, session.simulated ? 1 : 0);
+  insert.bind(13, session.idl);
+  insert.exec();
+
+  for (const HalfPolicy& half : session.policies) {
+    SQLite::Statement policy(database, "INSERT INTO session_policies (session_id, half, policy) VALUES (?, ?, ?)");
+    policy.bind(1, session_id);
+    policy.bind(2, half.half);
+    policy.bind(3, half.policy);
+    policy.exec();
+  }
+  transaction.commit();
+}
+
+std::vector<std::string> tables_of(SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
+  std::vector<std::string> names;
+  while (query.executeStep()) names.push_back(query.getColumn(0).getString());
+  return names;
+}
+
+std::optional<std::vector<Column>> columns_of(SQLite::Database& database, std::string_view table) {
+  SQLite::Statement query(database, "SELECT name, \"notnull\" FROM pragma_table_info(?)");
+  query.bind(1, std::string(table));
+  std::vector<Column> columns;
+  while (query.executeStep()) columns.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt() != 0});
+  if (columns.empty()) return std::nullopt;
+  return columns;
+}
+
+}  // namespace trivela::evaluator::log

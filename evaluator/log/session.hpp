@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trivela::evaluator::log {
+
+/// The policy in charge of the kicks of one half: "stopped" or "moving".
+struct HalfPolicy {
+  int half = 1;  ///< 1, 2
+  std::string policy;
+};
+
+/// What a recording says about itself; becomes the row of table `sessions`.
+struct Session {
+  std::string uuid;                     ///< version 4; empty: the writer makes one
+  std::optional<int> robot_id;          ///< robot that records; none: several
+  std::int64_t started_t_ns = 0;        ///< start of the recording, in the session's clock
+  bool simulated_clock = false;         ///< t_ns come from the simulator, otherwise from the steady clock
+  std::int64_t realtime_offset_ns = 0;  ///< UTC since 1970 minus the session's clock
+  std::string config_toml;              ///< whole configuration as used; the writer adds its SHA-256
+  std::optional<std::int64_t> seed;     ///< of the simulation
+  std::string software_version;
+  std::string scenario;    ///< name of the scenario or of the match
+  bool simulated = false;  ///< a simulated match
+  std::string idl;         ///< text of the messages' definition
+  std::vector<HalfPolicy> policies;
+};
+
+}  // namespace trivela::evaluator::log

@@ -1,0 +1,201 @@
+#include "evaluator/log/session_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <stdexcept>
+
+#include "evaluator/log/digest.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBusyTimeout_ms = 5000;
+
+fs::path beside(const fs::path& path, const char* suffix) {
+  fs::path other = path;
+  other += suffix;
+  return other;
+}
+
+// True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
+bool claim(const fs::path& path) {
+  if (fs::exists(beside(path, "-wal"))) {
+    throw std::runtime_error(
+        fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
+  }
+  if (fs::exists(path)) {
+    if (fs::is_regular_file(path) && fs::file_size(path) == 0) return false;
+    throw std::runtime_error(
+        fmt::format("{} exists already; a recorded match is never overwritten, choose another file", path.string()));
+  }
+  std::FILE* const file = std::fopen(path.c_str(), "wx");
+  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the match log {}", path.string()));
+  std::fclose(file);
+  return true;
+}
+
+std::unique_ptr<SQLite::Database> create(const fs::path& path, const Session& session) {
+  const bool made_here = claim(path);
+  try {
+    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
+    database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
+    create_log(*database, session);
+    return database;
+  } catch (const std::exception& error) {
+    if (made_here) {
+      for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
+    }
+    throw std::runtime_error(fmt::format("cannot create the match log {}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+SessionWriter::SessionWriter(const fs::path& path, const Session& session)
+    : database_(create(path, session)), session_id_(session_id_of(session.uuid)), latest_t_ns_(session.started_t_ns) {
+  for (const std::string& table : tables_of(*database_)) schema_[table] = *columns_of(*database_, table);
+}
+
+RowTable SessionWriter::describe(std::string_view name, const std::vector<std::string>& columns) const {
+  const auto schema = schema_.find(name);
+  if (schema == schema_.end()) throw std::runtime_error(fmt::format("the match log has no table '{}'", name));
+  RowTable table{.name = std::string(name), .not_null = {}, .t_ns = {}, .insert_sql = {}};
+  for (const std::string& column : columns) {
+    const auto found = std::ranges::find(schema->second, column, &Column::name);
+    if (found == schema->second.end() || column == "session_id") {
+      throw std::runtime_error(fmt::format("table '{}' of the match log has no column '{}' to fill", name, column));
+    }
+    if (column == "t_ns") table.t_ns = table.not_null.size();
+    table.not_null.push_back(found->not_null);
+  }
+  for (const Column& column : schema->second) {
+    if (column.not_null && column.name != "session_id" && std::ranges::find(columns, column.name) == columns.end()) {
+      throw std::runtime_error(fmt::format("column '{}' of table '{}' must not be left out", column.name, name));
+    }
+  }
+  table.insert_sql = fmt::format("INSERT INTO {} (session_id, {}) VALUES (?", name, fmt::join(columns, ", "));
+  for (std::size_t i = 0; i < columns.size(); ++i) table.insert_sql += ", ?";
+  table.insert_sql += ")";
+  return table;
+}
+
+SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table, SQLite::Statement& statement) {
+  if (row.values.size() != table.not_null.size()) return Fate::kRejected;
+  statement.tryReset();
+  statement.clearBindings();
+  statement.bind(1, session_id_);
+  for (std::size_t i = 0; i < row.values.size(); ++i) {
+    const Value& value = row.values[i];
+    const int parameter = static_cast<int>(i) + 2;
+    const double* const number = std::get_if<double>(&value);
+    if (number != nullptr && std::isinf(*number)) return Fate::kNan;
+    if (std::holds_alternative<std::monostate>(value) || (number != nullptr && std::isnan(*number))) {
+      if (table.not_null[i]) return Fate::kNan;
+    } else if (number != nullptr) {
+      statement.bind(parameter, *number);
+    } else if (const auto* const integer = std::get_if<std::int64_t>(&value)) {
+      statement.bind(parameter, *integer);
+    } else {
+      statement.bindNoCopy(parameter, std::get<std::string>(value));
+    }
+  }
+  const int code = statement.tryExecuteStep();
+  if (code == SQLITE_DONE) return Fate::kWritten;
+  const int primary = code & 0xFF;
+  if (primary == SQLITE_CONSTRAINT || primary == SQLITE_MISMATCH || primary == SQLITE_TOOBIG) return Fate::kRejected;
+  throw SQLite::Exception(database_->getHandle(), code);
+}
+
+GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::deque<RowTable>& tables,
+                                  const LossBook& book) {
+  GroupResult result;
+  std::map<std::size_t, Loss> counters;
+  std::int64_t latest_t_ns = latest_t_ns_;
+  SQLite::Transaction transaction(*database_);
+  if (statements_.size() < tables.size()) statements_.resize(tables.size());
+  for (const Row& row : group) {
+    const RowTable& table = tables[row.table];
+    auto& statement = statements_[row.table];
+    if (!statement) statement = std::make_unique<SQLite::Statement>(*database_, table.insert_sql);
+    Loss& loss = counters.try_emplace(row.table, Loss{.stream = table.name}).first->second;
+    ++loss.received;
+    const Fate fate = insert(row, table, *statement);
+    if (fate == Fate::kNan && ++loss.nan_refused == 1) {
+      result.reasons.push_back(fmt::format("{}: NaN, infinity or nothing where a number must be", table.name));
+    }
+    if (fate == Fate::kRejected && ++loss.rejected == 1) {
+      const bool counted_wrong = row.values.size() != table.not_null.size();
+      result.reasons.push_back(
+          fmt::format("{}: {}", table.name, counted_wrong ? "wrong number of values" : database_->getErrorMsg()));
+    }
+    if (fate != Fate::kWritten) continue;
+    ++result.written;
+    if (!table.t_ns) continue;
+    if (const auto* const t_ns = std::get_if<std::int64_t>(&row.values[*table.t_ns])) {
+      latest_t_ns = std::max(latest_t_ns, *t_ns);
+    }
+  }
+  for (auto& statement : statements_) {
+    if (statement) statement->tryReset();
+  }
+  LossBook sums;
+  for (const Loss& loss : book.all()) sums.add(loss);
+  for (const auto& [table, loss] : counters) {
+    sums.add(loss);
+    result.counters.push_back(loss);
+  }
+  write_losses(sums.all());
+  transaction.commit();
+  latest_t_ns_ = latest_t_ns;
+  return result;
+}
+
+void SessionWriter::write_losses(const std::vector<Loss>& losses) {
+  SQLite::Statement insert(*database_,
+                           "INSERT OR REPLACE INTO losses (session_id, stream, received, lost, gaps, overflow, "
+                           "nan_refused, rejected, out_of_order) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  for (const Loss& loss : losses) {
+    insert.reset();
+    insert.bind(1, session_id_);
+    insert.bind(2, loss.stream);
+    insert.bind(3, loss.received);
+    insert.bind(4, loss.lost);
+    insert.bind(5, loss.gaps);
+    insert.bind(6, loss.overflow);
+    insert.bind(7, loss.nan_refused);
+    insert.bind(8, loss.rejected);
+    insert.bind(9, loss.out_of_order);
+    insert.exec();
+  }
+}
+
+void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t> closed_t_ns) {
+  SQLite::Transaction transaction(*database_);
+  write_losses(book.all());
+  if (closed_t_ns) {
+    SQLite::Statement close(*database_, "UPDATE sessions SET closed_t_ns = ? WHERE session_id = ?");
+    close.bind(1, *closed_t_ns);
+    close.bind(2, session_id_);
+    close.exec();
+  }
+  transaction.commit();
+}
+
+bool SessionWriter::fold() {
+  statements_.clear();
+  database_->exec("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");
+  const int code = database_->tryExec("PRAGMA journal_mode = DELETE;");
+  if (code == SQLITE_OK) return true;
+  if ((code & 0xFF) == SQLITE_BUSY) return false;
+  throw SQLite::Exception(database_->getHandle(), code);
+}
+
+}  // namespace trivela::evaluator::log

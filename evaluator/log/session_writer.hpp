@@ -1,0 +1,70 @@
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluator/log/loss_book.hpp"
+#include "evaluator/log/row_queue.hpp"
+#include "evaluator/log/schema.hpp"
+
+namespace trivela::evaluator::log {
+
+/// A table that rows are inserted into.
+struct RowTable {
+  std::string name;
+  std::vector<bool> not_null;       ///< by column of the rows
+  std::optional<std::size_t> t_ns;  ///< place of the column t_ns
+  std::string insert_sql;           ///< session_id is its first parameter
+};
+
+/// Rows that a group could not write, by stream, with the first reason of each kind.
+struct GroupResult {
+  std::vector<Loss> counters;  ///< received, nan_refused and rejected of each stream in the group
+  std::vector<std::string> reasons;
+  std::int64_t written = 0;
+};
+
+/// The connection of one session: what the writing thread does, one group a transaction. For one thread at a time.
+class SessionWriter {
+ public:
+  /// Creates the log; see Writer. `session.uuid` must be set.
+  SessionWriter(const std::filesystem::path& path, const Session& session);
+
+  /// See Writer::table.
+  RowTable describe(std::string_view name, const std::vector<std::string>& columns) const;
+
+  /// Commits the group with the sums of `book` and the group's own counters. Throws SQLite::Exception where the disk
+  /// refuses; nothing of the group is in the log then.
+  GroupResult commit(const std::vector<Row>& group, const std::deque<RowTable>& tables, const LossBook& book);
+
+  /// Writes the counters and, with `closed_t_ns`, ends the session.
+  void commit_end(const LossBook& book, std::optional<std::int64_t> closed_t_ns);
+
+  /// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
+  bool fold();
+
+  std::int64_t session_id() const { return session_id_; }
+  std::int64_t latest_t_ns() const { return latest_t_ns_; }
+
+ private:
+  enum class Fate { kWritten, kNan, kRejected };
+  Fate insert(const Row& row, const RowTable& table, SQLite::Statement& statement);
+  void write_losses(const std::vector<Loss>& losses);
+
+  std::unique_ptr<SQLite::Database> database_;
+  std::map<std::string, std::vector<Column>, std::less<>> schema_;  // by table
+  std::vector<std::unique_ptr<SQLite::Statement>> statements_;      // by table
+  std::int64_t session_id_;
+  std::int64_t latest_t_ns_;
+};
+
+}  // namespace trivela::evaluator::log
