@@ -21,7 +21,7 @@ struct WheelBase {
 /// One robot's file: who it is, where its numbers come from, its kick model and its wheels.
 struct Robot {
   std::string name = "cambada_1";
-  std::string source = "CAMBADA release 1.0 (2015), config/kicker.map, robots 1, 2 and 4";
+  std::string source = "CAMBADA release 1.0 (2015), config/kicker.map, robot 1";
   kicking::RobotModel model{};
   WheelBase base{};
 };

@@ -22,6 +22,7 @@ Settings load_settings(const std::filesystem::path& path) {
   if (settings.kick_decision.policy_by_half.empty()) {
     throw Error{fmt::format("{}: kick_decision.policy_by_half is empty: name at least one policy", source.file)};
   }
+  settings.policy.cycle_s = settings.run.cycle_s;
   const std::filesystem::path folder = path.parent_path();
   make_relative_to(folder, settings.run.robot);
   make_relative_to(folder, settings.run.scenario);

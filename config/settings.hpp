@@ -46,7 +46,7 @@ struct Odometry {
 /// Filters of the world state.
 struct WorldState {
   double pose_sd_m = 0.12;  ///< self-localisation, per frame and axis
-  double pose_sd_heading_rad = 0.03;
+  double pose_sd_heading_rad = kicking::radians(1.0);
   double relocalise_distance_m = 1.0;   ///< an innovation beyond it is a kidnapped robot ...
   std::uint32_t relocalise_frames = 3;  ///< ... when this many frames in a row agree
   double history_s = 0.5;               ///< odometry kept to look up the exposure of a frame

@@ -65,7 +65,6 @@ void fields(V& v, PolicyConfig& p) {
   v("target_x_m", p.target_x_m, Range{-1.5, 1.5});
   v("target_height_m", p.target_height_m, Range{0.11, 2.0});
   v("max_state_age_s", p.max_state_age_s, Range{0.0, 2.0});
-  v("cycle_s", p.cycle_s, Range{0.0005, 0.5});
   v("order_hold_s", p.order_hold_s, Range{0.0, 10.0});
   v("aim_tolerance_deg", Degrees{p.aim_tolerance_rad}, Range{0.05, 30.0});
   v("settle_s", p.settle_s, Range{0.0, 5.0});

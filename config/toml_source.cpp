@@ -11,8 +11,6 @@
 namespace trivela::config {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
 std::string text_of(const toml::node& node) {
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
@@ -64,10 +62,10 @@ void TableReader::read_number(std::string_view key, double& value, const Range* 
 }
 
 void TableReader::read_angle(std::string_view key, double& value_rad, const Range* range_deg) {
-  double value_deg = value_rad / kRadPerDeg;
+  double value_deg = value_rad * 180.0 / std::numbers::pi;
   const double before = value_deg;
   read_number(key, value_deg, range_deg);
-  if (value_deg != before) value_rad = value_deg * kRadPerDeg;
+  if (value_deg != before) value_rad = value_deg * std::numbers::pi / 180.0;
 }
 
 bool TableReader::read_integer(std::string_view key, std::int64_t& value, Range range) {

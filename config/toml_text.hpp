@@ -18,7 +18,7 @@ class TableText {
 
   void operator()(std::string_view key, const double& value, auto...) { line(key, number(value)); }
   void operator()(std::string_view key, AngleField auto angle, auto...) {
-    line(key, number(angle.rad * 180.0 / std::numbers::pi));
+    line(key, decimal(fmt::format("{:.12g}", angle.rad * 180.0 / std::numbers::pi)));  // rad holds no more digits
   }
   void operator()(std::string_view key, const bool& value) { line(key, value ? "true" : "false"); }
   void operator()(std::string_view key, const std::string& value) { line(key, quoted(value)); }
@@ -51,8 +51,8 @@ class TableText {
   }
 
  private:
-  static std::string number(double value) {
-    std::string text = fmt::format("{}", value);
+  static std::string number(double value) { return decimal(fmt::format("{}", value)); }
+  static std::string decimal(std::string text) {
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
   }
   static std::string quoted(std::string_view text) {

@@ -1,0 +1,141 @@
+// Bad configuration gets a sentence with file, line, key and value.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "config/robot.hpp"
+#include "config/scenario.hpp"
+#include "config/settings.hpp"
+#include "config/toml_source.hpp"
+
+namespace trivela::config {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Scratch {
+ public:
+  Scratch() : folder_(fs::temp_directory_path() / ("trivela_config_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Scratch() { fs::remove_all(folder_); }
+  fs::path file(const std::string& text) const {
+    const fs::path path = folder_ / "bad.toml";
+    std::ofstream{path} << text;
+    return path;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::string settings_error(const std::string& text) {
+  const Scratch scratch;
+  try {
+    load_settings(scratch.file(text));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BadSettings, UnknownKeyIsNamedWithItsLine) {
+  EXPECT_THAT(settings_error("[run]\nrobot_id = 1\nrobot_di = 2\n"),
+              AllOf(HasSubstr("bad.toml:3"), HasSubstr("run.robot_di"), HasSubstr("unknown key")));
+}
+
+TEST(BadSettings, UnknownSectionIsNamedWithItsLine) {
+  EXPECT_THAT(settings_error("[runn]\nrobot_id = 1\n"),
+              AllOf(HasSubstr("bad.toml:1"), HasSubstr("runn"), HasSubstr("unknown key")));
+}
+
+TEST(BadSettings, WrongTypeIsNamedWithItsValue) {
+  EXPECT_THAT(
+      settings_error("[policy]\nsettle_s = \"long\"\n"),
+      AllOf(HasSubstr("bad.toml:2"), HasSubstr("policy.settle_s"), HasSubstr("long"), HasSubstr("expected a number")));
+  EXPECT_THAT(settings_error("[run]\nlockstep = 1\n"), HasSubstr("expected true or false"));
+  EXPECT_THAT(settings_error("[run]\nrobot_id = 1.5\n"), HasSubstr("expected a whole number"));
+  EXPECT_THAT(settings_error("run = 3\n"), HasSubstr("expected a table"));
+  EXPECT_THAT(settings_error("[kick_decision]\npolicy_by_half = \"moving\"\n"), HasSubstr("expected an array"));
+}
+
+TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
+  EXPECT_THAT(settings_error("[run]\n\ncycle_s = -1.0\n"),
+              AllOf(HasSubstr("bad.toml:3"), HasSubstr("run.cycle_s = -1"), HasSubstr("must lie in")));
+  EXPECT_THAT(settings_error("[run]\nrobot_id = 256\n"), HasSubstr("must lie in [1, 255]"));
+  EXPECT_THAT(settings_error("[policy]\nsettle_s = nan\n"), HasSubstr("finite"));
+  EXPECT_THAT(settings_error("[policy]\nsettle_s = inf\n"), HasSubstr("finite"));
+}
+
+TEST(BadSettings, UnknownChoiceNamesTheKnownOnes) {
+  EXPECT_THAT(settings_error("[policy]\nheight_law = \"guess\"\n"),
+              AllOf(HasSubstr("guess"), HasSubstr("paper, extended_range, exact")));
+  EXPECT_THAT(settings_error("[kick_decision]\npolicy_by_half = [\"moving\", \"dancing\"]\n"),
+              AllOf(HasSubstr("dancing"), HasSubstr("stopped, moving")));
+  EXPECT_THAT(settings_error("[kick_decision]\npolicy_by_half = []\n"), HasSubstr("policy_by_half is empty"));
+}
+
+TEST(BadSettings, BrokenTomlIsNamedWithItsLine) {
+  EXPECT_THAT(settings_error("[run]\nrobot_id = \n"), AllOf(HasSubstr("bad.toml:2"), HasSubstr("not valid TOML")));
+}
+
+TEST(BadSettings, MissingFileIsNamed) {
+  EXPECT_THAT([] { load_settings("no/such/file.toml"); },
+              ::testing::ThrowsMessage<Error>(HasSubstr("no/such/file.toml: cannot read")));
+}
+
+TEST(Settings, AnEmptyFileGivesTheDefaults) { EXPECT_EQ(settings_error(""), "accepted"); }
+
+std::string robot_error(const std::string& text) {
+  const Scratch scratch;
+  try {
+    load_robot(scratch.file(text));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BadRobot, TrueTableIsNotGivenToDragFreeLaws) {
+  EXPECT_THAT(robot_error("[table]\nkind = \"true\"\npowers = [1.0, 2.0]\nexit_speeds_mps = [5.0, 6.0]\n"),
+              HasSubstr("effective"));
+}
+
+TEST(BadRobot, ColumnsOfUnequalLengthAreRefused) {
+  EXPECT_THAT(robot_error("[table]\npowers = [1.0, 2.0]\nexit_speeds_mps = [5.0]\n"),
+              AllOf(HasSubstr("2 entries"), HasSubstr("1")));
+}
+
+TEST(BadRobot, SpeedsThatDoNotRiseAreNamed) {
+  EXPECT_THAT(robot_error("[table]\npowers = [1.0, 2.0]\nexit_speeds_mps = [6.0, 5.0]\n"),
+              AllOf(HasSubstr("bad.toml"), HasSubstr("speed_mps[1] = 5")));
+}
+
+TEST(BadRobot, MissingTableIsRefused) { EXPECT_THAT(robot_error("name = \"x\"\n"), HasSubstr("table")); }
+
+TEST(BadScenario, ContradictionIsNamedWithItsLine) {
+  const Scratch scratch;
+  const fs::path file = scratch.file("[possession]\nspeed_min_mps = 3.0\nspeed_max_mps = 1.0\n");
+  EXPECT_THAT([&] { load_scenario(file); },
+              ::testing::ThrowsMessage<Error>(AllOf(HasSubstr("bad.toml:"), HasSubstr("possession.speed_m"))));
+}
+
+TEST(RoundTrip, ChangedSettingsReadBackTheSame) {
+  Settings settings;
+  settings.run.robot_id = 7;
+  settings.run.log_level = "a \"quoted\" \\ word";
+  settings.policy.settle_s = 0.1234567890123;
+  settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
+  const Scratch scratch;
+  Settings again = load_settings(scratch.file(to_toml_text(settings)));
+  again.run.robot = settings.run.robot;
+  again.run.scenario = settings.run.scenario;
+  EXPECT_EQ(to_toml_text(again), to_toml_text(settings));
+}
+
+}  // namespace
+}  // namespace trivela::config
