@@ -39,6 +39,7 @@ struct PolicyConfig {
   double order_hold_s = 0.5;
 
   /// Stopped policy: heading tolerance (CAMBADA release 1.0: kick_max_deg_error 1), time at rest (Falcons: 0.25 s).
+  /// Settling goes on up to twice the tolerance, a kick needs the tolerance itself.
   double aim_tolerance_rad = radians(1.0);
   double settle_s = 0.25;
   /// At rest below these; three standard deviations of filtered odometry noise (assumed 0.05 m/s, 0.05 rad/s).
@@ -53,10 +54,9 @@ struct PolicyConfig {
   /// Limits with the ball: forward (CAMBADA: dribbling 2.2 m/s), sideways and backward (Falcons: 0.5 m/s).
   double max_forward_mps = 2.2;
   double max_sideways_mps = 0.5;
-  /// Speed that the moving policy does not fall below on its way to the goal, and that the stopped one approaches with
+  /// Speed over ground that both policies drive towards the goal with; the stopped one only while out of range
   /// (assumed).
-  double min_dribble_mps = 0.5;
-  double approach_mps = 1.5;
+  double dribble_mps = 1.2;
   /// Neither policy drives the robot's centre closer to the target than this, braking with max_brake (assumed).
   double keep_off_m = 2.5;
   double max_brake_mps2 = 2.5;

@@ -1,0 +1,25 @@
+#include "kicking/alignment/release_predictor.hpp"
+
+#include <cmath>
+
+namespace trivela::kicking {
+
+std::optional<Crossing> predict_crossing(const Pose& pose, const Twist& twist, const KickAction& kick, double goal_y_m,
+                                         double launch_height_m, double gravity_mps2) {
+  const Pose release = advance(pose, twist, kick.delay_s);
+  const Eigen::Vector2d ball = to_field(release, {0.0, kick.ball_offset_m});
+  const Eigen::Vector2d velocity_in_robot(
+      kick.transfer.lateral * (twist.vx_mps - twist.omega_radps * kick.ball_offset_m),
+      kick.v_kick_mps * std::cos(kick.exit_angle_rad) + kick.transfer.along_mps(twist.vy_mps));
+  const Eigen::Vector2d velocity = rotate(velocity_in_robot, release.heading_rad);
+  const double t = (goal_y_m - ball.y()) / velocity.y();
+  if (!(t >= 0.0 && std::isfinite(t))) return std::nullopt;
+  const double v_z = kick.v_kick_mps * std::sin(kick.exit_angle_rad);
+  return Crossing{.x_m = ball.x() + velocity.x() * t,
+                  .z_m = launch_height_m + v_z * t - 0.5 * gravity_mps2 * t * t,
+                  .t_flight_s = t,
+                  .release_m = ball,
+                  .release_heading_rad = release.heading_rad};
+}
+
+}  // namespace trivela::kicking

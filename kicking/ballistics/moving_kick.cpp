@@ -1,0 +1,31 @@
+#include "kicking/ballistics/moving_kick.hpp"
+
+#include <cmath>
+
+namespace trivela::kicking {
+
+double moving_kick_paper(double v0_mps, double u_mps, double exit_angle_rad) {
+  return v0_mps - u_mps * std::cos(exit_angle_rad);
+}
+
+std::optional<double> moving_kick_exact(const FlightPoint& point, double exit_angle_rad, double u_mps,
+                                        double gravity_mps2) {
+  const double d = point.distance_m;
+  const double h = point.height_m;
+  const double c = std::cos(exit_angle_rad);
+  const double s = std::sin(exit_angle_rad);
+  const double quadratic = c * (d * s - h * c);
+  const double linear = u_mps * (d * s - 2.0 * h * c);
+  const double constant = h * u_mps * u_mps + 0.5 * gravity_mps2 * d * d;
+  if (!(d > 0.0 && quadratic > 0.0 && constant > 0.0)) return std::nullopt;
+  const double root = std::sqrt(linear * linear + 4.0 * quadratic * constant);
+  return linear > 0.0 ? 2.0 * constant / (root + linear) : (root - linear) / (2.0 * quadratic);
+}
+
+double k_geometric(const FlightPoint& point, double exit_angle_rad) {
+  const double rise = point.distance_m * std::tan(exit_angle_rad);
+  const double c = std::cos(exit_angle_rad);
+  return (rise - 2.0 * point.height_m) / (2.0 * c * c * (rise - point.height_m));
+}
+
+}  // namespace trivela::kicking

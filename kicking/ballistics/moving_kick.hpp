@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "kicking/ballistics/crossing.hpp"
+
+namespace trivela::kicking {
+
+/// The paper's law of a moving robot (section 2.2) [m/s]: V_kick = V0 - u cos(theta), u = k v_front. Exact at no angle
+/// but 45 degrees and h = 0; with k about 0.7 it is good to a few centimetres up to 1 m/s.
+double moving_kick_paper(double v0_mps, double u_mps, double exit_angle_rad);
+
+/// Kick of a robot whose forward velocity adds u = k v_front [m/s] to the ball's horizontal speed V cos(theta), through
+/// the point: V^2 c (d s - h c) + V u (d s - 2 h c) - (h u^2 + g d^2 / 2) = 0, the positive root. None if d <= 0, d
+/// tan(theta) <= h or the robot alone is too fast for a point below the launch.
+std::optional<double> moving_kick_exact(const FlightPoint& point, double exit_angle_rad, double u_mps,
+                                        double gravity_mps2 = kGravity_mps2);
+
+/// The k that makes the paper's law right to first order if the ball takes over all of the robot's velocity:
+/// (d tan(theta) - 2 h) / (2 cos^2(theta) (d tan(theta) - h)).
+double k_geometric(const FlightPoint& point, double exit_angle_rad);
+
+}  // namespace trivela::kicking

@@ -1,0 +1,65 @@
+#include "kicking/policy/moving.hpp"
+
+#include <algorithm>
+
+#include "kicking/alignment/deflection.hpp"
+#include "kicking/policy/drive.hpp"
+#include "kicking/policy/judgement.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+/// Start of S1 and the two angles, by the configured law.
+struct Direction {
+  Pose start{};
+  double alpha_rad = 0.0;
+  double beta_rad = 0.0;
+};
+
+Direction expected_direction(const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input,
+                             double v_kick_mps) {
+  const Twist& twist = input.twist;
+  if (config.alpha_law == AlphaLaw::kPaperLine) {
+    return {input.pose, alpha_paper_rad(twist.vx_mps, robot.alpha_slope_rad_per_mps),
+            beta_paper_rad(twist.omega_radps, robot.beta_slope_s)};
+  }
+  // From the ball's point at the release, with the heading of now: the turn until then is beta's.
+  const Eigen::Vector2d ball = held_ball(advance(input.pose, twist, robot.delay_s), robot);
+  return {{ball.x(), ball.y(), input.pose.heading_rad},
+          alpha_physical_rad(v_kick_mps, robot.exit_angle_rad, robot.transfer_exact, twist, robot.ball_offset_m),
+          twist.omega_radps * (robot.delay_s + 0.5 * config.cycle_s)};
+}
+
+}  // namespace
+
+Judgement judge_moving(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                       PolicyMemory& memory) {
+  const Shot shot = moving_shot(config, robot, goal, input);
+  Judgement judgement = describe(config, goal, shot);
+  const Eigen::Vector2d target = target_on_line(config, goal);
+  const double v_kick_mps = shot.power ? robot.table.speed_for(*shot.power) : robot.table.back().speed_mps;
+  const Direction expected = expected_direction(config, robot, input, v_kick_mps);
+  judgement.alpha_rad = expected.alpha_rad;
+  judgement.beta_rad = expected.beta_rad;
+  set_alignment(judgement, align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target,
+                                 config.alignment));
+
+  const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
+  const double wanted_heading = bearing({expected.start.x_m, expected.start.y_m}, target) + expected.alpha_rad;
+  const double error = wrap_angle(wanted_heading - input.pose.heading_rad);
+  judgement.drive = {velocity.x(), velocity.y(), turn_rate_for(error, config.moving_turn_gain_hz, config)};
+
+  const bool extended = std::max(judgement.left_m, judgement.right_m) > config.alignment.half_width_m;
+  const bool entered = judgement.aligned && !memory.aligned_before;
+  memory.aligned_before = judgement.aligned;
+  if (!shot.reachable) {
+    judgement.reason = Reason::kOutOfRange;
+  } else if (!entered && (extended || !judgement.aligned)) {
+    judgement.reason = Reason::kNotAligned;
+  } else {
+    judgement.reason = Reason::kFire;
+  }
+  return judgement;
+}
+
+}  // namespace trivela::kicking

@@ -1,0 +1,89 @@
+#include "kicking/policy/shot.hpp"
+
+#include "kicking/ballistics/aim_exact.hpp"
+#include "kicking/ballistics/crossing.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+/// The point that the drag-free flight shall pass, by the law for heights.
+FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m) {
+  const FlightPoint target{distance_m, config.target_height_m - robot.ball.radius_m};
+  switch (config.height_law) {
+    case HeightLaw::kPaper:
+      return {distance_m, 0.0};
+    case HeightLaw::kExtendedRange:
+      return {extended_range(target, robot.exit_angle_rad), 0.0};
+    case HeightLaw::kExact:
+      break;
+  }
+  return target;
+}
+
+/// What the robot's motion at the release gives to the ball, along and to the right of the line ball - target.
+Carry carry_towards(const Eigen::Vector2d& line, double heading_rad, const RobotModel& robot, const Twist& twist) {
+  const Transfer& transfer = robot.transfer_exact;
+  const Eigen::Vector2d in_robot(transfer.lateral * (twist.vx_mps - twist.omega_radps * robot.ball_offset_m),
+                                 transfer.along_mps(twist.vy_mps));
+  const Eigen::Vector2d in_field = rotate(in_robot, heading_rad);
+  const Eigen::Vector2d along = line.normalized();
+  return {in_field.dot(along), in_field.dot(Eigen::Vector2d(along.y(), -along.x()))};
+}
+
+/// Power, range and prediction, once the speeds are known.
+void set_power(Shot& shot, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+  if (!shot.v_kick_mps) return;
+  const PowerReading reading = robot.table.power_for(*shot.v_kick_mps);
+  shot.power = reading.power;
+  const KickAction action{.v_kick_mps = robot.table.speed_for(reading.power),
+                          .exit_angle_rad = robot.exit_angle_rad,
+                          .transfer = robot.transfer_exact,
+                          .delay_s = robot.delay_s,
+                          .ball_offset_m = robot.ball_offset_m};
+  shot.predicted = predict_crossing(input.pose, input.twist, action, goal.y_m, robot.ball.radius_m);
+  shot.too_far = *shot.v_kick_mps > robot.table.back().speed_mps;
+  const bool too_strong =
+      reading.range == PowerRange::kBelow && !(shot.predicted && shot.predicted->z_m < goal.clean_height_m(robot.ball));
+  shot.reachable = !shot.too_far && !too_strong;
+}
+
+}  // namespace
+
+Eigen::Vector2d target_on_line(const PolicyConfig& config, const Goal& goal) { return {config.target_x_m, goal.y_m}; }
+
+Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model) {
+  return to_field(robot, {0.0, model.ball_offset_m});
+}
+
+Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+  Shot shot;
+  shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  shot.v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m), robot.exit_angle_rad);
+  shot.v_kick_mps = shot.v0_mps;
+  set_power(shot, robot, goal, input);
+  return shot;
+}
+
+Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+  const bool exact = config.motion_law == MotionLaw::kExact;
+  const Pose release = exact ? advance(input.pose, input.twist, robot.delay_s) : input.pose;
+  const Eigen::Vector2d line = target_on_line(config, goal) - held_ball(release, robot);
+  Shot shot;
+  shot.distance_m = line.norm();
+  const FlightPoint point = flight_point(config, robot, shot.distance_m);
+  shot.v0_mps = crossing_speed(point, robot.exit_angle_rad);
+  if (!shot.v0_mps) return shot;
+  if (exact) {
+    const auto aim =
+        aim_exact(point, robot.exit_angle_rad, carry_towards(line, release.heading_rad, robot, input.twist));
+    if (aim) shot.v_kick_mps = aim->v_kick_mps;
+  } else {
+    const double u_mps = robot.transfer_paper.along_mps(input.twist.vy_mps);
+    shot.v_kick_mps = moving_kick_paper(*shot.v0_mps, u_mps, robot.exit_angle_rad);
+  }
+  set_power(shot, robot, goal, input);
+  return shot;
+}
+
+}  // namespace trivela::kicking

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "kicking/policy/policy.hpp"
+
+namespace trivela::kicking {
+
+/// The power question of one cycle: what speed does the kick need, and which set-point gives it?
+struct Shot {
+  double distance_m = 0.0;           ///< ball centre to target, horizontal
+  std::optional<double> v0_mps;      ///< for a robot at rest
+  std::optional<double> v_kick_mps;  ///< for this robot
+  std::optional<double> power;
+  bool too_far = false;               ///< no set-point is fast enough
+  bool reachable = false;             ///< a set-point reaches the height, or the least one still passes below the bar
+  std::optional<Crossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
+};
+
+/// Aim point on the goal line, in F.
+Eigen::Vector2d target_on_line(const PolicyConfig& config, const Goal& goal);
+
+/// Centre of the ball in the handler, in F.
+Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model);
+
+/// Shot of a robot taken to stand still: V_kick = V0, from where the ball is now.
+Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);
+
+/// Shot of a moving robot by the configured height and motion laws.
+Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);
+
+}  // namespace trivela::kicking
