@@ -1,0 +1,28 @@
+#pragma once
+
+#include "sim/scenario.hpp"
+#include "sim/truth.hpp"
+
+namespace trivela::sim {
+
+/// The free ball.
+struct BallMotion {
+  Vec3 position_m;  ///< centre, in F
+  Vec3 velocity_mps;
+  bool rolling = false;  ///< stays on the floor
+};
+
+/// k of the drag a = -k |v| v [1/m]: k = rho C_d pi r^2 / (2 m).
+double drag_per_m(const Ball& ball);
+
+/// Moves the ball for dt [s], a few milliseconds at most.
+///   In the air:  dv/dt = -k |v| v - g e_z, Runge-Kutta of order 4.
+///   Bounce:      at z = r, v_z -> -e v_z, horizontal v -> retention v; slower than roll_below_mps it rolls from there.
+///   Rolling:     dv/dt = -(a_roll + k v^2) v / |v| until it rests.
+/// Spin is not modelled.
+void advance(BallMotion& motion, const Ball& ball, double dt_s);
+
+/// The ball neither flies nor moves.
+bool at_rest(const BallMotion& motion);
+
+}  // namespace trivela::sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "sim/scenario.hpp"
+
+namespace trivela::sim {
+
+/// Speed and elevation with which a ball leaves the robot at rest.
+struct Exit {
+  double speed_mps = 0.0;
+  double elevation_rad = 0.0;
+};
+
+/// The true exit at `power`: linear between the table's set-points, clamped to its ends.
+Exit exit_at(const Kicker& kicker, double power);
+
+/// What the paper's calibration makes of a true exit: fly it with drag back to the height it left from, measure apex H
+/// and range D, and read theta = atan(4 H / D), v = sqrt(D g / sin 2 theta) (paper, section 2). Without drag it is the
+/// identity. Throws std::runtime_error for an elevation outside (0, pi/2) or a speed that is not positive.
+Exit effective_exit(const Exit& true_exit, const Ball& ball);
+
+/// The true exit whose effective_exit() is `effective`: how the default table of Kicker follows from the published map.
+Exit true_exit(const Exit& effective, const Ball& ball);
+
+}  // namespace trivela::sim

@@ -1,0 +1,189 @@
+#include "sim/match.hpp"
+
+#include <fmt/core.h>
+
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "sim/opportunity.hpp"
+#include "sim/scenario_fields.hpp"
+#include "sim/sensor_suite.hpp"
+#include "sim/world.hpp"
+
+namespace trivela::sim {
+namespace {
+
+enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that ends a half
+
+std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
+
+const Scenario& playable(const Scenario& scenario) {
+  if (const auto problem = first_problem(scenario)) {
+    throw std::runtime_error{fmt::format("scenario: {}: {}", problem->key, problem->why)};
+  }
+  return scenario;
+}
+
+}  // namespace
+
+struct Match::State {
+  State(const Scenario& values, std::uint64_t match_seed, int half_count, double half_minutes)
+      : scenario(playable(values)),
+        seed(match_seed),
+        halves(half_count),
+        half_ns(nanoseconds(half_minutes * 60.0)),
+        world(scenario),
+        sensors(scenario) {
+    if (halves < 1 || halves > 255) throw std::runtime_error{fmt::format("halves: {} is outside 1..255", halves)};
+    if (!(half_minutes > 0.0 && half_minutes <= 1e6)) {
+      throw std::runtime_error{fmt::format("half_minutes: {} is outside 0..1e6", half_minutes)};
+    }
+    begin_possession();
+  }
+
+  // The flow: stop -> play -> stop ... -> closing -> next half.
+
+  void begin_possession() {
+    ++possession_id;
+    phase = Phase::kStop;
+    ending.reset();
+    const Draws draws{seed, possession_id};
+    opportunity = draw_opportunity(scenario, draws);
+    world.place(opportunity, draws);
+    sensors.begin(draws);
+    sensors.remember(world);
+    stop_until_t_ns = world.t_ns() + nanoseconds(scenario.possession.stop_s);
+    if (scenario.possession.stop_s <= 0.0) start_play();
+  }
+
+  void start_play() {
+    phase = Phase::kPlay;
+    play_t_ns = world.t_ns();
+    world.start_play(opportunity);
+  }
+
+  void close_half() {
+    phase = Phase::kClosing;
+    stop_until_t_ns = world.t_ns() + nanoseconds(scenario.possession.stop_s);
+    world.stop_play();
+  }
+
+  void open_half() {
+    if (half == halves) {
+      phase = Phase::kDone;
+      return;
+    }
+    ++half;
+    half_start_t_ns = world.t_ns();
+    possession_id = 0;
+    begin_possession();
+  }
+
+  /// Looks at the world after a sub-step.
+  void watch(StepEvents& events) {
+    if (phase != Phase::kPlay || ending) return;
+    if (const auto& shot = world.shot()) {
+      if (!shot->result()) return;
+      const ShotResult& result = *shot->result();
+      events.kicks.push_back({.t_ns = result.t_ns,
+                              .kick_id = world.shot_kick_id(),
+                              .half = half,
+                              .possession_id = possession_id,
+                              .outcome = result.outcome,
+                              .crossing = result.crossing,
+                              .release_t_ns = shot->release_t_ns(),
+                              .release_position_m = shot->released().position_m,
+                              .release_velocity_mps = shot->released().velocity_mps,
+                              .margin_m = result.margin_m});
+      return end(PossessionEnd::kKicked, scenario.possession.after_crossing_s, events);
+    }
+    if (world.kicker().stroke() && world.kicker().stroke()->live) return;  // the ball leaves first
+    if (world.opponent().distance_m() <= scenario.opponent.dispute_distance_m) {
+      return end(PossessionEnd::kDisputed, 0.0, events);
+    }
+    const Vec3 ball = world.ball_m();
+    const bool carried_out =
+        std::abs(ball.x) > scenario.field.side_line_x_m || std::abs(ball.y) > scenario.field.goal_line_y_m;
+    if (carried_out || world.t_ns() - play_t_ns >= nanoseconds(scenario.possession.time_limit_s)) {
+      end(PossessionEnd::kTimedOut, 0.0, events);
+    }
+  }
+
+  void end(PossessionEnd how, double play_on_s, StepEvents& events) {
+    ending = how;
+    if (how != PossessionEnd::kKicked) world.stop_play();
+    play_until_t_ns = world.t_ns() + nanoseconds(play_on_s);
+    events.possessions.push_back({.t_ns = world.t_ns(),
+                                  .half = half,
+                                  .possession_id = possession_id,
+                                  .ending = how,
+                                  .start_t_ns = play_t_ns,
+                                  .start = opportunity.start});
+  }
+
+  /// Moves the flow on at the end of a cycle, which is when the referee is heard.
+  void referee() {
+    const std::int64_t now = world.t_ns();
+    if (phase == Phase::kStop && now >= stop_until_t_ns) return start_play();
+    if (phase == Phase::kClosing && now >= stop_until_t_ns) return open_half();
+    if (phase != Phase::kPlay || !ending || now < play_until_t_ns) return;
+    if (now - half_start_t_ns >= half_ns) return close_half();
+    begin_possession();
+  }
+
+  Scenario scenario;
+  std::uint64_t seed;
+  int halves;
+  std::int64_t half_ns;
+  World world;
+  SensorSuite sensors;
+
+  Phase phase = Phase::kStop;
+  int half = 1;
+  std::int64_t half_start_t_ns = 0;
+  std::uint32_t possession_id = 0;
+  Opportunity opportunity;
+  std::int64_t stop_until_t_ns = 0;
+  std::int64_t play_t_ns = 0;
+  std::int64_t play_until_t_ns = 0;
+  std::optional<PossessionEnd> ending;
+};
+
+Match::Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes)
+    : state_(std::make_unique<State>(scenario, seed, halves, half_minutes)) {}
+Match::~Match() = default;
+Match::Match(Match&&) noexcept = default;
+Match& Match::operator=(Match&&) noexcept = default;
+
+bool Match::done() const { return state_->phase == Phase::kDone; }
+
+Sensors Match::sense() const {
+  const State& s = *state_;
+  return {.t_ns = s.world.t_ns(),
+          .wheels = s.sensors.wheels(s.world),
+          .kicker = {.charge = s.world.kicker().charge()},
+          .vision = s.sensors.vision(s.world),
+          .flight = s.sensors.flight(s.world),
+          .referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id}};
+}
+
+StepEvents Match::step(const Commands& commands) {
+  State& s = *state_;
+  assert(!done());
+  StepEvents events;
+  s.world.command(commands);
+  const std::int64_t start = s.world.t_ns(), cycle = nanoseconds(s.scenario.cycle_s);
+  const auto substeps = static_cast<std::int64_t>(std::ceil(s.scenario.cycle_s / s.scenario.substep_s - 1e-9));
+  for (std::int64_t i = 1; i <= substeps; ++i) {
+    s.world.advance_to(start + cycle * i / substeps);
+    s.sensors.remember(s.world);
+    s.watch(events);
+  }
+  s.sensors.next_cycle();
+  s.referee();
+  return events;
+}
+
+}  // namespace trivela::sim

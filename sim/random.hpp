@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace trivela::sim {
+
+/// Philox 4x32 with 10 rounds: 128 random bits as a pure function of a counter and a key. Source: Salmon et al.,
+/// "Parallel random numbers: as easy as 1, 2, 3" (SC 2011); the tests hold it against Random123's known answers.
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+/// What a random number is for. Each role has numbers of its own, so that drawing more of one never shifts another.
+enum class Role : std::uint32_t {
+  kStart,
+  kOpponent,
+  kKicker,
+  kWheelSlip,
+  kWheelNoise,
+  kGyroBias,
+  kGyroNoise,
+  kPoseSlow,
+  kPoseNoise,
+  kBallNoise,
+  kOpponentNoise,
+  kVisionDropout,
+  kFlightNoise,
+  kFlightDropout,
+};
+
+/// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and
+/// however often they are asked for. `counter` is the cycle since the opportunity began, or the attempt.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::uint32_t opportunity) : seed_(seed), opportunity_(opportunity) {}
+
+  /// Uniform in [0, 1), 53 bits.
+  double uniform(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+
+  /// Uniform in [low, high).
+  double uniform_in(double low, double high, Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+
+  /// Two independent standard normal numbers (Box-Muller).
+  std::array<double, 2> normals(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+
+  /// The first of normals().
+  double normal(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+
+ private:
+  std::array<std::uint32_t, 4> block(Role role, std::uint32_t counter, std::uint32_t index) const;
+
+  std::uint64_t seed_;
+  std::uint32_t opportunity_;
+};
+
+}  // namespace trivela::sim

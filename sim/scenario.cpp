@@ -1,0 +1,78 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "kicking/geometry/angle.hpp"
+#include "sim/scenario_fields.hpp"
+
+namespace trivela::sim {
+namespace {
+
+/// Visits the fields and keeps the first value outside its range.
+struct RangeCheck {
+  std::string section;
+  std::optional<Problem> problem;
+
+  void operator()(std::string_view key, double& value, Range range) {
+    if (problem || (value >= range.min && value <= range.max)) return;
+    problem = Problem{section + std::string{key}, fmt::format("{} is outside {}..{}", value, range.min, range.max)};
+  }
+  void operator()(std::string_view key, Degrees angle, Range range) {
+    double angle_deg = kicking::degrees(angle.rad);
+    (*this)(key, angle_deg, range);
+  }
+  void operator()(std::string_view key, std::vector<double>& values, Range range) {
+    for (double& value : values) (*this)(key, value, range);
+  }
+  template <class T>
+  void operator()(std::string_view key, T& nested) {
+    const std::string outer = section;
+    section += std::string{key} + '.';
+    fields(*this, nested);
+    section = outer;
+  }
+};
+
+std::optional<Problem> ordered(const char* key, double low, double high) {
+  if (low <= high) return std::nullopt;
+  return Problem{key, fmt::format("the minimum {} is above the maximum {}", low, high)};
+}
+
+std::optional<Problem> table_problem(const Kicker& k) {
+  if (k.powers.size() < 2) return Problem{"kicker.powers", "fewer than two set-points"};
+  for (std::size_t i = 1; i < k.powers.size(); ++i) {
+    if (!(k.powers[i] > k.powers[i - 1])) {
+      return Problem{"kicker.powers", fmt::format("{} does not rise above {}", k.powers[i], k.powers[i - 1])};
+    }
+  }
+  const auto of_length = [&](const char* key, std::size_t size) -> std::optional<Problem> {
+    if (size == k.powers.size()) return std::nullopt;
+    return Problem{key, fmt::format("{} values for {} powers", size, k.powers.size())};
+  };
+  if (auto problem = of_length("kicker.exit_speeds_mps", k.exit_speeds_mps.size())) return problem;
+  return of_length("kicker.exit_elevations_rad", k.exit_elevations_rad.size());
+}
+
+}  // namespace
+
+std::optional<Problem> first_problem(const Scenario& scenario) {
+  Scenario copy = scenario;
+  RangeCheck check;
+  fields(check, copy);
+  if (check.problem) return check.problem;
+  if (auto problem = table_problem(scenario.kicker)) return problem;
+  const Possession& p = scenario.possession;
+  const Opponent& o = scenario.opponent;
+  if (auto problem = ordered("possession.goal_distance_min_m", p.goal_distance_min_m, p.goal_distance_max_m))
+    return problem;
+  if (auto problem = ordered("possession.speed_min_mps", p.speed_min_mps, p.speed_max_mps)) return problem;
+  if (auto problem = ordered("opponent.closing_min_mps", o.closing_min_mps, o.closing_max_mps)) return problem;
+  const std::size_t wheels = scenario.robot.wheel_angles_rad.size();
+  if (wheels != 3 && wheels != 4) {
+    return Problem{"robot.wheel_angles_rad", fmt::format("{} wheels where 3 or 4 are known", wheels)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace trivela::sim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "kicking/outcome/outcome.hpp"
+#include "sim/flight.hpp"
+#include "sim/scenario.hpp"
+#include "sim/sensors.hpp"
+#include "sim/truth.hpp"
+
+namespace trivela::sim {
+
+/// What a shot came to.
+struct ShotResult {
+  std::int64_t t_ns = 0;
+  kicking::Outcome outcome{};
+  std::optional<Crossing> crossing;
+  std::optional<double> margin_m;
+};
+
+/// A released ball on its way to the goal. The goal frame is flat, in the plane of the goal line: what counts is where
+/// the centre passes it. Post and bar throw the ball back, an opponent's body (a cylinder) turns it away; the first
+/// thing met decides.
+class Shot {
+ public:
+  /// `scenario` must outlive the shot.
+  Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns);
+
+  /// Moves the ball to t_ns while the opponent stands at `opponent`.
+  void advance_to(std::int64_t t_ns, const PlanPoint& opponent);
+
+  const BallMotion& ball() const { return ball_; }
+  std::int64_t release_t_ns() const { return release_t_ns_; }
+  const BallMotion& released() const { return released_; }
+
+  /// None while it is open.
+  const std::optional<ShotResult>& result() const { return result_; }
+
+ private:
+  void meet_goal_plane(const Vec3& before, std::int64_t t_ns);
+  void meet_opponent(const PlanPoint& opponent, std::int64_t t_ns);
+  void settle_short(std::int64_t t_ns);
+
+  const Scenario& scenario_;
+  BallMotion released_;
+  BallMotion ball_;
+  std::int64_t release_t_ns_;
+  std::int64_t t_ns_;
+  double farthest_y_m_;
+  std::optional<ShotResult> result_;
+};
+
+}  // namespace trivela::sim

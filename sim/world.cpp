@@ -1,0 +1,76 @@
+#include "sim/world.hpp"
+
+#include <algorithm>
+
+namespace trivela::sim {
+
+World::World(const Scenario& scenario) : scenario_(scenario), body_(scenario.robot), kicker_(scenario.kicker) {}
+
+void World::place(const Opportunity& opportunity, const Draws& draws) {
+  playing_ = false;
+  shot_.reset();
+  draws_ = draws;
+  attempts_ = 0;
+  body_.place(opportunity.start, {});
+  opponent_.place(body_.ball_point_m(), opportunity.opponent_distance_m, opportunity.opponent_bearing_rad,
+                  opportunity.opponent_closing_mps);
+}
+
+void World::start_play(const Opportunity& opportunity) {
+  playing_ = true;
+  body_.place(opportunity.start, opportunity.velocity);
+}
+
+void World::stop_play() {
+  playing_ = false;
+  body_.follow({});
+}
+
+void World::command(const Commands& commands) {
+  if (playing_) body_.follow(commands.drive);
+  if (commands.fire) kicker_.order(*commands.fire);
+}
+
+void World::advance_to(std::int64_t t_ns) {
+  coil_events();
+  while (t_ns_ < t_ns) {
+    const auto event = kicker_.next_event_t_ns();
+    move(event ? std::clamp(*event, t_ns_ + 1, t_ns) : t_ns);
+    coil_events();
+  }
+}
+
+void World::coil_events() {
+  const bool live = playing_ && !shot_;
+  const bool was_idle = !kicker_.stroke();
+  kicker_.energise_due(t_ns_, live, draws_, attempts_);
+  if (was_idle && kicker_.stroke()) ++attempts_;
+  const auto stroke = kicker_.take_released(t_ns_);
+  if (!stroke || !stroke->live || shot_) return;
+  shot_.emplace(scenario_,
+                release(*stroke, body_.pose(), body_.twist(), scenario_.kicker, scenario_.robot.ball_offset_m,
+                        scenario_.ball.radius_m),
+                t_ns_);
+  shot_kick_id_ = stroke->kick_id;
+}
+
+void World::move(std::int64_t t_ns) {
+  const double dt_s = static_cast<double>(t_ns - t_ns_) * 1e-9;
+  t_ns_ = t_ns;
+  body_.advance(dt_s);
+  kicker_.recharge(dt_s);
+  if (shot_) {
+    shot_->advance_to(t_ns, opponent_.position());
+  } else {
+    opponent_.close_in(body_.ball_point_m(), playing_ ? dt_s : 0.0);
+  }
+}
+
+Vec3 World::ball_m() const {
+  if (shot_) return shot_->ball().position_m;
+  Vec3 held = body_.ball_point_m();
+  held.z = scenario_.ball.radius_m;
+  return held;
+}
+
+}  // namespace trivela::sim
