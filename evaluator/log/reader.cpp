@@ -73,14 +73,11 @@ std::unique_ptr<SQLite::Database> open(const fs::path& path) {
 }  // namespace
 
 struct Reader::Impl {
-  explicit Impl(const fs::path& path_) : path(path_.string()), database(open(path_)) {
-    fs::path wal = path_;
-    wal += "-wal";
-    has_wal = fs::exists(wal);
-  }
+  explicit Impl(const fs::path& path_)
+      : path(path_.string()), has_wal(fs::exists(path + "-wal")), database(open(path_)) {}
 
   std::string path;
-  bool has_wal = false;
+  bool has_wal;  // before opening, which may make one
   std::unique_ptr<SQLite::Database> database;
 };
 

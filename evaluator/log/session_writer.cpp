@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBusyTimeout_ms = 5000;
+constexpr int kFoldTimeout_ms = 200;  // a reader that stays must not hold up the end of a match
 
 fs::path beside(const fs::path& path, const char* suffix) {
   fs::path other = path;
@@ -48,6 +49,7 @@ std::unique_ptr<SQLite::Database> create(const fs::path& path, const Session& se
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
     create_log(*database, session);
+    database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as a match log
     return database;
   } catch (const std::exception& error) {
     if (made_here) {
@@ -191,6 +193,7 @@ void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t>
 
 bool SessionWriter::fold() {
   statements_.clear();
+  database_->setBusyTimeout(kFoldTimeout_ms);
   database_->exec("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");
   const int code = database_->tryExec("PRAGMA journal_mode = DELETE;");
   if (code == SQLITE_OK) return true;

@@ -1,0 +1,104 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/evaluator/log_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using log::Reader;
+using log::Value;
+using log::Writer;
+using testing::HasSubstr;
+
+class LogReader : public LogTest {
+ protected:
+  std::string message_of_opening(const std::string& name = "match.db") const {
+    try {
+      Reader reader(path(name));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  void write_log(std::int64_t rows = 1) {
+    Writer writer(path(), session(), options());
+    const auto referee = referee_table(writer);
+    for (std::int64_t seq = 0; seq < rows; ++seq) writer.push(referee, referee_row(seq));
+  }
+};
+
+TEST_F(LogReader, ALogIsKnownByItsApplicationIdAndVersion) {
+  write_log();
+  SQLite::Database database(path().string());
+  EXPECT_EQ(database.execAndGet("PRAGMA application_id").getInt(), 0x4B49434B);
+  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 1);
+  EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "delete");
+}
+
+TEST_F(LogReader, AMissingFileIsNamed) { EXPECT_THAT(message_of_opening(), HasSubstr("there is no match log")); }
+
+TEST_F(LogReader, OtherFilesAreNotMatchLogs) {
+  std::ofstream(path("garbage.db")) << std::string(8192, 'x');
+  std::ofstream(path("empty.db")).close();
+  SQLite::Database(path("other.db").string(), SQLite::OPEN_CREATE | SQLite::OPEN_READWRITE).exec("CREATE TABLE t (a)");
+  for (const char* const name : {"garbage.db", "empty.db", "other.db"}) {
+    EXPECT_THAT(message_of_opening(name), HasSubstr("is not a match log")) << name;
+  }
+}
+
+TEST_F(LogReader, ANewerLogIsRefusedWithBothVersions) {
+  write_log();
+  SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 2");
+  EXPECT_THAT(message_of_opening(), HasSubstr("of version 2; this program reads version 1"));
+}
+
+TEST_F(LogReader, ATruncatedLogIsDamagedWhereverItEnds) {
+  write_log(3000);
+  const auto size = std::filesystem::file_size(path());
+  const auto copy = path("short.db");
+  for (const double part : {0.95, 0.7, 0.5, 0.2, 0.05}) {
+    std::filesystem::copy_file(path(), copy, std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(copy, static_cast<std::uintmax_t>(part * static_cast<double>(size)));
+    EXPECT_THAT(message_of_opening("short.db"),
+                testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is not a match log")))
+        << part;
+  }
+}
+
+TEST_F(LogReader, ACopyWithoutItsWriteAheadLogIsWarnedAbout) {
+  Writer writer(path(), session(), options());
+  writer.push(referee_table(writer), referee_row(1));
+  writer.flush();
+  std::filesystem::copy_file(path(), path("copy.db"));
+  std::filesystem::copy_file(path("match.db-wal"), path("copy.db-wal"));
+  EXPECT_EQ(rows_of(Reader(path("copy.db")), "referee"), 1);
+  EXPECT_THAT(Reader(path("copy.db")).warnings().at(0), HasSubstr("still runs or was killed"));
+
+  std::filesystem::copy_file(path(), path("half.db"));
+  const Reader half(path("half.db"));
+  EXPECT_EQ(rows_of(half, "referee"), 0);
+  EXPECT_THAT(half.warnings().at(0), HasSubstr("no -wal file lies beside the log"));
+}
+
+TEST_F(LogReader, NeverWrites) {
+  write_log();
+  const Reader reader(path());
+  EXPECT_THROW(reader.query("DELETE FROM referee", [](std::span<const Value>) {}), std::runtime_error);
+  EXPECT_EQ(rows_of(reader, "referee"), 1);
+}
+
+TEST_F(LogReader, UnknownTablesAndColumnsAreNamed) {
+  write_log();
+  const Reader reader(path());
+  const auto nothing = [](std::span<const Value>) {};
+  EXPECT_THROW(reader.for_each_row("wheels", {"seq"}, nothing), std::runtime_error);
+  EXPECT_THROW(reader.for_each_row("referee", {"whistle"}, nothing), std::runtime_error);
+  EXPECT_THROW(reader.query("SELECT whistle FROM referee", nothing), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace trivela::evaluator

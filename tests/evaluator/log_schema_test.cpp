@@ -1,0 +1,130 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <array>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "evaluator/log/digest.hpp"
+#include "tests/evaluator/log_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+// CREATE TABLE statements of the schema's source with their comments.
+std::vector<std::string> tables_in_source() {
+  std::ifstream file(TRIVELA_SOURCE_DIR "/evaluator/log/schema.sql");
+  std::vector<std::string> tables;
+  std::string line;
+  bool inside = false;
+  while (std::getline(file, line)) {
+    if (line.starts_with("CREATE TABLE")) {
+      inside = true;
+      tables.emplace_back();
+    }
+    if (inside) tables.back() += line + "\n";
+    if (line.starts_with(")")) inside = false;
+  }
+  return tables;
+}
+
+TEST(Schema, EveryTableAndEveryColumnHasAComment) {
+  const std::regex start_of_column(R"(^  [a-z_0-9]+ (INTEGER|REAL|TEXT)\b)");
+  int columns = 0;
+  for (const std::string& table : tables_in_source()) {
+    std::istringstream lines(table);
+    std::vector<std::string> definitions;  // the table's head, then its columns, some of several lines
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("  PRIMARY KEY")) break;
+      if (definitions.empty() || std::regex_search(line, start_of_column)) definitions.emplace_back();
+      definitions.back() += line;
+    }
+    for (const std::string& definition : definitions) {
+      EXPECT_TRUE(std::regex_search(definition, std::regex(" -- .*[a-z0-9]"))) << definition;
+    }
+    columns += static_cast<int>(definitions.size()) - 1;
+  }
+  EXPECT_GT(columns, 150);
+}
+
+TEST(Schema, EveryTableIsStrictWithoutRowidAndKeyedBySession) {
+  const auto tables = tables_in_source();
+  EXPECT_EQ(tables.size(), 17u);
+  for (const std::string& table : tables) {
+    EXPECT_NE(table.find(") STRICT, WITHOUT ROWID;"), std::string::npos) << table;
+    EXPECT_NE(table.find("session_id INTEGER NOT NULL"), std::string::npos) << table;
+    EXPECT_TRUE(std::regex_search(table, std::regex(R"(PRIMARY KEY( \(session_id|,))"))) << table;
+  }
+}
+
+// Fields of the struct `name` in the IDL, arrays and strings left out.
+std::set<std::string> fields_of(const std::string& file, const std::string& name) {
+  std::ifstream idl(TRIVELA_SOURCE_DIR "/idl/" + file);
+  std::string line;
+  bool inside = false;
+  std::set<std::string> fields;
+  const std::regex field(R"(^\s+(@[a-z]+(\("[^"]*"\))? )*[A-Za-z0-9]+ ([a-z_0-9]+);)");
+  std::smatch match;
+  while (std::getline(idl, line)) {
+    if (line.find("struct " + name + " ") != std::string::npos) inside = true;
+    if (inside && std::regex_search(line, match, field)) fields.insert(match[3]);
+    if (line.find("};") != std::string::npos) inside = false;
+  }
+  return fields;
+}
+
+TEST(Schema, ColumnsAreTheFieldsOfTheMessages) {
+  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE);
+  std::ifstream schema(TRIVELA_SOURCE_DIR "/evaluator/log/schema.sql");
+  database.exec(std::string(std::istreambuf_iterator<char>(schema), {}));
+  const std::vector<std::array<std::string, 3>> pairs = {{"odometry", "robot.idl", "Odometry"},
+                                                         {"vision_frames", "robot.idl", "VisionFrame"},
+                                                         {"flight_frames", "robot.idl", "FlightFrame"},
+                                                         {"referee", "robot.idl", "Referee"},
+                                                         {"world_states", "robot.idl", "WorldState"},
+                                                         {"drive_commands", "robot.idl", "DriveCommand"},
+                                                         {"kicker_status", "kick.idl", "KickerStatus"},
+                                                         {"kick_decisions", "kick.idl", "KickDecision"},
+                                                         {"shadow_decisions", "kick.idl", "ShadowDecision"},
+                                                         {"kick_orders", "kick.idl", "KickOrder"},
+                                                         {"kick_receipts", "kick.idl", "KickReceipt"},
+                                                         {"kick_outcomes", "kick.idl", "KickOutcome"},
+                                                         {"kick_truths", "sim.idl", "KickTruth"},
+                                                         {"possession_truths", "sim.idl", "PossessionTruth"}};
+  for (const auto& [table, file, type] : pairs) {
+    std::set<std::string> columns;
+    SQLite::Statement query(database, "SELECT name FROM pragma_table_info('" + table + "')");
+    while (query.executeStep()) columns.insert(query.getColumn(0).getString());
+    columns.erase("session_id");
+    if (table == "shadow_decisions") {
+      for (const char* const key : {"robot_id", "seq", "shadow_index"}) columns.erase(key);
+    }
+    EXPECT_EQ(columns, fields_of(file, type)) << table;
+  }
+}
+
+TEST(Digest, Sha256OfThePublishedExamples) {
+  EXPECT_EQ(log::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(log::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(Digest, UuidsAreOfVersionFourAndDiffer) {
+  const std::regex form("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
+  const std::string one = log::make_uuid();
+  EXPECT_TRUE(std::regex_match(one, form)) << one;
+  EXPECT_NE(one, log::make_uuid());
+}
+
+TEST(Digest, SessionIdIsTheFirst63BitsOfTheUuid) {
+  EXPECT_EQ(log::session_id_of("00000000-0000-0003-8000-000000000000"), 1);
+  EXPECT_EQ(log::session_id_of("ffffffff-ffff-ffff-8000-000000000000"), INT64_MAX);
+  for (const char* const wrong :
+       {"", "no", "0000000000000003800000000000000000000", "00000000-0000-000g-8000-000000000000",
+        "00000000-0000-0003-8000-00000000000-", "+0000000-0000-0003-8000-000000000000"}) {
+    EXPECT_THROW(log::session_id_of(wrong), std::runtime_error) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
