@@ -16,7 +16,8 @@ struct KickerSample {
   KickerFault fault = KickerFault::kNone;
 };
 
-/// The kicker: its state in, kicks out. One thread at a time.
+/// The kicker: its state in, kicks out. read() is for one thread at a time,
+/// the commands for another.
 class Kicker {
  public:
   /// Makes the kicker safe.

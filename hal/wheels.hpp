@@ -17,7 +17,8 @@ struct WheelSample {
   std::optional<double> gyro_radps;     ///< counter-clockwise
 };
 
-/// The base: wheel speeds in, set-points out. One thread at a time.
+/// The base: wheel speeds in, set-points out. read() is for one thread at a time,
+/// the commands for another.
 class Wheels {
  public:
   /// Leaves the base at a set-point of zero.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "hal/kicker.hpp"
+#include "hal/replay/row_pages.hpp"
+
+namespace trivela::hal {
+
+/// The kicker samples of a match log (table kicker_status), as fast as they are read. Nothing is energised. `armed` is
+/// as recorded, which is the arm switch while the game was on.
+class ReplayKicker final : public Kicker {
+ public:
+  explicit ReplayKicker(const ReplayLog& log);
+
+  /// Never waits.
+  std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
+  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void make_safe() noexcept override { safe_ = true; }
+  bool ended() const override { return rows_.peek() == nullptr; }
+
+  struct Fire {
+    std::int64_t t_ns;
+    std::int64_t kick_id;
+    double power;
+  };
+  /// What would have been energised so far. For the thread that calls fire().
+  const std::vector<Fire>& fires() const { return fires_; }
+
+ private:
+  RowPages rows_;
+  std::vector<Fire> fires_;
+  std::atomic<bool> safe_ = false;
+};
+
+}  // namespace trivela::hal

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "hal/replay/row_pages.hpp"
+#include "hal/wheels.hpp"
+
+namespace trivela::hal {
+
+/// The wheel samples of a match log (table odometry), as fast as they are read. Nothing moves.
+class ReplayWheels final : public Wheels {
+ public:
+  explicit ReplayWheels(const ReplayLog& log);
+
+  /// Never waits. A row without any wheel, which no base sends, ends the replay as a std::runtime_error.
+  std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
+  void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
+  bool ended() const override { return rows_.peek() == nullptr; }
+
+  struct Drive {
+    std::int64_t t_ns;
+    kicking::Twist set_point;
+  };
+  /// What was asked of the base so far. For the thread that calls drive().
+  const std::vector<Drive>& drives() const { return drives_; }
+
+ private:
+  RowPages rows_;
+  std::vector<Drive> drives_;
+};
+
+}  // namespace trivela::hal

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "bus/reader.hpp"
+
+namespace trivela::hal {
+
+/// The robot's latest sample that is newer than `after_t_ns`, waiting up to the timeout for it. Samples of other robots
+/// and older ones are passed over. `after_t_ns` then is the sample's instant.
+template <class T>
+std::optional<T> read_newer(bus::Reader<T>& reader, std::uint8_t robot_id, std::optional<std::int64_t>& after_t_ns,
+                            std::chrono::nanoseconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    std::optional<T> newest;
+    reader.take([&](const T& sample) {
+      if (sample.robot_id != robot_id || (after_t_ns && sample.t_ns <= *after_t_ns)) return;
+      newest = sample;
+      after_t_ns = sample.t_ns;
+    });
+    if (newest) return newest;
+    const auto left = deadline - std::chrono::steady_clock::now();
+    if (left <= left.zero() || !reader.wait(left)) return std::nullopt;
+  }
+}
+
+}  // namespace trivela::hal

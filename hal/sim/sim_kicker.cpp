@@ -1,0 +1,46 @@
+#include "hal/sim/sim_kicker.hpp"
+
+#include "hal/sim/read_newer.hpp"
+
+namespace trivela::hal {
+namespace {
+
+KickerFault fault_of(msg::KickerFault fault) {
+  switch (fault) {
+    case msg::FAULT_NONE:
+      return KickerFault::kNone;
+    case msg::FAULT_CHARGER:
+      return KickerFault::kCharger;
+    case msg::FAULT_COIL:
+      return KickerFault::kCoil;
+    default:
+      return KickerFault::kLink;
+  }
+}
+
+}  // namespace
+
+SimKicker::SimKicker(const bus::Participant& participant, std::uint8_t robot_id)
+    : robot_id_(robot_id),
+      samples_(participant),
+      // The simulated coil hears one driver, however long that says nothing.
+      fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
+
+std::optional<KickerSample> SimKicker::read(std::chrono::nanoseconds timeout) {
+  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
+  if (!received) return std::nullopt;
+  return KickerSample{received->t_ns, received->charge, received->armed, fault_of(received->fault)};
+}
+
+void SimKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
+  if (safe_) return;
+  msg::SimFire order{};
+  order.robot_id = robot_id_;
+  order.seq = ++fire_seq_;
+  order.t_ns = t_ns;
+  order.kick_id = kick_id;
+  order.power = power;
+  fires_.write(order);
+}
+
+}  // namespace trivela::hal

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "bus/messages.hpp"
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "hal/kicker.hpp"
+
+namespace trivela::hal {
+
+/// The kicker of a simulated robot: sim/kicker in, sim/fire out.
+class SimKicker final : public Kicker {
+ public:
+  /// Throws bus::Error if the bus refuses.
+  SimKicker(const bus::Participant& participant, std::uint8_t robot_id);
+  ~SimKicker() override { make_safe(); }
+  SimKicker(const SimKicker&) = delete;
+  SimKicker& operator=(const SimKicker&) = delete;
+
+  std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
+  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void make_safe() noexcept override { safe_ = true; }
+  bool ended() const override { return false; }
+
+ private:
+  std::uint8_t robot_id_;
+  bus::Reader<msg::SimKicker> samples_;
+  bus::Writer<msg::SimFire> fires_;
+  std::optional<std::int64_t> read_t_ns_;
+  std::uint64_t fire_seq_ = 0;
+  std::atomic<bool> safe_ = false;
+};
+
+}  // namespace trivela::hal

@@ -1,0 +1,49 @@
+#include "hal/sim/sim_wheels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "hal/sim/read_newer.hpp"
+
+namespace trivela::hal {
+
+SimWheels::SimWheels(const bus::Participant& participant, std::uint8_t robot_id)
+    : robot_id_(robot_id), samples_(participant), drives_(participant) {}
+
+SimWheels::~SimWheels() {
+  try {
+    drive({}, drive_t_ns_);
+  } catch (const std::exception&) {
+    // The bus is gone, and the simulated motors with it.
+  }
+}
+
+std::optional<WheelSample> SimWheels::read(std::chrono::nanoseconds timeout) {
+  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
+  if (!received) return std::nullopt;
+  WheelSample sample{.t_ns = received->t_ns,
+                     .wheel_count = std::min<int>(received->wheel_count, 4),
+                     .wheel_radps = {},
+                     .gyro_radps = {}};
+  std::copy_n(std::begin(received->wheel_radps), sample.wheel_count, sample.wheel_radps.begin());
+  if (!std::isnan(received->gyro_radps)) sample.gyro_radps = received->gyro_radps;
+  return sample;
+}
+
+void SimWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
+  const bool finite =
+      std::isfinite(set_point.vx_mps) && std::isfinite(set_point.vy_mps) && std::isfinite(set_point.omega_radps);
+  const kicking::Twist twist = finite ? set_point : kicking::Twist{};
+  drive_t_ns_ = t_ns;
+  msg::SimDrive command{};
+  command.robot_id = robot_id_;
+  command.seq = ++drive_seq_;
+  command.t_ns = t_ns;
+  command.vx_mps = twist.vx_mps;
+  command.vy_mps = twist.vy_mps;
+  command.omega_radps = twist.omega_radps;
+  drives_.write(command);
+}
+
+}  // namespace trivela::hal

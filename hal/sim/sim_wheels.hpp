@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/messages.hpp"
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "hal/wheels.hpp"
+
+namespace trivela::hal {
+
+/// The base of a simulated robot: sim/wheels in, sim/drive out. A sample that was not read before the next arrived is
+/// gone, as with a device register.
+class SimWheels final : public Wheels {
+ public:
+  /// Throws bus::Error if the bus refuses.
+  SimWheels(const bus::Participant& participant, std::uint8_t robot_id);
+  ~SimWheels() override;
+  SimWheels(const SimWheels&) = delete;
+  SimWheels& operator=(const SimWheels&) = delete;
+
+  std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
+  void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
+  bool ended() const override { return false; }
+
+ private:
+  std::uint8_t robot_id_;
+  bus::Reader<msg::SimWheels> samples_;
+  bus::Writer<msg::SimDrive> drives_;
+  std::optional<std::int64_t> read_t_ns_;
+  std::uint64_t drive_seq_ = 0;
+  std::int64_t drive_t_ns_ = 0;
+};
+
+}  // namespace trivela::hal
