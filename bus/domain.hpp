@@ -17,7 +17,8 @@ struct DomainConfig {
 };
 
 /// config/cyclonedds/loopback.xml as built in: this machine alone, and of it only those with the same domain and tag.
-/// Ignores the environment. Throws Error if the id is outside 0..100 or the tag has other characters than [A-Za-z0-9._-].
+/// Ignores the environment. Throws Error if the id is outside 0..100 or the tag has other characters than
+/// [A-Za-z0-9._-].
 DomainConfig loopback(std::uint32_t domain_id, std::string_view tag);
 
 /// The configuration in a Cyclone XML file. Throws Error if the id is outside 0..100 or the file cannot be read.

@@ -30,7 +30,8 @@ std::shared_ptr<const Domain> join(const DomainConfig& config) {
   auto domain = std::make_shared<Domain>();
   domain->config = config;
   if (!config.xml.empty())
-    domain->entity = Entity(checked(dds_create_domain(config.domain_id, config.xml.c_str()), "dds_create_domain", about));
+    domain->entity =
+        Entity(checked(dds_create_domain(config.domain_id, config.xml.c_str()), "dds_create_domain", about));
   domains[config.domain_id] = domain;
   return domain;
 }

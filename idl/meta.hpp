@@ -59,8 +59,8 @@ concept Enumeration = requires {
 /// Calls f(name, unit, field) for each field of the message in the order of the IDL. Arrays come as arrays, enums as
 /// enums, nested structs as structs. A non-const message gives fields that may be written.
 template <class T, class F>
-requires Struct<T>
-constexpr void visit_fields(T& message, F&& f) { meta<std::remove_const_t<T>>::visit(message, f); }
+requires Struct<std::remove_reference_t<T>>
+constexpr void visit_fields(T&& message, F&& f) { meta<std::remove_cvref_t<T>>::visit(message, f); }
 
 /// The names of T's fields in the order of the IDL.
 template <Struct T>

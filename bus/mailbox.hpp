@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "bus/error.hpp"
+#include "bus/reaction_scope.hpp"
+#include "bus/reader.hpp"
+#include "bus/waitset.hpp"
+
+namespace trivela::bus {
+
+/// The latest sample of a topic, for whoever looks: nothing is called when one arrives. May be used from several
+/// threads; a waiting one keeps the others out.
+template <Message T>
+class Mailbox {
+ public:
+  /// With a robot_id only that robot's samples count. The interrupt, if given, ends waits once it is set.
+  explicit Mailbox(const Participant& participant, std::optional<std::uint8_t> robot_id = {},
+                   const ReaderOptions& options = {}, std::shared_ptr<const Guard> interrupt = nullptr)
+      : reader_(participant, options), robot_id_(robot_id), interrupt_(std::move(interrupt)), waitset_(participant) {
+    waitset_.attach(reader_.condition(), 0);
+    if (interrupt_) waitset_.attach(interrupt_->condition(), 1);
+  }
+
+  /// The sample that arrived last, if any did.
+  std::optional<T> latest() {
+    const std::lock_guard lock(mutex_);
+    take();
+    return latest_;
+  }
+
+  /// The first sample seen with t_ns at or after the given, waiting up to the timeout for it; none if the timeout or
+  /// the interrupt came first. In a listener, which must not wait, throws Error if it has not arrived yet.
+  std::optional<T> await(std::int64_t t_ns, std::chrono::nanoseconds timeout) {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    const std::lock_guard lock(mutex_);
+    for (;;) {
+      take();
+      if (latest_ && latest_->t_ns >= t_ns) return latest_;
+      if (interrupt_ && interrupt_->is_set()) return std::nullopt;
+      if (ReactionScope::in_listener())
+        throw Error("await", reader_.topic(), "would block the thread that delivers samples: use Executor::kWaitset");
+      const auto left = deadline - std::chrono::steady_clock::now();
+      if (left <= left.zero()) return std::nullopt;
+      waitset_.wait(left);
+    }
+  }
+
+  AnyReader& reader() { return reader_; }
+
+ private:
+  void take() {
+    reader_.take([this](const T& sample) {
+      if (!robot_id_ || sample.robot_id == *robot_id_) latest_ = sample;
+    });
+  }
+
+  std::mutex mutex_;
+  Reader<T> reader_;
+  std::optional<std::uint8_t> robot_id_;
+  std::shared_ptr<const Guard> interrupt_;
+  Waitset waitset_;
+  std::optional<T> latest_;
+};
+
+}  // namespace trivela::bus

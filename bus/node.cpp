@@ -1,0 +1,27 @@
+#include "bus/node.hpp"
+
+#include <fmt/core.h>
+
+namespace trivela::bus {
+
+Node::Node(Participant participant, std::string name, std::optional<std::uint8_t> robot_id)
+    : participant_(std::move(participant)),
+      name_(std::move(name)),
+      robot_id_(robot_id),
+      interrupt_(std::make_shared<Guard>(participant_)) {}
+
+std::string Node::owner() const { return robot_id_ ? fmt::format("{}/{}", name_, *robot_id_) : name_; }
+
+Node::Slot& Node::add(const std::string& what, std::string input, std::vector<std::string> outputs) {
+  auto& slot = slots_.emplace_back(std::make_unique<Slot>());
+  slot->reaction = {name_ + "/" + what, std::move(input), std::move(outputs)};
+  return *slot;
+}
+
+std::vector<Reaction> Node::reactions() const {
+  std::vector<Reaction> reactions;
+  for (const auto& slot : slots_) reactions.push_back(slot->reaction);
+  return reactions;
+}
+
+}  // namespace trivela::bus

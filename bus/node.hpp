@@ -1,0 +1,137 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/graph.hpp"
+#include "bus/mailbox.hpp"
+#include "bus/messages.hpp"
+#include "bus/reaction_scope.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+
+namespace trivela::bus {
+
+/// The topics of messages, for declaring what a reaction writes: writes<msg::Odometry, msg::StepDone>().
+template <Message... Out>
+std::vector<std::string> writes() {
+  return {std::string(meta<Out>::topic)...};
+}
+
+/// A node's writer, to be copied into its reactions.
+template <Message T>
+class Output {
+ public:
+  explicit Output(std::shared_ptr<Writer<T>> writer) : writer_(std::move(writer)) {}
+
+  /// Throws Error if Cyclone refuses, or if it is called in a reaction that does not declare that it writes T.
+  void write(const T& sample) const {
+    check_declared(writer_->topic());
+    writer_->write(sample);
+  }
+
+  void assert_liveliness() const { writer_->assert_liveliness(); }
+  std::size_t readers() const { return writer_->readers(); }
+  bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
+    return writer_->wait_for_readers(n, timeout);
+  }
+
+  /// Whether another node of the same name and robot writes T, looking for up to the timeout.
+  bool other_writer_exists(std::chrono::nanoseconds timeout) const { return writer_->other_writer_exists(timeout); }
+
+ private:
+  std::shared_ptr<Writer<T>> writer_;
+};
+
+/// A named set of reactions to samples and devices. It says what shall happen; an Executor makes it happen.
+///
+/// A reaction never runs twice at once, but two reactions of a node may: a device has a thread of its own, and in
+/// listeners every topic comes in its writer's thread. What they share belongs behind the node's own mutex.
+class Node {
+ public:
+  /// With a robot_id the node's reactions and mailboxes see that robot's samples only.
+  Node(Participant participant, std::string name, std::optional<std::uint8_t> robot_id = {});
+
+  /// The node's writer of T; owner is set to "name/robot_id".
+  template <Message T>
+  Output<T> writer(WriterOptions options = {}) {
+    options.owner = owner();
+    return Output<T>(std::make_shared<Writer<T>>(participant_, options));
+  }
+
+  /// T is merely kept when it arrives. Waits in the mailbox end when the executor stops.
+  template <Message T>
+  std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}) {
+    stored_.emplace_back(meta<T>::topic);
+    return std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+  }
+
+  /// Calls react(sample) or react(sample, info) for each T that arrives; react may write the declared outputs only.
+  template <Message T, class F>
+  void on(F react, std::vector<std::string> outputs = {}, const ReaderOptions& options = {}) {
+    Slot& slot = add(std::string(meta<T>::topic), std::string(meta<T>::topic), std::move(outputs));
+    slot.open = [this, options](AnyReader::DataListener listener, void* context) -> std::unique_ptr<AnyReader> {
+      return std::make_unique<Reader<T>>(participant_, options, listener, context);
+    };
+    slot.take = [react = std::move(react), robot_id = robot_id_](AnyReader& reader) mutable {
+      static_cast<Reader<T>&>(reader).take([&](const T& sample, const SampleInfo& info) {
+        if (robot_id && sample.robot_id != *robot_id) return;
+        if constexpr (std::is_invocable_v<F&, const T&, const SampleInfo&>)
+          react(sample, info);
+        else
+          react(sample);
+      });
+    };
+  }
+
+  /// Calls react(value) for each value of a device, in a thread of its own. The source,
+  /// std::optional<Value>(std::chrono::nanoseconds timeout), waits for the next value no longer than the timeout.
+  template <class Source, class F>
+  void on_device(std::string device, Source source, F react, std::vector<std::string> outputs = {}) {
+    Slot& slot = add(device, "device:" + device, std::move(outputs));
+    slot.poll = [source = std::move(source), react = std::move(react)](std::chrono::nanoseconds timeout) mutable {
+      if (auto value = source(timeout)) react(*value);
+    };
+  }
+
+  /// What was declared: the node's part of the graph.
+  std::vector<Reaction> reactions() const;
+
+  /// The topics that are merely stored.
+  const std::vector<std::string>& stored() const { return stored_; }
+
+  const std::string& name() const { return name_; }
+  const Participant& participant() const { return participant_; }
+
+ private:
+  friend class Executor;
+
+  // A reaction with what runs it: open and take for a topic, poll for a device.
+  struct Slot {
+    Reaction reaction;
+    std::function<std::unique_ptr<AnyReader>(AnyReader::DataListener, void*)> open;
+    std::function<void(AnyReader&)> take;
+    std::function<void(std::chrono::nanoseconds)> poll;
+    std::unique_ptr<AnyReader> reader;
+    std::mutex running;
+    class Executor* executor = nullptr;
+  };
+
+  std::string owner() const;
+  Slot& add(const std::string& what, std::string input, std::vector<std::string> outputs);
+
+  Participant participant_;
+  std::string name_;
+  std::optional<std::uint8_t> robot_id_;
+  std::shared_ptr<Guard> interrupt_;
+  std::vector<std::unique_ptr<Slot>> slots_;
+  std::vector<std::string> stored_;
+};
+
+}  // namespace trivela::bus

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace trivela::bus {
+
+/// What a writer adds to its topic's profile.
+struct WriterOptions {
+  /// Nominal period; a state topic then promises a deadline of three of them.
+  std::optional<std::chrono::nanoseconds> period = {};
+  /// Order topics: how long the writer counts as alive after its last write or assert_liveliness().
+  std::chrono::nanoseconds lease = std::chrono::milliseconds(100);
+  /// Order topics: of several live writers of one robot only the strongest is heard (hot standby).
+  std::int32_t strength = 0;
+  /// Who writes, e.g. "kicker_driver/1"; other_writer_exists() looks for it.
+  std::string owner = {};
+};
+
+/// Live and lapsed writers that a reader is matched with.
+struct Liveliness {
+  std::uint32_t alive = 0;
+  std::uint32_t lapsed = 0;
+};
+
+/// What a reader adds to its topic's profile.
+struct ReaderOptions {
+  /// Nominal period; a state topic then demands a deadline of three of them and matches only writers that promise it.
+  std::optional<std::chrono::nanoseconds> period = {};
+  /// Keep every sample until it is taken (the recorder); else as many as the profile says.
+  bool keep_all = false;
+  /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write.
+  std::function<void(const Liveliness&)> on_liveliness = {};
+};
+
+}  // namespace trivela::bus

@@ -1,0 +1,26 @@
+// The three profiles as Cyclone's QoS; for bus/ and its tests.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <memory>
+
+#include "bus/options.hpp"
+#include "idl/meta.hpp"
+
+namespace trivela::bus {
+
+struct DeleteQos {
+  void operator()(dds_qos_t* qos) const noexcept { dds_delete_qos(qos); }
+};
+using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
+
+/// How many samples of each robot an event topic keeps.
+inline constexpr std::int32_t kEventDepth = 50;
+/// After this long without a sign of life a writer of a state or event topic is gone.
+inline constexpr dds_duration_t kAutomaticLease = DDS_SECS(1);
+
+Qos writer_qos(Profile profile, const WriterOptions& options);
+Qos reader_qos(Profile profile, const ReaderOptions& options);
+
+}  // namespace trivela::bus

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "bus/entity.hpp"
+#include "bus/options.hpp"
+#include "bus/participant.hpp"
+#include "bus/waitset.hpp"
+#include "idl/meta.hpp"
+
+namespace trivela::bus {
+
+/// What comes with a sample.
+struct SampleInfo {
+  std::int64_t source_t_ns = 0;  // the writer's real-time clock when it was written
+  std::uint64_t writer = 0;      // tells the writers of a topic apart
+};
+
+/// Counts since the reader was made.
+struct ReaderCounts {
+  std::uint32_t lost = 0;             // samples that Cyclone knows it did not deliver
+  std::uint32_t deadline_missed = 0;  // periods without the sample that was demanded
+  std::uint32_t incompatible = 0;     // writers that were turned away because their QoS does not fit
+};
+
+/// What all readers share; read a topic through Reader<T>.
+class AnyReader {
+ public:
+  using DataListener = void (*)(void* context) noexcept;
+
+  AnyReader(AnyReader&&) = default;
+
+  /// Waits until there is something to take; false if the timeout came first. For one thread at a time.
+  bool wait(std::chrono::nanoseconds timeout);
+
+  /// Waits until at least n writers are matched; false if the timeout came first.
+  bool wait_for_writers(std::size_t n, std::chrono::nanoseconds timeout);
+
+  /// How many writers are matched now.
+  std::size_t writers() const;
+
+  Liveliness liveliness() const;
+  ReaderCounts counts() const;
+  const std::string& topic() const { return topic_; }
+
+  /// Cyclone's handle of the reader and of "there is something to take"; for bus/ alone.
+  std::int32_t handle() const { return reader_.handle(); }
+  std::int32_t condition() const { return condition_.handle(); }
+
+ protected:
+  using Sink = void (*)(void* context, const void* sample, const SampleInfo& info);
+
+  AnyReader(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
+            Profile profile, const ReaderOptions& options, DataListener listener, void* context);
+  std::size_t take_raw(Sink sink, void* context);
+
+ private:
+  struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
+  struct DeleteCallbacks {
+    void operator()(Callbacks* callbacks) const noexcept;
+  };
+
+  Participant participant_;
+  std::string topic_;
+  std::unique_ptr<Callbacks, DeleteCallbacks> callbacks_;
+  Entity topic_entity_;
+  Entity reader_;
+  Entity condition_;
+  std::unique_ptr<Waitset> waitset_;
+};
+
+/// Receives T from its topic with its profile.
+template <Message T>
+class Reader : public AnyReader {
+ public:
+  /// The listener is called with the context in the thread that brings a sample: Cyclone's receive thread, or a
+  /// writer's in this process. Throws Error if Cyclone refuses.
+  explicit Reader(const Participant& participant, const ReaderOptions& options = {}, DataListener listener = nullptr,
+                  void* context = nullptr)
+      : AnyReader(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, options, listener, context) {}
+
+  /// Hands everything that has arrived to f(sample, info) or f(sample) and returns how many samples that were. An
+  /// exception of f passes through; what was taken with its sample is gone.
+  template <class F>
+  std::size_t take(F&& f) {
+    return take_raw(
+        [](void* context, const void* sample, const SampleInfo& info) {
+          auto& call = *static_cast<std::remove_reference_t<F>*>(context);
+          if constexpr (std::is_invocable_v<F&, const T&, const SampleInfo&>)
+            call(*static_cast<const T*>(sample), info);
+          else
+            call(*static_cast<const T*>(sample));
+        },
+        const_cast<void*>(static_cast<const void*>(&f)));
+  }
+};
+
+}  // namespace trivela::bus

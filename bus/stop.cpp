@@ -1,0 +1,66 @@
+#include "bus/stop.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+#include "bus/error.hpp"
+
+namespace trivela::bus {
+namespace {
+
+std::atomic<Stop*> g_stop = nullptr;
+struct sigaction g_old_term, g_old_int;
+static_assert(std::atomic<Stop*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+void on_signal(int) {
+  const int saved = errno;
+  if (Stop* stop = g_stop.load()) stop->request();
+  errno = saved;
+}
+
+}  // namespace
+
+Stop::Stop() : event_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (event_ < 0) throw Error("eventfd", "stop", std::strerror(errno));
+}
+
+Stop::~Stop() { close(event_); }
+
+void Stop::request() noexcept {
+  requested_.store(true, std::memory_order_release);
+  const std::uint64_t one = 1;
+  // Can fail only if it was requested before, and then it is readable already.
+  [[maybe_unused]] const auto written = write(event_, &one, sizeof one);
+}
+
+void Stop::wait() const {
+  pollfd event{event_, POLLIN, 0};
+  while (!requested()) {
+    if (poll(&event, 1, -1) < 0 && errno != EINTR) throw Error("poll", "stop", std::strerror(errno));
+  }
+}
+
+StopOnSignals::StopOnSignals(Stop& stop) {
+  [[maybe_unused]] Stop* before = g_stop.exchange(&stop);
+  assert(before == nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGTERM, &action, &g_old_term);
+  sigaction(SIGINT, &action, &g_old_int);
+}
+
+StopOnSignals::~StopOnSignals() {
+  sigaction(SIGTERM, &g_old_term, nullptr);
+  sigaction(SIGINT, &g_old_int, nullptr);
+  g_stop.store(nullptr);
+}
+
+}  // namespace trivela::bus

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <atomic>
+
+namespace trivela::bus {
+
+/// A request to stop, made once, from any thread or from a signal handler.
+class Stop {
+ public:
+  Stop();
+  Stop(const Stop&) = delete;
+  Stop& operator=(const Stop&) = delete;
+  ~Stop();
+
+  /// Async-signal-safe.
+  void request() noexcept;
+  bool requested() const noexcept { return requested_.load(std::memory_order_acquire); }
+
+  /// Blocks until it is requested.
+  void wait() const;
+
+  /// Readable once it is requested, for poll().
+  int file_descriptor() const noexcept { return event_; }
+
+ private:
+  int event_;
+  std::atomic<bool> requested_ = false;
+};
+
+/// While it lives, SIGTERM and SIGINT request the stop. One at a time in a process; restores what was there before.
+class StopOnSignals {
+ public:
+  explicit StopOnSignals(Stop& stop);
+  StopOnSignals(const StopOnSignals&) = delete;
+  StopOnSignals& operator=(const StopOnSignals&) = delete;
+  ~StopOnSignals();
+};
+
+}  // namespace trivela::bus

@@ -1,0 +1,88 @@
+#include "bus/writer.hpp"
+
+#include <dds/dds.h>
+
+#include "bus/error.hpp"
+#include "bus/qos.hpp"
+#include "bus/waitset.hpp"
+
+namespace trivela::bus {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool has_owner(const dds_builtintopic_endpoint_t& endpoint, std::string_view owner) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds_qget_userdata(endpoint.qos, &data, &size)) return false;
+  const bool same = std::string_view(static_cast<const char*>(data), size) == owner;
+  dds_free(data);
+  return same;
+}
+
+}  // namespace
+
+AnyWriter::AnyWriter(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
+                     Profile profile, const WriterOptions& options)
+    : participant_(participant), topic_(topic), owner_(options.owner) {
+  topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
+                                 "dds_create_topic", topic_));
+  const Qos qos = writer_qos(profile, options);
+  writer_ = Entity(checked(dds_create_writer(participant.handle(), topic_entity_.handle(), qos.get(), nullptr),
+                           "dds_create_writer", topic_));
+  checked(dds_set_status_mask(writer_.handle(), DDS_PUBLICATION_MATCHED_STATUS), "dds_set_status_mask", topic_);
+}
+
+void AnyWriter::write_raw(const void* sample) { checked(dds_write(writer_.handle(), sample), "dds_write", topic_); }
+
+void AnyWriter::assert_liveliness() {
+  checked(dds_assert_liveliness(writer_.handle()), "dds_assert_liveliness", topic_);
+}
+
+std::size_t AnyWriter::readers() const {
+  dds_publication_matched_status_t status{};
+  checked(dds_get_publication_matched_status(writer_.handle(), &status), "dds_get_publication_matched_status", topic_);
+  return status.current_count;
+}
+
+bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
+  const auto deadline = Clock::now() + timeout;
+  Waitset waitset(participant_);
+  waitset.attach(writer_.handle(), 0);
+  // readers() clears the status that the waitset waits for, so that a match after it ends the wait.
+  while (readers() < n) {
+    const auto left = deadline - Clock::now();
+    if (left <= left.zero()) return false;
+    waitset.wait(left);
+  }
+  return true;
+}
+
+bool AnyWriter::other_writer_exists(std::chrono::nanoseconds timeout) const {
+  const auto deadline = Clock::now() + timeout;
+  dds_instance_handle_t self = 0;
+  checked(dds_get_instance_handle(writer_.handle(), &self), "dds_get_instance_handle", topic_);
+  const Entity publications(
+      checked(dds_create_reader(participant_.handle(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+              "dds_create_reader", "DCPSPublication"));
+  const Entity condition(checked(dds_create_readcondition(publications.handle(), DDS_ANY_STATE),
+                                 "dds_create_readcondition", "DCPSPublication"));
+  Waitset waitset(participant_);
+  waitset.attach(condition.handle(), 0);
+  for (;;) {
+    void* sample = nullptr;
+    dds_sample_info_t info;
+    while (checked(dds_take(publications.handle(), &sample, &info, 1, 1), "dds_take", "DCPSPublication") > 0) {
+      const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+      const bool other = info.valid_data && info.instance_state == DDS_ALIVE_INSTANCE_STATE &&
+                         info.instance_handle != self && topic_ == endpoint.topic_name && has_owner(endpoint, owner_);
+      checked(dds_return_loan(publications.handle(), &sample, 1), "dds_return_loan", "DCPSPublication");
+      if (other) return true;
+    }
+    const auto left = deadline - Clock::now();
+    if (left <= left.zero()) return false;
+    waitset.wait(left);
+  }
+}
+
+}  // namespace trivela::bus

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "bus/entity.hpp"
+#include "bus/options.hpp"
+#include "bus/participant.hpp"
+#include "idl/meta.hpp"
+
+namespace trivela::bus {
+
+/// What all writers share; write to a topic through Writer<T>. May be used from several threads at once.
+class AnyWriter {
+ public:
+  AnyWriter(AnyWriter&&) = default;
+
+  /// Says "still here" for an order topic without an order. A writer that has lapsed returns with its next write only.
+  void assert_liveliness();
+
+  /// How many readers are matched now.
+  std::size_t readers() const;
+
+  /// Waits until at least n readers are matched; false if the timeout came first.
+  bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const;
+
+  /// Whether another writer of this topic carries the same WriterOptions::owner, looking for up to the timeout.
+  bool other_writer_exists(std::chrono::nanoseconds timeout) const;
+
+  const std::string& topic() const { return topic_; }
+
+  /// Cyclone's handle, for bus/ alone.
+  std::int32_t handle() const { return writer_.handle(); }
+
+ protected:
+  AnyWriter(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
+            Profile profile, const WriterOptions& options);
+  void write_raw(const void* sample);
+
+ private:
+  Participant participant_;
+  std::string topic_;
+  std::string owner_;
+  Entity topic_entity_;
+  Entity writer_;
+};
+
+/// Publishes T on its topic with its profile. Never blocks: no profile lets a writer keep all.
+template <Message T>
+class Writer : public AnyWriter {
+ public:
+  /// Throws Error if Cyclone refuses.
+  explicit Writer(const Participant& participant, const WriterOptions& options = {})
+      : AnyWriter(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, options) {}
+
+  /// Readers in this process that run in listeners run to completion in here. Throws Error if Cyclone refuses.
+  void write(const T& sample) { write_raw(&sample); }
+};
+
+}  // namespace trivela::bus

@@ -1,0 +1,55 @@
+#include "bus/stop.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <thread>
+
+namespace trivela::bus {
+namespace {
+
+TEST(Stop, WaitReturnsOnceItIsRequested) {
+  Stop stop;
+  EXPECT_FALSE(stop.requested());
+  std::thread requester([&] { stop.request(); });
+  stop.wait();
+  requester.join();
+  EXPECT_TRUE(stop.requested());
+  stop.request();
+  stop.wait();  // stays requested
+}
+
+TEST(Stop, ASignalRequestsItFromItsHandler) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Stop stop;
+    {
+      const StopOnSignals on_signals(stop);
+      raise(signal);
+    }
+    EXPECT_TRUE(stop.requested());
+  }
+}
+
+TEST(Stop, ASignalWakesAThreadThatWaits) {
+  Stop stop;
+  const StopOnSignals on_signals(stop);
+  std::thread waiting([&] { stop.wait(); });
+  pthread_kill(waiting.native_handle(), SIGTERM);
+  waiting.join();
+  EXPECT_TRUE(stop.requested());
+}
+
+TEST(Stop, TheFormerHandlersComeBack) {
+  struct sigaction before {
+  }, after{};
+  sigaction(SIGTERM, nullptr, &before);
+  {
+    Stop stop;
+    const StopOnSignals on_signals(stop);
+  }
+  sigaction(SIGTERM, nullptr, &after);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+}  // namespace
+}  // namespace trivela::bus
