@@ -1,0 +1,71 @@
+#include "evaluator/stats/interval.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+namespace trivela::evaluator::stats {
+namespace {
+
+double z_of(double confidence) { return boost::math::quantile(boost::math::normal(), 0.5 * (1.0 + confidence)); }
+
+double square(double x) { return x * x; }
+
+Ratio log_interval(double value, double variance, double confidence) {
+  const double half_width = z_of(confidence) * std::sqrt(variance);
+  return {value, {value * std::exp(-half_width), value * std::exp(half_width)}};
+}
+
+}  // namespace
+
+std::optional<double> efficiency(Counts counts) {
+  if (counts.n == 0) return std::nullopt;
+  return static_cast<double>(counts.inside) / static_cast<double>(counts.n);
+}
+
+Interval wilson(Counts counts, double confidence) {
+  if (counts.n == 0) return {0.0, 1.0};
+  const double k = static_cast<double>(counts.inside);
+  const double n = static_cast<double>(counts.n);
+  const double z = z_of(confidence);
+  const double centre = k + 0.5 * z * z;
+  const double half_width = z * std::sqrt(k * (n - k) / n + 0.25 * z * z);
+  // Exact ends where rounding would miss them: the interval holds its estimate.
+  return {counts.inside == 0 ? 0.0 : std::min((centre - half_width) / (n + z * z), k / n),
+          counts.inside == counts.n ? 1.0 : std::max((centre + half_width) / (n + z * z), k / n)};
+}
+
+Interval newcombe(Counts older, Counts newer, double confidence) {
+  const auto p1 = efficiency(older);
+  const auto p2 = efficiency(newer);
+  if (!p1 || !p2) return {-1.0, 1.0};
+  const Interval w1 = wilson(older, confidence);
+  const Interval w2 = wilson(newer, confidence);
+  const double difference = *p2 - *p1;
+  return {difference - std::sqrt(square(*p2 - w2.lo) + square(w1.hi - *p1)),
+          difference + std::sqrt(square(w2.hi - *p2) + square(*p1 - w1.lo))};
+}
+
+std::optional<double> relative_gain(Counts older, Counts newer) {
+  if (older.inside == 0 || newer.n == 0) return std::nullopt;
+  return *efficiency(newer) / *efficiency(older) - 1.0;
+}
+
+std::optional<Ratio> risk_ratio(Counts older, Counts newer, double confidence) {
+  if (older.inside == 0 || newer.inside == 0) return std::nullopt;
+  const auto variance = [](Counts counts) {
+    return 1.0 / static_cast<double>(counts.inside) - 1.0 / static_cast<double>(counts.n);
+  };
+  return log_interval(*efficiency(newer) / *efficiency(older), variance(older) + variance(newer), confidence);
+}
+
+std::optional<Ratio> odds_ratio(Counts older, Counts newer, double confidence) {
+  const double a = static_cast<double>(newer.inside);
+  const double b = static_cast<double>(newer.n - newer.inside);
+  const double c = static_cast<double>(older.inside);
+  const double d = static_cast<double>(older.n - older.inside);
+  if (a == 0.0 || b == 0.0 || c == 0.0 || d == 0.0) return std::nullopt;
+  return log_interval((a / b) / (c / d), 1.0 / a + 1.0 / b + 1.0 / c + 1.0 / d, confidence);
+}
+
+}  // namespace trivela::evaluator::stats
