@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/sensor_suite.hpp"
+
+namespace trivela::sim {
+namespace {
+
+const Draws kDraws{5, 1};
+
+Opportunity standing(double x, double y, double heading) {
+  Opportunity o;
+  o.start = {x, y, heading};
+  o.opponent_distance_m = 2.0;
+  return o;
+}
+
+Scenario noiseless() {
+  Scenario s;
+  s.odometry = {0.0, 0.0, 0.0, 0.0};
+  s.vision.position_white_sd_m = s.vision.position_slow_sd_m = 0.0;
+  s.vision.heading_white_sd_rad = s.vision.heading_slow_sd_rad = 0.0;
+  s.vision.ball_sd_m = s.vision.ball_sd_ratio = s.vision.opponent_sd_m = s.vision.dropout_ratio = 0.0;
+  s.flight_camera.position_sd_m = s.flight_camera.dropout_ratio = 0.0;
+  return s;
+}
+
+/// Lets `cycles` cycles pass.
+void run(World& world, SensorSuite& suite, int cycles) {
+  for (int i = 0; i < cycles; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      world.advance_to(world.t_ns() + 1'000'000);
+      suite.remember(world);
+    }
+    suite.next_cycle();
+  }
+}
+
+TEST(Wheels, TurnByTheOmniBasesEquation) {
+  const Scenario s = noiseless();
+  World world{s};
+  SensorSuite suite{s};
+  Opportunity o = standing(0, 0, 0.7);
+  world.place(o, kDraws);
+  suite.begin(kDraws);
+  o.velocity = {0.3, 1.2, 0.9};
+  world.start_play(o);
+  const WheelSample sample = suite.wheels(world);
+  ASSERT_EQ(sample.wheel_count, 3);
+  EXPECT_NEAR(sample.wheel_radps[0], (-0.5 * 0.3 + std::sqrt(0.75) * 1.2 + 0.22 * 0.9) / 0.05, 1e-9);  // 30 degrees
+  EXPECT_NEAR(sample.wheel_radps[1], (-0.5 * 0.3 - std::sqrt(0.75) * 1.2 + 0.22 * 0.9) / 0.05, 1e-9);  // 150 degrees
+  EXPECT_NEAR(sample.wheel_radps[2], (0.3 + 0.22 * 0.9) / 0.05, 1e-9);                                 // 270 degrees
+  EXPECT_EQ(sample.wheel_radps[3], 0.0);
+  EXPECT_NEAR(sample.gyro_radps, 0.9, 1e-12);
+}
+
+TEST(Vision, ShowsTheWorldOfOneLatencyAgo) {
+  const Scenario s = noiseless();
+  World world{s};
+  SensorSuite suite{s};
+  Opportunity o = standing(1.0, 2.0, 0.0);
+  o.velocity = {0.0, 1.0, 0.0};
+  world.place(o, kDraws);
+  suite.begin(kDraws);
+  suite.remember(world);
+  EXPECT_FALSE(suite.vision(world).pose);  // exposed before the robot was there
+  EXPECT_FALSE(suite.flight(world).ball);
+  world.start_play(o);
+  run(world, suite, 10);
+  const VisionFrame frame = suite.vision(world);
+  EXPECT_EQ(frame.t_exposure_ns, 140'000'000);
+  ASSERT_TRUE(frame.pose && frame.ball && frame.opponent);
+  EXPECT_NEAR(frame.pose->y_m, 2.14, 1e-9);
+  EXPECT_NEAR(frame.ball->x_m, 0.0, 1e-9);
+  EXPECT_NEAR(frame.ball->y_m, 0.27, 1e-9);
+  EXPECT_NEAR(frame.opponent->y_m, 2.27, 1e-9);
+  const FlightFrame flight = suite.flight(world);
+  EXPECT_EQ(flight.t_exposure_ns, 160'000'000);
+  ASSERT_TRUE(flight.ball);
+  EXPECT_NEAR(flight.ball->y_m, 2.16 + 0.27, 1e-9);
+  EXPECT_NEAR(flight.ball->z_m, 0.11, 1e-9);
+}
+
+TEST(Vision, LatencyMayLieBetweenSubSteps) {
+  Scenario s = noiseless();
+  s.vision.latency_s = 0.0123456;
+  World world{s};
+  SensorSuite suite{s};
+  Opportunity o = standing(1.0, 2.0, 0.0);
+  o.velocity = {0.0, 1.0, 0.0};
+  world.place(o, kDraws);
+  suite.begin(kDraws);
+  suite.remember(world);
+  world.start_play(o);
+  run(world, suite, 10);
+  EXPECT_NEAR(suite.vision(world).pose->y_m, 2.2 - 0.0123456, 1e-9);
+}
+
+TEST(Vision, HasTheNoiseThatTheScenarioNames) {
+  const Scenario s;
+  World world{s};
+  SensorSuite suite{s};
+  double squares_x = 0, squares_h = 0, ball2 = 0, product = 0, slow_variance = 0;
+  int seen = 0, missed = 0, runs = 0;
+  for (std::uint32_t opportunity = 1; opportunity <= 400; ++opportunity) {
+    const Draws draws{9, opportunity};
+    world.place(standing(1.0, 2.0, 0.4), draws);
+    suite.begin(draws);
+    suite.remember(world);
+    double first = std::nan("");
+    for (int i = 0; i < 12; ++i) {
+      run(world, suite, 1);
+      const VisionFrame frame = suite.vision(world);
+      if (i < 3) continue;
+      if (!frame.pose) {
+        ++missed;
+        continue;
+      }
+      ++seen;
+      const double error = frame.pose->x_m - 1.0;
+      squares_x += error * error;
+      squares_h += std::pow(frame.pose->heading_rad - 0.4, 2);
+      if (frame.ball) ball2 += std::pow(frame.ball->x_m, 2);
+      if (std::isnan(first)) {
+        first = error;
+      } else if (i == 11) {
+        product += first * error;
+        ++runs;
+      }
+    }
+    slow_variance = std::pow(s.vision.position_slow_sd_m, 2) * std::exp(-8 * 0.02 / 2.0);
+  }
+  EXPECT_NEAR(std::sqrt(squares_x / seen), 0.12, 0.01);
+  EXPECT_NEAR(std::sqrt(squares_h / seen), std::sqrt(2e-4), 0.001);
+  EXPECT_NEAR(std::sqrt(ball2 / seen), 0.02 + 0.02 * 0.27, 0.002);
+  EXPECT_NEAR(product / runs, slow_variance, 0.004);  // the slow part stays
+  EXPECT_NEAR(static_cast<double>(missed) / (seen + missed), 0.02, 0.01);
+}
+
+TEST(Wheels, HaveTheNoiseThatTheScenarioNames) {
+  const Scenario s;
+  World world{s};
+  SensorSuite suite{s};
+  double white2 = 0, gyro2 = 0;
+  int count = 0;
+  for (std::uint32_t opportunity = 1; opportunity <= 1000; ++opportunity, ++count) {
+    const Draws draws{9, opportunity};
+    world.place(standing(0, 0, 0), draws);
+    suite.begin(draws);
+    const WheelSample sample = suite.wheels(world);
+    white2 += sample.wheel_radps[1] * sample.wheel_radps[1];
+    gyro2 += sample.gyro_radps * sample.gyro_radps;
+  }
+  EXPECT_NEAR(std::sqrt(white2 / count), 0.6, 0.06);
+  EXPECT_NEAR(std::sqrt(gyro2 / count), std::hypot(0.02, 0.01), 0.003);
+}
+
+TEST(Vision, DoesNotSeeABallHighAbove) {
+  const Scenario s = noiseless();
+  World world{s};
+  SensorSuite suite{s};
+  const Opportunity o = standing(0.0, 0.0, 0.0);
+  world.place(o, kDraws);
+  suite.begin(kDraws);
+  world.start_play(o);
+  world.command({.drive = {}, .fire = Fire{.t_ns = 0, .kick_id = 1, .power = 30}});
+  run(world, suite, 25);
+  ASSERT_TRUE(world.shot());
+  EXPECT_FALSE(suite.vision(world).ball);
+  ASSERT_TRUE(suite.flight(world).ball);
+  EXPECT_GT(suite.flight(world).ball->z_m, 0.4);
+}
+
+}  // namespace
+}  // namespace trivela::sim

@@ -1,0 +1,149 @@
+#include "sim/shot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/margin.hpp"
+
+namespace trivela::sim {
+namespace {
+
+using kicking::Outcome;
+
+constexpr PlanPoint kFarAway{50.0, 50.0};
+
+/// A shot without drag from (x, 3) that crosses the goal line 6 m on after one second, at the height z.
+Shot fly(const Scenario& scenario, double x_cross, double z_cross, double x_start = 0.0,
+         PlanPoint opponent = kFarAway) {
+  const double vz = z_cross - 0.11 + 0.5 * scenario.ball.gravity_mps2;
+  Shot shot{scenario, {{x_start, 3.0, 0.11}, {x_cross - x_start, 6.0, vz}}, 0};
+  for (std::int64_t t = 1; t <= 4000; ++t) shot.advance_to(t * 1'000'000, opponent);
+  return shot;
+}
+
+Scenario airless() {
+  Scenario s;
+  s.ball.drag_coefficient = 0.0;
+  return s;
+}
+
+struct Case {
+  double x, z;
+  Outcome outcome;
+  double margin;
+};
+
+TEST(Shot, IsJudgedByWhereItCrossesTheGoalLine) {
+  const Case cases[] = {{0.0, 0.5, Outcome::kOnTarget, 0.39},   {0.85, 0.5, Outcome::kOnTarget, 0.04},
+                        {-0.85, 0.8, Outcome::kOnTarget, 0.04}, {0.0, 0.85, Outcome::kOnTarget, 0.04},
+                        {0.9, 0.5, Outcome::kPost, 0.01},       {-1.2, 0.5, Outcome::kPost, 0.035},
+                        {0.3, 0.95, Outcome::kBar, 0.06},       {0.3, 1.3, Outcome::kOver, 0.065},
+                        {1.3, 0.5, Outcome::kWideRight, 0.065}, {-2.0, 2.0, Outcome::kWideLeft, 0.765}};
+  const Scenario scenario = airless();
+  for (const auto& c : cases) {
+    SCOPED_TRACE(testing::Message() << c.x << ", " << c.z);
+    const Shot shot = fly(scenario, c.x, c.z);
+    ASSERT_TRUE(shot.result());
+    EXPECT_EQ(shot.result()->outcome, c.outcome);
+    ASSERT_TRUE(shot.result()->crossing);
+    EXPECT_NEAR(shot.result()->crossing->x_m, c.x, 1e-4);
+    EXPECT_NEAR(shot.result()->crossing->z_m, c.z, 1e-4);
+    ASSERT_TRUE(shot.result()->margin_m);
+    EXPECT_NEAR(*shot.result()->margin_m, c.margin, 1e-4);
+    EXPECT_NEAR(static_cast<double>(shot.result()->t_ns), 1e9, 2e6);
+  }
+}
+
+TEST(Shot, BouncesBackFromPostAndBarAndFliesOnBehindAGoal) {
+  const Scenario scenario = airless();
+  EXPECT_LT(fly(scenario, 1.0, 0.5).ball().position_m.y, 9.0);
+  EXPECT_LT(fly(scenario, 0.0, 1.0).ball().position_m.y, 9.0);
+  EXPECT_GT(fly(scenario, 0.0, 0.5).ball().position_m.y, 9.0);
+}
+
+TEST(Shot, IsShortWhenItRestsOrTakesTooLong) {
+  Scenario scenario;
+  Shot resting{scenario, {{0.0, 0.0, 0.11}, {0.0, 0.5, 0.0}, true}, 0};
+  for (std::int64_t t = 1; t <= 2000; ++t) resting.advance_to(t * 1'000'000, kFarAway);
+  ASSERT_TRUE(resting.result());
+  EXPECT_EQ(resting.result()->outcome, Outcome::kShort);
+  EXPECT_FALSE(resting.result()->crossing);
+  EXPECT_NEAR(*resting.result()->margin_m, 9.0 - resting.ball().position_m.y, 1e-9);
+
+  Shot slow{scenario, {{0.0, 0.0, 0.11}, {0.0, 2.5, 0.0}, true}, 0};
+  for (std::int64_t t = 1; t <= 2999; ++t) slow.advance_to(t * 1'000'000, kFarAway);
+  EXPECT_FALSE(slow.result());
+  slow.advance_to(3'000'000'000, kFarAway);
+  EXPECT_EQ(slow.result()->outcome, Outcome::kShort);
+}
+
+TEST(Shot, RollingInCountsAsOnTarget) {
+  const Scenario scenario;
+  Shot shot{scenario, {{0.2, 7.0, 0.11}, {0.0, 3.0, 0.0}, true}, 0};
+  for (std::int64_t t = 1; t <= 1500; ++t) shot.advance_to(t * 1'000'000, kFarAway);
+  ASSERT_TRUE(shot.result());
+  EXPECT_EQ(shot.result()->outcome, Outcome::kOnTarget);
+  EXPECT_NEAR(shot.result()->crossing->z_m, 0.11, 1e-9);
+}
+
+TEST(Shot, ABallThatBarelyCrossesHasASmallMargin) {
+  Scenario scenario = airless();
+  const double speed = std::sqrt(2.0 * scenario.ball.rolling_deceleration_mps2 * 1.02);  // rests 2 cm behind the line
+  Shot shot{scenario, {{0.0, 8.0, 0.11}, {0.0, speed, 0.0}, true}, 0};
+  for (std::int64_t t = 1; t <= 2900; ++t) shot.advance_to(t * 1'000'000, kFarAway);
+  ASSERT_TRUE(shot.result());
+  EXPECT_EQ(shot.result()->outcome, Outcome::kOnTarget);
+  EXPECT_NEAR(*shot.result()->margin_m, 0.02, 2e-3);
+}
+
+TEST(Shot, IsBlockedByABodyInItsWayAndPassesOverOne) {
+  const Scenario scenario = airless();
+  const Shot blocked = fly(scenario, 0.0, 0.5, 0.0, {0.1, 3.7});
+  EXPECT_EQ(blocked.result()->outcome, Outcome::kBlocked);
+  EXPECT_FALSE(blocked.result()->crossing);
+  EXPECT_FALSE(blocked.result()->margin_m);
+  EXPECT_LT(blocked.ball().position_m.y, 3.7);
+  EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.1, 6.0}).result()->outcome, Outcome::kOnTarget);   // 1.2 m high there
+  EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.38, 3.7}).result()->outcome, Outcome::kOnTarget);  // passes beside it
+}
+
+TEST(Shot, FromBehindTheLineIsJudgedWhereItStarts) {
+  const Scenario scenario;
+  const Shot shot{scenario, {{3.0, 9.2, 0.11}, {0.0, 5.0, 3.0}}, 0};
+  ASSERT_TRUE(shot.result());
+  EXPECT_EQ(shot.result()->outcome, Outcome::kWideRight);
+}
+
+TEST(Shot, MirroredShotsHaveMirroredResults) {
+  const Scenario scenario;
+  for (const double x : {0.3, 0.88, 1.1, 1.24, 2.0}) {
+    const Shot right = fly(scenario, x, 0.6, 0.5), left = fly(scenario, -x, 0.6, -0.5);
+    EXPECT_EQ(right.result()->crossing->x_m, -left.result()->crossing->x_m);
+    EXPECT_EQ(right.result()->margin_m, left.result()->margin_m);
+  }
+}
+
+TEST(Margin, IsTheLeastChangeThatChangesTheOutcome) {
+  const kicking::Goal goal;
+  const kicking::Ball ball;
+  for (double x = -1.603; x <= 1.6; x += 0.083) {
+    for (double z = 0.113; z <= 1.6; z += 0.079) {
+      const double margin = margin_m({x, z}, goal, ball);
+      const auto here = kicking::classify(x, z, goal, ball);
+      bool changes = false;
+      for (int i = 0; i < 360; ++i) {
+        const double a = i * M_PI / 180.0;
+        const auto at = [&](double r) {
+          return kicking::classify(x + r * std::cos(a), z + r * std::sin(a), goal, ball);
+        };
+        EXPECT_EQ(at(margin - 1e-6), here) << x << ", " << z;
+        changes = changes || at(margin + 1e-6) != here;
+      }
+      EXPECT_TRUE(changes) << x << ", " << z;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trivela::sim
