@@ -23,9 +23,9 @@ std::optional<double> moving_kick_exact(const FlightPoint& point, double exit_an
 }
 
 double k_geometric(const FlightPoint& point, double exit_angle_rad) {
-  const double rise = point.distance_m * std::tan(exit_angle_rad);
+  const double epsilon = point.height_m / (point.distance_m * std::tan(exit_angle_rad));
   const double c = std::cos(exit_angle_rad);
-  return (rise - 2.0 * point.height_m) / (2.0 * c * c * (rise - point.height_m));
+  return (1.0 - 2.0 * epsilon) / (2.0 * c * c * (1.0 - epsilon));
 }
 
 }  // namespace trivela::kicking

@@ -17,7 +17,7 @@ std::optional<double> moving_kick_exact(const FlightPoint& point, double exit_an
                                         double gravity_mps2 = kGravity_mps2);
 
 /// The k that makes the paper's law right to first order if the ball takes over all of the robot's velocity:
-/// (d tan(theta) - 2 h) / (2 cos^2(theta) (d tan(theta) - h)).
+/// (1 - 2 e) / (2 cos^2(theta) (1 - e)) with e = h / (d tan(theta)); 1 / (2 cos^2(theta)) at infinite distance.
 double k_geometric(const FlightPoint& point, double exit_angle_rad);
 
 }  // namespace trivela::kicking

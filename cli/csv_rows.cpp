@@ -1,0 +1,226 @@
+#include "cli/csv_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::optional<double> parse_number(const std::string& text) {
+  const std::string digits = text.starts_with('+') ? text.substr(1) : text;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+std::string to_csv(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos && !cell.starts_with('#')) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string to_cell(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{:.10g}", *number + 0.0);  // no "-0"
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "1" : "0";
+  if (const auto* word = std::get_if<std::string>(&value)) return *word;
+  return "";
+}
+
+Json to_json(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  if (const auto* word = std::get_if<std::string>(&value)) return *word;
+  return nullptr;
+}
+
+Json given_to_json(const std::string& cell) {
+  if (const auto number = parse_number(trimmed(cell)); number && std::isfinite(*number)) return *number;
+  return cell.empty() ? Json(nullptr) : Json(cell);
+}
+
+std::string csv_line(const std::vector<std::string>& given, const std::vector<std::string>& appended) {
+  std::vector<std::string> cells;
+  for (const auto* part : {&given, &appended})
+    std::transform(part->begin(), part->end(), std::back_inserter(cells), to_csv);
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+void check_header(const RowVerb& verb, const std::vector<std::string>& header, const std::string& file) {
+  for (const Column& column : verb.inputs) {
+    const auto count = std::count(header.begin(), header.end(), column.name);
+    if (count > 1)
+      throw std::runtime_error(fmt::format("{}: column {} stands {} times in the header", file, column.name, count));
+    if (column.required && count == 0) {
+      throw std::runtime_error(
+          fmt::format("{}: no column {} in the header ({})", file, column.name, fmt::join(header, ", ")));
+    }
+  }
+}
+
+std::vector<Value> compute_record(const RowVerb& verb, const std::vector<std::string>& header,
+                                  const CsvRecord& record) {
+  if (record.cells.size() < header.size()) {
+    throw CellError(header[record.cells.size()], "",
+                    fmt::format("is missing: {} cells under {} columns", record.cells.size(), header.size()));
+  }
+  if (record.cells.size() > header.size()) {
+    throw CellError(fmt::format("{}", header.size() + 1), record.cells[header.size()],
+                    fmt::format("is too much: {} cells under {} columns", record.cells.size(), header.size()));
+  }
+  return verb.compute(Row(header, record.cells));
+}
+
+}  // namespace
+
+CellError::CellError(std::string_view column_name, const std::string& text, const std::string& reason)
+    : std::runtime_error(text.empty() ? fmt::format("column {}: {}", column_name, reason)
+                                      : fmt::format("column {}: '{}' {}", column_name, text, reason)) {}
+
+bool Row::has(std::string_view column) const {
+  return std::find(header_.begin(), header_.end(), column) != header_.end();
+}
+
+std::optional<std::string> Row::word(std::string_view column) const {
+  const auto found = std::find(header_.begin(), header_.end(), column);
+  if (found == header_.end()) return std::nullopt;
+  std::string text = trimmed(cells_[static_cast<std::size_t>(found - header_.begin())]);
+  return text.empty() ? std::nullopt : std::optional(std::move(text));
+}
+
+std::optional<double> Row::number_if_any(std::string_view column) const {
+  const auto text = word(column);
+  if (!text) return std::nullopt;
+  const auto value = parse_number(*text);
+  if (!value) throw CellError(column, *text, "is not a number");
+  if (!std::isfinite(*value)) throw CellError(column, *text, "is not finite");
+  return value;
+}
+
+double Row::number(std::string_view column) const {
+  const auto value = number_if_any(column);
+  if (!value) throw CellError(column, "", "is empty");
+  return *value;
+}
+
+double Row::number_in(std::string_view column, double low, double high) const {
+  const double value = number(column);
+  if (value < low || value > high)
+    throw CellError(column, *word(column), fmt::format("is not from {} to {}", low, high));
+  return value;
+}
+
+double Row::positive(std::string_view column) const {
+  const double value = number(column);
+  if (value <= 0.0) throw CellError(column, *word(column), "is not above 0");
+  return value;
+}
+
+double Row::acute_angle_rad(std::string_view column) const {
+  const double angle_deg = number(column);
+  if (angle_deg <= 0.0 || angle_deg >= 90.0) throw CellError(column, *word(column), "is not between 0 and 90 degrees");
+  return kicking::radians(angle_deg);
+}
+
+ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
+                  std::ostream& err) {
+  CsvReader reader(in);
+  const auto head = reader.next();
+  if (!head) throw std::runtime_error(file + ": no header line");
+  std::vector<std::string> header;
+  std::transform(head->cells.begin(), head->cells.end(), std::back_inserter(header), trimmed);
+  check_header(verb, header, file);
+  const auto results =
+      verb.results([&](std::string_view column) { return std::count(header.begin(), header.end(), column) > 0; });
+
+  ExitCode code = kDone;
+  Json objects = Json::array();
+  if (format == RowFormat::kCsv) out << csv_line(head->cells, results);
+  while (const auto record = reader.next()) {
+    try {
+      const std::vector<Value> values = compute_record(verb, header, *record);
+      if (format == RowFormat::kCsv) {
+        std::vector<std::string> cells;
+        std::transform(values.begin(), values.end(), std::back_inserter(cells), to_cell);
+        out << csv_line(record->cells, cells);
+        continue;
+      }
+      Json& object = objects.emplace_back(Json::object());
+      for (std::size_t i = 0; i < header.size(); ++i) object[header[i]] = given_to_json(record->cells[i]);
+      for (std::size_t i = 0; i < results.size(); ++i) object[results[i]] = to_json(values[i]);
+    } catch (const CellError& error) {
+      err << fmt::format("{}:{}: {}\n", file, record->line, error.what());
+      code = kFailed;
+    }
+  }
+  if (format == RowFormat::kJson) out << objects.dump(2) << '\n';
+  out.flush();
+  return code;
+}
+
+void add_row_flags(CLI::App& verb, const std::vector<Column>& inputs, RowArguments& arguments) {
+  verb.add_option("--csv", arguments.csv, "Read rows from this file, - for standard input, and append the results")
+      ->type_name("FILE|-");
+  verb.add_flag("--json", arguments.json, "Print JSON instead of CSV: an array with one object a row");
+  for (const Column& column : inputs) {
+    std::string flag = "--" + column.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    if (!column.alias.empty()) flag += "," + column.alias;
+    const std::string name = column.name;
+    verb.add_option_function<std::string>(
+            flag, [&arguments, name](const std::string& text) { arguments.cells[name] = text; }, column.help)
+        ->group("One row")
+        ->type_name("");
+  }
+}
+
+ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
+  const RowFormat format = arguments.json ? RowFormat::kJson : RowFormat::kCsv;
+  if (!arguments.csv.empty()) {
+    if (!arguments.cells.empty()) throw UsageError("--csv goes without flags for single values");
+    if (arguments.csv == "-") return run_rows(verb, std::cin, "standard input", format, std::cout, std::cerr);
+    std::ifstream file(arguments.csv);
+    if (!file) throw std::runtime_error("cannot read " + arguments.csv);
+    return run_rows(verb, file, arguments.csv, format, std::cout, std::cerr);
+  }
+  std::vector<std::string> header;
+  std::vector<std::string> cells;
+  for (const Column& column : verb.inputs) {
+    const auto given = arguments.cells.find(column.name);
+    if (given != arguments.cells.end()) {
+      header.push_back(column.name);
+      cells.push_back(given->second);
+    } else if (column.required) {
+      throw UsageError(fmt::format("no value for {} (and no --csv FILE)", column.name));
+    }
+  }
+  std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));
+  std::ostringstream out;
+  std::ostringstream err;
+  if (run_rows(verb, text, "command line", format, out, err) != kDone) {
+    const std::string message = err.str();
+    throw UsageError(message.substr(message.find("column"), message.find('\n') - message.find("column")));
+  }
+  std::cout << out.str() << std::flush;
+  return kDone;
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,30 @@
+#include "kicking/ballistics/lob.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/vector_rows.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+TEST(Lob, BothRoutesAgreeWithTheVectors) {
+  for (const auto& row : tests::rows("calib_theta_v0.csv")) {
+    SCOPED_TRACE(row.where());
+    for (const auto route : {exit_from_lob, exit_from_components}) {
+      const Exit exit = route(row.number("H_m"), row.number("D_m"), kGravity_mps2);
+      EXPECT_NEAR(exit.angle_rad, row.number("theta_rad"), 1e-6);
+      EXPECT_NEAR(exit.speed_mps, row.number("v0_mps"), 1e-6);
+      EXPECT_NEAR(exit.t_flight_s, row.number("flight_time_s"), 1e-6);
+    }
+  }
+}
+
+TEST(Lob, RefusesALobThatDoesNotFly) {
+  EXPECT_THROW(exit_from_lob(0.0, 5.0), std::invalid_argument);
+  EXPECT_THROW(exit_from_components(1.0, -5.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace trivela::kicking

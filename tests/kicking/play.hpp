@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kicking/policy/policy.hpp"
+
+namespace trivela::kicking::tests {
+
+/// A robot in mid-field that may kick.
+inline PolicyInput ready_at(const Pose& pose, const Twist& twist = {}) {
+  PolicyInput input;
+  input.pose = pose;
+  input.twist = twist;
+  input.playing = true;
+  input.possession = true;
+  input.possession_id = 1;
+  input.kicker_ready = true;
+  return input;
+}
+
+/// What became of a possession.
+struct Played {
+  std::optional<Judgement> fired;
+  PolicyInput at;  ///< of the order, or the last cycle
+  double seconds = 0.0;
+};
+
+/// Plays a possession without noise: the robot follows the drive command within the limits of acceleration, 20 ms a
+/// cycle.
+inline Played play(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, PolicyInput input,
+                   double limit_s = 8.0) {
+  PolicyMemory memory;
+  Played played;
+  for (; played.seconds < limit_s; played.seconds += config.cycle_s) {
+    const Judgement judgement = judge(policy, config, robot, {}, input, memory);
+    played.at = input;
+    if (judgement.fire) {
+      played.fired = judgement;
+      break;
+    }
+    const auto follow = [](double now, double wanted, double change) {
+      return now + std::clamp(wanted - now, -change, change);
+    };
+    const double dv = config.max_brake_mps2 * config.cycle_s;
+    const double dw = config.max_turn_acceleration_radps2 * config.cycle_s;
+    input.twist = {follow(input.twist.vx_mps, judgement.drive.vx_mps, dv),
+                   follow(input.twist.vy_mps, judgement.drive.vy_mps, dv),
+                   follow(input.twist.omega_radps, judgement.drive.omega_radps, dw)};
+    input.pose = advance(input.pose, input.twist, config.cycle_s);
+    input.t_ns += std::llround(config.cycle_s * 1e9);
+  }
+  return played;
+}
+
+}  // namespace trivela::kicking::tests
