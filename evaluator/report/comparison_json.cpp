@@ -1,0 +1,42 @@
+#include "evaluator/report/comparison.hpp"
+#include "evaluator/report/json_values.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+Json group_json(const NamedCounts& group) {
+  return {{"name", group.name},
+          {"inside", group.counts.inside},
+          {"n", group.counts.n},
+          {"efficiency", json_of(stats::efficiency(group.counts))},
+          {"wilson95", json_of(stats::wilson(group.counts))}};
+}
+
+void add_ratio(Json& json, const std::string& key, const std::optional<stats::Ratio>& ratio) {
+  json[key] = ratio ? Json(ratio->value) : Json();
+  json[key + "_ci95"] = ratio ? json_of(ratio->ci) : Json();
+}
+
+}  // namespace
+
+std::string to_json(const Comparison& c) {
+  Json json = {{"old", group_json(c.older)},
+               {"new", group_json(c.newer)},
+               {"difference", c.difference},
+               {"newcombe95", json_of(c.newcombe95)},
+               {"relative_gain", json_of(c.relative_gain)}};
+  add_ratio(json, "risk_ratio", c.risk_ratio);
+  add_ratio(json, "odds_ratio", c.odds_ratio);
+  json["fisher_one_sided_p"] = c.fisher_one_sided_p;
+  json["fisher_two_sided_p"] = c.fisher_two_sided_p;
+  json["boschloo_one_sided_p"] = json_of(c.boschloo_one_sided_p);
+  json["boschloo_two_sided_p"] = json_of(c.boschloo_two_sided_p);
+  json["two_sided_definition"] = {{"fisher", "sum of the probabilities not above that of the table seen"},
+                                  {"boschloo", "twice the smaller one-sided p, at most 1"}};
+  json["p_new_better"] = c.p_new_better;
+  json["prior"] = "uniform, Beta(1, 1), for both";
+  json["notes"] = notes(c);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace trivela::evaluator

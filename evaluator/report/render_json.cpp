@@ -1,0 +1,91 @@
+#include "evaluator/report/json_values.hpp"
+#include "evaluator/report/render.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+Json policy_json(const PolicyRow& row) {
+  Json misses = Json::object();
+  for (const std::string& miss : kMisses) misses[miss] = row.of(miss);
+  return {{"policy", row.policy},
+          {"inside", row.inside()},
+          {"outside", row.outside()},
+          {"unknown", row.unknown()},
+          {"efficiency", json_of(stats::efficiency(row.counts()))},
+          {"wilson95", json_of(stats::wilson(row.counts()))},
+          {"efficiency_bounds", json_of(row.efficiency_bounds())},
+          {"played_min", json_of(row.played_min)},
+          {"kicks_per_min", json_of(row.kicks_per_min())},
+          {"misses", misses}};
+}
+
+Json session_json(const log::RecordedSession& session) {
+  Json policies = Json::array();
+  for (const auto& half : session.policies) policies.push_back({{"half", half.half}, {"policy", half.policy}});
+  return {{"uuid", session.uuid},
+          {"robot_id", json_of(session.robot_id)},
+          {"simulated", session.simulated},
+          {"scenario", session.scenario},
+          {"seed", json_of(session.seed)},
+          {"software_version", session.software_version},
+          {"config_sha256", session.config_sha256},
+          {"closed", session.closed_t_ns.has_value()},
+          {"policies", policies}};
+}
+
+Json loss_json(const log::Loss& loss) {
+  return {{"stream", loss.stream},
+          {"received", loss.received},
+          {"missing", loss.missing()},
+          {"lost", loss.lost},
+          {"gaps", loss.gaps},
+          {"overflow", loss.overflow},
+          {"nan_refused", loss.nan_refused},
+          {"rejected", loss.rejected},
+          {"out_of_order", loss.out_of_order}};
+}
+
+Json quality_json(const Report& report) {
+  Json quality = {{"data_lost", report.data_lost()},
+                  {"rows_missing", report.rows_missing()},
+                  {"unclosed_sessions", report.unclosed_sessions()},
+                  {"warnings", report.warnings},
+                  {"streams", Json::array()},
+                  {"unclosed_kicks", Json::array()},
+                  {"refused_orders", Json::array()}};
+  for (const log::Loss& loss : report.losses) quality["streams"].push_back(loss_json(loss));
+  for (const UnclosedKick& kick : report.unclosed_kicks) {
+    quality["unclosed_kicks"].push_back({{"session_id", kick.session_id},
+                                         {"robot_id", kick.robot_id},
+                                         {"kick_id", kick.kick_id},
+                                         {"t_ns", kick.t_ns},
+                                         {"policy", kick.policy},
+                                         {"has_order", kick.has_order},
+                                         {"has_receipt", kick.has_receipt},
+                                         {"has_outcome", kick.has_outcome}});
+  }
+  for (const RefusedOrders& refused : report.refused_orders) {
+    quality["refused_orders"].push_back(
+        {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});
+  }
+  if (report.compared_with_truth > 0) {
+    quality["truth"] = {{"compared", report.compared_with_truth}, {"alike", report.alike_with_truth}};
+  }
+  return quality;
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json json = {{"simulated", report.simulated_sessions() > 0}, {"policies", Json::array()}};
+  for (const PolicyRow& row : report.policies) json["policies"].push_back(policy_json(row));
+  json["sessions"] = Json::array();
+  for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session));
+  json["data_quality"] = quality_json(report);
+  json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
+                   "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
+                   "kick was outside, and inside"};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include "evaluator/report/render.hpp"
+#include "evaluator/report/text_table.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using Table = std::vector<std::vector<std::string>>;
+
+std::string number(std::int64_t n) { return std::to_string(n); }
+
+std::string interval(stats::Interval interval) {
+  return fmt::format("{} to {}", percent(interval.lo), percent(interval.hi));
+}
+
+std::string heading(const Report& report) {
+  const auto simulated = report.simulated_sessions();
+  std::string text;
+  if (simulated > 0) {
+    text += "SIMULATED MATCH: the numbers describe the simulation's assumptions, not robots on a field.\n";
+    if (simulated < std::ssize(report.sessions)) {
+      text += fmt::format("Only {} of {} sessions are simulated; they are pooled all the same.\n", simulated,
+                          report.sessions.size());
+    }
+  }
+  for (const auto& session : report.sessions) {
+    text +=
+        fmt::format("Session {}: {} '{}'", session.uuid, session.simulated ? "scenario" : "match", session.scenario);
+    if (session.seed) text += fmt::format(", seed {}", *session.seed);
+    if (session.robot_id) text += fmt::format(", robot {}", *session.robot_id);
+    for (const auto& half : session.policies) text += fmt::format(", half {} {}", half.half, half.policy);
+    text += fmt::format(", version {}, configuration {:.12}\n", session.software_version, session.config_sha256);
+  }
+  return text;
+}
+
+std::string table2(const Report& report) {
+  Table table = {{"policy", "inside", "outside", "unknown", "efficiency", "Wilson 95 %", "minutes", "kicks a minute"}};
+  for (const PolicyRow& row : report.policies) {
+    const auto efficiency = stats::efficiency(row.counts());
+    const auto rate = row.kicks_per_min();
+    table.push_back({row.policy, number(row.inside()), number(row.outside()), number(row.unknown()),
+                     efficiency ? percent(*efficiency) : "-", efficiency ? interval(stats::wilson(row.counts())) : "-",
+                     row.played_min ? fmt::format("{:.2f}", *row.played_min) : "-",
+                     rate ? fmt::format("{:.2f}", *rate) : "-"});
+  }
+  return "\nTable 2: kicks by policy\n" + text_table(table) +
+         "  inside: between the posts and below the bar, saves included; it is not goals scored\n";
+}
+
+std::string misses(const Report& report) {
+  Table table = {{"policy"}};
+  for (const std::string& miss : kMisses) table[0].push_back(words(miss));
+  table[0].push_back("unknown");
+  for (const PolicyRow& row : report.policies) {
+    table.push_back({row.policy});
+    for (const std::string& miss : kMisses) table.back().push_back(number(row.of(miss)));
+    table.back().push_back(number(row.unknown()));
+  }
+  return "\nWhy the misses missed\n" + text_table(table);
+}
+
+std::string lost_rows(const Report& report) {
+  if (report.rows_missing() == 0) return "  lost: nothing\n";
+  Table table = {{"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
+  for (const log::Loss& loss : report.losses) {
+    if (loss.missing() == 0) continue;
+    table.push_back({loss.stream, number(loss.received), number(loss.lost), number(loss.gaps), number(loss.overflow),
+                     number(loss.nan_refused), number(loss.rejected), number(loss.out_of_order)});
+  }
+  return text_table(table);
+}
+
+std::string quality(const Report& report) {
+  std::string text = "\nData quality\n" + lost_rows(report);
+  for (const std::string& warning : report.warnings) text += fmt::format("  warning: {}\n", warning);
+  for (const RefusedOrders& refused : report.refused_orders) {
+    text += fmt::format("  refused orders, no kicks: {} x {} ({})\n", refused.orders, words(refused.refusal),
+                        refused.policy);
+  }
+  if (report.unclosed_kicks.empty()) text += "  unclosed kicks: none\n";
+  for (const UnclosedKick& kick : report.unclosed_kicks) {
+    text += fmt::format("  unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}\n", kick.kick_id, kick.robot_id,
+                        1e-9 * static_cast<double>(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
+                        kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome");
+  }
+  for (const PolicyRow& row : report.policies) {
+    if (row.unknown() == 0) continue;
+    const auto bounds = row.efficiency_bounds();
+    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}\n", row.policy,
+                        percent(bounds.lo), percent(bounds.hi));
+  }
+  if (report.compared_with_truth > 0) {
+    text += fmt::format("  observed outcomes like the simulator's truth: {} of {}\n", report.alike_with_truth,
+                        report.compared_with_truth);
+  }
+  return text;
+}
+
+std::string hint(const Report& report) {
+  if (report.policies.size() != 2) return "";
+  std::string text = "\nHow sure is the difference: trivela compare --counts";
+  for (const PolicyRow& row : report.policies) {
+    if (row.counts().n == 0) return "";
+    text += fmt::format(" {}={}/{}", row.policy, row.counts().inside, row.counts().n);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const Report& report) {
+  std::int64_t kicks = 0;
+  for (const PolicyRow& row : report.policies) kicks += row.kicks();
+  const std::string tables = kicks > 0 ? table2(report) + misses(report) : table2(report) + "  there are no kicks\n";
+  return heading(report) + tables + quality(report) + hint(report);
+}
+
+}  // namespace trivela::evaluator

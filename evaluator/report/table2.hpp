@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluator/log/reader.hpp"
+#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/interval.hpp"
+
+namespace trivela::evaluator {
+
+/// Reasons why a kick was not on target, as in kicking::Outcome, without kUnknown.
+inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "over", "short", "post", "bar", "blocked"};
+
+/// One row of Table 2: the kicks of a policy.
+struct PolicyRow {
+  std::string policy;
+  std::map<std::string, std::int64_t> kicks_by_outcome;
+  std::optional<double> played_min;  ///< minutes of play in its halves; none: the referee was not recorded
+
+  std::int64_t kicks() const;
+  std::int64_t of(const std::string& outcome) const;
+  std::int64_t inside() const { return of("on_target"); }
+  std::int64_t unknown() const { return of("unknown"); }
+  std::int64_t outside() const { return kicks() - inside() - unknown(); }
+
+  /// Inside of the kicks whose outcome is known.
+  stats::Counts counts() const { return {inside(), inside() + outside()}; }
+
+  /// Efficiency if every unknown outcome was outside, and if every one was inside. No kick: [0, 1].
+  stats::Interval efficiency_bounds() const;
+
+  std::optional<double> kicks_per_min() const;
+};
+
+/// A decision that fired and that order, receipt or outcome is missing of.
+struct UnclosedKick {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::int64_t kick_id = 0;
+  std::int64_t t_ns = 0;
+  std::string policy;
+  bool has_order = false;
+  bool has_receipt = false;
+  bool has_outcome = false;
+};
+
+struct RefusedOrders {
+  std::string policy;
+  std::string refusal;
+  std::int64_t orders = 0;
+};
+
+/// Table 2 of a match log, its sessions pooled by policy, and how far it can be trusted.
+struct Report {
+  std::vector<log::RecordedSession> sessions;
+  std::vector<PolicyRow> policies;  ///< stopped before moving
+  std::vector<log::Loss> losses;    ///< by stream
+  std::vector<UnclosedKick> unclosed_kicks;
+  std::vector<RefusedOrders> refused_orders;
+  std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
+  std::int64_t compared_with_truth = 0;  ///< kicks whose outcome and truth are both known
+  std::int64_t alike_with_truth = 0;
+
+  std::int64_t rows_missing() const;
+  std::int64_t unclosed_sessions() const;
+  std::int64_t simulated_sessions() const;
+
+  /// Rows are missing, or may be since a session was not closed.
+  bool data_lost() const { return rows_missing() > 0 || unclosed_sessions() > 0; }
+};
+
+/// Counts what is in the log. Throws std::runtime_error where it cannot be read.
+Report make_report(const log::Reader& reader);
+
+}  // namespace trivela::evaluator
