@@ -52,7 +52,7 @@ DragFlight fly_with_drag(double v0_mps, double exit_angle_rad, double drag_per_m
 DragCrossing cross_with_drag(double distance_m, double v0_mps, double exit_angle_rad, double drag_per_m,
                              double gravity_mps2) {
   using State = Eigen::Vector4d;  // z, v_x, v_z, t, all over x
-  constexpr int kSteps = 100;
+  constexpr int kSteps = 32;
   const auto rate = [&](const State& s) {
     const double damping = drag_per_m * std::hypot(s[1], s[2]);
     return State(s[2] / s[1], -damping, (-gravity_mps2 - damping * s[2]) / s[1], 1.0 / s[1]);

@@ -55,7 +55,7 @@ TEST(Alignment, ClosedFormAndSegmentIntersectionAgree) {
   std::uniform_real_distribution<double> place(-6, 6);
   std::uniform_real_distribution<double> unit(-1, 1);
   int aligned = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 5000; ++i) {
     const Eigen::Vector2d target(unit(random), 9.0);
     Pose robot{place(random), place(random), 0.0};
     const double alpha = 0.3 * unit(random);
@@ -71,7 +71,7 @@ TEST(Alignment, ClosedFormAndSegmentIntersectionAgree) {
                                             target - result.left_m * n, target + result.right_m * n));
     aligned += result.aligned;
   }
-  EXPECT_GT(aligned, 1000);
+  EXPECT_GT(aligned, 300);
 }
 
 TEST(Alignment, MirrorsLeftAndRight) {

@@ -79,7 +79,7 @@ TEST(StoppedPolicy, DrivesTowardsATargetOutOfRangeAndGivesUpWhereItMayNotGo) {
 TEST(StoppedPolicy, ScoresFromAnywhereInAWorldWithoutNoise) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 30; ++i) {
     const Pose start{3 * unit(random), 3 + 3 * unit(random) - (i % 5 ? 0 : 5), 3 * unit(random)};
     SCOPED_TRACE(testing::Message() << start.x_m << ' ' << start.y_m << ' ' << start.heading_rad);
     const auto played = play(PolicyName::kStopped, {}, {}, ready_at(start, {unit(random), unit(random), unit(random)}));

@@ -1,0 +1,94 @@
+#include <benchmark/benchmark.h>
+
+#include <array>
+
+#include "kicking/ballistics/crossing.hpp"
+#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
+#include "kicking/outcome/p_inside.hpp"
+#include "kicking/policy/policy.hpp"
+
+// Hot functions of a decision. `--benchmark_repetitions=9` prints the median.
+namespace {
+
+using namespace trivela::kicking;
+
+/// Situations of a robot that turns through the target; the first cycle of each possession is aligned or not.
+std::array<PolicyInput, 64> situations() {
+  std::array<PolicyInput, 64> inputs;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double x = static_cast<double>(i) / 63.0;
+    PolicyInput& input = inputs[i];
+    input.t_ns = 20'000'000 * static_cast<std::int64_t>(i);
+    input.pose = {2.0 * x - 1.0, 1.0 + 4.0 * x, 0.6 - 1.2 * x};
+    input.twist = {0.8 * x - 0.4, 0.5 + x, 2.0 * x - 1.0};
+    input.playing = input.possession = input.kicker_ready = true;
+    input.possession_id = static_cast<std::uint32_t>(i);
+  }
+  return inputs;
+}
+
+void judge_cycles(benchmark::State& state, PolicyName policy, const PolicyConfig& config) {
+  const auto inputs = situations();
+  const RobotModel robot;
+  const Goal goal;
+  PolicyMemory memory;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(judge(policy, config, robot, goal, inputs[i++ % inputs.size()], memory));
+  }
+}
+
+void moving_kick_decision(benchmark::State& state, HeightLaw height, MotionLaw motion, AlphaLaw alpha) {
+  PolicyConfig config;
+  config.height_law = height;
+  config.motion_law = motion;
+  config.alpha_law = alpha;
+  judge_cycles(state, PolicyName::kMoving, config);
+}
+BENCHMARK_CAPTURE(moving_kick_decision, paper, HeightLaw::kPaper, MotionLaw::kPaper, AlphaLaw::kPaperLine);
+BENCHMARK_CAPTURE(moving_kick_decision, released_code, HeightLaw::kExtendedRange, MotionLaw::kPaper,
+                  AlphaLaw::kPaperLine);
+BENCHMARK_CAPTURE(moving_kick_decision, defaults, HeightLaw::kExact, MotionLaw::kExact, AlphaLaw::kPaperLine);
+BENCHMARK_CAPTURE(moving_kick_decision, physical, HeightLaw::kExact, MotionLaw::kExact, AlphaLaw::kPhysical);
+
+void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, PolicyName::kStopped, {}); }
+BENCHMARK(stopped_kick_decision);
+
+void solve_moving_kick(benchmark::State& state) {
+  FlightPoint point{5.73, 0.59};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(point);
+    benchmark::DoNotOptimize(moving_kick_exact(point, radians(36.78), 1.0));
+  }
+}
+BENCHMARK(solve_moving_kick);
+
+void solve_with_drag(benchmark::State& state) {
+  FlightPoint point{5.73, 0.59};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(point);
+    benchmark::DoNotOptimize(crossing_speed_with_drag(point, radians(36.78), drag_per_m({}, {})));
+  }
+}
+BENCHMARK(solve_with_drag);
+
+void predict_release(benchmark::State& state) {
+  Pose pose{1.0, 3.0, 0.1};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(pose);
+    benchmark::DoNotOptimize(predict_crossing(pose, {0.4, 1.0, 0.8}, {8.0, radians(36.78), {}, 0.06, 0.27}, 9.0));
+  }
+}
+BENCHMARK(predict_release);
+
+void probability_inside(benchmark::State& state) {
+  KickAtLine kick{8.0, radians(36.78), 1.0, 6.0};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(kick);
+    benchmark::DoNotOptimize(p_inside(kick, {0.02, 0.01, 0.05, 0.25}, 0.1, {}));
+  }
+}
+BENCHMARK(probability_inside);
+
+}  // namespace
