@@ -49,7 +49,9 @@ struct Text {
 
   template <class T>
   void operator()(std::string_view name, std::string_view unit, const T& value) {
-    out += std::string(name) + (unit.empty() ? "" : "[" + std::string(unit) + "]") + "=";
+    out += name;
+    if (!unit.empty()) out.append("[").append(unit).append("]");
+    out += "=";
     print(value);
     out += ";";
   }
