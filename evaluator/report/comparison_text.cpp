@@ -18,7 +18,7 @@ std::string ratio(const std::optional<stats::Ratio>& ratio, const char* method) 
   return fmt::format("{:.3f}, 95 % {:.3f} to {:.3f} ({})", ratio->value, ratio->ci.lo, ratio->ci.hi, method);
 }
 
-std::string p_value(const std::optional<double>& p) { return p ? fmt::format("{:.3g}", *p) : "-, too many kicks"; }
+std::string p_value(double p) { return p > 0.0 ? fmt::format("{:.3g}", p) : "below 1e-300"; }
 
 // Breaks at blanks before 110 columns; further lines are indented.
 std::string wrapped(const std::string& sentence) {
@@ -49,10 +49,12 @@ std::string to_text(const Comparison& c) {
   line("relative gain", gain);
   line("risk ratio", ratio(c.risk_ratio, "Katz"));
   line("odds ratio", ratio(c.odds_ratio, "Woolf"));
-  line("Fisher p", fmt::format("{:.3g} two-sided (sum of the probabilities not above the table's), {:.3g} one-sided",
-                               c.fisher_two_sided_p, c.fisher_one_sided_p));
-  line("Boschloo p", fmt::format("{} two-sided (twice the smaller one-sided p), {} one-sided",
-                                 p_value(c.boschloo_two_sided_p), p_value(c.boschloo_one_sided_p)));
+  line("Fisher p", fmt::format("{} two-sided (sum of the probabilities not above the table's), {} one-sided",
+                               p_value(c.fisher_two_sided_p), p_value(c.fisher_one_sided_p)));
+  line("Boschloo p", c.boschloo_one_sided_p && c.boschloo_two_sided_p
+                         ? fmt::format("{} two-sided (twice the smaller one-sided p), {} one-sided",
+                                       p_value(*c.boschloo_two_sided_p), p_value(*c.boschloo_one_sided_p))
+                         : "-, too many kicks for this test");
   line("P(new better)", fmt::format("{:.6f} (uniform priors)", c.p_new_better));
   text += "\nTo be read with care\n";
   for (const std::string& note : notes(c)) text += "  - " + wrapped(note) + "\n";

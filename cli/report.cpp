@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "cli/verbs.hpp"
+#include "evaluator/report/render.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct ReportArguments {
+  std::string log;
+  bool json = false;
+  bool csv = false;
+};
+
+}  // namespace
+
+void add_report(CLI::App& app, int& exit_code) {
+  auto* const verb = app.add_subcommand("report", "Table 2 of a match log, why kicks missed, and data quality");
+  const auto arguments = std::make_shared<ReportArguments>();
+  verb->add_option("log", arguments->log, "Match log, such as out/match.db")->required();
+  auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
+  verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
+  verb->callback([arguments, &exit_code] {
+    const evaluator::log::Reader reader(arguments->log);
+    const evaluator::Report report = evaluator::make_report(reader);
+    const bool plain = !arguments->json && !arguments->csv;
+    fmt::print("{}", arguments->json  ? evaluator::to_json(report)
+                     : arguments->csv ? evaluator::to_csv(report)
+                                      : evaluator::to_text(report));
+    if (!plain) {  // the text has them
+      for (const std::string& warning : report.warnings) fmt::print(stderr, "trivela: {}\n", warning);
+    }
+    exit_code = report.data_lost() ? kDoneWithLoss : kDone;
+  });
+}
+
+}  // namespace trivela::cli

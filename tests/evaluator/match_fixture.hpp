@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/evaluator/log_fixture.hpp"
+
+namespace trivela::evaluator {
+
+/// Writes kicks with everything that belongs to them, as a recorder would.
+class MatchLog {
+ public:
+  using Int = std::int64_t;
+
+  MatchLog(const std::filesystem::path& path, const log::Session& session, log::WriterOptions options = {})
+      : writer_(path, session, std::move(options)),
+        decisions_(writer_.table(
+            "kick_decisions",
+            {"robot_id",    "seq",        "t_ns",       "kick_id",    "half",        "possession_id", "policy",
+             "fire",        "reason",     "x_m",        "y_m",        "heading_rad", "vx_mps",        "vy_mps",
+             "omega_radps", "target_x_m", "target_y_m", "target_z_m", "distance_m",  "alpha_rad",     "beta_rad",
+             "aligned",     "left_m",     "right_m",    "charge",     "shadow_count"})),
+        orders_(writer_.table("kick_orders",
+                              {"robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"})),
+        receipts_(writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
+                                                  "order_t_ns", "fired_t_ns", "release_t_ns", "power"})),
+        outcomes_(writer_.table("kick_outcomes",
+                                {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
+        truths_(writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
+                                              "x_cross_m", "release_t_ns", "release_x_m", "release_y_m",
+                                              "release_vx_mps", "release_vy_mps", "release_vz_mps"})),
+        referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
+
+  /// A decision that fires; returns its kick_id. Half 1 is played stopped, half 2 moving.
+  Int decide(Int half) {
+    const Int kick_id = ++kicks_;
+    write_decision(kick_id, half);
+    return kick_id;
+  }
+
+  void write_decision(Int kick_id, Int half) {
+    const char* const policy = half == 1 ? "stopped" : "moving";
+    writer_.push(decisions_,
+                 {robot_id, ++seq_, t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0, 4.0, 0.0, 0.0,
+                  0.0,      0.0,    0.0,    9.0,     0.7,  5.0,     0.0,    0.0,    Int{1}, 0.3, 0.3, 1.0, Int{0}});
+  }
+
+  void order(Int kick_id) { writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40}); }
+
+  void receipt(Int kick_id, const std::string& refusal = "none") {
+    writer_.push(receipts_,
+                 {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none"}, refusal, t_ns(), t_ns(), t_ns(), 20.0});
+  }
+
+  void outcome(Int kick_id, const std::string& label) {
+    writer_.push(outcomes_, {robot_id, ++seq_, t_ns(), kick_id, label, Int{label == "on_target"}, Int{9}});
+  }
+
+  void truth(Int kick_id, const std::string& label) {
+    writer_.push(truths_,
+                 {robot_id, ++seq_, t_ns(), kick_id, Int{1}, kick_id, label, 0.5, t_ns(), 0.0, 4.0, 0.0, 8.0, 3.0});
+  }
+
+  /// A kick from decision to outcome.
+  Int kick(Int half, const std::string& label) {
+    const Int kick_id = decide(half);
+    order(kick_id);
+    receipt(kick_id);
+    outcome(kick_id, label);
+    return kick_id;
+  }
+
+  void kicks(Int half, const std::string& label, int n) {
+    for (int i = 0; i < n; ++i) kick(half, label);
+  }
+
+  void referee(double at_s, Int half, bool playing) {
+    writer_.push(referee_, {robot_id, ++seq_, static_cast<Int>(at_s * 1e9), half, Int{playing}, Int{0}});
+  }
+
+  log::Writer& writer() { return writer_; }
+  void close() { writer_.finalise(); }
+
+  Int robot_id = 1;
+
+ private:
+  Int t_ns() const { return seq_ * 20'000'000; }
+
+  log::Writer writer_;
+  log::TableId decisions_, orders_, receipts_, outcomes_, truths_, referee_;
+  Int seq_ = 0;
+  Int kicks_ = 0;
+};
+
+/// The 197 kicks of the paper's Table 2: 34 of 65 inside standing, 100 of 132 moving.
+inline void write_table2(MatchLog& match) {
+  match.kicks(1, "on_target", 34);
+  match.kicks(1, "over", 20);
+  match.kicks(1, "wide_left", 11);
+  match.kicks(2, "on_target", 100);
+  match.kicks(2, "post", 30);
+  match.kicks(2, "short", 2);
+}
+
+}  // namespace trivela::evaluator

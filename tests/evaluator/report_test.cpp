@@ -1,0 +1,297 @@
+#include "evaluator/report/table2.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "evaluator/report/render.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+
+using ReportOfALog = LogTest;
+
+PolicyRow row_of(const Report& report, const std::string& policy) {
+  for (const PolicyRow& row : report.policies) {
+    if (row.policy == policy) return row;
+  }
+  return {};
+}
+
+// As the match logs of several robots are merged: keys do not collide, and a second merge changes nothing.
+void merge(const std::filesystem::path& from, const std::filesystem::path& into) {
+  SQLite::Database database(into.string(), SQLite::OPEN_READWRITE);
+  database.exec("ATTACH '" + from.string() + "' AS other");
+  std::vector<std::string> tables;
+  SQLite::Statement names(database, "SELECT name FROM sqlite_schema WHERE type = 'table'");
+  while (names.executeStep()) tables.push_back(names.getColumn(0).getString());
+  for (const std::string& table : tables) {
+    for (int twice = 0; twice < 2; ++twice) {
+      database.exec("INSERT INTO main." + table + " SELECT * FROM other." + table +
+                    " WHERE true ON CONFLICT DO NOTHING");
+    }
+  }
+}
+
+TEST_F(ReportOfALog, ThePapersKicksGiveThePapersTable) {
+  MatchLog match(path(), session(), options());
+  write_table2(match);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  ASSERT_THAT(report.policies, SizeIs(2));
+  EXPECT_EQ(report.policies[0].policy, "stopped");
+  EXPECT_EQ(report.policies[0].inside(), 34);
+  EXPECT_EQ(report.policies[0].outside(), 31);
+  EXPECT_EQ(report.policies[1].policy, "moving");
+  EXPECT_EQ(report.policies[1].inside(), 100);
+  EXPECT_EQ(report.policies[1].outside(), 32);
+  EXPECT_EQ(report.policies[1].of("post"), 30);
+  EXPECT_THAT(report.unclosed_kicks, IsEmpty());
+  EXPECT_FALSE(report.data_lost());
+
+  const std::string text = to_text(report);
+  EXPECT_THAT(text, HasSubstr("SIMULATED MATCH"));
+  EXPECT_THAT(text, HasSubstr("scenario 'empty_field', seed 7"));
+  EXPECT_THAT(text, HasSubstr("  stopped      34       31        0      52.3 %  40.4 % to 64.0 %        -"));
+  EXPECT_THAT(text, HasSubstr("  moving      100       32        0      75.8 %  67.8 % to 82.3 %        -"));
+  EXPECT_THAT(text, HasSubstr("  stopped         11           0    20      0     0    0        0        0"));
+  EXPECT_THAT(text, HasSubstr("trivela compare --counts stopped=34/65 moving=100/132"));
+}
+
+TEST_F(ReportOfALog, JsonHasTheSameNumbers) {
+  MatchLog match(path(), session(), options());
+  write_table2(match);
+  match.close();
+  const auto json = nlohmann::json::parse(to_json(make_report(log::Reader(path()))));
+  const auto& moving = json["policies"][1];
+  EXPECT_EQ(moving["policy"], "moving");
+  EXPECT_EQ(moving["inside"], 100);
+  EXPECT_EQ(moving["outside"], 32);
+  EXPECT_NEAR(moving["efficiency"].get<double>(), 0.7575757576, 1e-10);
+  EXPECT_NEAR(moving["wilson95"][0].get<double>(), 0.6778581786, 1e-10);
+  EXPECT_NEAR(moving["wilson95"][1].get<double>(), 0.8227253736, 1e-10);
+  EXPECT_EQ(moving["misses"]["short"], 2);
+  EXPECT_TRUE(moving["kicks_per_min"].is_null());
+  EXPECT_TRUE(json["simulated"]);
+  EXPECT_EQ(json["sessions"][0]["seed"], 7);
+  EXPECT_FALSE(json["data_quality"]["data_lost"]);
+}
+
+TEST_F(ReportOfALog, CsvHasALineForEachPolicy) {
+  MatchLog match(path(), session(), options());
+  write_table2(match);
+  match.close();
+  const std::string csv = to_csv(make_report(log::Reader(path())));
+  EXPECT_THAT(csv, testing::StartsWith("policy,inside,outside,unknown,efficiency,wilson95_lo,wilson95_hi,"));
+  EXPECT_THAT(csv, HasSubstr("\nstopped,34,31,0,0.52307692"));
+  EXPECT_THAT(csv, HasSubstr(",,,11,0,20,0,0,0,0,1,0\nmoving,100,32,0,")) << "no exposure, no rate";
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  std::istringstream lines(csv);
+  std::string head;
+  std::getline(lines, head);
+  for (std::string line; std::getline(lines, line);) EXPECT_EQ(commas(line), commas(head)) << line;
+}
+
+TEST_F(ReportOfALog, TheLatestOutcomeOfAKickHolds) {
+  MatchLog match(path(), session(), options());
+  const auto kick = match.kick(1, "unknown");
+  match.outcome(kick, "over");
+  match.outcome(kick, "on_target");
+  match.close();
+  const auto row = row_of(make_report(log::Reader(path())), "stopped");
+  EXPECT_EQ(row.kicks(), 1);
+  EXPECT_EQ(row.inside(), 1);
+}
+
+TEST_F(ReportOfALog, UnknownOutcomesBoundTheEfficiency) {
+  MatchLog match(path(), session(), options());
+  match.kicks(2, "on_target", 6);
+  match.kicks(2, "bar", 2);
+  match.kicks(2, "unknown", 1);
+  const auto in_flight = match.decide(2);
+  match.order(in_flight);
+  match.receipt(in_flight);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  const auto row = row_of(report, "moving");
+  EXPECT_EQ(row.unknown(), 2) << "an outcome that never came is unknown";
+  EXPECT_EQ(row.counts().n, 8);
+  EXPECT_NEAR(row.efficiency_bounds().lo, 0.6, 1e-15);
+  EXPECT_NEAR(row.efficiency_bounds().hi, 0.8, 1e-15);
+  EXPECT_THAT(to_text(report), HasSubstr("if every unknown kick was outside 60.0 %, inside 80.0 %"));
+}
+
+TEST_F(ReportOfALog, KicksThatMissAPartAreListed) {
+  MatchLog match(path(), session(), options());
+  match.kick(1, "over");
+  const auto no_order = match.decide(1);
+  const auto no_receipt = match.decide(1);
+  match.order(no_receipt);
+  const auto no_outcome = match.decide(1);
+  match.order(no_outcome);
+  match.receipt(no_outcome);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  ASSERT_THAT(report.unclosed_kicks, SizeIs(3));
+  EXPECT_EQ(report.unclosed_kicks[0].kick_id, no_order);
+  EXPECT_FALSE(report.unclosed_kicks[0].has_order);
+  EXPECT_TRUE(report.unclosed_kicks[1].has_order);
+  EXPECT_FALSE(report.unclosed_kicks[1].has_receipt);
+  EXPECT_TRUE(report.unclosed_kicks[2].has_receipt);
+  EXPECT_FALSE(report.unclosed_kicks[2].has_outcome);
+  EXPECT_THAT(to_text(report), HasSubstr("no order receipt outcome"));
+  EXPECT_FALSE(report.data_lost()) << "the match may have ended in mid flight";
+}
+
+TEST_F(ReportOfALog, ARefusedOrderIsNoKick) {
+  MatchLog match(path(), session(), options());
+  match.kick(1, "on_target");
+  const auto refused = match.decide(1);
+  match.order(refused);
+  match.receipt(refused, "stale");
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_EQ(row_of(report, "stopped").kicks(), 1);
+  EXPECT_THAT(report.unclosed_kicks, IsEmpty()) << "there is nothing to wait for";
+  ASSERT_THAT(report.refused_orders, SizeIs(1));
+  EXPECT_EQ(report.refused_orders[0].refusal, "stale");
+  EXPECT_THAT(to_text(report), HasSubstr("refused orders, no kicks: 1 x stale (stopped)"));
+}
+
+TEST_F(ReportOfALog, AnOrderSentTwiceIsOneAcceptedKick) {
+  MatchLog match(path(), session(), options());
+  const auto kick = match.kick(1, "on_target");
+  match.order(kick);
+  match.receipt(kick, "double");
+  match.write_decision(kick, 1);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_EQ(row_of(report, "stopped").inside(), 1);
+  EXPECT_EQ(row_of(report, "stopped").kicks(), 1);
+  EXPECT_THAT(report.refused_orders, IsEmpty());
+}
+
+TEST_F(ReportOfALog, KicksAMinuteUseThePlayedPartOfTheHalvesOfThePolicy) {
+  MatchLog match(path(), session(), options());
+  match.kicks(1, "on_target", 6);
+  match.kicks(2, "over", 9);
+  for (const int robot : {1, 2}) {  // both hear the same referee
+    match.robot_id = robot;
+    match.referee(0.0, 1, true);
+    match.referee(60.0, 1, false);
+    match.referee(90.0, 1, true);
+    match.referee(150.0, 1, false);
+    match.referee(200.0, 2, true);
+    match.referee(230.0, 2, false);
+  }
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_NEAR(*row_of(report, "stopped").played_min, 2.0, 1e-12);
+  EXPECT_NEAR(*row_of(report, "stopped").kicks_per_min(), 3.0, 1e-12);
+  EXPECT_NEAR(*row_of(report, "moving").kicks_per_min(), 18.0, 1e-12);
+}
+
+TEST_F(ReportOfALog, KicksOfRobotsWithTheSameNumberDoNotMix) {
+  MatchLog match(path(), session(), options());
+  const auto kick = match.decide(1);
+  match.robot_id = 2;
+  match.write_decision(kick, 1);
+  match.outcome(kick, "on_target");
+  match.robot_id = 1;
+  match.outcome(kick, "over");
+  match.close();
+  const auto row = row_of(make_report(log::Reader(path())), "stopped");
+  EXPECT_EQ(row.inside(), 1);
+  EXPECT_EQ(row.of("over"), 1);
+}
+
+TEST_F(ReportOfALog, TheTruthIsComparedWhereBothAreKnown) {
+  MatchLog match(path(), session(), options());
+  match.truth(match.kick(1, "on_target"), "on_target");
+  match.truth(match.kick(1, "post"), "on_target");
+  match.truth(match.kick(1, "unknown"), "over");
+  match.kick(1, "over");
+  match.close();
+  const log::Reader reader(path());
+  const Report report = make_report(reader);
+  EXPECT_EQ(report.compared_with_truth, 2);
+  EXPECT_EQ(report.alike_with_truth, 1);
+  const auto kicks = reader.kicks();
+  ASSERT_THAT(kicks, SizeIs(4));
+  EXPECT_EQ(kicks[1].observed->outcome, "post");
+  EXPECT_EQ(kicks[1].truth->outcome, "on_target");
+  EXPECT_EQ(kicks[1].truth->x_cross_m, 0.5);
+  EXPECT_FALSE(kicks[3].truth);
+  EXPECT_EQ(kicks[0].accepted, true);
+}
+
+TEST_F(ReportOfALog, SessionsOfAMergedFileArePooled) {
+  for (const char* const name : {"match.db", "other.db"}) {
+    MatchLog match(path(name), session(), options());
+    write_table2(match);
+    match.close();
+  }
+  merge(path("other.db"), path());
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_THAT(report.sessions, SizeIs(2));
+  EXPECT_EQ(row_of(report, "stopped").inside(), 68);
+  EXPECT_EQ(row_of(report, "moving").outside(), 64);
+}
+
+TEST_F(ReportOfALog, AnEmptyLogSaysThatThereAreNoKicks) {
+  { log::Writer writer(path(), session(), options()); }
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_FALSE(report.data_lost());
+  EXPECT_THAT(to_text(report), HasSubstr("there are no kicks"));
+  EXPECT_THAT(to_text(report), Not(HasSubstr("trivela compare")));
+  const auto json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["policies"][0]["inside"], 0) << "a policy without a kick is listed";
+  EXPECT_TRUE(json["policies"][0]["efficiency"].is_null());
+}
+
+TEST_F(ReportOfALog, LostRowsAreShownByStreamAfterTheTable) {
+  MatchLog match(path(), session(), options());
+  match.kick(1, "on_target");
+  match.writer().add_loss("world_states", log::LossKind::kGaps, 3);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_TRUE(report.data_lost());
+  EXPECT_EQ(report.rows_missing(), 3);
+  const std::string text = to_text(report);
+  EXPECT_THAT(text, HasSubstr("warning: world_states: 3 rows are missing"));
+  EXPECT_LT(text.find("Table 2"), text.find("world_states"));
+}
+
+TEST_F(ReportOfALog, ASessionThatWasNotClosedCountsAsLoss) {
+  MatchLog match(path(), session(), options());
+  match.kick(1, "on_target");
+  match.writer().flush();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_EQ(report.unclosed_sessions(), 1);
+  EXPECT_TRUE(report.data_lost());
+  EXPECT_EQ(row_of(report, "stopped").inside(), 1);
+}
+
+TEST_F(ReportOfALog, ARealMatchIsNotCalledSimulated) {
+  auto real = session();
+  real.simulated = false;
+  real.seed.reset();
+  MatchLog match(path(), real, options());
+  match.kick(1, "on_target");
+  match.close();
+  const std::string text = to_text(make_report(log::Reader(path())));
+  EXPECT_THAT(text, Not(HasSubstr("SIMULATED")));
+  EXPECT_THAT(text, Not(HasSubstr("seed")));
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
