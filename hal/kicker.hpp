@@ -16,12 +16,14 @@ struct KickerSample {
   KickerFault fault = KickerFault::kNone;
 };
 
-/// The kicker: its state in, kicks out. read() is for one thread at a time,
-/// the commands for another.
+/// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
 class Kicker {
  public:
   /// Makes the kicker safe.
   virtual ~Kicker() = default;
+
+  /// The device is there: samples can come and commands arrive. Waits for it up to `timeout`.
+  virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
   virtual std::optional<KickerSample> read(std::chrono::nanoseconds timeout) = 0;

@@ -17,12 +17,14 @@ struct WheelSample {
   std::optional<double> gyro_radps;     ///< counter-clockwise
 };
 
-/// The base: wheel speeds in, set-points out. read() is for one thread at a time,
-/// the commands for another.
+/// The base: wheel speeds in, set-points out. read() is for one thread at a time, the commands for another.
 class Wheels {
  public:
   /// Leaves the base at a set-point of zero.
   virtual ~Wheels() = default;
+
+  /// The device is there: samples can come and commands arrive. Waits for it up to `timeout`.
+  virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
   virtual std::optional<WheelSample> read(std::chrono::nanoseconds timeout) = 0;

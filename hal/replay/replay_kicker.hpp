@@ -14,6 +14,8 @@ class ReplayKicker final : public Kicker {
  public:
   explicit ReplayKicker(const ReplayLog& log);
 
+  bool connected(std::chrono::nanoseconds) override { return true; }
+
   /// Never waits.
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;

@@ -12,6 +12,8 @@ class ReplayWheels final : public Wheels {
  public:
   explicit ReplayWheels(const ReplayLog& log);
 
+  bool connected(std::chrono::nanoseconds) override { return true; }
+
   /// Never waits. A row without any wheel, which no base sends, ends the replay as a std::runtime_error.
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;

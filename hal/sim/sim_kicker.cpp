@@ -1,5 +1,6 @@
 #include "hal/sim/sim_kicker.hpp"
 
+#include "hal/sim/both_ways.hpp"
 #include "hal/sim/read_newer.hpp"
 
 namespace trivela::hal {
@@ -25,6 +26,8 @@ SimKicker::SimKicker(const bus::Participant& participant, std::uint8_t robot_id)
       samples_(participant),
       // The simulated coil hears one driver, however long that says nothing.
       fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
+
+bool SimKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
 
 std::optional<KickerSample> SimKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);

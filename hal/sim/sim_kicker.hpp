@@ -21,6 +21,7 @@ class SimKicker final : public Kicker {
   SimKicker(const SimKicker&) = delete;
   SimKicker& operator=(const SimKicker&) = delete;
 
+  bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
   void make_safe() noexcept override { safe_ = true; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 
+#include "hal/sim/both_ways.hpp"
 #include "hal/sim/read_newer.hpp"
 
 namespace trivela::hal {
@@ -18,6 +19,8 @@ SimWheels::~SimWheels() {
     // The bus is gone, and the simulated motors with it.
   }
 }
+
+bool SimWheels::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, drives_, timeout); }
 
 std::optional<WheelSample> SimWheels::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);

@@ -21,6 +21,7 @@ class SimWheels final : public Wheels {
   SimWheels(const SimWheels&) = delete;
   SimWheels& operator=(const SimWheels&) = delete;
 
+  bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
   bool ended() const override { return false; }

@@ -1,0 +1,140 @@
+// What every backend of Kicker promises, run over each of them.
+#include <gtest/gtest.h>
+
+#include "hal/replay/replay_kicker.hpp"
+#include "hal/sim/sim_kicker.hpp"
+#include "tests/hal/recorded_log.hpp"
+#include "tests/hal/sim_world.hpp"
+
+namespace trivela::hal {
+namespace {
+
+using std::chrono::milliseconds;
+
+const std::vector<KickerSample> kSaid{{20'000'000, 1.0, true, KickerFault::kNone},
+                                      {40'000'000, 0.5, false, KickerFault::kCharger},
+                                      {60'000'000, 0.625, true, KickerFault::kCoil},
+                                      {80'000'000, 0.0, true, KickerFault::kLink}};
+
+struct Fired {
+  std::int64_t kick_id;
+  double power;
+  std::int64_t t_ns;
+  bool operator==(const Fired&) const = default;
+};
+
+class SimRig {
+ public:
+  SimRig() { EXPECT_TRUE(device->connected(kPlenty)); }
+
+  void say(std::size_t i) {
+    constexpr msg::KickerFault kFaults[] = {msg::FAULT_NONE, msg::FAULT_CHARGER, msg::FAULT_COIL, msg::FAULT_LINK};
+    msg::SimKicker sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = kSaid[i].t_ns;
+    sample.charge = kSaid[i].charge;
+    sample.armed = kSaid[i].armed;
+    sample.fault = kFaults[i];
+    world.samples.write(sample);
+  }
+
+  /// Everything that the coil was told, once `device` can no longer have anything under way.
+  std::vector<Fired> energised() {
+    SimKicker marker{world.here, kRobot + 1};  // takes the same way later
+    EXPECT_TRUE(marker.connected(kPlenty));
+    marker.fire(0, 0.0, 0);
+    std::vector<Fired> fired;
+    for (bool over = false; !over && world.commands.wait(kPlenty);) {
+      world.commands.take([&](const msg::SimFire& order) {
+        if (order.robot_id == kRobot) fired.push_back({order.kick_id, order.power, order.t_ns});
+        over = over || order.robot_id == kRobot + 1;
+      });
+    }
+    return fired;
+  }
+
+  SimWorld<msg::SimKicker, msg::SimFire> world;
+  std::unique_ptr<Kicker> device = std::make_unique<SimKicker>(world.here, kRobot);
+};
+
+class ReplayRig {
+ public:
+  ReplayRig() {
+    const char* faults[] = {"none", "charger", "coil", "link"};
+    for (std::size_t i = 0; i < kSaid.size(); ++i) {
+      const auto& s = kSaid[i];
+      log.kicker(kRobot, static_cast<std::int64_t>(i) + 1, s.t_ns, s.charge, s.armed, faults[i]);
+    }
+    log.close();
+    device = std::make_unique<ReplayKicker>(ReplayLog::open(log.file(), kRobot));
+  }
+  void say(std::size_t) {}
+  std::vector<Fired> energised() {
+    std::vector<Fired> fired;
+    for (const auto& f : dynamic_cast<ReplayKicker&>(*device).fires()) fired.push_back({f.kick_id, f.power, f.t_ns});
+    return fired;
+  }
+
+  RecordedLog log;
+  std::unique_ptr<Kicker> device;
+};
+
+template <class Rig>
+class KickerContract : public testing::Test {
+ protected:
+  Rig rig_;
+};
+using Rigs = testing::Types<SimRig, ReplayRig>;
+TYPED_TEST_SUITE(KickerContract, Rigs);
+
+TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
+  auto& kicker = *this->rig_.device;
+  for (std::size_t i = 0; i < kSaid.size(); ++i) {
+    EXPECT_FALSE(kicker.ended());
+    this->rig_.say(i);
+    const auto sample = kicker.read(kPlenty);
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->t_ns, kSaid[i].t_ns);
+    EXPECT_EQ(sample->charge, kSaid[i].charge);
+    EXPECT_EQ(sample->armed, kSaid[i].armed);
+    EXPECT_EQ(sample->fault, kSaid[i].fault);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_FALSE(kicker.read(milliseconds(20)));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TYPED_TEST(KickerContract, FiresAtAnyTime) {
+  auto& kicker = *this->rig_.device;
+  kicker.fire(11, 22.5, 5);
+  EXPECT_EQ(this->rig_.energised(), (std::vector<Fired>{{11, 22.5, 5}}));
+  this->rig_.say(0);
+  kicker.read(kPlenty);
+  kicker.fire(12, 50.0, 30'000'000);
+  EXPECT_EQ(this->rig_.energised().back(), (Fired{12, 50.0, 30'000'000}));
+}
+
+TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {
+  auto& kicker = *this->rig_.device;
+  kicker.make_safe();
+  kicker.make_safe();
+  kicker.fire(11, 22.5, 5);
+  EXPECT_TRUE(this->rig_.energised().empty());
+  this->rig_.say(0);
+  EXPECT_TRUE(kicker.read(kPlenty));  // it still speaks
+}
+
+TEST(SimKicker, DestructionEnergisesNothing) {
+  SimRig rig;
+  rig.device.reset();
+  EXPECT_TRUE(rig.energised().empty());
+}
+
+TEST(ReplayKicker, EndsWithTheLog) {
+  ReplayRig rig;
+  for (std::size_t i = 0; i < kSaid.size(); ++i) rig.device->read(kPlenty);
+  EXPECT_TRUE(rig.device->ended());
+}
+
+}  // namespace
+}  // namespace trivela::hal
