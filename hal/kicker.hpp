@@ -22,7 +22,7 @@ class Kicker {
   /// Makes the kicker safe.
   virtual ~Kicker() = default;
 
-  /// The device is there: samples can come and commands arrive. Waits for it up to `timeout`.
+  /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
   virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().

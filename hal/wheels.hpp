@@ -23,7 +23,7 @@ class Wheels {
   /// Leaves the base at a set-point of zero.
   virtual ~Wheels() = default;
 
-  /// The device is there: samples can come and commands arrive. Waits for it up to `timeout`.
+  /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
   virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().

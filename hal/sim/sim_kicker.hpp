@@ -12,7 +12,8 @@
 
 namespace trivela::hal {
 
-/// The kicker of a simulated robot: sim/kicker in, sim/fire out.
+/// The kicker of a simulated robot: sim/kicker in, sim/fire out. An order is for the simulator that is there: before
+/// connected() here, and before the simulator's reader knows this writer, it is lost.
 class SimKicker final : public Kicker {
  public:
   /// Throws bus::Error if the bus refuses.

@@ -25,7 +25,11 @@ struct Fired {
 
 class SimRig {
  public:
-  SimRig() { EXPECT_TRUE(device->connected(kPlenty)); }
+  SimRig() {
+    EXPECT_TRUE(device->connected(kPlenty));
+    EXPECT_TRUE(marker.connected(kPlenty));
+    EXPECT_TRUE(world.commands.wait_for_writers(2, kPlenty));
+  }
 
   void say(std::size_t i) {
     constexpr msg::KickerFault kFaults[] = {msg::FAULT_NONE, msg::FAULT_CHARGER, msg::FAULT_COIL, msg::FAULT_LINK};
@@ -40,8 +44,6 @@ class SimRig {
 
   /// Everything that the coil was told, once `device` can no longer have anything under way.
   std::vector<Fired> energised() {
-    SimKicker marker{world.here, kRobot + 1};  // takes the same way later
-    EXPECT_TRUE(marker.connected(kPlenty));
     marker.fire(0, 0.0, 0);
     std::vector<Fired> fired;
     for (bool over = false; !over && world.commands.wait(kPlenty);) {
@@ -55,6 +57,7 @@ class SimRig {
 
   SimWorld<msg::SimKicker, msg::SimFire> world;
   std::unique_ptr<Kicker> device = std::make_unique<SimKicker>(world.here, kRobot);
+  SimKicker marker{world.here, kRobot + 1};  // takes the same way, later
 };
 
 class ReplayRig {
