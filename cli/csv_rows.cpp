@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -62,6 +63,12 @@ std::string csv_line(const std::vector<std::string>& given, const std::vector<st
   for (const auto* part : {&given, &appended})
     std::transform(part->begin(), part->end(), std::back_inserter(cells), to_csv);
   return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+std::string flag_of(const Column& column) {
+  std::string flag = "--" + column.name;
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
 }
 
 void check_header(const RowVerb& verb, const std::vector<std::string>& header, const std::string& file) {
@@ -181,9 +188,7 @@ void add_row_flags(CLI::App& verb, const std::vector<Column>& inputs, RowArgumen
       ->type_name("FILE|-");
   verb.add_flag("--json", arguments.json, "Print JSON instead of CSV: an array with one object a row");
   for (const Column& column : inputs) {
-    std::string flag = "--" + column.name;
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    if (!column.alias.empty()) flag += "," + column.alias;
+    const std::string flag = flag_of(column) + (column.alias.empty() ? "" : "," + column.alias);
     const std::string name = column.name;
     verb.add_option_function<std::string>(
             flag, [&arguments, name](const std::string& text) { arguments.cells[name] = text; }, column.help)
@@ -198,7 +203,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     if (!arguments.cells.empty()) throw UsageError("--csv goes without flags for single values");
     if (arguments.csv == "-") return run_rows(verb, std::cin, "standard input", format, std::cout, std::cerr);
     std::ifstream file(arguments.csv);
-    if (!file) throw std::runtime_error("cannot read " + arguments.csv);
+    if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
     return run_rows(verb, file, arguments.csv, format, std::cout, std::cerr);
   }
   std::vector<std::string> header;
@@ -209,7 +214,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
       header.push_back(column.name);
       cells.push_back(given->second);
     } else if (column.required) {
-      throw UsageError(fmt::format("no value for {} (and no --csv FILE)", column.name));
+      throw UsageError(fmt::format("{} is missing (or --csv FILE)", flag_of(column)));
     }
   }
   std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));

@@ -45,7 +45,7 @@ RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking
                  {"h_rel_m", "Wanted height over the launch, of the ball's centre [m]"},
                  {"v_front_mps", "Forward speed of the robot [m/s], default 0", false},
                  {"k_transfer", "Share of it that the ball takes over, default 1", false},
-                 {"Cd", "Drag coefficient; adds v0_drag_mps", false}};
+                 {"Cd", "Drag coefficient; adds v0_drag_mps", false, "--cd"}};
   verb.results = [with_power = table.has_value()](const auto& has) {
     std::vector<std::string> columns{"v0_mps", "vk_exact_mps", "vk_paper_mps", "feasible", "descending"};
     if (has("Cd")) columns.emplace_back("v0_drag_mps");
@@ -83,10 +83,10 @@ void add_solve(CLI::App& app, int& exit_code) {
       "Results of a row that no speed solves are empty.");
   add_row_flags(*verb, solve_verb({}, {}).inputs, arguments->rows);
   add_flight_flags(*verb, arguments->constants);
-  verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Ball")
+  verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Air")
+  verb->add_option("--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Density of the air")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option("--robot", arguments->robot_file, "Robot file whose table gives the power")->type_name("FILE");

@@ -31,6 +31,8 @@ Settings load_settings(const std::filesystem::path& path) {
   return settings;
 }
 
+void override_setting(Settings& settings, const std::string& line) { read_into(parse_text(line, "--set"), settings); }
+
 std::string to_toml_text(const Settings& settings) { return to_toml(settings); }
 
 }  // namespace trivela::config

@@ -15,6 +15,7 @@ namespace trivela::config {
 struct Run {
   std::uint32_t robot_id = 1;
   double cycle_s = 0.02;  ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
+  std::uint32_t session = 0;  ///< upper 15 bits of every kick_id; 0: drawn at the start
   bool lockstep = false;  ///< wait for every input of a cycle and tell the simulator when it is finished
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
@@ -83,6 +84,13 @@ struct ShotObserver {
   double rest_speed_mps = 0.3;    ///< slower is at rest
 };
 
+/// What the simulator plays.
+struct Simulator {
+  std::int64_t seed = 1;
+  std::uint32_t halves = 2;
+  double half_minutes = 5.0;
+};
+
 struct Recorder {
   std::string log = "match.db";
   std::uint32_t queue_capacity = 65536;
@@ -101,11 +109,15 @@ struct Settings {
   KickDecision kick_decision;
   KickerDriver kicker_driver;
   ShotObserver shot_observer;
+  Simulator simulator;
   Recorder recorder;
 };
 
 /// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.
 Settings load_settings(const std::filesystem::path& path);
+
+/// One line of TOML such as `run.robot_id = 2` on top. Throws Error naming it.
+void override_setting(Settings& settings, const std::string& line);
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);

@@ -74,8 +74,7 @@ void fields(V& v, PolicyConfig& p) {
   v("moving_turn_gain_hz", p.moving_turn_gain_hz, Range{0.1, 100.0});
   v("max_forward_mps", p.max_forward_mps, Range{0.0, 10.0});
   v("max_sideways_mps", p.max_sideways_mps, Range{0.0, 10.0});
-  v("min_dribble_mps", p.min_dribble_mps, Range{0.0, 10.0});
-  v("approach_mps", p.approach_mps, Range{0.0, 10.0});
+  v("dribble_mps", p.dribble_mps, Range{0.0, 10.0});
   v("keep_off_m", p.keep_off_m, Range{0.0, 10.0});
   v("max_brake_mps2", p.max_brake_mps2, Range{0.1, 50.0});
   v("max_turn_rate_radps", p.max_turn_rate_radps, Range{0.0, 30.0});
@@ -91,6 +90,7 @@ template <class V>
 void fields(V& v, Run& r) {
   v("robot_id", r.robot_id, Range{1, 255});
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
+  v("session", r.session, Range{0, 32767});
   v("lockstep", r.lockstep);
   v("robot", r.robot);
   v("scenario", r.scenario);
@@ -160,6 +160,13 @@ void fields(V& v, ShotObserver& s) {
 }
 
 template <class V>
+void fields(V& v, Simulator& s) {
+  v("seed", s.seed, Range{0, 9e15});
+  v("halves", s.halves, Range{1, 255});
+  v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
+}
+
+template <class V>
 void fields(V& v, Recorder& r) {
   v("log", r.log);
   v("queue_capacity", r.queue_capacity, Range{1, 10000000});
@@ -178,6 +185,7 @@ void fields(V& v, Settings& s) {
   v("kick_decision", s.kick_decision);
   v("kicker_driver", s.kicker_driver);
   v("shot_observer", s.shot_observer);
+  v("simulator", s.simulator);
   v("recorder", s.recorder);
 }
 

@@ -1,0 +1,90 @@
+#include "cli/launch/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+
+namespace trivela::cli {
+namespace {
+
+constexpr std::chrono::seconds kPatience{5};
+
+[[noreturn]] void become(const std::filesystem::path& program, const std::vector<std::string>& arguments, int output,
+                         pid_t launcher) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != launcher) _exit(1);  // it died before the line above
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (output >= 0) dup2(output, STDOUT_FILENO);
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  execv(program.c_str(), argv.data());
+  _exit(127);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(std::string name, const std::filesystem::path& program,
+                           const std::vector<std::string>& arguments, int output)
+    : name_(std::move(name)) {
+  if (access(program.c_str(), X_OK) != 0) {
+    throw std::runtime_error{fmt::format("cannot start {}: {}: {}", name_, program.string(), std::strerror(errno))};
+  }
+  const pid_t launcher = getpid();
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", name_, std::strerror(errno))};
+  if (pid_ == 0) become(program, arguments, output, launcher);
+  pid_fd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : name_(std::move(other.name_)), pid_(other.pid_), pid_fd_(other.pid_fd_), status_(other.status_) {
+  other.pid_ = other.pid_fd_ = -1;
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ > 0 && !ended()) {
+    terminate();
+    if (!wait(kPatience)) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+  }
+  if (pid_fd_ >= 0) close(pid_fd_);
+}
+
+bool ChildProcess::ended() {
+  int status = 0;
+  if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;
+  return status_.has_value();
+}
+
+std::string ChildProcess::how_it_ended() const {
+  if (!status_) return "still running";
+  if (WIFSIGNALED(*status_)) return fmt::format("signal {} ({})", WTERMSIG(*status_), strsignal(WTERMSIG(*status_)));
+  return fmt::format("exit code {}", WEXITSTATUS(*status_));
+}
+
+void ChildProcess::terminate() const {
+  if (!status_) kill(pid_, SIGTERM);
+}
+
+bool ChildProcess::wait(std::chrono::milliseconds timeout) {
+  pollfd handle{pid_fd_, POLLIN, 0};
+  if (!ended()) poll(&handle, 1, static_cast<int>(timeout.count()));
+  return ended();
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trivela::cli {
+
+/// A process of ours: started with the object, gone with it. It stands in a process group of its own, so that Ctrl-C
+/// reaches its launcher alone, and the kernel ends it if the launcher is killed.
+class ChildProcess {
+ public:
+  /// Runs `program` with `arguments`. `output`: file descriptor for its standard output, or -1 to share ours.
+  /// Throws std::runtime_error naming the program that cannot be started.
+  ChildProcess(std::string name, const std::filesystem::path& program, const std::vector<std::string>& arguments,
+               int output = -1);
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess& operator=(ChildProcess&&) = delete;
+
+  /// Ends the process if it still runs: SIGTERM, then SIGKILL after five seconds.
+  ~ChildProcess();
+
+  const std::string& name() const { return name_; }
+
+  /// Whether it has ended, and then how; never waits.
+  bool ended();
+  bool succeeded() { return ended() && status_ == 0; }
+
+  /// "exit code 1", "signal 9 (Killed)".
+  std::string how_it_ended() const;
+
+  /// Asks it to stop.
+  void terminate() const;
+
+  /// Waits up to `timeout` for it to end.
+  bool wait(std::chrono::milliseconds timeout);
+
+ private:
+  std::string name_;
+  pid_t pid_ = -1;
+  int pid_fd_ = -1;
+  std::optional<int> status_;
+};
+
+}  // namespace trivela::cli

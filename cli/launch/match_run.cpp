@@ -1,0 +1,123 @@
+#include "cli/launch/match_run.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <deque>
+#include <stdexcept>
+
+#include "cli/launch/child_process.hpp"
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
+
+namespace trivela::cli {
+namespace {
+
+constexpr std::array kNodes{"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
+constexpr std::chrono::seconds kPatience{10};
+
+/// The simulator's "t_s total_s" lines.
+class ProgressPipe {
+ public:
+  ProgressPipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error{"no pipe for the simulator's progress"};
+    fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+  }
+  ProgressPipe(const ProgressPipe&) = delete;
+  ProgressPipe& operator=(const ProgressPipe&) = delete;
+  ~ProgressPipe() {
+    close(ends_[0]);
+    close_write_end();
+  }
+  int read_end() const { return ends_[0]; }
+  int write_end() const { return ends_[1]; }
+  void close_write_end() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+  /// Takes what has come; true at the end of the stream.
+  bool take(double& played_s, double& total_s) {
+    std::array<char, 4096> chunk{};
+    ssize_t n = 0;
+    while ((n = read(ends_[0], chunk.data(), chunk.size())) > 0)
+      text_.append(chunk.data(), static_cast<std::size_t>(n));
+    for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
+      char* rest = nullptr;
+      played_s = std::strtod(text_.c_str(), &rest);
+      total_s = std::strtod(rest, nullptr);
+      text_.erase(0, end + 1);
+    }
+    return n == 0;
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+  std::string text_;
+};
+
+/// The end of a node before the match is over, as a sentence; empty if all run.
+std::string casualty(std::deque<ChildProcess>& children) {
+  for (ChildProcess& child : children) {
+    if (child.ended()) return fmt::format("{} died ({})", child.name(), child.how_it_ended());
+  }
+  return {};
+}
+
+void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
+  // The recorder is first in the list and stops last: it hears what the others say on their way out.
+  while (!children.empty()) {
+    ChildProcess& last = children.back();
+    const bool ran = !last.ended();
+    last.terminate();
+    if (!last.wait(kPatience))
+      trouble += fmt::format("{}{} did not stop within 10 s", trouble.empty() ? "" : "; ", last.name());
+    if (ran && last.ended() && !last.succeeded()) {
+      trouble +=
+          fmt::format("{}{} failed on stopping ({})", trouble.empty() ? "" : "; ", last.name(), last.how_it_ended());
+    }
+    children.pop_back();
+  }
+}
+
+}  // namespace
+
+MatchResult run_match(const std::filesystem::path& programs, const std::filesystem::path& config_file) {
+  MatchResult result;
+  SignalInbox signals;
+  ProgressPipe progress;
+  std::deque<ChildProcess> children;
+  const auto started = std::chrono::steady_clock::now();
+  const std::vector<std::string> arguments{"--config", config_file.string()};
+  for (const char* node : kNodes) {
+    children.emplace_back(node, programs / (std::string{"trivela-"} + node), arguments);
+  }
+  children.emplace_back("simulator", programs / "trivela-simulator", arguments, progress.write_end());
+  progress.close_write_end();
+  ProgressBar bar;
+  double total_s = 0.0;
+  for (;;) {
+    std::array<pollfd, 2> sources{pollfd{progress.read_end(), POLLIN, 0}, pollfd{signals.file_descriptor(), POLLIN, 0}};
+    poll(sources.data(), sources.size(), 1000);
+    const bool over = progress.take(result.played_s, total_s);
+    bar.show(result.played_s, total_s, fmt::format("{:.0f} s played", result.played_s));
+    if (signals.stop_requested()) {
+      result.trouble = "interrupted";
+      break;
+    }
+    if (over && children.back().wait(kPatience) && children.back().succeeded()) {
+      children.pop_back();
+      break;
+    }
+    if (result.trouble = casualty(children); !result.trouble.empty()) break;
+  }
+  result.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
+  stop_all(children, result.trouble);
+  return result;
+}
+
+}  // namespace trivela::cli

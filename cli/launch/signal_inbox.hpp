@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace trivela::cli {
+
+/// SIGINT, SIGTERM and SIGCHLD as something to poll; they do not interrupt anything else while it lives.
+class SignalInbox {
+ public:
+  SignalInbox() {
+    sigset_t ours;
+    sigemptyset(&ours);
+    for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&ours, signal);
+    sigprocmask(SIG_BLOCK, &ours, &before_);
+    descriptor_ = signalfd(-1, &ours, SFD_NONBLOCK | SFD_CLOEXEC);
+  }
+  SignalInbox(const SignalInbox&) = delete;
+  SignalInbox& operator=(const SignalInbox&) = delete;
+  ~SignalInbox() {
+    close(descriptor_);
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+  int file_descriptor() const { return descriptor_; }
+
+  /// Empties the inbox; true if somebody asked to stop.
+  bool stop_requested() {
+    signalfd_siginfo info{};
+    bool stop = false;
+    while (read(descriptor_, &info, sizeof info) == static_cast<ssize_t>(sizeof info))
+      stop = stop || info.ssi_signo != SIGCHLD;
+    return stop;
+  }
+
+ private:
+  sigset_t before_{};
+  int descriptor_ = -1;
+};
+
+}  // namespace trivela::cli

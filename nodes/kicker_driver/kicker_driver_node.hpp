@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "hal/kicker.hpp"
+#include "nodes/kicker_driver/order_gate.hpp"
+#include "nodes/runtime/node_context.hpp"
+
+namespace trivela::nodes {
+
+/// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
+/// OrderGate lets the order pass. Leaving, by whichever way, makes the device safe.
+class KickerDriverNode {
+ public:
+  KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
+  bus::Node& node() { return node_; }
+
+ private:
+  void on_sample(const hal::KickerSample& sample);
+  void on_order(const msg::KickOrder& order);
+  std::int64_t now_t_ns() const;
+  void report_done(std::int64_t t_ns);
+
+  NodeContext& context_;
+  std::mutex mutex_;  // device thread and order reaction
+  std::unique_ptr<hal::Kicker> kicker_;
+  OrderGate gate_;
+  std::int64_t sample_t_ns_ = 0;
+  std::chrono::steady_clock::time_point sampled_{};
+  bus::Node node_;
+  bus::Output<msg::KickerStatus> status_out_;
+  bus::Output<msg::KickReceipt> receipt_out_;
+  std::optional<bus::Output<msg::StepDone>> step_done_;
+  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
+  FirstCycle first_;
+  std::uint64_t statuses_ = 0;
+  std::uint64_t receipts_ = 0;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/wheels.hpp"
+#include "nodes/odometry/wheel_odometry.hpp"
+#include "nodes/runtime/node_context.hpp"
+
+namespace trivela::nodes {
+
+/// Owns the base: wheel samples in, Odometry out; DriveCommand in, set-points to the wheels.
+class OdometryNode {
+ public:
+  OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels);
+  bus::Node& node() { return node_; }
+
+ private:
+  void on_wheels(const hal::WheelSample& sample);
+  void on_drive(const msg::DriveCommand& command);
+
+  NodeContext& context_;
+  std::unique_ptr<hal::Wheels> wheels_;
+  WheelOdometry odometry_;
+  bus::Node node_;
+  bus::Output<msg::Odometry> odometry_out_;
+  std::optional<bus::Output<msg::StepDone>> step_done_;
+  FirstCycle first_;
+  std::uint64_t seq_ = 0;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,80 @@
+#include "nodes/recorder/recorder_node.hpp"
+
+#include <memory>
+
+#include "nodes/recorder/message_row.hpp"
+#include "nodes/runtime/step_done.hpp"
+
+namespace trivela::nodes {
+
+using evaluator::log::LossKind;
+using evaluator::log::TableId;
+
+RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
+    : context_(context),
+      log_(log),
+      node_(context.participant, "recorder"),
+      step_done_(step_done_writer(context, node_)) {
+  record<msg::Odometry>("odometry");
+  record<msg::VisionFrame>("vision_frames");
+  record<msg::FlightFrame>("flight_frames");
+  record<msg::Referee>("referee");
+  record<msg::WorldState>("world_states");
+  record<msg::DriveCommand>("drive_commands");
+  record<msg::KickerStatus>("kicker_status");
+  record<msg::KickOrder>("kick_orders");
+  record<msg::KickReceipt>("kick_receipts");
+  record<msg::KickOutcome>("kick_outcomes");
+  record<msg::KickTruth>("kick_truths");
+  record<msg::PossessionTruth>("possession_truths");
+  record_decisions();
+}
+
+template <class T>
+std::int64_t RecorderNode::store(const std::string& table, TableId id, SequenceWatch& watch, T sample,
+                                 std::uint64_t writer) {
+  const auto finding = watch.see(sample.robot_id, sample.seq, writer);
+  if (finding.gap > 0) log_.add_loss(table, LossKind::kGaps, finding.gap);
+  if (finding.out_of_order) log_.add_loss(table, LossKind::kOutOfOrder);
+  sample.seq = static_cast<std::uint64_t>(finding.seq);
+  log_.push(id, row_of(sample));
+  return finding.seq;
+}
+
+template <class T>
+void RecorderNode::record(const std::string& table) {
+  const TableId id = log_.table(table, columns_of<T>());
+  bus::ReaderOptions everything;
+  everything.keep_all = true;
+  node_.on<T>(
+      [this, table, id, watch = SequenceWatch{}](const T& sample, const bus::SampleInfo& info) mutable {
+        store(table, id, watch, sample, info.writer);
+        // The last word of a cycle: whatever came before it is here.
+        if constexpr (std::is_same_v<T, msg::DriveCommand>) {
+          step_done(step_done_, sample.robot_id, msg::STEP_RECORDER, sample.t_ns);
+        }
+      },
+      bus::writes<msg::StepDone>(), everything);
+}
+
+void RecorderNode::record_decisions() {
+  const TableId decisions = log_.table("kick_decisions", columns_of<msg::KickDecision>());
+  std::vector<std::string> shadow_columns{"robot_id", "seq", "shadow_index"};
+  for (const std::string& column : columns_of<msg::ShadowDecision>()) shadow_columns.push_back(column);
+  const TableId shadows = log_.table("shadow_decisions", shadow_columns);
+  bus::ReaderOptions everything;
+  everything.keep_all = true;
+  node_.on<msg::KickDecision>(
+      [this, decisions, shadows, watch = SequenceWatch{}](const msg::KickDecision& decision,
+                                                          const bus::SampleInfo& info) mutable {
+        const std::int64_t seq = store("kick_decisions", decisions, watch, decision, info.writer);
+        for (std::int64_t i = 0; i < decision.shadow_count; ++i) {
+          std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, seq, i};
+          for (auto& value : row_of(decision.shadows[i])) row.push_back(std::move(value));
+          log_.push(shadows, std::move(row));
+        }
+      },
+      {}, everything);
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "evaluator/log/writer.hpp"
+#include "nodes/recorder/sequence_watch.hpp"
+#include "nodes/runtime/node_context.hpp"
+
+namespace trivela::nodes {
+
+/// Every message of the graph, of every robot in the domain, to one SQLite match log.
+class RecorderNode {
+ public:
+  RecorderNode(NodeContext& context, evaluator::log::Writer& log);
+  bus::Node& node() { return node_; }
+
+ private:
+  template <class T>
+  void record(const std::string& table);
+  void record_decisions();
+  template <class T>
+  std::int64_t store(const std::string& table, evaluator::log::TableId id, SequenceWatch& watch, T sample,
+                     std::uint64_t writer);
+
+  NodeContext& context_;
+  evaluator::log::Writer& log_;
+  bus::Node node_;
+  std::optional<bus::Output<msg::StepDone>> step_done_;
+};
+
+/// What the log says about this session.
+evaluator::log::Session session_of(const NodeContext& context);
+
+}  // namespace trivela::nodes

@@ -1,0 +1,44 @@
+#include <chrono>
+#include <filesystem>
+
+#include "config/scenario.hpp"
+#include "idl_text.hpp"
+#include "nodes/recorder/recorder_node.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+std::int64_t now_ns(auto clock_now) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
+}
+
+}  // namespace
+
+evaluator::log::Session session_of(const NodeContext& context) {
+  const config::Settings& settings = context.settings;
+  const bool simulated = settings.hal.wheels == "sim";
+  evaluator::log::Session session;
+  session.simulated = simulated;
+  session.simulated_clock = simulated;
+  const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
+  if (!simulated) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
+  session.realtime_offset_ns = realtime_ns - session.started_t_ns;
+  session.config_toml =
+      "### settings\n" + config::to_toml_text(settings) + "\n### robot\n" + config::to_toml_text(context.robot);
+  if (simulated) {
+    session.seed = settings.simulator.seed;
+    session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
+    session.config_toml += "\n### scenario\n" + config::to_toml_text(config::load_scenario(settings.run.scenario));
+  }
+  session.software_version = TRIVELA_VERSION;
+  session.idl = kIdlText;
+  const auto& by_half = settings.kick_decision.policy_by_half;
+  const std::size_t halves = simulated ? settings.simulator.halves : std::max<std::size_t>(by_half.size(), 2);
+  for (std::size_t half = 1; half <= halves; ++half) {
+    const auto policy = by_half[std::min(half, by_half.size()) - 1];
+    session.policies.push_back({static_cast<int>(half), kicking::name(policy)});
+  }
+  return session;
+}
+
+}  // namespace trivela::nodes

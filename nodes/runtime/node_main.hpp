@@ -1,0 +1,18 @@
+#pragma once
+
+#include <functional>
+
+#include "nodes/runtime/node_context.hpp"
+
+namespace trivela::nodes {
+
+/// The main of every node: `--config FILE`, any number of `--set section.key=value`, `--realtime PRIORITY`. Joins the
+/// bus, runs `body` until it returns or SIGTERM or SIGINT requests the stop, and turns exceptions into one line on
+/// standard error. Returns the exit code: 0 stopped, 1 failed, 2 bad usage.
+int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body);
+
+/// Runs one node until the stop: in listeners where the settings allow it, in a waitset thread in lockstep, where
+/// reactions wait for the other inputs of a cycle.
+void run(NodeContext& context, bus::Node& node);
+
+}  // namespace trivela::nodes

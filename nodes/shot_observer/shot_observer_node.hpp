@@ -1,0 +1,33 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "nodes/runtime/node_context.hpp"
+#include "nodes/shot_observer/shot_tracker.hpp"
+
+namespace trivela::nodes {
+
+/// Receipts and the flight camera's frames in, KickOutcome out.
+class ShotObserverNode {
+ public:
+  explicit ShotObserverNode(NodeContext& context);
+  bus::Node& node() { return node_; }
+
+ private:
+  void on_receipt(const msg::KickReceipt& receipt);
+  void on_frame(const msg::FlightFrame& frame);
+  void publish(const std::vector<TrackedShot>& settled);
+
+  NodeContext& context_;
+  std::mutex mutex_;  // the two reactions share the tracker
+  ShotTracker tracker_;
+  bus::Node node_;
+  bus::Output<msg::KickOutcome> outcome_out_;
+  std::optional<bus::Output<msg::StepDone>> step_done_;
+  FirstCycle first_;
+  std::uint64_t seq_ = 0;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,88 @@
+#include "nodes/shot_observer/shot_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivela::nodes {
+namespace {
+
+constexpr double kJump_m = 1.0;        // between sightings: the ball was taken away
+constexpr double kFrameDepth_m = 0.4;  // a turn this close to the plane is the goal frame's work
+constexpr double kCameBack_m = 0.25;   // farther from its farthest point than noise and frame rate explain
+constexpr double kBeyond_sd = 4.0;     // sightings beyond the line by this many standard deviations are believed
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+std::vector<TrackedShot> ShotTracker::release(std::int64_t kick_id, std::int64_t release_t_ns,
+                                              double expected_speed_mps) {
+  std::vector<TrackedShot> settled;
+  if (open_) settled.push_back(settle(FlightEnd::kLost, release_t_ns));
+  open_ = Open{kick_id, release_t_ns, expected_speed_mps, release_t_ns, -HUGE_VAL, {}};
+  for (const Sighting& sighting : history_) {
+    if (!open_) break;
+    if (sighting.t_ns < release_t_ns) continue;
+    if (const auto end = step(sighting.t_ns, sighting.ball_m)) settled.push_back(settle(*end, sighting.t_ns));
+  }
+  return settled;
+}
+
+std::vector<TrackedShot> ShotTracker::frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m) {
+  const bool seen = ball_m && ball_m->allFinite();
+  if (seen) history_.push_back({t_ns, *ball_m});
+  while (!history_.empty() && seconds(t_ns - history_.front().t_ns) > settings_.history_s) history_.pop_front();
+  if (!open_ || t_ns < open_->release_t_ns) return {};
+  if (const auto end = step(t_ns, seen ? ball_m : std::nullopt)) return {settle(*end, t_ns)};
+  return {};
+}
+
+std::optional<FlightEnd> ShotTracker::step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m) {
+  return ball_m ? follow({t_ns, *ball_m}) : missed(t_ns);
+}
+
+std::optional<FlightEnd> ShotTracker::missed(std::int64_t t_ns) const {
+  if (seconds(t_ns - open_->seen_t_ns) <= settings_.lost_s) return std::nullopt;
+  const bool beyond = !open_->sightings.empty() && open_->sightings.back().ball_m.y() > goal_.y_m;
+  return beyond ? FlightEnd::kBeyondLine : FlightEnd::kLost;
+}
+
+std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
+  auto& sightings = open_->sightings;
+  if (!sightings.empty() && (sighting.ball_m - sightings.back().ball_m).norm() > kJump_m) {
+    if (sightings.back().ball_m.y() > goal_.y_m) return FlightEnd::kBeyondLine;
+    const bool came_back = open_->farthest_y_m - sightings.back().ball_m.y() > kCameBack_m / 2.0;
+    if (came_back && open_->farthest_y_m > goal_.y_m - kFrameDepth_m) return FlightEnd::kThrownBack;
+    return FlightEnd::kAtRest;
+  }
+  sightings.push_back(sighting);
+  open_->seen_t_ns = sighting.t_ns;
+  open_->farthest_y_m = std::max(open_->farthest_y_m, sighting.ball_m.y());
+  const double y_m = sighting.ball_m.y();
+  if (y_m > goal_.y_m + kBeyond_sd * settings_.ball_sd_m) return FlightEnd::kBeyondLine;
+  if (open_->farthest_y_m - y_m > kCameBack_m && open_->farthest_y_m > goal_.y_m - kFrameDepth_m)
+    return FlightEnd::kThrownBack;
+  if (at_rest() || seconds(sighting.t_ns - open_->release_t_ns) > settings_.time_out_s) {
+    return y_m > goal_.y_m ? FlightEnd::kBeyondLine : FlightEnd::kAtRest;
+  }
+  return std::nullopt;
+}
+
+/// Slower than rest_speed over the last half second.
+bool ShotTracker::at_rest() const {
+  const auto& sightings = open_->sightings;
+  const auto from = std::find_if(sightings.begin(), sightings.end(),
+                                 [&](const Sighting& s) { return seconds(sightings.back().t_ns - s.t_ns) <= 0.5; });
+  const double span_s = seconds(sightings.back().t_ns - from->t_ns);
+  if (from == sightings.begin() || span_s < 0.25) return false;
+  return (sightings.back().ball_m - from->ball_m).norm() < settings_.rest_speed_mps * span_s;
+}
+
+TrackedShot ShotTracker::settle(FlightEnd end, std::int64_t t_ns) {
+  const Open shot = std::move(*open_);
+  open_.reset();
+  return {shot.kick_id, t_ns, shot.sightings.size(),
+          judge_shot(shot.sightings, end, shot.expected_speed_mps, goal_, settings_)};
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "nodes/shot_observer/shot_judge.hpp"
+
+namespace trivela::nodes {
+
+/// A kick whose flight is over.
+struct TrackedShot {
+  std::int64_t kick_id = 0;
+  std::int64_t t_ns = 0;  ///< exposure that settled it
+  std::size_t sightings = 0;
+  ShotVerdict verdict;
+};
+
+/// Follows the ball after each release until the shot is settled. It sees the flight camera's frames and the receipts
+/// and nothing else. A receipt may come later than the first frames of its flight: the last `history_s` of frames are
+/// kept.
+class ShotTracker {
+ public:
+  ShotTracker(const config::ShotObserver& settings, const kicking::Goal& goal) : settings_(settings), goal_(goal) {}
+
+  /// A kick was accepted and leaves at `release_t_ns` with `expected_speed_mps` over ground. A shot still open becomes
+  /// unknown.
+  std::vector<TrackedShot> release(std::int64_t kick_id, std::int64_t release_t_ns, double expected_speed_mps);
+
+  /// One frame; nullopt where the ball was not seen.
+  std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
+
+ private:
+  struct Open {
+    std::int64_t kick_id;
+    std::int64_t release_t_ns;
+    double expected_speed_mps;
+    std::int64_t seen_t_ns;
+    double farthest_y_m;
+    std::vector<Sighting> sightings;
+  };
+
+  std::optional<FlightEnd> follow(const Sighting& sighting);
+  std::optional<FlightEnd> missed(std::int64_t t_ns) const;
+  std::optional<FlightEnd> step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
+  bool at_rest() const;
+  TrackedShot settle(FlightEnd end, std::int64_t t_ns);
+
+  config::ShotObserver settings_;
+  kicking::Goal goal_;
+  std::deque<Sighting> history_;
+  std::optional<Open> open_;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+
+#include "bus/messages.hpp"
+#include "bus/reader.hpp"
+#include "bus/stop.hpp"
+
+namespace trivela::nodes {
+
+/// Waits until every node has finished a cycle and the driver has answered every order that was sent.
+class LockstepBarrier {
+ public:
+  LockstepBarrier(const bus::Participant& participant, std::uint8_t robot_id)
+      : reader_(participant), robot_id_(robot_id) {}
+
+  /// False: the stop was requested. Throws std::runtime_error naming the nodes that have not finished the cycle of t_ns
+  /// when nothing came for 20 s.
+  bool wait_for(std::int64_t t_ns, const bus::Stop& stop);
+
+ private:
+  bool finished(std::int64_t t_ns) const;
+
+  struct Progress {
+    std::int64_t t_ns = -1;
+    std::uint32_t orders = 0;
+  };
+  bus::Reader<msg::StepDone> reader_;
+  std::uint8_t robot_id_;
+  std::array<Progress, 5> nodes_{};
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,105 @@
+#include "nodes/simulator/sim_messages.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace trivela::nodes {
+namespace {
+
+static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
+static_assert(int{msg::POSSESSION_TIMED_OUT} == int(sim::PossessionEnd::kTimedOut));
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+msg::SimWheels wheels_message(const sim::Sensors& sensors) {
+  msg::SimWheels out{};
+  out.t_ns = sensors.t_ns;
+  out.wheel_count = static_cast<std::uint8_t>(sensors.wheels.wheel_count);
+  std::copy(sensors.wheels.wheel_radps.begin(), sensors.wheels.wheel_radps.end(), out.wheel_radps);
+  out.gyro_radps = sensors.wheels.gyro_radps;
+  return out;
+}
+
+msg::SimKicker kicker_message(const sim::Sensors& sensors) {
+  msg::SimKicker out{};
+  out.t_ns = sensors.t_ns;
+  out.charge = sensors.kicker.charge;
+  out.armed = sensors.kicker.armed;
+  out.fault = msg::FAULT_NONE;
+  return out;
+}
+
+msg::VisionFrame vision_message(const sim::Sensors& sensors) {
+  const sim::VisionFrame& frame = sensors.vision;
+  msg::VisionFrame out{};
+  out.t_ns = sensors.t_ns;
+  out.t_exposure_ns = frame.t_exposure_ns;
+  out.pose_seen = frame.pose.has_value();
+  out.x_m = frame.pose ? frame.pose->x_m : kNone;
+  out.y_m = frame.pose ? frame.pose->y_m : kNone;
+  out.heading_rad = frame.pose ? frame.pose->heading_rad : kNone;
+  out.ball_seen = frame.ball.has_value();
+  out.ball_x_m = frame.ball ? frame.ball->x_m : kNone;
+  out.ball_y_m = frame.ball ? frame.ball->y_m : kNone;
+  out.opponent_seen = frame.opponent.has_value();
+  out.opponent_x_m = frame.opponent ? frame.opponent->x_m : kNone;
+  out.opponent_y_m = frame.opponent ? frame.opponent->y_m : kNone;
+  return out;
+}
+
+msg::FlightFrame flight_message(const sim::Sensors& sensors) {
+  const sim::FlightFrame& frame = sensors.flight;
+  msg::FlightFrame out{};
+  out.t_ns = sensors.t_ns;
+  out.t_exposure_ns = frame.t_exposure_ns;
+  out.ball_seen = frame.ball.has_value();
+  out.ball_x_m = frame.ball ? frame.ball->x_m : kNone;
+  out.ball_y_m = frame.ball ? frame.ball->y_m : kNone;
+  out.ball_z_m = frame.ball ? frame.ball->z_m : kNone;
+  return out;
+}
+
+msg::Referee referee_message(const sim::Sensors& sensors) {
+  msg::Referee out{};
+  out.t_ns = sensors.t_ns;
+  out.half = static_cast<std::uint8_t>(sensors.referee.half);
+  out.playing = sensors.referee.playing;
+  out.possession_id = sensors.referee.possession_id;
+  return out;
+}
+
+msg::KickTruth truth_message(const sim::KickTruth& truth) {
+  msg::KickTruth out{};
+  out.t_ns = truth.t_ns;
+  out.kick_id = truth.kick_id;
+  out.half = static_cast<std::uint8_t>(truth.half);
+  out.possession_id = truth.possession_id;
+  out.outcome = static_cast<msg::Outcome>(truth.outcome);
+  out.x_cross_m = truth.crossing ? truth.crossing->x_m : kNone;
+  out.z_cross_m = truth.crossing ? truth.crossing->z_m : kNone;
+  out.release_t_ns = truth.release_t_ns;
+  out.release_x_m = truth.release_position_m.x;
+  out.release_y_m = truth.release_position_m.y;
+  out.release_vx_mps = truth.release_velocity_mps.x;
+  out.release_vy_mps = truth.release_velocity_mps.y;
+  out.release_vz_mps = truth.release_velocity_mps.z;
+  out.margin_m = truth.margin_m.value_or(kNone);
+  return out;
+}
+
+msg::PossessionTruth possession_message(const sim::PossessionTruth& truth) {
+  msg::PossessionTruth out{};
+  out.t_ns = truth.t_ns;
+  out.half = static_cast<std::uint8_t>(truth.half);
+  out.possession_id = truth.possession_id;
+  out.ending = static_cast<msg::PossessionEnd>(truth.ending);
+  out.start_t_ns = truth.start_t_ns;
+  out.start_x_m = truth.start.x_m;
+  out.start_y_m = truth.start.y_m;
+  out.start_heading_rad = truth.start.heading_rad;
+  return out;
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,130 @@
+#include "nodes/simulator/simulator_node.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "config/scenario.hpp"
+#include "nodes/simulator/sim_messages.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+sim::Match match_of(const config::Settings& settings) {
+  const sim::Scenario scenario = config::load_scenario(settings.run.scenario);
+  if (scenario.cycle_s != settings.run.cycle_s) {
+    throw std::runtime_error{fmt::format("{}: cycle_s = {} differs from run.cycle_s = {}", settings.run.scenario,
+                                         scenario.cycle_s, settings.run.cycle_s)};
+  }
+  return sim::Match{scenario, static_cast<std::uint64_t>(settings.simulator.seed),
+                    static_cast<int>(settings.simulator.halves), settings.simulator.half_minutes};
+}
+
+void expect(const bus::AnyWriter& writer, std::size_t n) {
+  if (!writer.wait_for_readers(n, kLockstepPatience)) {
+    throw std::runtime_error{fmt::format("{} has {} of {} readers after 20 s", writer.topic(), writer.readers(), n)};
+  }
+}
+
+}  // namespace
+
+SimulatorNode::SimulatorNode(NodeContext& context)
+    : context_(context),
+      match_(match_of(context.settings)),
+      wheels_(context.participant, {.owner = fmt::format("simulator/{}", context.robot_id())}),
+      kicker_(context.participant),
+      vision_(context.participant),
+      flight_(context.participant),
+      referee_(context.participant),
+      kick_truth_(context.participant),
+      possession_truth_(context.participant),
+      drive_(context.participant, context.robot_id()),
+      fire_(context.participant),
+      barrier_(context.participant, context.robot_id()) {
+  if (wheels_.other_writer_exists(std::chrono::milliseconds(300))) {
+    throw std::runtime_error{fmt::format("another simulator of robot {} runs in domain {}: stop it first",
+                                         context.settings.run.robot_id, context.settings.domain.domain_id)};
+  }
+}
+
+void SimulatorNode::run() {
+  if (context_.settings.run.lockstep) await_readers();
+  started_ = std::chrono::steady_clock::now();
+  while (!match_.done()) {
+    const sim::Sensors sensors = match_.sense();
+    t_ns_ = sensors.t_ns;
+    ++cycle_;
+    publish(sensors);
+    if (!await_cycle(t_ns_)) return;
+    publish_truth(match_.step(commands(t_ns_)));
+    report_progress();
+  }
+}
+
+void SimulatorNode::await_readers() const {
+  expect(wheels_, 1);            // odometry
+  expect(kicker_, 1);            // kicker_driver
+  expect(vision_, 2);            // world_state, recorder
+  expect(flight_, 2);            // shot_observer, recorder
+  expect(referee_, 3);           // world_state, kicker_driver, recorder
+  expect(kick_truth_, 1);        // recorder
+  expect(possession_truth_, 1);  // recorder
+}
+
+template <class T>
+void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) {
+  message.robot_id = context_.robot_id();
+  message.seq = seq;
+  writer.write(message);
+}
+
+void SimulatorNode::publish(const sim::Sensors& sensors) {
+  write(referee_, referee_message(sensors), cycle_);
+  write(kicker_, kicker_message(sensors), cycle_);
+  write(vision_, vision_message(sensors), cycle_);
+  write(flight_, flight_message(sensors), cycle_);
+  write(wheels_, wheels_message(sensors), cycle_);
+}
+
+bool SimulatorNode::await_cycle(std::int64_t t_ns) {
+  if (context_.settings.run.lockstep) return barrier_.wait_for(t_ns, context_.stop);
+  const auto until = started_ + std::chrono::nanoseconds{t_ns} + context_.cycle();
+  pollfd stop{context_.stop.file_descriptor(), POLLIN, 0};
+  const auto left = until - std::chrono::steady_clock::now();
+  timespec timeout{};
+  if (left > left.zero()) {
+    timeout.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(left).count();
+    timeout.tv_nsec = std::chrono::nanoseconds{left}.count() % 1'000'000'000;
+  }
+  ppoll(&stop, 1, &timeout, nullptr);
+  return !context_.stop.requested();
+}
+
+sim::Commands SimulatorNode::commands(std::int64_t t_ns) {
+  sim::Commands out;
+  const auto drive = context_.settings.run.lockstep ? drive_.await(t_ns, kLockstepPatience) : drive_.latest();
+  if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
+  fire_.take([&](const msg::SimFire& fire) {
+    if (fire.robot_id == context_.robot_id()) out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
+  });
+  return out;
+}
+
+void SimulatorNode::publish_truth(const sim::StepEvents& events) {
+  for (const sim::KickTruth& kick : events.kicks) write(kick_truth_, truth_message(kick), ++kicks_);
+  for (const sim::PossessionTruth& end : events.possessions)
+    write(possession_truth_, possession_message(end), ++possessions_);
+}
+
+void SimulatorNode::report_progress() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - reported_ < std::chrono::milliseconds(200) && !match_.done()) return;
+  reported_ = now;
+  const double total_s = context_.settings.simulator.halves * context_.settings.simulator.half_minutes * 60.0;
+  fmt::print("{:.2f} {:.2f}\n", played_s(), total_s);
+  std::fflush(stdout);
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "nodes/runtime/node_context.hpp"
+#include "nodes/simulator/lockstep_barrier.hpp"
+#include "sim/match.hpp"
+
+namespace trivela::nodes {
+
+/// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer, otherwise in
+/// real time.
+class SimulatorNode {
+ public:
+  explicit SimulatorNode(NodeContext& context);
+
+  /// Plays until the match is over or the stop is requested. Prints "t_s total_s" lines on standard output about five
+  /// times a second, for whoever shows progress.
+  void run();
+
+  /// Simulated time played so far.
+  double played_s() const { return static_cast<double>(t_ns_) * 1e-9; }
+
+ private:
+  void await_readers() const;
+  void publish(const sim::Sensors& sensors);
+  bool await_cycle(std::int64_t t_ns);
+  sim::Commands commands(std::int64_t t_ns);
+  void publish_truth(const sim::StepEvents& events);
+  void report_progress();
+
+  template <class T>
+  void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
+
+  NodeContext& context_;
+  sim::Match match_;
+  bus::Writer<msg::SimWheels> wheels_;
+  bus::Writer<msg::SimKicker> kicker_;
+  bus::Writer<msg::VisionFrame> vision_;
+  bus::Writer<msg::FlightFrame> flight_;
+  bus::Writer<msg::Referee> referee_;
+  bus::Writer<msg::KickTruth> kick_truth_;
+  bus::Writer<msg::PossessionTruth> possession_truth_;
+  bus::Mailbox<msg::SimDrive> drive_;
+  bus::Reader<msg::SimFire> fire_;
+  LockstepBarrier barrier_;
+  std::int64_t t_ns_ = 0;
+  std::uint64_t cycle_ = 0;
+  std::uint64_t kicks_ = 0;
+  std::uint64_t possessions_ = 0;
+  std::chrono::steady_clock::time_point started_{};
+  std::chrono::steady_clock::time_point reported_{};
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,88 @@
+#include "nodes/world_state/world_model.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace trivela::nodes {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+void WorldModel::vision(const msg::VisionFrame& frame) {
+  if (frame.t_exposure_ns <= last_exposure_ns_) return;
+  last_exposure_ns_ = frame.t_exposure_ns;
+  if (frame.pose_seen) pose_.correct(frame.t_exposure_ns, {frame.x_m, frame.y_m, frame.heading_rad});
+  ball_.observe(frame.t_exposure_ns,
+                frame.ball_seen ? std::optional{Eigen::Vector2d{frame.ball_x_m, frame.ball_y_m}} : std::nullopt);
+  if (frame.opponent_seen) {
+    opponent_m_ = Eigen::Vector2d{frame.opponent_x_m, frame.opponent_y_m};
+    opponent_t_ns_ = frame.t_exposure_ns;
+  } else if (seconds(frame.t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
+    opponent_m_.reset();
+  }
+}
+
+void WorldModel::filter_velocity(const msg::Odometry& odometry) {
+  const double dt_s = seconds(odometry.t_ns - twist_t_ns_);
+  const double gain = dt_s <= 0.0 ? 1.0 : 1.0 - std::exp(-dt_s / settings_.velocity_time_constant_s);
+  twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
+  twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
+  twist_.omega_radps += gain * (odometry.omega_radps - twist_.omega_radps);
+  twist_t_ns_ = odometry.t_ns;
+}
+
+void WorldModel::describe_ball(const kicking::Pose& pose, std::int64_t t_ns, msg::WorldState& out) {
+  out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m = kNone;
+  out.possession = ball_.possession();
+  const auto& ball = ball_.position_m();
+  out.ball_known = ball.has_value();
+  if (!ball) return;
+  // A held ball moves with the robot; a free one stands where it was seen.
+  const kicking::Pose seen_from = out.possession ? pose : pose_.pose_at(ball_.seen_t_ns()).value_or(pose);
+  const Eigen::Vector2d in_field = kicking::to_field(seen_from, *ball);
+  out.ball_x_m = in_field.x();
+  out.ball_y_m = in_field.y();
+  out.ball_age_s = seconds(t_ns - ball_.seen_t_ns());
+  if (out.possession) {
+    const Eigen::Vector2d velocity = kicking::rotate(
+        {twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x()},
+        pose.heading_rad);
+    out.ball_vx_mps = velocity.x();
+    out.ball_vy_mps = velocity.y();
+  }
+  if (opponent_m_) {
+    const kicking::Pose opponent_from = pose_.pose_at(opponent_t_ns_).value_or(pose);
+    out.opponent_distance_m = (kicking::to_field(opponent_from, *opponent_m_) - in_field).norm();
+  }
+}
+
+msg::WorldState WorldModel::update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
+                                   const std::optional<msg::Referee>& referee) {
+  filter_velocity(odometry);
+  pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
+                odometry.var_heading_rad2);
+  if (frame) vision(*frame);
+  msg::WorldState out{};
+  out.t_ns = odometry.t_ns;
+  out.half = referee ? referee->half : 0;
+  out.possession_id = referee ? referee->possession_id : 0;
+  const auto localised = pose_.pose();
+  out.playing = localised && referee && referee->playing;
+  const kicking::Pose pose = localised.value_or(kicking::Pose{});
+  out.x_m = pose.x_m;
+  out.y_m = pose.y_m;
+  out.heading_rad = pose.heading_rad;
+  out.vx_mps = twist_.vx_mps;
+  out.vy_mps = twist_.vy_mps;
+  out.omega_radps = twist_.omega_radps;
+  out.sd_position_m = pose_.sd_position_m();
+  out.sd_heading_rad = pose_.sd_heading_rad();
+  describe_ball(pose, odometry.t_ns, out);
+  return out;
+}
+
+}  // namespace trivela::nodes

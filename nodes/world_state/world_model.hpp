@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/messages.hpp"
+#include "config/settings.hpp"
+#include "nodes/world_state/ball_filter.hpp"
+#include "nodes/world_state/pose_filter.hpp"
+
+namespace trivela::nodes {
+
+/// The robot's belief, made from odometry, vision and the referee: messages in, WorldState out, no bus.
+class WorldModel {
+ public:
+  /// `ball_offset_m`: robot centre to the ball in the handler.
+  WorldModel(const config::WorldState& settings, double ball_offset_m)
+      : settings_(settings), pose_(settings), ball_(settings, ball_offset_m) {}
+
+  /// A frame, once; a second call with the same exposure changes nothing.
+  void vision(const msg::VisionFrame& frame);
+
+  /// The belief at the instant of `odometry`. `frame` is the newest vision frame, if any: pictures older than odometry
+  /// correct the past, so that the pose holds now. A robot that has not localised itself yet does not play.
+  msg::WorldState update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
+                         const std::optional<msg::Referee>& referee);
+
+ private:
+  void filter_velocity(const msg::Odometry& odometry);
+  void describe_ball(const kicking::Pose& pose, std::int64_t t_ns, msg::WorldState& out);
+
+  config::WorldState settings_;
+  PoseFilter pose_;
+  BallFilter ball_;
+  kicking::Twist twist_{};
+  std::int64_t twist_t_ns_ = 0;
+  std::int64_t last_exposure_ns_ = 0;
+  std::optional<Eigen::Vector2d> opponent_m_;  // in R
+  std::int64_t opponent_t_ns_ = 0;
+};
+
+}  // namespace trivela::nodes

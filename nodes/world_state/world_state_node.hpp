@@ -1,0 +1,27 @@
+#pragma once
+
+#include "nodes/runtime/node_context.hpp"
+#include "nodes/world_state/world_model.hpp"
+
+namespace trivela::nodes {
+
+/// Odometry in, with the newest vision frame and the referee's word; WorldState out.
+class WorldStateNode {
+ public:
+  explicit WorldStateNode(NodeContext& context);
+  bus::Node& node() { return node_; }
+
+ private:
+  void on_odometry(const msg::Odometry& odometry);
+
+  NodeContext& context_;
+  WorldModel model_;
+  bus::Node node_;
+  bus::Output<msg::WorldState> world_out_;
+  std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;
+  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
+  FirstCycle first_;
+  std::uint64_t seq_ = 0;
+};
+
+}  // namespace trivela::nodes
