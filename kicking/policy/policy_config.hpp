@@ -18,8 +18,8 @@ enum class MotionLaw { kPaper, kExact };
 /// kPhysical: alpha by velocity addition at the ball's point, beta the turn until the release (delay and half a cycle).
 enum class AlphaLaw { kPaperLine, kPhysical };
 
-/// How to decide and to drive. The defaults are meant to be played: heights by the exact law, direction by the paper's
-/// lines.
+/// How to decide and to drive. The defaults are meant to be played: heights by the exact laws, direction by the paper's
+/// lines. The paper as printed is kPaper, kPaper, kPaperLine; the released code is kExtendedRange, kPaper.
 struct PolicyConfig {
   HeightLaw height_law = HeightLaw::kExact;
   MotionLaw motion_law = MotionLaw::kExact;

@@ -124,7 +124,7 @@ TEST(Align, AppendsItsVerdict) {
   const Ran ran = run(align_verb(),
                       "px,py,orientation_deg,alpha_deg,tx,ty,beta_deg,omega_rad_s,rule,note\n"
                       "0,3,-8,0,0,9,10,1,add,turns in\n0,3,90,0,0,9,0,0,,parallel\n");
-  EXPECT_THAT(ran.out, HasSubstr("add,turns in,6,0.8432450085,0.1,1.157961884,1\n"));
+  EXPECT_THAT(ran.out, HasSubstr("add,turns in,6,0.8432450082,0.1,1.157961884,1\n"));
   EXPECT_THAT(ran.out, HasSubstr(",parallel,6,,0.1,0.1,0\n"));
 }
 

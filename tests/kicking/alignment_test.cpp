@@ -45,7 +45,7 @@ TEST(Alignment, AgreesWithTheVectors) {
       ASSERT_TRUE(alignment.offset_right_m);
       EXPECT_NEAR(*alignment.offset_right_m, row.number("offset_right_m"), 1e-6);
     } else {
-      EXPECT_TRUE(!alignment.offset_right_m || std::abs(*alignment.offset_right_m) > 1e9);
+      EXPECT_FALSE(alignment.offset_right_m);
     }
   }
 }

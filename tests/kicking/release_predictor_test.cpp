@@ -61,6 +61,15 @@ TEST(ReleasePredictor, ConfirmsTheJointAim) {
   EXPECT_NEAR(crossing->z_m, 0.70, 1e-6);
 }
 
+TEST(ReleasePredictor, WithoutTransferOnlyTheDelayMovesTheBall) {
+  const Transfer none{0.0, 0.0, 0.0};
+  const KickAction kick{8.0, radians(36.78), none, 0.1, 0.27};
+  const auto moving = predict_crossing({0, 3, 0}, {1.0, 2.0, 0.0}, kick, 9.0);
+  const auto standing = predict_crossing({0.1, 3.2, 0}, {}, kick, 9.0);
+  EXPECT_NEAR(moving->x_m, standing->x_m, 1e-12);
+  EXPECT_NEAR(moving->z_m, standing->z_m, 1e-12);
+}
+
 TEST(ReleasePredictor, IsNoneWhereTheBallNeverCrosses) {
   const KickAction kick{8.0, radians(36.78), {}, 0.06, 0.27};
   EXPECT_FALSE(predict_crossing({0, 3, std::numbers::pi}, {}, kick, 9.0));
