@@ -129,15 +129,13 @@ Liveliness AnyReader::liveliness() const {
 }
 
 ReaderCounts AnyReader::counts() const {
-  dds_sample_lost_status_t lost{};
   dds_requested_deadline_missed_status_t missed{};
   dds_requested_incompatible_qos_status_t incompatible{};
-  checked(dds_get_sample_lost_status(reader_.handle(), &lost), "dds_get_sample_lost_status", topic_);
   checked(dds_get_requested_deadline_missed_status(reader_.handle(), &missed),
           "dds_get_requested_deadline_missed_status", topic_);
   checked(dds_get_requested_incompatible_qos_status(reader_.handle(), &incompatible),
           "dds_get_requested_incompatible_qos_status", topic_);
-  return {lost.total_count, missed.total_count, incompatible.total_count};
+  return {missed.total_count, incompatible.total_count};
 }
 
 }  // namespace trivela::bus

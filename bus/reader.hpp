@@ -21,9 +21,9 @@ struct SampleInfo {
   std::uint64_t writer = 0;      // tells the writers of a topic apart
 };
 
-/// Counts since the reader was made.
+/// Counts since the reader was made. Lost samples are not among them: Cyclone 0.10 skips them without a word
+/// (ros2/demos issue 642), so that gaps in `seq` are their only sign.
 struct ReaderCounts {
-  std::uint32_t lost = 0;             // samples that Cyclone knows it did not deliver
   std::uint32_t deadline_missed = 0;  // periods without the sample that was demanded
   std::uint32_t incompatible = 0;     // writers that were turned away because their QoS does not fit
 };
