@@ -312,6 +312,7 @@ CREATE TABLE losses (                      -- what the recording missed, by stre
 ) STRICT, WITHOUT ROWID;
 
 -- A kick is a decision that fired; an order may be sent twice, so the accepted receipt holds before a refused one.
+-- INDEXED BY: without it the planner, misled by a short log, may walk through all decisions for each kick.
 CREATE VIEW kicks AS
 SELECT
   d.session_id, d.robot_id, d.seq, d.kick_id, d.t_ns, d.half, d.possession_id, d.policy,
@@ -323,18 +324,18 @@ SELECT
   t.margin_m AS truth_margin_m
 FROM kick_decisions AS d
 LEFT JOIN kick_orders AS o ON o.session_id = d.session_id AND o.robot_id = d.robot_id AND o.seq = (
-  SELECT max(seq) FROM kick_orders
+  SELECT max(seq) FROM kick_orders INDEXED BY kick_orders_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
 LEFT JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
-  SELECT seq FROM kick_receipts
+  SELECT seq FROM kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id
   ORDER BY accepted DESC, seq DESC LIMIT 1)
 LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
-  SELECT max(seq) FROM kick_outcomes
+  SELECT max(seq) FROM kick_outcomes INDEXED BY kick_outcomes_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
 LEFT JOIN kick_truths AS t ON t.session_id = d.session_id AND t.robot_id = d.robot_id AND t.seq = (
-  SELECT max(seq) FROM kick_truths
+  SELECT max(seq) FROM kick_truths INDEXED BY kick_truths_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
 WHERE d.fire = 1 AND d.seq = (
-  SELECT min(seq) FROM kick_decisions
+  SELECT min(seq) FROM kick_decisions INDEXED BY kick_decisions_fired
   WHERE fire = 1 AND session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id);
