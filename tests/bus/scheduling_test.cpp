@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kPriority = 10;
 
-// How many threads of this process run as SCHED_FIFO at the priority, and how many there are.
-std::pair<int, int> realtime_threads() {
+// Whether this process has several threads and all run as SCHED_FIFO at the priority.
+bool all_threads_are_realtime() {
   int realtime = 0, all = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     const pid_t thread = std::stoi(task.path().filename());
@@ -24,7 +24,7 @@ std::pair<int, int> realtime_threads() {
     realtime += sched_getscheduler(thread) == SCHED_FIFO && parameters.sched_priority == kPriority;
     ++all;
   }
-  return {realtime, all};
+  return all > 1 && realtime == all;
 }
 
 // In children, so that this process stays as it is.
@@ -42,8 +42,7 @@ TEST(SchedulingDeathTest, TheBussThreadsInheritIt) {
       {
         if (!set_realtime(kPriority).scheduled) _exit(0);  // nothing to inherit here
         const Participant participant(fresh_domain());
-        const auto [realtime, all] = realtime_threads();
-        _exit(all > 1 && realtime == all ? 0 : 1);
+        _exit(all_threads_are_realtime() ? 0 : 1);
       },
       ::testing::ExitedWithCode(0), "");
 }
