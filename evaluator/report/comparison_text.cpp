@@ -18,7 +18,7 @@ std::string ratio(const std::optional<stats::Ratio>& ratio, const char* method) 
   return fmt::format("{:.3f}, 95 % {:.3f} to {:.3f} ({})", ratio->value, ratio->ci.lo, ratio->ci.hi, method);
 }
 
-std::string p_value(double p) { return p > 0.0 ? fmt::format("{:.3g}", p) : "below 1e-300"; }
+std::string p_value(double p) { return p > 0.0 ? fmt::format("{:.3g}", p) : "below 1e-280"; }
 
 // Breaks at blanks before 110 columns; further lines are indented.
 std::string wrapped(const std::string& sentence) {

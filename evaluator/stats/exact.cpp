@@ -14,6 +14,9 @@ namespace {
 // Values that differ by rounding only count as equal.
 constexpr double kTie = 1.0 + 1e-10;
 
+// Weights below this share of the mode's are nothing; subnormal ones would never vanish.
+constexpr double kVanishing = 1e-290;
+
 /// Distribution of the newer group's inside kicks x, with the margins fixed: C(n1, total - x) C(n2, x), up to a factor.
 class Hypergeometric {
  public:
@@ -28,14 +31,14 @@ class Hypergeometric {
     const auto ratio = [&](double x) { return (total_d - x) * (n2_d - x) / ((x + 1.0) * (n1_d - total_d + x + 1.0)); };
     // Outwards from the mode, whose weight is 1, until the weights vanish: nothing overflows, small tails stay exact.
     double weight = 1.0;
-    for (std::int64_t x = mode; x > lo && weight > 0.0; --x) {
+    for (std::int64_t x = mode; x > lo && weight > kVanishing; --x) {
       weight /= ratio(static_cast<double>(x - 1));
       weights_.push_back(weight);
     }
     first_ = mode - static_cast<std::int64_t>(weights_.size());
     std::reverse(weights_.begin(), weights_.end());
     weight = 1.0;
-    for (std::int64_t x = mode; weight > 0.0; ++x) {
+    for (std::int64_t x = mode; weight > kVanishing; ++x) {
       weights_.push_back(weight);
       if (x == hi) break;
       weight *= ratio(static_cast<double>(x));
@@ -130,7 +133,7 @@ double fisher_two_sided(Counts older, Counts newer) {
 }
 
 std::optional<double> boschloo_one_sided(Counts older, Counts newer) {
-  if (static_cast<double>(older.n + 1) * static_cast<double>(newer.n + 1) > kBoschlooCells) return std::nullopt;
+  if (older.n + newer.n > kBoschlooKicks) return std::nullopt;
   const double statistic = fisher_one_sided(older, newer) * kTie;
   if (statistic >= 1.0) return 1.0;
   const auto largest_old = rejection_region(older.n, newer.n, statistic);

@@ -13,12 +13,12 @@ double fisher_one_sided(Counts older, Counts newer);
 /// Fisher's exact test, two-sided as the sum of the probabilities not above that of the table seen (R's fisher.test).
 double fisher_two_sided(Counts older, Counts newer);
 
-/// Most cells (n1 + 1) (n2 + 1) that Boschloo's test works through.
-inline constexpr double kBoschlooCells = 2.5e7;
+/// Most kicks of both groups that Boschloo's test works through.
+inline constexpr std::int64_t kBoschlooKicks = 10'000;
 
 /// Boschloo's exact test that the newer group is better (Boschloo 1970): Fisher's one-sided p is the statistic, and
 /// the p value is the supremum over the common proportion of the probability of a statistic not above the one seen.
-/// None: more than kBoschlooCells cells.
+/// None: more than kBoschlooKicks kicks.
 std::optional<double> boschloo_one_sided(Counts older, Counts newer);
 
 /// Twice the smaller of the two one-sided p values, at most 1: one of several definitions of two-sided (scipy's).

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "tests/evaluator/count_sweep.hpp"
 
@@ -28,12 +29,13 @@ TEST(ProbabilityNewBetter, OfTheTable2IsThatOfR) {
 }
 
 TEST(ProbabilityNewBetter, EqualsTheFiniteSumAndMirrors) {
-  for_pairs(3, [](Counts older, Counts newer) {
+  for (const auto& [older, newer] : {std::pair{Counts{0, 0}, Counts{1, 1}}, std::pair{Counts{0, 3}, Counts{2, 2}},
+                                     std::pair{Counts{2, 7}, Counts{5, 9}}, std::pair{Counts{40, 41}, Counts{3, 9}}}) {
     const double p = p_new_better(older, newer);
     EXPECT_NEAR(p, by_finite_sum(older, newer), 1e-10);
     EXPECT_NEAR(p, 1.0 - p_new_better(newer, older), 1e-10);
     EXPECT_NEAR(p, 1.0 - p_new_better(exchanged(older), exchanged(newer)), 1e-10);
-  });
+  }
 }
 
 TEST(ProbabilityNewBetter, WithoutKicksIsHalf) { EXPECT_NEAR(p_new_better({0, 0}, {0, 0}), 0.5, 1e-12); }
