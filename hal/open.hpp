@@ -5,15 +5,18 @@
 #include <memory>
 #include <string_view>
 
-#include "bus/participant.hpp"
 #include "hal/kicker.hpp"
 #include "hal/wheels.hpp"
+
+namespace trivela::bus {
+class Participant;
+}
 
 namespace trivela::hal {
 
 /// What the backends need to find their device.
 struct Device {
-  bus::Participant participant;  ///< sim
+  const bus::Participant& participant;  ///< sim
   std::uint8_t robot_id = 1;
   std::filesystem::path replay_log;  ///< replay
 };

@@ -1,112 +1,11 @@
-#include "sim/match.hpp"
-
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <cstring>
-#include <functional>
-#include <map>
+
+#include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {
 namespace {
-
-using Policy = std::function<Commands(const Sensors&)>;
-
-/// Everything that a match said.
-struct Record {
-  std::vector<Sensors> sensors;
-  std::vector<KickTruth> kicks;
-  std::vector<PossessionTruth> possessions;
-};
-
-Record play(const Scenario& scenario, std::uint64_t seed, int halves, double minutes, const Policy& policy) {
-  Match match{scenario, seed, halves, minutes};
-  Record record;
-  while (!match.done()) {
-    record.sensors.push_back(match.sense());
-    const StepEvents events = match.step(policy(record.sensors.back()));
-    record.kicks.insert(record.kicks.end(), events.kicks.begin(), events.kicks.end());
-    record.possessions.insert(record.possessions.end(), events.possessions.begin(), events.possessions.end());
-  }
-  return record;
-}
-
-Commands idle(const Sensors&) { return {}; }
-
-/// Drives on and fires in the first cycle of each possession.
-Policy fire_at_once(double power) {
-  return [power, last = std::uint32_t{0}](const Sensors& s) mutable {
-    Commands commands{.drive = {0.2, 1.0, 0.3}, .fire = {}};
-    if (s.referee.playing && s.referee.possession_id != last) {
-      last = s.referee.possession_id;
-      commands.fire = Fire{s.t_ns, static_cast<std::int64_t>(1000 + last), power};
-    }
-    return commands;
-  };
-}
-
-/// Nobody disturbs.
-Scenario alone() {
-  Scenario s;
-  s.opponent.distance_median_m = 50.0;
-  s.opponent.distance_sigma_ln = 0.0;
-  return s;
-}
-
-bool same_bits(const std::optional<kicking::Pose>& a, const std::optional<kicking::Pose>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->x_m == b->x_m && a->y_m == b->y_m && a->heading_rad == b->heading_rad;
-}
-
-TEST(Match, TheSameSeedAndCommandsGiveTheSameBits) {
-  const Record a = play({}, 42, 2, 0.3, fire_at_once(25)), b = play({}, 42, 2, 0.3, fire_at_once(25));
-  ASSERT_EQ(a.sensors.size(), b.sensors.size());
-  ASSERT_GT(a.kicks.size(), 3U);
-  for (std::size_t i = 0; i < a.sensors.size(); ++i) {
-    ASSERT_EQ(a.sensors[i].wheels.wheel_radps, b.sensors[i].wheels.wheel_radps);
-    ASSERT_EQ(a.sensors[i].kicker.charge, b.sensors[i].kicker.charge);
-    ASSERT_TRUE(same_bits(a.sensors[i].vision.pose, b.sensors[i].vision.pose));
-  }
-  ASSERT_EQ(a.kicks.size(), b.kicks.size());
-  for (std::size_t i = 0; i < a.kicks.size(); ++i) {
-    ASSERT_EQ(a.kicks[i].release_velocity_mps.x, b.kicks[i].release_velocity_mps.x);
-    ASSERT_EQ(a.kicks[i].margin_m, b.kicks[i].margin_m);
-  }
-}
-
-TEST(Match, AnotherSeedIsAnotherMatch) {
-  EXPECT_NE((Match{Scenario{}, 1, 1, 1.0}.sense().wheels.wheel_radps[0]),
-            (Match{Scenario{}, 2, 1, 1.0}.sense().wheels.wheel_radps[0]));
-}
-
-TEST(Match, EveryPolicyAndHalfMeetsTheSameOpportunities) {
-  const Record still = play({}, 42, 2, 0.5, idle), kicking = play({}, 42, 1, 0.5, fire_at_once(30));
-  std::map<std::uint32_t, PossessionTruth> first;
-  for (const auto& p : kicking.possessions) first[p.possession_id] = p;
-  int compared = 0;
-  for (const auto& p : still.possessions) {
-    const auto match = first.find(p.possession_id);
-    if (match == first.end()) continue;
-    EXPECT_EQ(p.start.x_m, match->second.start.x_m);
-    EXPECT_EQ(p.start.heading_rad, match->second.start.heading_rad);
-    ++compared;
-  }
-  EXPECT_GT(compared, 6);
-  // The noise too: the first sample of each possession, before the policies differ.
-  const auto noise = [](const Record& record, int half) {
-    std::map<std::uint32_t, double> gyro;
-    for (const auto& s : record.sensors) {
-      if (s.referee.half == half) gyro.try_emplace(s.referee.possession_id, s.wheels.gyro_radps);
-    }
-    return gyro;
-  };
-  const auto a = noise(still, 1), b = noise(still, 2), c = noise(kicking, 1);
-  for (std::uint32_t id = 1; id <= 5; ++id) {
-    EXPECT_EQ(a.at(id), b.at(id));
-    EXPECT_EQ(a.at(id), c.at(id));
-  }
-}
 
 TEST(Match, EachPossessionBeginsWithAStopInWhichTheRobotStands) {
   const Record record = play({}, 3, 1, 0.3, [](const Sensors&) { return Commands{.drive = {1, 1, 1}, .fire = {}}; });
@@ -293,23 +192,6 @@ TEST(Match, HalvesLastAsLongAsAskedAndEndWithAStop) {
   }
   EXPECT_EQ(half, 3);
   EXPECT_FALSE(record.sensors.back().referee.playing);
-}
-
-TEST(Match, AStepTakesLessThanTwentyMicroseconds) {
-  Match match{alone(), 1, 1, 10.0};
-  for (int i = 0; i < 100; ++i) match.step({});
-  double best_s = 1.0;
-  for (int i = 0; i < 50; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    match.step({.drive = {0.5, 0.5, 0.5}, .fire = {}});
-    match.sense();
-    best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-#ifdef NDEBUG
-  EXPECT_LT(best_s, 20e-6);
-#else
-  EXPECT_LT(best_s, 500e-6);  // without optimisation, perhaps under a sanitizer
-#endif
 }
 
 }  // namespace
