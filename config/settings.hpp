@@ -14,9 +14,9 @@ namespace trivela::config {
 /// Which robot this is and how its cycle runs.
 struct Run {
   std::uint32_t robot_id = 1;
-  double cycle_s = 0.02;  ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
+  double cycle_s = 0.02;      ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
   std::uint32_t session = 0;  ///< upper 15 bits of every kick_id; 0: drawn at the start
-  bool lockstep = false;  ///< wait for every input of a cycle and tell the simulator when it is finished
+  bool lockstep = false;      ///< wait for every input of a cycle and tell the simulator when it is finished
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
   std::string log_level = "info";                   ///< trace, debug, info, warn, error, off
@@ -53,7 +53,8 @@ struct WorldState {
   double history_s = 0.5;               ///< odometry kept to look up the exposure of a frame
   double velocity_time_constant_s = 0.03;
   double ball_time_constant_s = 0.04;
-  double ball_forget_s = 0.5;          ///< a ball not seen for longer is unknown
+  double possession_forget_s = 0.15;   ///< a ball not seen for longer is not held ...
+  double ball_forget_s = 0.5;          ///< ... and then unknown
   double handler_half_width_m = 0.12;  ///< possession: ball centre within this of the handler's axis ...
   double handler_reach_m = 0.10;       ///< ... and of its resting place
   double possession_debounce_s = 0.04;
@@ -77,7 +78,7 @@ struct KickerDriver {
 /// Tracking of a shot.
 struct ShotObserver {
   double history_s = 0.6;         ///< frames kept for a receipt that arrives late
-  double time_out_s = 3.5;        ///< after the release; what has not crossed by then is short
+  double time_out_s = 3.0;        ///< after the release; what has not crossed by then is short
   double ball_sd_m = 0.03;        ///< of one observation and axis
   std::uint32_t fit_frames = 10;  ///< frames before the goal line that the crossing is fitted to
   double lost_s = 0.3;            ///< without an observation for longer the ball is lost

@@ -128,6 +128,7 @@ void fields(V& v, WorldState& w) {
   v("history_s", w.history_s, Range{0.01, 10.0});
   v("velocity_time_constant_s", w.velocity_time_constant_s, Range{1e-4, 1.0});
   v("ball_time_constant_s", w.ball_time_constant_s, Range{1e-4, 1.0});
+  v("possession_forget_s", w.possession_forget_s, Range{0.01, 10.0});
   v("ball_forget_s", w.ball_forget_s, Range{0.01, 10.0});
   v("handler_half_width_m", w.handler_half_width_m, Range{0.01, 0.5});
   v("handler_reach_m", w.handler_reach_m, Range{0.01, 0.5});

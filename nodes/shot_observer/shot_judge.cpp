@@ -10,15 +10,23 @@ namespace {
 
 using kicking::Outcome;
 
-constexpr std::size_t kWindow = 5;        // sightings that a speed is taken from
-constexpr double kLostSpeedShare = 0.6;   // of the expected speed: less was taken away; drag leaves more than 0.9
-constexpr double kTurnedAside_mps = 2.0;  // three standard deviations of the difference of two windows
+constexpr std::size_t kFewest = 5;       // sightings that a verdict needs
+constexpr std::size_t kWindow = 7;       // sightings that a velocity is taken from: 0.28 m/s per axis at 3 cm and 50 Hz
+constexpr double kLostSpeedShare = 0.6;  // of the expected speed: less was taken away; drag leaves more than 0.9
+constexpr double kTurnedAside_mps = 2.0;  // five standard deviations of the difference of two windows
 constexpr double kNearFloor_m = 0.25;     // a minimum of z below it is a bounce
 const kicking::Ball kBall{};
 
-/// The sightings up to the first bounce.
-std::span<const Sighting> before_first_bounce(std::span<const Sighting> sightings) {
-  for (std::size_t i = kWindow; i < sightings.size(); ++i) {
+/// The sightings of the flight up to the first bounce: the release is only expected, so that the first ones may show
+/// the ball in the handler still.
+std::span<const Sighting> in_the_air(std::span<const Sighting> sightings) {
+  std::size_t launch = 0;
+  while (launch + 1 < sightings.size() &&
+         std::min(sightings[launch].ball_m.z(), sightings[launch + 1].ball_m.z()) < kNearFloor_m) {
+    ++launch;
+  }
+  sightings = sightings.subspan(launch);
+  for (std::size_t i = kFewest; i < sightings.size(); ++i) {
     const double low = sightings[i - 1].ball_m.z();
     if (low < kNearFloor_m && low <= sightings[i - 2].ball_m.z() && low < sightings[i].ball_m.z())
       return sightings.first(i);
@@ -65,6 +73,12 @@ std::span<const Sighting> last_before_line(std::span<const Sighting> sightings, 
   return piece.last(std::min(piece.size(), frames));
 }
 
+/// Nearly at rest when it was seen last.
+bool slow(std::span<const Sighting> sightings, const config::ShotObserver& settings) {
+  const auto piece = fit_flight(sightings.last(kFewest), 0.0);
+  return piece && piece->velocity_mps.head<2>().norm() < 3.0 * settings.rest_speed_mps;
+}
+
 Outcome nearer_of_post_and_bar(double x_m, double z_m, const kicking::Goal& goal) {
   const double to_post_m = std::abs(std::abs(x_m) - goal.half_width_m);
   const double to_bar_m = std::abs(z_m - goal.height_m);
@@ -76,9 +90,9 @@ Outcome nearer_of_post_and_bar(double x_m, double z_m, const kicking::Goal& goal
 ShotVerdict judge_shot(std::span<const Sighting> sightings, FlightEnd end, double expected_speed_mps,
                        const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
-  const auto airborne = before_first_bounce(sightings);
+  const auto airborne = in_the_air(sightings);
   describe_exit(airborne, verdict);
-  if (sightings.size() < kWindow) return verdict;
+  if (sightings.size() < kFewest) return verdict;
   const auto before_line = last_before_line(sightings, end, goal, settings.fit_frames);
   const bool frame_hit = end == FlightEnd::kThrownBack;
   if (!frame_hit && turned_aside(airborne, expected_speed_mps)) {
@@ -86,7 +100,8 @@ ShotVerdict judge_shot(std::span<const Sighting> sightings, FlightEnd end, doubl
     return verdict;
   }
   if (end == FlightEnd::kAtRest) verdict.outcome = Outcome::kShort;
-  if (end == FlightEnd::kAtRest || end == FlightEnd::kLost) return verdict;
+  if (end == FlightEnd::kTakenAway) verdict.outcome = slow(sightings, settings) ? Outcome::kShort : Outcome::kBlocked;
+  if (end != FlightEnd::kBeyondLine && !frame_hit) return verdict;
 
   const bool rolls = std::all_of(before_line.begin(), before_line.end(),
                                  [](const Sighting& s) { return s.ball_m.z() < kNearFloor_m; });

@@ -25,13 +25,15 @@ enum class FlightEnd {
   kBeyondLine,  ///< the ball is behind the goal line
   kThrownBack,  ///< it came back from the plane of the goal: post or bar
   kAtRest,      ///< it lies, or time is up
+  kTakenAway,   ///< the referee stopped the game, or the ball is suddenly elsewhere
   kLost         ///< no sighting for too long
 };
 
 /// Judges a shot from its sightings alone, `expected_speed_mps` being the horizontal speed that the kick should have
 /// had.
 ///
-/// A ball that turned aside in the air or lost its speed there was blocked. Otherwise the flight after the last bounce
+/// A ball that turned aside in the air or lost its speed there was blocked, and so was one that was taken away while it
+/// moved. Otherwise the flight after the last bounce
 /// is fitted over the last `fit_frames` sightings before the line; where it meets y = goal.y_m decides. A ball that
 /// came back from the plane hit the frame: of post and bar the nearer one.
 ShotVerdict judge_shot(std::span<const Sighting> sightings, FlightEnd end, double expected_speed_mps,

@@ -36,6 +36,7 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
       node_(context.participant, "shot_observer", context.robot_id()),
       outcome_out_(node_.writer<msg::KickOutcome>()),
       step_done_(step_done_writer(context, node_)),
+      referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, outcome_out_, "shot_observer");
   node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); },
@@ -55,8 +56,15 @@ void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
   first_.expect_readers(outcome_out_, 1);  // recorder
   first_.over();
+  const auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
+  if (!referee || referee->playing) {
+    stopped_t_ns_.reset();
+  } else if (!stopped_t_ns_) {
+    stopped_t_ns_ = referee->t_ns;
+  }
   {
     const std::lock_guard lock{mutex_};
+    if (stopped_t_ns_ && frame.t_exposure_ns >= *stopped_t_ns_) publish(tracker_.stopped(*stopped_t_ns_));
     publish(tracker_.frame(frame.t_exposure_ns, frame.ball_seen ? std::optional{Eigen::Vector3d{
                                                                       frame.ball_x_m, frame.ball_y_m, frame.ball_z_m}}
                                                                 : std::nullopt));

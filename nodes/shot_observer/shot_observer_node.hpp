@@ -9,7 +9,7 @@
 
 namespace trivela::nodes {
 
-/// Receipts and the flight camera's frames in, KickOutcome out.
+/// Receipts, the flight camera's frames and the referee's word in, KickOutcome out.
 class ShotObserverNode {
  public:
   explicit ShotObserverNode(NodeContext& context);
@@ -26,6 +26,8 @@ class ShotObserverNode {
   bus::Node node_;
   bus::Output<msg::KickOutcome> outcome_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
+  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
+  std::optional<std::int64_t> stopped_t_ns_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;
 };

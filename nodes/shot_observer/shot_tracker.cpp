@@ -47,13 +47,24 @@ std::optional<FlightEnd> ShotTracker::missed(std::int64_t t_ns) const {
   return beyond ? FlightEnd::kBeyondLine : FlightEnd::kLost;
 }
 
+std::vector<TrackedShot> ShotTracker::stopped(std::int64_t t_ns) {
+  if (!open_ || t_ns < open_->release_t_ns) return {};
+  return {settle(where_it_was(), t_ns)};
+}
+
+/// How a flight ended that is over from one frame to the next.
+FlightEnd ShotTracker::where_it_was() const {
+  if (open_->sightings.empty()) return FlightEnd::kLost;
+  const double y_m = open_->sightings.back().ball_m.y();
+  if (y_m > goal_.y_m) return FlightEnd::kBeyondLine;
+  const bool came_back = open_->farthest_y_m - y_m > kCameBack_m / 2.0;
+  return came_back && open_->farthest_y_m > goal_.y_m - kFrameDepth_m ? FlightEnd::kThrownBack : FlightEnd::kTakenAway;
+}
+
 std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
   auto& sightings = open_->sightings;
   if (!sightings.empty() && (sighting.ball_m - sightings.back().ball_m).norm() > kJump_m) {
-    if (sightings.back().ball_m.y() > goal_.y_m) return FlightEnd::kBeyondLine;
-    const bool came_back = open_->farthest_y_m - sightings.back().ball_m.y() > kCameBack_m / 2.0;
-    if (came_back && open_->farthest_y_m > goal_.y_m - kFrameDepth_m) return FlightEnd::kThrownBack;
-    return FlightEnd::kAtRest;
+    return where_it_was();
   }
   sightings.push_back(sighting);
   open_->seen_t_ns = sighting.t_ns;

@@ -31,6 +31,9 @@ class ShotTracker {
   /// One frame; nullopt where the ball was not seen.
   std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
 
+  /// The referee stopped the game at `t_ns`: what was seen until then settles an open shot.
+  std::vector<TrackedShot> stopped(std::int64_t t_ns);
+
  private:
   struct Open {
     std::int64_t kick_id;
@@ -45,6 +48,7 @@ class ShotTracker {
   std::optional<FlightEnd> missed(std::int64_t t_ns) const;
   std::optional<FlightEnd> step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
   bool at_rest() const;
+  FlightEnd where_it_was() const;
   TrackedShot settle(FlightEnd end, std::int64_t t_ns);
 
   config::ShotObserver settings_;

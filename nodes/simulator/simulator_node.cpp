@@ -68,7 +68,7 @@ void SimulatorNode::await_readers() const {
   expect(kicker_, 1);            // kicker_driver
   expect(vision_, 2);            // world_state, recorder
   expect(flight_, 2);            // shot_observer, recorder
-  expect(referee_, 3);           // world_state, kicker_driver, recorder
+  expect(referee_, 4);           // world_state, kicker_driver, shot_observer, recorder
   expect(kick_truth_, 1);        // recorder
   expect(possession_truth_, 1);  // recorder
 }

@@ -22,12 +22,11 @@ void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::
     const double gain = anew ? 1.0 : 1.0 - std::exp(-dt_s / settings_.ball_time_constant_s);
     position_m_ = anew ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
     seen_t_ns_ = t_exposure_ns;
-  } else if (position_m_ && static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9 > settings_.ball_forget_s) {
-    position_m_.reset();
-    possession_ = false;
-    differs_since_ns_.reset();
   }
-  if (in_handler() == possession_) {
+  const double unseen_s = static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9;
+  if (unseen_s > settings_.ball_forget_s) position_m_.reset();
+  if (unseen_s > settings_.possession_forget_s) possession_ = false;
+  if (in_handler() == possession_ || unseen_s > settings_.possession_forget_s) {
     differs_since_ns_.reset();
     return;
   }
