@@ -15,7 +15,7 @@ bool same_bits(const std::optional<kicking::Pose>& a, const std::optional<kickin
 }
 
 TEST(Match, TheSameSeedAndCommandsGiveTheSameBits) {
-  const Record a = play({}, 42, 2, 0.3, fire_at_once(25)), b = play({}, 42, 2, 0.3, fire_at_once(25));
+  const Record a = play({}, 42, 2, 0.15, fire_at_once(25)), b = play({}, 42, 2, 0.15, fire_at_once(25));
   ASSERT_EQ(a.sensors.size(), b.sensors.size());
   ASSERT_GT(a.kicks.size(), 3U);
   for (std::size_t i = 0; i < a.sensors.size(); ++i) {
@@ -36,7 +36,7 @@ TEST(Match, AnotherSeedIsAnotherMatch) {
 }
 
 TEST(Match, EveryPolicyAndHalfMeetsTheSameOpportunities) {
-  const Record still = play({}, 42, 2, 0.5, idle), kicking = play({}, 42, 1, 0.5, fire_at_once(30));
+  const Record still = play({}, 42, 2, 0.3, idle), kicking = play({}, 42, 1, 0.3, fire_at_once(30));
   std::map<std::uint32_t, PossessionTruth> first;
   for (const auto& p : kicking.possessions) first[p.possession_id] = p;
   int compared = 0;

@@ -42,7 +42,7 @@ TEST(Match, GainsTheBallOnTheRun) {
 }
 
 TEST(Match, AnIdleRobotLosesTheBallToTheOpponent) {
-  const Record record = play({}, 5, 1, 1.0, idle);
+  const Record record = play({}, 5, 1, 0.6, idle);
   ASSERT_GT(record.possessions.size(), 10U);
   EXPECT_TRUE(record.kicks.empty());
   for (const auto& p : record.possessions) EXPECT_EQ(p.ending, PossessionEnd::kDisputed);
