@@ -38,6 +38,7 @@ class Output {
 
   void assert_liveliness() const { writer_->assert_liveliness(); }
   std::size_t readers() const { return writer_->readers(); }
+  const std::string& topic() const { return writer_->topic(); }
   bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
     return writer_->wait_for_readers(n, timeout);
   }

@@ -75,9 +75,6 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
   reader_ = Entity(checked(dds_create_reader(participant.handle(), topic_entity_.handle(), qos.get(), listeners.get()),
                            "dds_create_reader", topic_));
   checked(dds_set_status_mask(reader_.handle(), DDS_SUBSCRIPTION_MATCHED_STATUS), "dds_set_status_mask", topic_);
-  // Level-triggered, unlike the reader's own status.
-  condition_ =
-      Entity(checked(dds_create_readcondition(reader_.handle(), DDS_ANY_STATE), "dds_create_readcondition", topic_));
 }
 
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
@@ -95,10 +92,18 @@ std::size_t AnyReader::take_raw(Sink sink, void* context) {
   }
 }
 
+std::int32_t AnyReader::condition() {
+  // Level-triggered, unlike the reader's own status.
+  if (condition_.handle() == 0)
+    condition_ =
+        Entity(checked(dds_create_readcondition(reader_.handle(), DDS_ANY_STATE), "dds_create_readcondition", topic_));
+  return condition_.handle();
+}
+
 bool AnyReader::wait(std::chrono::nanoseconds timeout) {
   if (!waitset_) {
     waitset_ = std::make_unique<Waitset>(participant_);
-    waitset_->attach(condition_.handle(), 0);
+    waitset_->attach(condition(), 0);
   }
   return !waitset_->wait(timeout).empty();
 }

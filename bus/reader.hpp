@@ -48,9 +48,11 @@ class AnyReader {
   ReaderCounts counts() const;
   const std::string& topic() const { return topic_; }
 
-  /// Cyclone's handle of the reader and of "there is something to take"; for bus/ alone.
+  /// Cyclone's handle of the reader; for bus/ alone.
   std::int32_t handle() const { return reader_.handle(); }
-  std::int32_t condition() const { return condition_.handle(); }
+
+  /// Cyclone's handle of "there is something to take", made when it is first asked for; for bus/ alone.
+  std::int32_t condition();
 
  protected:
   using Sink = void (*)(void* context, const void* sample, const SampleInfo& info);

@@ -4,7 +4,9 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "bus/participant.hpp"
 #include "tests/bus/test_domain.hpp"
@@ -14,17 +16,17 @@ namespace {
 
 constexpr int kPriority = 10;
 
-// Whether this process has several threads and all run as SCHED_FIFO at the priority.
-bool all_threads_are_realtime() {
-  int realtime = 0, all = 0;
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    const pid_t thread = std::stoi(task.path().filename());
-    sched_param parameters{};
-    sched_getparam(thread, &parameters);
-    realtime += sched_getscheduler(thread) == SCHED_FIFO && parameters.sched_priority == kPriority;
-    ++all;
-  }
-  return all > 1 && realtime == all;
+std::set<pid_t> threads() {
+  std::set<pid_t> threads;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+    threads.insert(std::stoi(task.path().filename()));
+  return threads;
+}
+
+bool is_realtime(pid_t thread) {
+  sched_param parameters{};
+  return sched_getparam(thread, &parameters) == 0 && parameters.sched_priority == kPriority &&
+         sched_getscheduler(thread) == SCHED_FIFO;
 }
 
 // In children, so that this process stays as it is.
@@ -41,8 +43,11 @@ TEST(SchedulingDeathTest, TheBussThreadsInheritIt) {
   EXPECT_EXIT(
       {
         if (!set_realtime(kPriority).scheduled) _exit(0);  // nothing to inherit here
+        const auto before = threads();
         const Participant participant(fresh_domain());
-        _exit(all_threads_are_realtime() ? 0 : 1);
+        auto started = threads();
+        for (const pid_t thread : before) started.erase(thread);
+        _exit(!started.empty() && std::all_of(started.begin(), started.end(), is_realtime) ? 0 : 1);
       },
       ::testing::ExitedWithCode(0), "");
 }
