@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");
   int exit_code = cli::kDone;
   cli::add_match(app, exit_code);
+  cli::add_replay(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_compare(app, exit_code);
   cli::add_solve(app, exit_code);

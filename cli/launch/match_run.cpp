@@ -20,11 +20,11 @@ namespace {
 constexpr std::array kNodes{"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
 constexpr std::chrono::seconds kPatience{10};
 
-/// The simulator's "t_s total_s" lines.
+/// The feeder's "t_s total_s" lines.
 class ProgressPipe {
  public:
   ProgressPipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error{"no pipe for the simulator's progress"};
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error{"no pipe for the progress"};
     fcntl(ends_[0], F_SETFL, O_NONBLOCK);
   }
   ProgressPipe(const ProgressPipe&) = delete;
@@ -86,7 +86,8 @@ void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
 
 }  // namespace
 
-MatchResult run_match(const std::filesystem::path& programs, const std::filesystem::path& config_file) {
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file) {
+  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   MatchResult result;
   SignalInbox signals;
   ProgressPipe progress;
@@ -96,7 +97,7 @@ MatchResult run_match(const std::filesystem::path& programs, const std::filesyst
   for (const char* node : kNodes) {
     children.emplace_back(node, programs / (std::string{"trivela-"} + node), arguments);
   }
-  children.emplace_back("simulator", programs / "trivela-simulator", arguments, progress.write_end());
+  children.emplace_back(feeder, programs / ("trivela-" + feeder), arguments, progress.write_end());
   progress.close_write_end();
   ProgressBar bar;
   double total_s = 0.0;

@@ -13,9 +13,9 @@ struct MatchResult {
   std::string trouble;  ///< empty: played to the end
 };
 
-/// Starts the node processes and the simulator with one configuration file, waits until the match is over, a node dies
-/// or somebody asks to stop, and ends them all, the recorder last, so that the log is finalised. `programs`: the folder
-/// of the node programs. Draws a progress bar on a terminal.
-MatchResult run_match(const std::filesystem::path& programs, const std::filesystem::path& config_file);
+/// Starts the node processes and their `feeder` (simulator or replay_player) with one configuration file, waits until
+/// the feeder is through, a node dies or somebody asks to stop, and ends them all, the recorder last, so that the log
+/// is finalised. The programs are those beside this one. Draws a progress bar on a terminal.
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file);
 
 }  // namespace trivela::cli

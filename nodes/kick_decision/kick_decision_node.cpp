@@ -39,10 +39,11 @@ kicking::PolicyName KickDecisionNode::in_charge(std::uint8_t half) const {
 }
 
 void KickDecisionNode::on_world(const msg::WorldState& world) {
-  first_.expect_readers(decision_out_, 1);  // recorder
-  first_.expect_readers(order_out_, 2);     // kicker_driver, recorder
-  first_.expect_readers(drive_out_, 2);     // odometry, recorder
-  first_.over();
+  first_.once([this] {
+    expect_readers(decision_out_, 1);  // recorder
+    expect_readers(order_out_, 2);     // kicker_driver, recorder
+    expect_readers(drive_out_, 2);     // odometry, recorder
+  });
   stay_alive();
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;

@@ -28,9 +28,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   node_.on_device(
       "kicker",
       [this](std::chrono::nanoseconds timeout) {
-        auto sample = kicker_->read(timeout);
-        if (!sample && kicker_->ended()) context_.stop.request();
-        return sample;
+        if (kicker_->ended()) context_.idle(timeout);
+        return kicker_->read(timeout);
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); }, bus::writes<msg::KickerStatus, msg::StepDone>());
   bus::ReaderOptions orders;
@@ -50,9 +49,11 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 }
 
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
-  first_.expect_readers(status_out_, 2);   // kick_decision, recorder
-  first_.expect_readers(receipt_out_, 2);  // shot_observer, recorder
-  first_.over();
+  first_.once([this] {
+    expect_device(*kicker_);
+    expect_readers(status_out_, 2);   // kick_decision, recorder
+    expect_readers(receipt_out_, 2);  // shot_observer, recorder
+  });
   const auto referee = input_of_cycle(context_, *referee_, sample.t_ns);
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
@@ -101,7 +102,8 @@ void KickerDriverNode::on_order(const msg::KickOrder& order) {
 }
 
 void KickerDriverNode::report_done(std::int64_t t_ns) {
-  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, gate_.handled());
+  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, gate_.handled(),
+            gate_.handled() - gate_.refused());
 }
 
 }  // namespace trivela::nodes

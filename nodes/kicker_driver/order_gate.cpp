@@ -1,21 +1,29 @@
 #include "nodes/kicker_driver/order_gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trivela::nodes {
 namespace {
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+/// In floating point, for the difference of any two times on the wire.
+double seconds_from(std::int64_t from_t_ns, std::int64_t to_t_ns) {
+  return (static_cast<double>(to_t_ns) - static_cast<double>(from_t_ns)) * 1e-9;
+}
 
 }  // namespace
 
 bool OrderGate::sound(std::int64_t now_t_ns) const {
   return sample_ && sample_->fault == hal::KickerFault::kNone &&
-         seconds(now_t_ns - sample_->t_ns) <= settings_.link_timeout_s;
+         seconds_from(sample_->t_ns, now_t_ns) <= settings_.link_timeout_s;
 }
 
 bool OrderGate::rested(std::int64_t now_t_ns) const {
-  return !last_fire_t_ns_ || seconds(now_t_ns - *last_fire_t_ns_) >= settings_.min_interval_s;
+  return !last_fire_t_ns_ || seconds_from(*last_fire_t_ns_, now_t_ns) >= settings_.min_interval_s;
+}
+
+bool OrderGate::answered(std::int64_t kick_id) const {
+  return std::find(answered_.begin(), answered_.end(), kick_id) != answered_.end();
 }
 
 bool OrderGate::ready(std::int64_t now_t_ns) const {
@@ -27,10 +35,9 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
   if (!std::isfinite(order.power) || order.power < power_.min || order.power > power_.max)
     return msg::REFUSAL_OUT_OF_RANGE;
   if (!armed()) return msg::REFUSAL_UNARMED;
-  if (now_t_ns > order.valid_until_t_ns || seconds(order.t_ns - now_t_ns) > settings_.future_tolerance_s) {
-    return msg::REFUSAL_STALE;
-  }
-  if (order.kick_id == last_kick_id_ || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
+  const double ahead_s = seconds_from(now_t_ns, std::max(order.t_ns, order.fire_t_ns));
+  if (now_t_ns > order.valid_until_t_ns || ahead_s > settings_.future_tolerance_s) return msg::REFUSAL_STALE;
+  if (answered(order.kick_id) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
   if (!charged()) return msg::REFUSAL_CHARGING;
   return msg::REFUSAL_NONE;
 }
@@ -38,6 +45,10 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
 msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns) {
   const msg::Refusal refusal = reason(order, now_t_ns);
   ++handled_;
+  if (!answered(order.kick_id)) {
+    answered_[oldest_] = order.kick_id;
+    oldest_ = (oldest_ + 1) % kRemembered;
+  }
   last_kick_id_ = order.kick_id;
   last_accepted_ = refusal == msg::REFUSAL_NONE;
   if (last_accepted_) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -19,11 +20,14 @@ struct PowerRange {
 ///
 /// An order passes when, in this order, the device is sound (no fault, samples not older than link_timeout_s), the
 /// power is finite and inside the set-points, the kicker is armed (switch on, game playing), the order is neither older
-/// than its valid_until_t_ns nor from more than future_tolerance_s ahead, its kick_id was not answered before and the
-/// last kick is at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails
-/// is the refusal.
+/// than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead, its kick_id is not
+/// among the last kRemembered answered and the last kick is at least min_interval_s ago, and the capacitor holds
+/// min_charge_ratio. The first condition that fails is the refusal.
 class OrderGate {
  public:
+  /// How many answered orders are known again.
+  static constexpr std::size_t kRemembered = 64;
+
   OrderGate(const config::KickerDriver& settings, PowerRange power) : settings_(settings), power_(power) {}
 
   void device(const hal::KickerSample& sample) { sample_ = sample; }
@@ -46,6 +50,7 @@ class OrderGate {
  private:
   bool sound(std::int64_t now_t_ns) const;
   bool rested(std::int64_t now_t_ns) const;
+  bool answered(std::int64_t kick_id) const;
   bool charged() const { return sample_ && sample_->charge >= settings_.min_charge_ratio; }
   msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
 
@@ -54,6 +59,8 @@ class OrderGate {
   std::optional<hal::KickerSample> sample_;
   bool playing_ = false;
   std::optional<std::int64_t> last_fire_t_ns_;
+  std::array<std::int64_t, kRemembered> answered_{};  // kick_ids, a ring; 0, which is no kick's, where none yet
+  std::size_t oldest_ = 0;
   std::int64_t last_kick_id_ = 0;
   bool last_accepted_ = false;
   std::uint32_t handled_ = 0;

@@ -45,20 +45,26 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, odometry_out_, "odometry");
   node_.on_device(
-      "wheels",
-      [this](std::chrono::nanoseconds timeout) {
-        auto sample = wheels_->read(timeout);
-        if (!sample && wheels_->ended()) context_.stop.request();
-        return sample;
-      },
+      "wheels", [this](std::chrono::nanoseconds timeout) { return next_sample(timeout); },
       [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand& command) { on_drive(command); },
                               bus::writes<msg::SimDrive, msg::StepDone>());
 }
 
+/// In lockstep the next sample waits for the drive command of the last one: a replayed log knows no other pace.
+std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanoseconds timeout) {
+  if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
+  auto sample = wheels_->read(timeout);
+  if (wheels_->ended()) context_.idle(timeout);
+  if (!sample) cycle_over_.release();
+  return sample;
+}
+
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
-  first_.expect_readers(odometry_out_, 2);  // world_state, recorder
-  first_.over();
+  first_.once([this] {
+    expect_device(*wheels_);
+    expect_readers(odometry_out_, 2);  // world_state, recorder
+  });
   const std::span<const double> speeds{sample.wheel_radps.data(), static_cast<std::size_t>(sample.wheel_count)};
   const auto estimate = odometry_.update(sample.t_ns, speeds, sample.gyro_radps);
   if (!estimate) {
@@ -74,6 +80,7 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
 void OdometryNode::on_drive(const msg::DriveCommand& command) {
   wheels_->drive({command.vx_mps, command.vy_mps, command.omega_radps}, command.t_ns);
   step_done(step_done_, context_.robot_id(), msg::STEP_ODOMETRY, command.t_ns);
+  if (context_.settings.run.lockstep) cycle_over_.release();
 }
 
 }  // namespace trivela::nodes

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <semaphore>
 
 #include "hal/wheels.hpp"
 #include "nodes/odometry/wheel_odometry.hpp"
@@ -16,6 +17,7 @@ class OdometryNode {
   bus::Node& node() { return node_; }
 
  private:
+  std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
   void on_wheels(const hal::WheelSample& sample);
   void on_drive(const msg::DriveCommand& command);
 
@@ -26,6 +28,7 @@ class OdometryNode {
   bus::Output<msg::Odometry> odometry_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   FirstCycle first_;
+  std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
 };
 

@@ -16,7 +16,7 @@ std::int64_t now_ns(auto clock_now) {
 
 evaluator::log::Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
-  const bool simulated = settings.hal.wheels == "sim";
+  const bool simulated = settings.run.lockstep || settings.hal.wheels == "sim";
   evaluator::log::Session session;
   session.simulated = simulated;
   session.simulated_clock = simulated;

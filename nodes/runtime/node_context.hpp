@@ -26,6 +26,9 @@ struct NodeContext {
 
   std::uint8_t robot_id() const { return static_cast<std::uint8_t>(settings.run.robot_id); }
   std::chrono::nanoseconds cycle() const;
+
+  /// Waits for the stop, no longer than the timeout.
+  void idle(std::chrono::nanoseconds timeout) const;
 };
 
 /// Refuses to run beside another node of the same kind and robot: two of them would both write.
@@ -38,28 +41,36 @@ void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const
                            std::to_string(context.settings.domain.domain_id) + ": stop it first"};
 }
 
-/// In lockstep nothing may be missed, so the first cycle waits until whoever reads an output has found it.
+/// How long a node waits in lockstep for the others before it gives up.
+inline constexpr std::chrono::seconds kLockstepPatience{20};
+
+/// Waits until `output`, a bus::Writer or bus::Output, has `n` readers; throws std::runtime_error when they do not
+/// come.
+void expect_readers(const auto& output, std::size_t n) {
+  if (output.wait_for_readers(n, kLockstepPatience)) return;
+  throw std::runtime_error{output.topic() + " has " + std::to_string(output.readers()) + " of " + std::to_string(n) +
+                           " readers after 20 s"};
+}
+
+/// In lockstep nothing may be missed, so the first cycle waits for whoever reads the outputs and for the device.
 class FirstCycle {
  public:
-  explicit FirstCycle(bool lockstep) : lockstep_(lockstep) {}
+  explicit FirstCycle(bool lockstep) : pending_(lockstep) {}
 
-  /// In the first cycle of a lockstep run: waits until `output` has `n` readers; throws std::runtime_error when they do
-  /// not come within 20 s.
-  template <class T>
-  void expect_readers(const bus::Output<T>& output, std::size_t n) const {
-    if (!lockstep_ || done_ || output.wait_for_readers(n, std::chrono::seconds(20))) return;
-    throw std::runtime_error{std::string(bus::meta<T>::topic) + " has " + std::to_string(output.readers()) + " of " +
-                             std::to_string(n) + " readers after 20 s"};
+  /// Runs `expectations` in the first cycle of a lockstep run, once.
+  void once(auto&& expectations) {
+    if (pending_) expectations();
+    pending_ = false;
   }
-  void over() { done_ = true; }
 
  private:
-  bool lockstep_;
-  bool done_ = false;
+  bool pending_;
 };
 
-/// How long a node waits for the other inputs of a cycle in lockstep before it gives up.
-inline constexpr std::chrono::seconds kLockstepPatience{20};
+/// Waits until a device's other side is there; throws std::runtime_error when it does not come.
+void expect_device(auto& device) {
+  if (!device.connected(kLockstepPatience)) throw std::runtime_error{"the device has not answered within 20 s"};
+}
 
 /// The sample of cycle t_ns in lockstep, else the latest. Throws std::runtime_error when lockstep's never comes, unless
 /// the node is being stopped.

@@ -1,6 +1,7 @@
 #include "nodes/runtime/node_main.hpp"
 
 #include <fmt/core.h>
+#include <poll.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -16,6 +17,11 @@ namespace trivela::nodes {
 
 std::chrono::nanoseconds NodeContext::cycle() const {
   return std::chrono::nanoseconds{static_cast<std::int64_t>(settings.run.cycle_s * 1e9 + 0.5)};
+}
+
+void NodeContext::idle(std::chrono::nanoseconds timeout) const {
+  pollfd requested{stop.file_descriptor(), POLLIN, 0};
+  poll(&requested, 1, static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()));
 }
 
 namespace {

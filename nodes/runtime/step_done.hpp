@@ -12,15 +12,17 @@ inline std::optional<bus::Output<msg::StepDone>> step_done_writer(const NodeCont
   return node.writer<msg::StepDone>();
 }
 
-/// Tells the simulator, where it waits, that `node` has finished the cycle of t_ns with so many orders sent or handled.
+/// Tells the simulator, where it waits, that `node` has finished the cycle of t_ns with so many orders sent or handled
+/// and kicks given to the device.
 inline void step_done(const std::optional<bus::Output<msg::StepDone>>& writer, std::uint8_t robot_id,
-                      msg::StepNode node, std::int64_t t_ns, std::uint32_t orders = 0) {
+                      msg::StepNode node, std::int64_t t_ns, std::uint32_t orders = 0, std::uint32_t fires = 0) {
   if (!writer) return;
   msg::StepDone done{};
   done.robot_id = robot_id;
   done.node = node;
   done.t_ns = t_ns;
   done.orders = orders;
+  done.fires = fires;
   writer->write(done);
 }
 

@@ -54,8 +54,9 @@ void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
-  first_.expect_readers(outcome_out_, 1);  // recorder
-  first_.over();
+  first_.once([this] {
+    expect_readers(outcome_out_, 1);  // recorder
+  });
   const auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
   if (!referee || referee->playing) {
     stopped_t_ns_.reset();

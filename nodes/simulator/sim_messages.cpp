@@ -31,10 +31,9 @@ msg::SimKicker kicker_message(const sim::Sensors& sensors) {
   return out;
 }
 
-msg::VisionFrame vision_message(const sim::Sensors& sensors) {
-  const sim::VisionFrame& frame = sensors.vision;
+msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame) {
   msg::VisionFrame out{};
-  out.t_ns = sensors.t_ns;
+  out.t_ns = t_ns;
   out.t_exposure_ns = frame.t_exposure_ns;
   out.pose_seen = frame.pose.has_value();
   out.x_m = frame.pose ? frame.pose->x_m : kNone;
@@ -49,10 +48,9 @@ msg::VisionFrame vision_message(const sim::Sensors& sensors) {
   return out;
 }
 
-msg::FlightFrame flight_message(const sim::Sensors& sensors) {
-  const sim::FlightFrame& frame = sensors.flight;
+msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame) {
   msg::FlightFrame out{};
-  out.t_ns = sensors.t_ns;
+  out.t_ns = t_ns;
   out.t_exposure_ns = frame.t_exposure_ns;
   out.ball_seen = frame.ball.has_value();
   out.ball_x_m = frame.ball ? frame.ball->x_m : kNone;
@@ -61,12 +59,12 @@ msg::FlightFrame flight_message(const sim::Sensors& sensors) {
   return out;
 }
 
-msg::Referee referee_message(const sim::Sensors& sensors) {
+msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word) {
   msg::Referee out{};
-  out.t_ns = sensors.t_ns;
-  out.half = static_cast<std::uint8_t>(sensors.referee.half);
-  out.playing = sensors.referee.playing;
-  out.possession_id = sensors.referee.possession_id;
+  out.t_ns = t_ns;
+  out.half = static_cast<std::uint8_t>(word.half);
+  out.playing = word.playing;
+  out.possession_id = word.possession_id;
   return out;
 }
 

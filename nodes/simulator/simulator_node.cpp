@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <poll.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "config/scenario.hpp"
@@ -20,12 +19,6 @@ sim::Match match_of(const config::Settings& settings) {
   }
   return sim::Match{scenario, static_cast<std::uint64_t>(settings.simulator.seed),
                     static_cast<int>(settings.simulator.halves), settings.simulator.half_minutes};
-}
-
-void expect(const bus::AnyWriter& writer, std::size_t n) {
-  if (!writer.wait_for_readers(n, kLockstepPatience)) {
-    throw std::runtime_error{fmt::format("{} has {} of {} readers after 20 s", writer.topic(), writer.readers(), n)};
-  }
 }
 
 }  // namespace
@@ -50,7 +43,7 @@ SimulatorNode::SimulatorNode(NodeContext& context)
 }
 
 void SimulatorNode::run() {
-  if (context_.settings.run.lockstep) await_readers();
+  if (context_.settings.run.lockstep) await_nodes();
   started_ = std::chrono::steady_clock::now();
   while (!match_.done()) {
     const sim::Sensors sensors = match_.sense();
@@ -63,14 +56,15 @@ void SimulatorNode::run() {
   }
 }
 
-void SimulatorNode::await_readers() const {
-  expect(wheels_, 1);            // odometry
-  expect(kicker_, 1);            // kicker_driver
-  expect(vision_, 2);            // world_state, recorder
-  expect(flight_, 2);            // shot_observer, recorder
-  expect(referee_, 4);           // world_state, kicker_driver, shot_observer, recorder
-  expect(kick_truth_, 1);        // recorder
-  expect(possession_truth_, 1);  // recorder
+void SimulatorNode::await_nodes() {
+  expect_readers(wheels_, 1);            // odometry
+  expect_readers(kicker_, 1);            // kicker_driver
+  expect_readers(vision_, 2);            // world_state, recorder
+  expect_readers(flight_, 2);            // shot_observer, recorder
+  expect_readers(referee_, 4);           // world_state, kicker_driver, shot_observer, recorder
+  expect_readers(kick_truth_, 1);        // recorder
+  expect_readers(possession_truth_, 1);  // recorder
+  if (!fire_.wait_for_writers(1, kLockstepPatience)) throw std::runtime_error{"no kicker_driver after 20 s"};
 }
 
 template <class T>
@@ -81,10 +75,10 @@ void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) 
 }
 
 void SimulatorNode::publish(const sim::Sensors& sensors) {
-  write(referee_, referee_message(sensors), cycle_);
+  write(referee_, referee_message(t_ns_, sensors.referee), cycle_);
   write(kicker_, kicker_message(sensors), cycle_);
-  write(vision_, vision_message(sensors), cycle_);
-  write(flight_, flight_message(sensors), cycle_);
+  write(vision_, vision_message(t_ns_, sensors.vision), cycle_);
+  write(flight_, flight_message(t_ns_, sensors.flight), cycle_);
   write(wheels_, wheels_message(sensors), cycle_);
 }
 
@@ -106,10 +100,17 @@ sim::Commands SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
   const auto drive = context_.settings.run.lockstep ? drive_.await(t_ns, kLockstepPatience) : drive_.latest();
   if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
-  fire_.take([&](const msg::SimFire& fire) {
-    if (fire.robot_id == context_.robot_id()) out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
-  });
-  return out;
+  const auto deadline = std::chrono::steady_clock::now() + kLockstepPatience;
+  for (;;) {
+    fire_.take([&](const msg::SimFire& fire) {
+      if (fire.robot_id != context_.robot_id()) return;
+      out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
+      ++fires_;
+    });
+    if (!context_.settings.run.lockstep || fires_ >= barrier_.fires()) return out;
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error{"a kick never reached the simulator"};
+    fire_.wait(kLockstepPatience);
+  }
 }
 
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {
@@ -119,12 +120,8 @@ void SimulatorNode::publish_truth(const sim::StepEvents& events) {
 }
 
 void SimulatorNode::report_progress() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - reported_ < std::chrono::milliseconds(200) && !match_.done()) return;
-  reported_ = now;
   const double total_s = context_.settings.simulator.halves * context_.settings.simulator.half_minutes * 60.0;
-  fmt::print("{:.2f} {:.2f}\n", played_s(), total_s);
-  std::fflush(stdout);
+  progress_.say(played_s(), total_s, match_.done());
 }
 
 }  // namespace trivela::nodes

@@ -2,8 +2,9 @@
 
 #include <optional>
 
+#include "nodes/runtime/lockstep_barrier.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/simulator/lockstep_barrier.hpp"
+#include "nodes/runtime/progress_line.hpp"
 #include "sim/match.hpp"
 
 namespace trivela::nodes {
@@ -22,7 +23,7 @@ class SimulatorNode {
   double played_s() const { return static_cast<double>(t_ns_) * 1e-9; }
 
  private:
-  void await_readers() const;
+  void await_nodes();
   void publish(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
   sim::Commands commands(std::int64_t t_ns);
@@ -46,10 +47,11 @@ class SimulatorNode {
   LockstepBarrier barrier_;
   std::int64_t t_ns_ = 0;
   std::uint64_t cycle_ = 0;
+  std::uint64_t fires_ = 0;
   std::uint64_t kicks_ = 0;
   std::uint64_t possessions_ = 0;
   std::chrono::steady_clock::time_point started_{};
-  std::chrono::steady_clock::time_point reported_{};
+  ProgressLine progress_;
 };
 
 }  // namespace trivela::nodes

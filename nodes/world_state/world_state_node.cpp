@@ -16,8 +16,9 @@ WorldStateNode::WorldStateNode(NodeContext& context)
 }
 
 void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
-  first_.expect_readers(world_out_, 2);  // kick_decision, recorder
-  first_.over();
+  first_.once([this] {
+    expect_readers(world_out_, 2);  // kick_decision, recorder
+  });
   const auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
   const auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
   msg::WorldState world = model_.update(odometry, frame, referee);

@@ -20,12 +20,16 @@ class LockstepBarrier {
   /// when nothing came for 20 s.
   bool wait_for(std::int64_t t_ns, const bus::Stop& stop);
 
+  /// Kicks that the driver has given to its device so far.
+  std::uint32_t fires() const { return nodes_[msg::STEP_KICKER_DRIVER].fires; }
+
  private:
   bool finished(std::int64_t t_ns) const;
 
   struct Progress {
     std::int64_t t_ns = -1;
     std::uint32_t orders = 0;
+    std::uint32_t fires = 0;
   };
   bus::Reader<msg::StepDone> reader_;
   std::uint8_t robot_id_;

@@ -1,4 +1,4 @@
-#include "nodes/simulator/lockstep_barrier.hpp"
+#include "nodes/runtime/lockstep_barrier.hpp"
 
 #include <fmt/core.h>
 
@@ -23,7 +23,8 @@ bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
   auto last_news = std::chrono::steady_clock::now();
   for (;;) {
     const std::size_t taken = reader_.take([this](const msg::StepDone& done) {
-      if (done.robot_id == robot_id_ && done.node < nodes_.size()) nodes_[done.node] = {done.t_ns, done.orders};
+      if (done.robot_id == robot_id_ && done.node < nodes_.size())
+        nodes_[done.node] = {done.t_ns, done.orders, done.fires};
     });
     if (finished(t_ns)) return true;
     if (stop.requested()) return false;

@@ -1,0 +1,41 @@
+#include "cli/launch/record_lockstep.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include "cli/launch/config_file.hpp"
+#include "cli/launch/match_run.hpp"
+#include "cli/verbs.hpp"
+
+namespace trivela::cli {
+
+namespace fs = std::filesystem;
+
+int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
+  if (fs::exists(out)) {
+    throw UsageError{
+        fmt::format("{} exists already; a recorded match is never overwritten, choose another --out", out)};
+  }
+  // Runs at the same time hear each other in neither domain nor tag.
+  std::random_device random;
+  settings.domain.domain_id = domain >= 0 ? static_cast<std::uint32_t>(domain) : 1 + random() % 100;
+  settings.domain.tag = fmt::format("run-{}-{:08x}", getpid(), random());
+  settings.run.lockstep = true;
+  settings.recorder.log = fs::absolute(out).string();
+  for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.hal.replay_log}) {
+    if (!file->empty()) *file = fs::absolute(*file).string();
+  }
+  const ConfigFile config{config::to_toml_text(settings)};
+  const MatchResult result = run_match(feeder, config.path());
+  fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
+             result.played_s / result.wall_s);
+  if (result.trouble.empty()) return kDone;
+  fmt::print(stderr, "trivela: {} after {:.1f} s of play; what was recorded until then is in {}\n", result.trouble,
+             result.played_s, out);
+  return kFailed;
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,77 @@
+#include "nodes/replay_player/replay_player_node.hpp"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <variant>
+
+#include "nodes/runtime/progress_line.hpp"
+#include "nodes/simulator/sim_messages.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+std::int64_t last_t_ns(const hal::ReplayLog& log) {
+  std::int64_t last = 0;
+  log.reader->query(fmt::format("SELECT max(t_ns) FROM referee WHERE session_id = {}", log.session_id),
+                    [&](std::span<const evaluator::log::Value> row) {
+                      if (const auto* t_ns = std::get_if<std::int64_t>(&row[0])) last = *t_ns;
+                    });
+  return last;
+}
+
+void refuse_other_clocks(const hal::ReplayLog& log, const std::string& file) {
+  for (const auto& session : log.reader->sessions()) {
+    if (session.session_id == log.session_id && !session.simulated_clock) {
+      throw std::runtime_error{
+          fmt::format("{}: recorded in real time, where every stream has instants of its own; only a "
+                      "log of a lockstep match can be replayed through the nodes",
+                      file)};
+    }
+  }
+}
+
+}  // namespace
+
+ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
+    : context_(context),
+      log_(hal::ReplayLog::open(context.settings.hal.replay_log, context.robot_id())),
+      topics_(log_),
+      vision_(context.participant),
+      flight_(context.participant),
+      referee_(context.participant),
+      barrier_(context.participant, context.robot_id()) {
+  refuse_other_clocks(log_, context.settings.hal.replay_log);
+}
+
+void ReplayPlayerNode::run() {
+  expect_readers(vision_, 2);   // world_state, recorder
+  expect_readers(flight_, 2);   // shot_observer, recorder
+  expect_readers(referee_, 4);  // world_state, kicker_driver, shot_observer, recorder
+  ProgressLine progress;
+  const double total_s = static_cast<double>(last_t_ns(log_)) * 1e-9;
+  while (const auto t_ns = topics_.next_t_ns()) {
+    while (topics_.next_t_ns() == t_ns) publish(*topics_.next());
+    if (!barrier_.wait_for(*t_ns, context_.stop)) return;
+    progress.say(static_cast<double>(*t_ns) * 1e-9, total_s, topics_.ended());
+  }
+}
+
+template <class T>
+void ReplayPlayerNode::write(bus::Writer<T>& writer, T message, std::int64_t seq) {
+  message.robot_id = context_.robot_id();
+  message.seq = static_cast<std::uint64_t>(seq);
+  writer.write(message);
+}
+
+void ReplayPlayerNode::publish(const hal::ReplayedSample& sample) {
+  if (const auto* frame = std::get_if<sim::VisionFrame>(&sample.what)) {
+    write(vision_, vision_message(sample.t_ns, *frame), sample.seq);
+  } else if (const auto* flight = std::get_if<sim::FlightFrame>(&sample.what)) {
+    write(flight_, flight_message(sample.t_ns, *flight), sample.seq);
+  } else {
+    write(referee_, referee_message(sample.t_ns, std::get<sim::RefereeWord>(sample.what)), sample.seq);
+  }
+}
+
+}  // namespace trivela::nodes
