@@ -47,6 +47,11 @@ void Executor::guarded(F&& body) noexcept {
   }
 }
 
+bool Executor::failed() {
+  const std::lock_guard lock(failure_mutex_);
+  return failure_ != nullptr;
+}
+
 void Executor::open_readers() {
   for (Node* node : nodes_) {
     for (const auto& slot : node->slots_) {
@@ -82,6 +87,9 @@ void Executor::finish() noexcept {
   });
   for (std::thread& thread : threads_) thread.join();
   threads_.clear();
+  for (Node* node : nodes_)
+    for (const auto& slot : node->slots_)
+      if (slot->to_the_last && slot->reader && !failed()) take(*slot);
   // Deleting a reader waits for its listener to return.
   for (Node* node : nodes_)
     for (const auto& slot : node->slots_) slot->reader.reset();
@@ -110,7 +118,10 @@ void Executor::serve_device(Slot& slot) {
 }
 
 void Executor::react(Slot& slot) noexcept {
-  if (stop_.requested()) return;
+  if (!stop_.requested()) take(slot);
+}
+
+void Executor::take(Slot& slot) noexcept {
   guarded([&] {
     const std::lock_guard lock(slot.running);
     const ReactionScope scope(slot.reaction, kind_ == kListener);

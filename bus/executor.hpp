@@ -29,7 +29,8 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
-  /// Runs until the stop is requested. Throws Error naming the topics if the reactions form a cycle (kListener), and
+  /// Runs until the stop is requested; what has then arrived for a reaction with ReaderOptions::keep_all is still
+  /// delivered. Throws Error naming the topics if the reactions form a cycle (kListener), and
   /// rethrows the first exception of a reaction, which ends the run.
   void run();
 
@@ -43,6 +44,8 @@ class Executor {
   void serve_topics(Node& node);
   void serve_device(Slot& slot);
   void react(Slot& slot) noexcept;
+  void take(Slot& slot) noexcept;
+  bool failed();
   static void on_data(void* slot) noexcept;
   template <class F>
   void guarded(F&& body) noexcept;

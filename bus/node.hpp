@@ -77,6 +77,7 @@ class Node {
   template <Message T, class F>
   void on(F react, std::vector<std::string> outputs = {}, const ReaderOptions& options = {}) {
     Slot& slot = add(std::string(meta<T>::topic), std::string(meta<T>::topic), std::move(outputs));
+    slot.to_the_last = options.keep_all;
     slot.open = [this, options](AnyReader::DataListener listener, void* context) -> std::unique_ptr<AnyReader> {
       return std::make_unique<Reader<T>>(participant_, options, listener, context);
     };
@@ -119,6 +120,7 @@ class Node {
     std::function<std::unique_ptr<AnyReader>(AnyReader::DataListener, void*)> open;
     std::function<void(AnyReader&)> take;
     std::function<void(std::chrono::nanoseconds)> poll;
+    bool to_the_last = false;  // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
     class Executor* executor = nullptr;

@@ -30,7 +30,8 @@ struct Liveliness {
 struct ReaderOptions {
   /// Nominal period; a state topic then demands a deadline of three of them and matches only writers that promise it.
   std::optional<std::chrono::nanoseconds> period = {};
-  /// Keep every sample until it is taken (the recorder); else as many as the profile says.
+  /// Keep every sample until it is taken (the recorder), also while an executor stops; else as many as the profile
+  /// says.
   bool keep_all = false;
   /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write.
   std::function<void(const Liveliness&)> on_liveliness = {};

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <algorithm>
+#include <atomic>
 #include <condition_variable>
 
 #include "tests/bus/test_domain.hpp"
@@ -112,16 +114,16 @@ TEST(ExecutorTest, BothKindsGiveTheSameOrdersOverThreeHops) {
 TEST(ExecutorTest, ListenersRunAChainToCompletionInTheWritersThread) {
   const Participant participant(fresh_domain());
   Node node(participant, "node");
-  std::thread::id reacted;
+  std::atomic<std::thread::id> reacted;
   node.on<msg::Odometry>([&](const msg::Odometry&) { reacted = std::this_thread::get_id(); });
   Stop stop;
   Executor executor(Executor::kListener, stop, {&node});
   Writer<msg::Odometry> writer(participant);
-  std::thread::id wrote;
+  std::atomic<std::thread::id> wrote;
   std::thread player([&] {
     wrote = std::this_thread::get_id();
     EXPECT_TRUE(writer.wait_for_readers(1, seconds(10)));
-    for (std::int64_t t = 0; reacted != wrote && t < 1'000'000; ++t) {
+    for (std::int64_t t = 0; reacted.load() != wrote.load() && t < 1'000'000; ++t) {
       msg::Odometry sample{};
       sample.t_ns = t;
       writer.write(sample);  // the first few may come before the executor listens
@@ -130,7 +132,7 @@ TEST(ExecutorTest, ListenersRunAChainToCompletionInTheWritersThread) {
   });
   executor.run();
   player.join();
-  EXPECT_EQ(reacted, wrote);
+  EXPECT_EQ(reacted.load(), wrote.load());
 }
 
 // A state that was published before the node came must not be overlooked, whichever thread brings it.
@@ -295,6 +297,32 @@ TEST(ExecutorTest, StoppingEndsAReactionThatAwaits) {
   Executor(Executor::kWaitset, stop, {&node}).run();
   EXPECT_FALSE(got);
   EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(30));
+}
+
+// What a recorder has received it must have written down, however suddenly it is stopped.
+TEST(ExecutorTest, AReactionThatKeepsAllSeesEverythingThatArrivedBeforeTheStop) {
+  for (const auto kind : {Executor::kWaitset, Executor::kListener}) {
+    const Participant participant(fresh_domain());
+    Node recorder(participant, "recorder");
+    std::vector<std::int64_t> seen;
+    recorder.on<msg::KickReceipt>([&](const msg::KickReceipt& receipt) { seen.push_back(receipt.t_ns); }, {},
+                                  {.keep_all = true});
+    Writer<msg::KickReceipt> writer(participant);
+    Stop stop;
+    std::thread player([&] {
+      EXPECT_TRUE(writer.wait_for_readers(1, seconds(10)));
+      for (std::int64_t t = 1; t <= 100; ++t) {
+        msg::KickReceipt receipt{};
+        receipt.t_ns = t;
+        writer.write(receipt);
+      }
+      stop.request();
+    });
+    Executor(kind, stop, {&recorder}).run();
+    player.join();
+    ASSERT_EQ(seen.size(), 100u);
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  }
 }
 
 TEST(ExecutorTest, ANodesReactionsCanBeReadWithoutRunningIt) {
