@@ -24,6 +24,18 @@ std::optional<Pose> PoseFilter::pose_at(std::int64_t t_ns) const {
   return compose(pose_, relative(history_.latest(), *then));
 }
 
+/// Far frames that do not agree with each other are wild ones: each starts the count anew.
+void PoseFilter::count_far_frames(const Eigen::Vector2d& innovation_m) {
+  const bool far = innovation_m.norm() > settings_.relocalise_distance_m;
+  const bool agrees = (innovation_m - far_innovation_m_).norm() <= settings_.relocalise_distance_m;
+  if (!far) {
+    far_frames_ = 0;
+  } else {
+    far_frames_ = agrees ? far_frames_ + 1 : 1;
+  }
+  far_innovation_m_ = innovation_m;
+}
+
 void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
   const auto odometry_then = history_.at(t_exposure_ns);
   if (!odometry_then || !std::isfinite(seen.x_m + seen.y_m + seen.heading_rad)) return;
@@ -33,7 +45,7 @@ void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
   const Pose then = compose(pose_, relative(history_.latest(), *odometry_then));
   const double dx_m = seen.x_m - then.x_m;
   const double dy_m = seen.y_m - then.y_m;
-  far_frames_ = std::hypot(dx_m, dy_m) > settings_.relocalise_distance_m ? far_frames_ + 1 : 0;
+  count_far_frames({dx_m, dy_m});
   if (!localised_ || far_frames_ >= settings_.relocalise_frames) {
     localised_ = true;
     far_frames_ = 0;

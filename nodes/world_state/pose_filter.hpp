@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 
@@ -16,7 +17,8 @@ namespace trivela::nodes {
 ///     pose(t_e) += K (seen - pose(t_e)),   K = P / (P + R)
 ///
 /// is then carried to now along the odometry driven since. P grows with odometry's variance. A run of
-/// `relocalise_frames` innovations beyond `relocalise_distance_m` means that somebody moved the robot: the pose is set.
+/// `relocalise_frames` innovations beyond `relocalise_distance_m` that agree within it means that somebody moved the
+/// robot: the pose is set.
 class PoseFilter {
  public:
   explicit PoseFilter(const config::WorldState& settings) : settings_(settings), history_(settings.history_s) {}
@@ -36,6 +38,8 @@ class PoseFilter {
   std::optional<kicking::Pose> pose_at(std::int64_t t_ns) const;
 
  private:
+  void count_far_frames(const Eigen::Vector2d& innovation_m);
+
   config::WorldState settings_;
   PoseHistory history_;
   bool localised_ = false;
@@ -45,6 +49,7 @@ class PoseFilter {
   double last_var_position_m2_ = 0.0;
   double last_var_heading_rad2_ = 0.0;
   std::uint32_t far_frames_ = 0;
+  Eigen::Vector2d far_innovation_m_ = Eigen::Vector2d::Zero();  // of the last frame
 };
 
 }  // namespace trivela::nodes
