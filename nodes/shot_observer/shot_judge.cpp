@@ -10,7 +10,8 @@ namespace {
 
 using kicking::Outcome;
 
-constexpr std::size_t kFewest = 5;       // sightings that a verdict needs
+constexpr std::size_t kFewest = 5;         // sightings that a verdict needs
+constexpr std::size_t kFewestInPiece = 3;  // that a flight after a bounce is fitted to
 constexpr std::size_t kWindow = 7;       // sightings that a velocity is taken from: 0.28 m/s per axis at 3 cm and 50 Hz
 constexpr double kLostSpeedShare = 0.6;  // of the expected speed: less was taken away; drag leaves more than 0.9
 constexpr double kTurnedAside_mps = 2.0;  // five standard deviations of the difference of two windows
@@ -57,6 +58,11 @@ void describe_exit(std::span<const Sighting> airborne, ShotVerdict& verdict) {
   verdict.exit_elevation_rad = std::atan2(piece->velocity_mps.z(), piece->velocity_mps.head<2>().norm());
 }
 
+/// Near the floor all the time: there every minimum of the height is noise.
+bool rolls(std::span<const Sighting> sightings) {
+  return std::all_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.ball_m.z() < kNearFloor_m; });
+}
+
 /// The sightings that the crossing is fitted to: what was met at the line itself must not count.
 std::span<const Sighting> last_before_line(std::span<const Sighting> sightings, FlightEnd end,
                                            const kicking::Goal& goal, std::size_t frames) {
@@ -69,7 +75,15 @@ std::span<const Sighting> last_before_line(std::span<const Sighting> sightings, 
         std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) { return s.ball_m.y() > goal.y_m; });
     last = std::min(sightings.size(), static_cast<std::size_t>(beyond - sightings.begin()) + 1);
   }
-  const auto piece = after_last_bounce(sightings.first(last), kNearFloor_m);
+  const auto before = sightings.first(last);
+  const auto latest = before.last(std::min(before.size(), frames));
+  if (rolls(latest)) return latest;
+  auto piece = after_last_bounce(before, kNearFloor_m);
+  // A bounce right before the line leaves too little behind it: the flight before tells where it went.
+  for (auto rest = before; piece.size() < kFewestInPiece && piece.size() < rest.size();) {
+    rest = rest.first(rest.size() - piece.size());
+    piece = after_last_bounce(rest, kNearFloor_m);
+  }
   return piece.last(std::min(piece.size(), frames));
 }
 
@@ -103,9 +117,7 @@ ShotVerdict judge_shot(std::span<const Sighting> sightings, FlightEnd end, doubl
   if (end == FlightEnd::kTakenAway) verdict.outcome = slow(sightings, settings) ? Outcome::kShort : Outcome::kBlocked;
   if (end != FlightEnd::kBeyondLine && !frame_hit) return verdict;
 
-  const bool rolls = std::all_of(before_line.begin(), before_line.end(),
-                                 [](const Sighting& s) { return s.ball_m.z() < kNearFloor_m; });
-  const auto piece = fit_flight(before_line, rolls ? 0.0 : kicking::kGravity_mps2);
+  const auto piece = fit_flight(before_line, rolls(before_line) ? 0.0 : kicking::kGravity_mps2);
   const auto t_s = piece ? piece->time_at_y_s(goal.y_m) : std::nullopt;
   if (!t_s) return verdict;
   const Eigen::Vector3d crossing = piece->at(*t_s);
