@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
 
 #include "tests/bench/chain/run.hpp"
 
@@ -30,6 +31,13 @@ bool goals_met(const std::vector<trivela::bench::Row>& rows) {
   return met;
 }
 
+// The rows called idle are only as idle as the machine.
+void warn_if_busy() {
+  double load = 0;
+  if (getloadavg(&load, 1) == 1 && load > 0.5)
+    fmt::print(stderr, "chain_bench: others use this machine (load {:.1f}): the idle rows are not idle\n", load);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -43,6 +51,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (quick && app.count("--samples") == 0) plan.samples = 60;
+    warn_if_busy();
     const auto rows = trivela::bench::run(plan);
     return goals && !goals_met(rows) ? 3 : 0;
   } catch (const CLI::Success& help) {
