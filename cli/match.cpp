@@ -22,6 +22,18 @@ struct MatchFlags {
   std::string log_level = "warn";
 };
 
+/// CLI::Range lets NaN through.
+struct Between : CLI::Validator {
+  Between(double least, double most) : Validator{fmt::format("{} to {}", least, most)} {
+    func_ = [least, most](const std::string& text) {
+      double value = 0.0;
+      const bool number = CLI::detail::lexical_cast(text, value);
+      return number && value >= least && value <= most ? ""
+                                                       : fmt::format("{} is not within {} to {}", text, least, most);
+    };
+  }
+};
+
 /// Lines such as `kick_decision.policy_by_half = ["stopped", "moving"]`: the checks of the configuration are the flags'
 /// too.
 config::Settings settings_of(const MatchFlags& flags) {
@@ -48,15 +60,21 @@ void add_match(CLI::App& app, int& exit_code) {
   verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each: stopped or moving")
       ->required()
       ->expected(1)
+      ->check(CLI::IsMember({"stopped", "moving"}))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  verb->add_option("--minutes", flags->minutes, "length of a half")->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same match")->capture_default_str();
+  verb->add_option("--minutes", flags->minutes, "length of a half")
+      ->check(Between{0.01, 1000.0})
+      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same match")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
   verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();
   verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set policy.settle_s=0.5");
-  verb->add_option("--log-level", flags->log_level, "of the nodes: trace, debug, info, warn, error, off")
+  verb->add_option("--log-level", flags->log_level, "of the nodes")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
   verb->callback([flags, &exit_code] {
     exit_code = record_lockstep("simulator", settings_of(*flags), flags->domain, flags->out);

@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <deque>
 #include <stdexcept>
+#include <vector>
 
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -69,27 +69,27 @@ std::string casualty(std::deque<ChildProcess>& children) {
 }
 
 void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
+  const auto complain = [&](const std::string& sentence) { trouble += (trouble.empty() ? "" : "; ") + sentence; };
+  std::vector<bool> ran;
+  for (ChildProcess& child : children) ran.push_back(!child.ended());
   // The recorder is first in the list and stops last: it hears what the others say on their way out.
-  while (!children.empty()) {
+  for (std::size_t i = 1; i < children.size(); ++i) children[i].terminate();
+  for (; !children.empty(); children.pop_back()) {
     ChildProcess& last = children.back();
-    const bool ran = !last.ended();
     last.terminate();
-    if (!last.wait(kPatience))
-      trouble += fmt::format("{}{} did not stop within 10 s", trouble.empty() ? "" : "; ", last.name());
-    if (ran && last.ended() && !last.succeeded()) {
-      trouble +=
-          fmt::format("{}{} failed on stopping ({})", trouble.empty() ? "" : "; ", last.name(), last.how_it_ended());
+    if (!last.wait(kPatience)) {
+      complain(fmt::format("{} did not stop within 10 s", last.name()));
+    } else if (ran[children.size() - 1] && !last.succeeded()) {
+      complain(fmt::format("{} failed on stopping ({})", last.name(), last.how_it_ended()));
     }
-    children.pop_back();
   }
 }
 
 }  // namespace
 
-MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file) {
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals) {
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   MatchResult result;
-  SignalInbox signals;
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = std::chrono::steady_clock::now();

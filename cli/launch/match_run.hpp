@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/launch/signal_inbox.hpp"
+
 namespace trivela::cli {
 
 /// How a match went.
@@ -14,8 +16,8 @@ struct MatchResult {
 };
 
 /// Starts the node processes and their `feeder` (simulator or replay_player) with one configuration file, waits until
-/// the feeder is through, a node dies or somebody asks to stop, and ends them all, the recorder last, so that the log
-/// is finalised. The programs are those beside this one. Draws a progress bar on a terminal.
-MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file);
+/// the feeder is through, a node dies or somebody asks to stop through `signals`, and ends them all, the recorder last,
+/// so that the log is finalised. The programs are those beside this one. Draws a progress bar on a terminal.
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals);
 
 }  // namespace trivela::cli

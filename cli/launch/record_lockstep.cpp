@@ -7,6 +7,7 @@
 #include <random>
 
 #include "cli/launch/config_file.hpp"
+#include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/verbs.hpp"
 
@@ -15,10 +16,6 @@ namespace trivela::cli {
 namespace fs = std::filesystem;
 
 int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
-  if (fs::exists(out)) {
-    throw UsageError{
-        fmt::format("{} exists already; a recorded match is never overwritten, choose another --out", out)};
-  }
   // Runs at the same time hear each other in neither domain nor tag.
   std::random_device random;
   settings.domain.domain_id = domain >= 0 ? static_cast<std::uint32_t>(domain) : 1 + random() % 100;
@@ -28,13 +25,15 @@ int record_lockstep(const std::string& feeder, config::Settings settings, int do
   for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.hal.replay_log}) {
     if (!file->empty()) *file = fs::absolute(*file).string();
   }
+  SignalInbox signals;  // before the files, which a signal must not leave behind
+  const LogClaim log{out};
   const ConfigFile config{config::to_toml_text(settings)};
-  const MatchResult result = run_match(feeder, config.path());
+  const MatchResult result = run_match(feeder, config.path(), signals);
   fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
              result.played_s / result.wall_s);
   if (result.trouble.empty()) return kDone;
-  fmt::print(stderr, "trivela: {} after {:.1f} s of play; what was recorded until then is in {}\n", result.trouble,
-             result.played_s, out);
+  fmt::print(stderr, "trivela: {} after {:.1f} s of play; {}\n", result.trouble, result.played_s,
+             log.recorded() ? "what was recorded until then is in " + out : "nothing was recorded");
   return kFailed;
 }
 
