@@ -45,9 +45,11 @@ ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
 }
 
 void ReplayPlayerNode::run() {
-  expect_readers(vision_, 2);   // world_state, recorder
-  expect_readers(flight_, 2);   // shot_observer, recorder
-  expect_readers(referee_, 4);  // world_state, kicker_driver, shot_observer, recorder
+  const bool heard =
+      readers_before_stop(context_.stop, vision_, 2) &&  // world_state, recorder
+      readers_before_stop(context_.stop, flight_, 2) &&  // shot_observer, recorder
+      readers_before_stop(context_.stop, referee_, 4);   // world_state, kicker_driver, shot_observer, recorder
+  if (!heard) return;
   ProgressLine progress;
   const double total_s = static_cast<double>(last_t_ns(log_)) * 1e-9;
   while (const auto t_ns = topics_.next_t_ns()) {

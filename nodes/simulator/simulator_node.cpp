@@ -43,7 +43,7 @@ SimulatorNode::SimulatorNode(NodeContext& context)
 }
 
 void SimulatorNode::run() {
-  if (context_.settings.run.lockstep) await_nodes();
+  if (context_.settings.run.lockstep && !nodes_are_here()) return;
   started_ = std::chrono::steady_clock::now();
   while (!match_.done()) {
     const sim::Sensors sensors = match_.sense();
@@ -51,20 +51,24 @@ void SimulatorNode::run() {
     ++cycle_;
     publish(sensors);
     if (!await_cycle(t_ns_)) return;
-    publish_truth(match_.step(commands(t_ns_)));
+    const auto orders = commands(t_ns_);
+    if (!orders) return;
+    publish_truth(match_.step(*orders));
     report_progress();
   }
 }
 
-void SimulatorNode::await_nodes() {
-  expect_readers(wheels_, 1);            // odometry
-  expect_readers(kicker_, 1);            // kicker_driver
-  expect_readers(vision_, 2);            // world_state, recorder
-  expect_readers(flight_, 2);            // shot_observer, recorder
-  expect_readers(referee_, 4);           // world_state, kicker_driver, shot_observer, recorder
-  expect_readers(kick_truth_, 1);        // recorder
-  expect_readers(possession_truth_, 1);  // recorder
-  if (!fire_.wait_for_writers(1, kLockstepPatience)) throw std::runtime_error{"no kicker_driver after 20 s"};
+bool SimulatorNode::nodes_are_here() {
+  const bus::Stop& stop = context_.stop;
+  return readers_before_stop(stop, wheels_, 1) &&            // odometry
+         readers_before_stop(stop, kicker_, 1) &&            // kicker_driver
+         readers_before_stop(stop, vision_, 2) &&            // world_state, recorder
+         readers_before_stop(stop, flight_, 2) &&            // shot_observer, recorder
+         readers_before_stop(stop, referee_, 4) &&           // world_state, kicker_driver, shot_observer, recorder
+         readers_before_stop(stop, kick_truth_, 1) &&        // recorder
+         readers_before_stop(stop, possession_truth_, 1) &&  // recorder
+         ready_before_stop(
+             stop, [this](auto timeout) { return fire_.wait_for_writers(1, timeout); }, "no kicker_driver is there");
 }
 
 template <class T>
@@ -96,21 +100,29 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
   return !context_.stop.requested();
 }
 
-sim::Commands SimulatorNode::commands(std::int64_t t_ns) {
+std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
-  const auto drive = context_.settings.run.lockstep ? drive_.await(t_ns, kLockstepPatience) : drive_.latest();
-  if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
-  const auto deadline = std::chrono::steady_clock::now() + kLockstepPatience;
-  for (;;) {
+  const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
       out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
       ++fires_;
     });
-    if (!context_.settings.run.lockstep || fires_ >= barrier_.fires()) return out;
-    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error{"a kick never reached the simulator"};
-    fire_.wait(kLockstepPatience);
+    return fires_ >= barrier_.fires();
+  };
+  std::optional<msg::SimDrive> drive;
+  if (context_.settings.run.lockstep) {
+    const auto driven = [&](auto timeout) { return (drive = drive_.await(t_ns, timeout)).has_value(); };
+    const auto fired = [&](auto timeout) { return take_fires() || (fire_.wait(timeout) && take_fires()); };
+    if (!ready_before_stop(context_.stop, driven, "no drive command has reached the simulator") ||
+        !ready_before_stop(context_.stop, fired, "a kick has not reached the simulator"))
+      return std::nullopt;
+  } else {
+    drive = drive_.latest();
+    take_fires();
   }
+  if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
+  return out;
 }
 
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {

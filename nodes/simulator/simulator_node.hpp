@@ -23,10 +23,10 @@ class SimulatorNode {
   double played_s() const { return static_cast<double>(t_ns_) * 1e-9; }
 
  private:
-  void await_nodes();
+  bool nodes_are_here();
   void publish(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
-  sim::Commands commands(std::int64_t t_ns);
+  std::optional<sim::Commands> commands(std::int64_t t_ns);
   void publish_truth(const sim::StepEvents& events);
   void report_progress();
 
