@@ -54,14 +54,14 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
                           memory_[static_cast<std::size_t>(policy)]);
   };
   const kicking::Judgement judgement = judge(chosen);
+  msg::KickDecision decision = decision_message(world, kicker, chosen, judgement);
+  for (const kicking::PolicyName policy : kPolicies) {
+    if (policy == chosen || !context_.settings.kick_decision.shadows) continue;
+    decision.shadows[decision.shadow_count++] = shadow_message(policy, judge(policy));
+  }
   if (world.possession) {
-    msg::KickDecision decision = decision_message(world, kicker, chosen, judgement);
     decision.robot_id = context_.robot_id();
     decision.seq = ++decisions_;
-    for (const kicking::PolicyName policy : kPolicies) {
-      if (policy == chosen || !context_.settings.kick_decision.shadows) continue;
-      decision.shadows[decision.shadow_count++] = shadow_message(policy, judge(policy));
-    }
     if (judgement.fire) decision.kick_id = send_order(world, judgement);
     decision_out_.write(decision);
   }
