@@ -1,6 +1,7 @@
 #include "nodes/recorder/recorder_node.hpp"
 
-#include <memory>
+#include <algorithm>
+#include <iterator>
 
 #include "nodes/recorder/message_row.hpp"
 #include "nodes/runtime/step_done.hpp"
@@ -68,7 +69,8 @@ void RecorderNode::record_decisions() {
       [this, decisions, shadows, watch = SequenceWatch{}](const msg::KickDecision& decision,
                                                           const bus::SampleInfo& info) mutable {
         const std::int64_t seq = store("kick_decisions", decisions, watch, decision, info.writer);
-        for (std::int64_t i = 0; i < decision.shadow_count; ++i) {
+        const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
+        for (std::int64_t i = 0; i < count; ++i) {
           std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, seq, i};
           for (auto& value : row_of(decision.shadows[i])) row.push_back(std::move(value));
           log_.push(shadows, std::move(row));
