@@ -10,6 +10,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
+bool finite(const msg::Odometry& odometry) {
+  // A sum is finite only if every term is.
+  return std::isfinite(odometry.vx_mps + odometry.vy_mps + odometry.omega_radps + odometry.x_m + odometry.y_m +
+                       odometry.heading_rad + odometry.var_position_m2 + odometry.var_heading_rad2);
+}
+
 }  // namespace
 
 void WorldModel::vision(const msg::VisionFrame& frame) {
@@ -62,16 +68,19 @@ void WorldModel::describe_ball(const kicking::Pose& pose, std::int64_t t_ns, msg
 
 msg::WorldState WorldModel::update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
                                    const std::optional<msg::Referee>& referee) {
-  filter_velocity(odometry);
-  pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
-                odometry.var_heading_rad2);
+  const bool sound = finite(odometry);
+  if (sound) {
+    filter_velocity(odometry);
+    pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
+                  odometry.var_heading_rad2);
+  }
   if (frame) vision(*frame);
   msg::WorldState out{};
   out.t_ns = odometry.t_ns;
   out.half = referee ? referee->half : 0;
   out.possession_id = referee ? referee->possession_id : 0;
   const auto localised = pose_.pose();
-  out.playing = localised && referee && referee->playing;
+  out.playing = sound && localised && referee && referee->playing;
   const kicking::Pose pose = localised.value_or(kicking::Pose{});
   out.x_m = pose.x_m;
   out.y_m = pose.y_m;

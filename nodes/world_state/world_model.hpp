@@ -21,7 +21,8 @@ class WorldModel {
   void vision(const msg::VisionFrame& frame);
 
   /// The belief at the instant of `odometry`. `frame` is the newest vision frame, if any: pictures older than odometry
-  /// correct the past, so that the pose holds now. A robot that has not localised itself yet does not play.
+  /// correct the past, so that the pose holds now. A robot that has not localised itself yet does not play, nor does
+  /// one in a cycle whose odometry is not finite, which changes no belief.
   msg::WorldState update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
                          const std::optional<msg::Referee>& referee);
 
