@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "hal/kicker.hpp"
+#include "hal/wheels.hpp"
+
+namespace trivela::nodes {
+
+inline constexpr std::chrono::seconds kPlenty{20};
+
+/// The far side of a device that a node owns: the test puts samples in and sees the commands that come out.
+template <class Sample, class Command>
+class FarSide {
+ public:
+  void put(const Sample& sample) {
+    const std::lock_guard lock{mutex_};
+    samples_.push_back(sample);
+    changed_.notify_all();
+  }
+
+  /// The first n commands, fewer if they do not come.
+  std::vector<Command> commands(std::size_t n) {
+    std::unique_lock lock{mutex_};
+    changed_.wait_for(lock, kPlenty, [&] { return commands_.size() >= n; });
+    return {commands_.begin(), commands_.begin() + static_cast<std::ptrdiff_t>(std::min(n, commands_.size()))};
+  }
+
+  std::size_t commanded() const {
+    const std::lock_guard lock{mutex_};
+    return commands_.size();
+  }
+  std::size_t unread() const {
+    const std::lock_guard lock{mutex_};
+    return samples_.size();
+  }
+
+  /// No sample comes any more.
+  void end() {
+    const std::lock_guard lock{mutex_};
+    ended_ = true;
+    changed_.notify_all();
+  }
+  bool ended() const {
+    const std::lock_guard lock{mutex_};
+    return ended_ && samples_.empty();
+  }
+
+  std::optional<Sample> next(std::chrono::nanoseconds timeout) {
+    std::unique_lock lock{mutex_};
+    reader_ = std::this_thread::get_id();
+    changed_.wait_for(lock, timeout, [&] { return ended_ || !samples_.empty(); });
+    if (samples_.empty()) return std::nullopt;
+    const Sample sample = samples_.front();
+    samples_.pop_front();
+    return sample;
+  }
+  void command(const Command& command) {
+    const std::lock_guard lock{mutex_};
+    commands_.push_back(command);
+    changed_.notify_all();
+  }
+
+  /// The thread that reads the samples.
+  std::thread::id reader() const {
+    const std::lock_guard lock{mutex_};
+    return reader_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Sample> samples_;
+  std::vector<Command> commands_;
+  std::thread::id reader_;
+  bool ended_ = false;
+};
+
+struct Driven {
+  kicking::Twist twist;
+  std::int64_t t_ns;
+  std::thread::id thread;
+};
+
+struct Fired {
+  std::int64_t kick_id;
+  double power;
+  std::int64_t t_ns;
+  std::thread::id thread;
+};
+
+using WheelsFarSide = FarSide<hal::WheelSample, Driven>;
+
+struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
+  std::atomic<bool> safe = false;
+};
+
+class FakeWheels : public hal::Wheels {
+ public:
+  explicit FakeWheels(std::shared_ptr<WheelsFarSide> far_side) : far_side_(std::move(far_side)) {}
+  bool connected(std::chrono::nanoseconds) override { return true; }
+  std::optional<hal::WheelSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
+  void drive(const kicking::Twist& set_point, std::int64_t t_ns) override {
+    far_side_->command({set_point, t_ns, std::this_thread::get_id()});
+  }
+  bool ended() const override { return far_side_->ended(); }
+
+ private:
+  std::shared_ptr<WheelsFarSide> far_side_;
+};
+
+class FakeKicker : public hal::Kicker {
+ public:
+  explicit FakeKicker(std::shared_ptr<KickerFarSide> far_side) : far_side_(std::move(far_side)) {}
+  ~FakeKicker() override { far_side_->safe = true; }
+  bool connected(std::chrono::nanoseconds) override { return true; }
+  std::optional<hal::KickerSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
+  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override {
+    if (!far_side_->safe) far_side_->command({kick_id, power, t_ns, std::this_thread::get_id()});
+  }
+  void make_safe() noexcept override { far_side_->safe = true; }
+  bool ended() const override { return far_side_->ended(); }
+
+ private:
+  std::shared_ptr<KickerFarSide> far_side_;
+};
+
+}  // namespace trivela::nodes

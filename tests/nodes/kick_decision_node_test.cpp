@@ -1,0 +1,210 @@
+#include "nodes/kick_decision/kick_decision_node.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/nodes/node_fixture.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+
+constexpr std::int64_t kCycle_ns = 20'000'000;
+
+/// A node that decides, its inputs and what it says; the kicker is ready unless told otherwise.
+class KickDecisionNodeTest : public NodeTest {
+ protected:
+  void start() {
+    node.emplace(context);
+    running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
+    world_says.expect_reader();
+  }
+
+  /// Robot 6 m before the goal at rest, the ball in the handler, facing the goal but for the error.
+  msg::WorldState world(double heading_error_rad = 0.0) const {
+    msg::WorldState out{};
+    out.t_ns = t_ns;
+    out.half = 1;
+    out.playing = out.possession = out.ball_known = true;
+    out.possession_id = 1;
+    out.y_m = 3.0;
+    out.heading_rad = heading_error_rad;
+    out.opponent_distance_m = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+
+  msg::DriveCommand cycle(msg::WorldState state, bool ready = true, std::int64_t status_age_ns = 0) {
+    msg::KickerStatus status{};
+    state.t_ns = t_ns;
+    status.t_ns = t_ns - status_age_ns;
+    status.ready = ready;
+    status.charge = 0.97;
+    kicker_says(status);
+    world_says(state);
+    t_ns += kCycle_ns;
+    return drive.nth(++cycles);
+  }
+
+  std::int64_t t_ns = 1'000'000'000;
+  std::size_t cycles = 0;
+  Heard<msg::KickDecision> decision{participant};
+  Heard<msg::KickOrder> order{participant};
+  Heard<msg::DriveCommand> drive{participant};
+  Says<msg::WorldState> world_says{participant};
+  Says<msg::KickerStatus> kicker_says{participant};
+  std::optional<KickDecisionNode> node;
+  std::optional<Running> running;
+};
+
+TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
+  start();
+  cycle(world());
+  const auto sent = order.nth(1);
+  EXPECT_EQ(sent.robot_id, 1);
+  EXPECT_EQ(sent.seq, 1u);
+  EXPECT_EQ(sent.t_ns, 1'000'000'000);
+  EXPECT_EQ(sent.fire_t_ns, sent.t_ns);
+  EXPECT_EQ(sent.valid_until_t_ns, sent.t_ns + 1000'000'000'000);
+  EXPECT_EQ(sent.kick_id, (std::int64_t{5} << 48) | (std::int64_t{1} << 40) | 1);
+  // The power that the policy itself finds for this state.
+  kicking::PolicyInput input;
+  input.pose = {0.0, 3.0, 0.0};
+  input.playing = input.possession = input.kicker_ready = true;
+  input.possession_id = 1;
+  kicking::PolicyMemory memory;
+  const auto judgement = kicking::judge(kicking::PolicyName::kMoving, context.settings.policy, context.robot.model,
+                                        context.settings.goal, input, memory);
+  EXPECT_EQ(sent.power, judgement.power);
+  const auto record = decision.nth(1);
+  EXPECT_TRUE(record.fire);
+  EXPECT_EQ(record.reason, msg::REASON_FIRE);
+  EXPECT_EQ(record.kick_id, sent.kick_id);
+  EXPECT_EQ(record.power, sent.power);
+  EXPECT_EQ(record.policy, msg::POLICY_MOVING);
+  EXPECT_EQ(record.charge, 0.97);
+}
+
+TEST_F(KickDecisionNodeTest, OneFireIsOneOrder) {
+  start();
+  for (int i = 0; i < 10; ++i) cycle(world());
+  EXPECT_EQ(order.now().size(), 1u);
+  ASSERT_EQ(decision.first(10).size(), 10u);
+  for (std::size_t i = 1; i < 10; ++i) {
+    EXPECT_EQ(decision.now()[i].reason, msg::REASON_ORDER_PENDING);
+    EXPECT_EQ(decision.now()[i].kick_id, 0);
+    EXPECT_EQ(decision.now()[i].seq, i + 1);
+  }
+}
+
+TEST_F(KickDecisionNodeTest, HoldsAndTurnsWhileItIsNotAligned) {
+  start();
+  const auto command = cycle(world(0.8));
+  EXPECT_EQ(command.t_ns, 1'000'000'000);
+  EXPECT_LT(command.omega_radps, 0.0) << "back towards the goal";
+  EXPECT_FALSE(decision.nth(1).fire);
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_NOT_ALIGNED);
+  EXPECT_EQ(decision.nth(1).kick_id, 0);
+  EXPECT_TRUE(order.now().empty());
+}
+
+TEST_F(KickDecisionNodeTest, StandsStillWhenTheGameIsStoppedOrTheBallIsElsewhere) {
+  start();
+  auto stopped = world(0.8);
+  stopped.playing = false;
+  auto without_ball = world(0.8);
+  without_ball.possession = false;
+  for (const auto& state : {stopped, without_ball}) {
+    const auto command = cycle(state);
+    EXPECT_EQ(command.vx_mps, 0.0);
+    EXPECT_EQ(command.vy_mps, 0.0);
+    EXPECT_EQ(command.omega_radps, 0.0);
+  }
+  EXPECT_EQ(decision.now().size(), 1u) << "only cycles with the ball are decisions";
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_NOT_PLAYING);
+}
+
+TEST_F(KickDecisionNodeTest, NamesWhatTheKickerIsMissing) {
+  start();
+  cycle(world(), false);
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_KICKER_NOT_READY);
+  cycle(world(), true, 200'000'000);
+  EXPECT_EQ(decision.nth(2).reason, msg::REASON_STALE_STATE);
+  EXPECT_TRUE(order.now().empty());
+}
+
+TEST_F(KickDecisionNodeTest, WithoutAnyStatusOfTheKickerItHolds) {
+  start();
+  world_says(world());
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_KICKER_NOT_READY);
+  EXPECT_EQ(decision.nth(1).charge, 0.0);
+}
+
+TEST_F(KickDecisionNodeTest, ThePolicyOfTheHalfDecidesAndTheOtherRidesAlong) {
+  context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
+  start();
+  auto second_half = world();
+  second_half.half = 2;
+  auto third_half = world();
+  third_half.half = 3;
+  cycle(world());
+  cycle(second_half);
+  cycle(third_half);
+  EXPECT_EQ(decision.nth(1).policy, msg::POLICY_STOPPED);
+  EXPECT_EQ(decision.nth(2).policy, msg::POLICY_MOVING);
+  EXPECT_EQ(decision.nth(3).policy, msg::POLICY_MOVING) << "the last one goes on";
+  EXPECT_FALSE(decision.nth(1).fire) << "it has not settled";
+  ASSERT_EQ(decision.nth(1).shadow_count, 1);
+  EXPECT_EQ(decision.nth(1).shadows[0].policy, msg::POLICY_MOVING);
+  EXPECT_TRUE(decision.nth(1).shadows[0].fire) << "this one would have kicked";
+  EXPECT_EQ(decision.nth(2).shadows[0].policy, msg::POLICY_STOPPED);
+}
+
+TEST_F(KickDecisionNodeTest, ShadowsCanBeSwitchedOff) {
+  context.settings.kick_decision.shadows = false;
+  start();
+  cycle(world());
+  EXPECT_EQ(decision.nth(1).shadow_count, 0);
+}
+
+// The stopped policy settles for a quarter of a second; what it had settled is void once the ball was lost.
+TEST_F(KickDecisionNodeTest, AShadowSeesTheCyclesWithoutTheBallToo) {
+  start();
+  auto without_ball = world();
+  without_ball.possession = false;
+  for (int i = 0; i < 5; ++i) cycle(world());
+  for (int i = 0; i < 20; ++i) cycle(without_ball);
+  cycle(world());
+  const auto after = decision.nth(6);
+  EXPECT_EQ(after.shadows[0].policy, msg::POLICY_STOPPED);
+  EXPECT_FALSE(after.shadows[0].fire);
+  for (int i = 0; i < 20; ++i) cycle(world());
+  bool fired = false;
+  for (const auto& later : decision.first(26)) fired = fired || later.shadows[0].fire;
+  EXPECT_TRUE(fired) << "it does kick once it has settled";
+}
+
+TEST_F(KickDecisionNodeTest, DrawsASessionForItsKickIdsWhereNoneIsGiven) {
+  context.settings.run.session = 0;
+  start();
+  cycle(world());
+  const auto id = order.nth(1).kick_id;
+  EXPECT_GT(id >> 48, 0);
+  EXPECT_LE(id >> 48, 0x7fff);
+  EXPECT_EQ((id >> 40) & 0xff, 1);
+  EXPECT_EQ(id & 0xffffffffff, 1);
+}
+
+TEST_F(KickDecisionNodeTest, AWorldThatIsNotFiniteIsNotActedUpon) {
+  start();
+  auto broken = world();
+  broken.heading_rad = std::numeric_limits<double>::quiet_NaN();
+  const auto command = cycle(broken);
+  EXPECT_EQ(command.omega_radps, 0.0);
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_STALE_STATE);
+  cycle(world());
+  EXPECT_EQ(decision.nth(2).reason, msg::REASON_FIRE);
+}
+
+}  // namespace
+}  // namespace trivela::nodes

@@ -1,0 +1,192 @@
+#include "nodes/kicker_driver/kicker_driver_node.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/nodes/node_fixture.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+
+class KickerDriverNodeTest : public NodeTest {
+ protected:
+  void start(Executor::Kind kind = Executor::kListener) {
+    node.emplace(context, fake_kicker());
+    running.emplace(kind, stop, std::vector<bus::Node*>{&node->node()});
+    order.expect_reader();
+  }
+
+  msg::KickerStatus sample(double charge = 1.0, bool armed = true, hal::KickerFault fault = hal::KickerFault::kNone) {
+    kicker->put({t_ns += 20'000'000, charge, armed, fault});
+    return status.nth(++samples);
+  }
+  void play(bool playing = true) {
+    msg::Referee word{};
+    word.playing = playing;
+    referee(word);
+  }
+  msg::KickOrder wish(std::int64_t kick_id, double power = 30.0) const {
+    msg::KickOrder out{};
+    out.t_ns = out.fire_t_ns = t_ns;
+    out.valid_until_t_ns = t_ns + 3600'000'000'000;
+    out.kick_id = kick_id;
+    out.power = power;
+    return out;
+  }
+  msg::KickReceipt answer(const msg::KickOrder& wished) {
+    order(wished);
+    return receipt.nth(++orders);
+  }
+
+  std::int64_t t_ns = 1'000'000'000;
+  std::size_t samples = 0;
+  std::size_t orders = 0;
+  Heard<msg::KickerStatus> status{participant};
+  Heard<msg::KickReceipt> receipt{participant};
+  Says<msg::KickOrder> order{participant};
+  Says<msg::Referee> referee{participant};
+  std::optional<KickerDriverNode> node;
+  std::optional<Running> running;
+};
+
+TEST_F(KickerDriverNodeTest, SaysHowTheKickerIs) {
+  start();
+  auto is = sample();
+  EXPECT_EQ(is.robot_id, 1);
+  EXPECT_EQ(is.seq, 1u);
+  EXPECT_EQ(is.t_ns, t_ns);
+  EXPECT_EQ(is.charge, 1.0);
+  EXPECT_FALSE(is.armed || is.ready) << "no referee has spoken";
+  play();
+  is = sample(0.4);
+  EXPECT_TRUE(is.armed);
+  EXPECT_FALSE(is.ready);
+  EXPECT_EQ(is.charge, 0.4);
+  EXPECT_TRUE(sample().ready);
+  is = sample(1.0, true, hal::KickerFault::kCoil);
+  EXPECT_EQ(is.fault, msg::FAULT_COIL);
+  EXPECT_FALSE(is.ready);
+  EXPECT_FALSE(sample(1.0, false).armed);
+  play(false);
+  EXPECT_FALSE(sample().armed);
+}
+
+TEST_F(KickerDriverNodeTest, FiresAnOrderAndAnswersIt) {
+  for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
+    SCOPED_TRACE(kind);
+    bus::Stop own_stop;
+    NodeContext own{context.settings, context.robot, participant, context.logger, own_stop};
+    const auto far_side = std::make_shared<KickerFarSide>();
+    KickerDriverNode own_node{own, std::make_unique<FakeKicker>(far_side)};
+    const Running own_run{kind, own_stop, {&own_node.node()}};
+    order.expect_reader();
+    play();
+    far_side->put({t_ns, 1.0, true, hal::KickerFault::kNone});
+    EXPECT_TRUE(status.nth(++samples).ready);
+    const auto given = answer(wish(42, 33.5));
+    EXPECT_TRUE(given.accepted);
+    EXPECT_EQ(given.refusal, msg::REFUSAL_NONE);
+    EXPECT_EQ(given.kick_id, 42);
+    EXPECT_EQ(given.order_t_ns, t_ns);
+    EXPECT_EQ(given.power, 33.5);
+    EXPECT_GE(given.fired_t_ns, t_ns);
+    EXPECT_EQ(given.fired_t_ns, given.t_ns);
+    EXPECT_EQ(given.release_t_ns - given.fired_t_ns, 60'000'000);
+    const auto fired = far_side->commands(1);
+    ASSERT_EQ(fired.size(), 1u);
+    EXPECT_EQ(fired[0].kick_id, 42);
+    EXPECT_EQ(fired[0].power, 33.5);
+    EXPECT_EQ(fired[0].t_ns, given.fired_t_ns);
+  }
+}
+
+TEST_F(KickerDriverNodeTest, RefusesWithTheReasonAndFiresNothing) {
+  start();
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_UNARMED) << "before the first sample";
+  sample();
+  EXPECT_EQ(answer(wish(2)).refusal, msg::REFUSAL_UNARMED) << "before the referee's word";
+  play();
+  sample();
+  EXPECT_EQ(answer(wish(3, 14.0)).refusal, msg::REFUSAL_OUT_OF_RANGE);
+  EXPECT_EQ(answer(wish(4, std::numeric_limits<double>::quiet_NaN())).refusal, msg::REFUSAL_OUT_OF_RANGE);
+  auto stale = wish(5);
+  stale.valid_until_t_ns = t_ns - 1;
+  EXPECT_EQ(answer(stale).refusal, msg::REFUSAL_STALE);
+  auto early = wish(6);
+  early.t_ns = early.fire_t_ns = t_ns + 3600'000'000'000;
+  EXPECT_EQ(answer(early).refusal, msg::REFUSAL_STALE);
+  EXPECT_EQ(answer(wish(3)).refusal, msg::REFUSAL_DOUBLE);
+  sample(0.5);
+  EXPECT_EQ(answer(wish(7)).refusal, msg::REFUSAL_CHARGING);
+  sample(1.0, true, hal::KickerFault::kCharger);
+  EXPECT_EQ(answer(wish(8)).refusal, msg::REFUSAL_FAULT);
+  const auto last = answer(wish(9));
+  EXPECT_FALSE(last.accepted);
+  EXPECT_EQ(last.fired_t_ns, 0);
+  EXPECT_EQ(last.release_t_ns, 0);
+  EXPECT_EQ(last.power, 0.0);
+  EXPECT_EQ(last.seq, 10u);
+  EXPECT_TRUE(log_lines->wait_for("kick 7 refused: charging"));
+  EXPECT_EQ(kicker->commanded(), 0u);
+  const auto is = sample();
+  EXPECT_EQ(is.orders_handled, 10u);
+  EXPECT_EQ(is.orders_refused, 10u);
+  EXPECT_EQ(is.last_kick_id, 9);
+  EXPECT_FALSE(is.last_accepted);
+  EXPECT_TRUE(answer(wish(10)).accepted) << "after all that it still kicks";
+}
+
+TEST_F(KickerDriverNodeTest, AnOrderSentTwiceIsFiredOnce) {
+  start();
+  play();
+  sample();
+  EXPECT_TRUE(answer(wish(1)).accepted);
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_DOUBLE);
+  EXPECT_EQ(answer(wish(2)).refusal, msg::REFUSAL_DOUBLE) << "too soon";
+  EXPECT_EQ(kicker->commanded(), 1u);
+  EXPECT_FALSE(sample().ready);
+}
+
+TEST_F(KickerDriverNodeTest, ASilentDeviceIsAFault) {
+  context.settings.kicker_driver.link_timeout_s = 1e-9;
+  start();
+  play();
+  sample();
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_FAULT);
+}
+
+TEST_F(KickerDriverNodeTest, AnotherRobotsOrdersAreNotItsOwn) {
+  Says<msg::KickOrder> other{participant, 2};
+  start();
+  other.expect_reader();
+  play();
+  sample();
+  other(wish(1));
+  EXPECT_EQ(answer(wish(2)).kick_id, 2);
+  EXPECT_EQ(kicker->commanded(), 1u);
+}
+
+TEST_F(KickerDriverNodeTest, LeavesTheKickerSafe) {
+  start();
+  play();
+  sample();
+  EXPECT_FALSE(kicker->safe);
+  running.reset();
+  node.reset();
+  EXPECT_TRUE(kicker->safe);
+}
+
+TEST_F(NodeTest, TheKickerDriverSaysWhenTheDecisionLoopFallsSilent) {
+  bus::Writer<msg::KickOrder> loop{participant,
+                                   {.period = {}, .lease = std::chrono::milliseconds{20}, .strength = 0, .owner = {}}};
+  KickerDriverNode node{context, fake_kicker()};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  ASSERT_TRUE(loop.wait_for_readers(1, kPlenty));
+  loop.assert_liveliness();  // and never again
+  EXPECT_TRUE(log_lines->wait_for("the decision loop is silent"));
+}
+
+}  // namespace
+}  // namespace trivela::nodes

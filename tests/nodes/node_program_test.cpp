@@ -1,0 +1,158 @@
+// The nodes as programs: what their users and `trivela match` rely on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "bus/messages.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "evaluator/log/reader.hpp"
+#include "tests/bus/test_domain.hpp"
+#include "tests/nodes/spawned.hpp"
+#include "tests/nodes/temporary_folder.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr std::chrono::seconds kPlenty{30};
+
+class NodeProgramTest : public testing::Test {
+ protected:
+  NodeProgramTest() { write_config(""); }
+
+  std::filesystem::path write_config(const std::string& more) {
+    std::ofstream{folder / "node.toml"} << "[domain]\ndomain_id = 17\ntag = \"" << tag << "\"\n"
+                                        << "[recorder]\nlog = \"" << (folder / "out.db").string() << "\"\n"
+                                        << "[run]\nrobot = \"" TRIVELA_SOURCE_DIR "/config/robots/cambada_1.toml\"\n"
+                                        << "scenario = \"" TRIVELA_SOURCE_DIR "/config/scenarios/default.toml\"\n"
+                                        << more;
+    return folder / "node.toml";
+  }
+  static std::string program(const std::string& name) { return TRIVELA_BINARY_DIR "/trivela-" + name; }
+  std::vector<std::string> arguments() const { return {"--config", (folder / "node.toml").string()}; }
+
+  /// Starts a node, waits until it is in the domain, and expects SIGTERM to end it well.
+  template <class T>
+  void expect_clean_end(const std::string& name, int signal = SIGTERM) {
+    SCOPED_TRACE(name);
+    bus::Writer<T> writer{participant};
+    Spawned node{program(name), arguments()};
+    ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+    node.send(signal);
+    EXPECT_EQ(node.exit_code(), 0) << node.said();
+    EXPECT_THAT(node.said(), AllOf(HasSubstr("robot 1 (cambada_1) in domain 17"), HasSubstr("stopped")));
+  }
+
+  TemporaryFolder folder;
+  std::string tag = "program-test-" + std::to_string(getpid());
+  bus::Participant participant{bus::loopback(17, tag)};
+};
+
+TEST_F(NodeProgramTest, SigtermEndsOdometry) { expect_clean_end<msg::DriveCommand>("odometry"); }
+TEST_F(NodeProgramTest, SigtermEndsWorldState) { expect_clean_end<msg::Odometry>("world_state"); }
+TEST_F(NodeProgramTest, SigtermEndsKickDecision) { expect_clean_end<msg::WorldState>("kick_decision"); }
+TEST_F(NodeProgramTest, SigtermEndsTheKickerDriver) { expect_clean_end<msg::KickOrder>("kicker_driver"); }
+TEST_F(NodeProgramTest, SigtermEndsTheShotObserver) { expect_clean_end<msg::FlightFrame>("shot_observer"); }
+TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::SimDrive>("simulator"); }
+TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
+
+TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
+  bus::Writer<msg::KickTruth> writer{participant};
+  Spawned node{program("recorder"), arguments()};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+  node.send(SIGTERM);
+  EXPECT_EQ(node.exit_code(), 0) << node.said();
+  EXPECT_THAT(node.said(), HasSubstr("recorded 0 rows"));
+  const evaluator::log::Reader log{folder / "out.db"};
+  ASSERT_EQ(log.sessions().size(), 1u);
+  EXPECT_TRUE(log.sessions()[0].closed_t_ns);
+}
+
+TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
+  bus::Writer<msg::SimWheels> wheels{participant};
+  bus::Reader<msg::Odometry> odometry{participant};
+  Spawned node{program("odometry"), arguments()};
+  ASSERT_TRUE(wheels.wait_for_readers(1, kPlenty)) << node.said();
+  ASSERT_TRUE(odometry.wait_for_writers(1, kPlenty));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  wheels.write({.robot_id = 1, .seq = 1, .t_ns = 20, .wheel_count = 3, .wheel_radps = {nan, 1, 1}, .gyro_radps = nan});
+  ASSERT_TRUE(node.says("wheel sample of t 20 ns is unusable")) << node.said();
+  wheels.write({.robot_id = 1, .seq = 2, .t_ns = 40, .wheel_count = 3, .wheel_radps = {1, 1, 1}, .gyro_radps = nan});
+  ASSERT_TRUE(odometry.wait(kPlenty)) << node.said();
+  std::int64_t t_ns = 0;
+  odometry.take([&](const msg::Odometry& sample) { t_ns = sample.t_ns; });
+  EXPECT_EQ(t_ns, 40);
+  node.send(SIGTERM);
+  EXPECT_EQ(node.exit_code(), 0);
+}
+
+TEST_F(NodeProgramTest, ASecondOneOfAKindEndsWithOneSentence) {
+  bus::Writer<msg::Odometry> writer{participant};
+  Spawned first{program("world_state"), arguments()};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << first.said();
+  Spawned second{program("world_state"), arguments()};
+  EXPECT_EQ(second.exit_code(), 1);
+  EXPECT_THAT(second.said(), HasSubstr("another world_state of robot 1 writes world_state in domain 17"));
+  first.send(SIGTERM);
+  EXPECT_EQ(first.exit_code(), 0) << first.said();
+}
+
+TEST_F(NodeProgramTest, ABadConfigurationNamesFileAndKey) {
+  write_config("robot_idd = 1\n");
+  Spawned unknown_key{program("odometry"), arguments()};
+  EXPECT_EQ(unknown_key.exit_code(), 1);
+  EXPECT_THAT(unknown_key.said(), AllOf(HasSubstr("odometry: "), HasSubstr("node.toml"), HasSubstr("robot_idd")));
+  write_config("cycle_s = \"fast\"\n");
+  Spawned wrong_type{program("kicker_driver"), arguments()};
+  EXPECT_EQ(wrong_type.exit_code(), 1);
+  EXPECT_THAT(wrong_type.said(), AllOf(HasSubstr("node.toml"), HasSubstr("cycle_s")));
+  write_config("[hal]\nwheels = \"teleport\"\n");
+  Spawned no_backend{program("odometry"), arguments()};
+  EXPECT_EQ(no_backend.exit_code(), 1);
+  EXPECT_THAT(no_backend.said(), HasSubstr("teleport"));
+  Spawned no_file{program("odometry"), {"--config", (folder / "nowhere.toml").string()}};
+  EXPECT_EQ(no_file.exit_code(), 1);
+  EXPECT_THAT(no_file.said(), HasSubstr("nowhere.toml"));
+}
+
+TEST_F(NodeProgramTest, ASettingOnTheCommandLineIsCheckedToo) {
+  auto with = arguments();
+  with.insert(with.end(), {"--set", "run.robot_id=300"});
+  Spawned node{program("odometry"), with};
+  EXPECT_EQ(node.exit_code(), 1);
+  EXPECT_THAT(node.said(), HasSubstr("robot_id"));
+}
+
+TEST_F(NodeProgramTest, BadUsageEndsWithTwoAndHelpWithZero) {
+  for (const std::string name :
+       {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "recorder", "simulator"}) {
+    SCOPED_TRACE(name);
+    auto with = arguments();
+    with.emplace_back("--no-such-flag");
+    Spawned unknown{program(name), with};
+    EXPECT_EQ(unknown.exit_code(), 2);
+    EXPECT_THAT(unknown.said(), HasSubstr("--no-such-flag"));
+    Spawned without{program(name), {}};
+    EXPECT_EQ(without.exit_code(), 2);
+    EXPECT_THAT(without.said(), HasSubstr("--config"));
+    Spawned help{program(name), {"--help"}};
+    EXPECT_EQ(help.exit_code(), 0);
+    EXPECT_THAT(help.said(), HasSubstr("--config"));
+  }
+}
+
+TEST_F(NodeProgramTest, ARecorderNeverWritesOverAMatch) {
+  std::ofstream{folder / "out.db"} << "something else";
+  Spawned node{program("recorder"), arguments()};
+  EXPECT_EQ(node.exit_code(), 1);
+  EXPECT_THAT(node.said(), HasSubstr("out.db"));
+}
+
+}  // namespace
+}  // namespace trivela::nodes

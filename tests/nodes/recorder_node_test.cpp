@@ -1,0 +1,195 @@
+#include "nodes/recorder/recorder_node.hpp"
+
+#include <limits>
+
+#include "config/settings.hpp"
+#include "evaluator/log/reader.hpp"
+#include "tests/nodes/node_fixture.hpp"
+#include "tests/nodes/temporary_folder.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+using evaluator::log::Loss;
+using evaluator::log::Value;
+using ::testing::HasSubstr;
+
+class RecorderNodeTest : public NodeTest {
+ protected:
+  static evaluator::log::WriterOptions quick() {
+    evaluator::log::WriterOptions options;
+    options.group_commit_s = 0.01;
+    options.warn = [](const std::string&) {};
+    return options;
+  }
+  void start(Executor::Kind kind = Executor::kListener) {
+    log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+    node.emplace(context, *log);
+    running.emplace(kind, stop, std::vector<bus::Node*>{&node->node()});
+  }
+  /// Stops the recorder and opens its log.
+  evaluator::log::Reader read() {
+    running.reset();
+    log->finalise();
+    return evaluator::log::Reader{folder / "match.db"};
+  }
+  static std::int64_t count(const evaluator::log::Reader& reader, const std::string& what) {
+    std::int64_t n = 0;
+    reader.query("SELECT count(*) FROM " + what,
+                 [&](std::span<const Value> row) { n = std::get<std::int64_t>(row[0]); });
+    return n;
+  }
+  static Loss loss(const evaluator::log::Reader& reader, const std::string& stream) {
+    for (const auto& each : reader.losses())
+      if (each.stream == stream) return each;
+    return {};
+  }
+
+  TemporaryFolder folder;
+  std::optional<evaluator::log::Writer> log;
+  std::optional<RecorderNode> node;
+  std::optional<Running> running;
+};
+
+template <class T>
+T numbered(std::uint64_t seq, std::uint8_t robot_id = 1) {
+  T out{};
+  out.robot_id = robot_id;
+  out.seq = seq;
+  out.t_ns = static_cast<std::int64_t>(seq) * 20;
+  if constexpr (requires { out.half; }) out.half = 1;
+  return out;
+}
+
+template <class T>
+void say(const bus::Participant& participant, const std::vector<T>& samples) {
+  bus::Writer<T> writer{participant};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty));
+  for (const T& sample : samples) writer.write(sample);
+}
+
+template <class T>
+void say_of_two_robots(const bus::Participant& participant) {
+  say<T>(participant, {numbered<T>(1), numbered<T>(1, 2), numbered<T>(2), numbered<T>(2, 2), numbered<T>(3)});
+}
+
+TEST_F(RecorderNodeTest, RecordsEveryStreamOfEveryRobot) {
+  start();
+  say_of_two_robots<msg::Odometry>(participant);
+  say_of_two_robots<msg::VisionFrame>(participant);
+  say_of_two_robots<msg::FlightFrame>(participant);
+  say_of_two_robots<msg::Referee>(participant);
+  say_of_two_robots<msg::WorldState>(participant);
+  say_of_two_robots<msg::DriveCommand>(participant);
+  say_of_two_robots<msg::KickerStatus>(participant);
+  say_of_two_robots<msg::KickDecision>(participant);
+  say_of_two_robots<msg::KickOrder>(participant);
+  say_of_two_robots<msg::KickReceipt>(participant);
+  say_of_two_robots<msg::KickOutcome>(participant);
+  say_of_two_robots<msg::KickTruth>(participant);
+  say_of_two_robots<msg::PossessionTruth>(participant);
+  const auto reader = read();
+  for (const std::string table :
+       {"odometry", "vision_frames", "flight_frames", "referee", "world_states", "drive_commands", "kicker_status",
+        "kick_decisions", "kick_orders", "kick_receipts", "kick_outcomes", "kick_truths", "possession_truths"}) {
+    EXPECT_EQ(count(reader, table + " WHERE robot_id = 1"), 3) << table;
+    EXPECT_EQ(count(reader, table + " WHERE robot_id = 2"), 2) << table;
+    const auto counted = loss(reader, table);
+    EXPECT_EQ(counted.received, 5) << table;
+    EXPECT_EQ(counted.missing() + counted.out_of_order, 0) << table;
+  }
+}
+
+TEST_F(RecorderNodeTest, RecordsTheSameInAThreadOfItsOwn) {
+  start(Executor::kWaitset);
+  std::vector<msg::KickDecision> decisions;
+  for (std::uint64_t seq = 1; seq <= 2000; ++seq) decisions.push_back(numbered<msg::KickDecision>(seq));
+  say(participant, decisions);
+  const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+  while (log->stats().rows_written < 2000 && std::chrono::steady_clock::now() < deadline) log->flush();
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "kick_decisions"), 2000);
+  EXPECT_EQ(loss(reader, "kick_decisions").missing(), 0);
+}
+
+TEST_F(RecorderNodeTest, CountsWhatNeverArrived) {
+  start();
+  say<msg::Referee>(participant, {numbered<msg::Referee>(1), numbered<msg::Referee>(2), numbered<msg::Referee>(6)});
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "referee"), 3);
+  EXPECT_EQ(loss(reader, "referee").gaps, 3);
+  EXPECT_EQ(loss(reader, "referee").missing(), 3);
+}
+
+TEST_F(RecorderNodeTest, ANodeThatStartsAgainIsRecordedOn) {
+  start();
+  const std::vector<msg::Referee> words{numbered<msg::Referee>(1), numbered<msg::Referee>(2)};
+  say(participant, words);
+  say(participant, words);
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "referee"), 4);
+  EXPECT_EQ(loss(reader, "referee").missing() + loss(reader, "referee").out_of_order, 0);
+  EXPECT_EQ(count(reader, "referee WHERE seq = 4 AND t_ns = 40"), 1);
+}
+
+TEST_F(RecorderNodeTest, RecordsTheShadowsBesideTheirDecision) {
+  start();
+  auto decision = numbered<msg::KickDecision>(1);
+  decision.shadow_count = 2;
+  decision.shadows[0].reason = msg::REASON_SETTLING;
+  decision.shadows[0].offset_right_m = std::numeric_limits<double>::quiet_NaN();
+  decision.shadows[0].power = decision.shadows[0].v_kick_mps = std::numeric_limits<double>::quiet_NaN();
+  decision.shadows[1].policy = msg::POLICY_MOVING;
+  decision.shadows[1].fire = true;
+  say<msg::KickDecision>(participant, {decision, numbered<msg::KickDecision>(2)});
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "shadow_decisions"), 2);
+  EXPECT_EQ(count(reader,
+                  "shadow_decisions WHERE seq = 1 AND shadow_index = 0 AND reason = 'settling' AND power IS "
+                  "NULL AND policy = 'stopped'"),
+            1);
+  EXPECT_EQ(count(reader, "shadow_decisions WHERE shadow_index = 1 AND fire = 1 AND policy = 'moving'"), 1);
+}
+
+TEST_F(RecorderNodeTest, AShadowCountFromTheWireBeyondTheArrayIsNotBelieved) {
+  start();
+  auto decision = numbered<msg::KickDecision>(1);
+  decision.shadow_count = 200;
+  say<msg::KickDecision>(participant, {decision});
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "kick_decisions"), 1);
+  EXPECT_LE(count(reader, "shadow_decisions"), 3);
+}
+
+TEST_F(RecorderNodeTest, NaNWhereANumberMustBeIsCountedAndNotFatal) {
+  start();
+  auto broken = numbered<msg::DriveCommand>(1);
+  broken.vx_mps = std::numeric_limits<double>::quiet_NaN();
+  say<msg::DriveCommand>(participant, {broken, numbered<msg::DriveCommand>(2)});
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "drive_commands"), 1);
+  EXPECT_EQ(loss(reader, "drive_commands").nan_refused, 1);
+}
+
+TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
+  context.settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
+  context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
+  context.settings.simulator.seed = 77;
+  const auto session = session_of(context);
+  EXPECT_TRUE(session.simulated && session.simulated_clock);
+  EXPECT_EQ(session.started_t_ns, 0);
+  EXPECT_EQ(session.seed, 77);
+  EXPECT_EQ(session.scenario, "default");
+  EXPECT_FALSE(session.software_version.empty());
+  EXPECT_THAT(session.config_toml, HasSubstr("seed = 77"));
+  EXPECT_THAT(session.config_toml, HasSubstr("cambada_1"));
+  EXPECT_THAT(session.idl, HasSubstr("struct KickDecision"));
+  EXPECT_THAT(session.idl, HasSubstr("struct Odometry"));
+  ASSERT_EQ(session.policies.size(), 2u);
+  EXPECT_EQ(session.policies[0].policy, "stopped");
+  EXPECT_EQ(session.policies[1].policy, "moving");
+}
+
+}  // namespace
+}  // namespace trivela::nodes

@@ -1,0 +1,135 @@
+#include "nodes/shot_observer/shot_observer_node.hpp"
+
+#include <cmath>
+
+#include "tests/nodes/flown_shot.hpp"
+#include "tests/nodes/node_fixture.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+
+class ShotObserverNodeTest : public NodeTest {
+ protected:
+  void start() {
+    node.emplace(context);
+    running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
+    camera.expect_reader();
+    receipt.expect_reader();
+    play(true, 0);
+  }
+  void play(bool playing, std::int64_t t_ns) {
+    msg::Referee word{};
+    word.t_ns = t_ns;
+    word.playing = playing;
+    referee(word);
+  }
+  void kicked(std::int64_t kick_id, const FlownShot& shot, bool accepted = true) {
+    msg::KickReceipt out{};
+    out.kick_id = kick_id;
+    out.accepted = accepted;
+    out.refusal = accepted ? msg::REFUSAL_NONE : msg::REFUSAL_CHARGING;
+    out.release_t_ns = accepted ? shot.release_t_ns : 0;
+    out.power = accepted ? 25.0 : 0.0;
+    receipt(out);
+  }
+  void show(const FlownShot::Frame& seen) {
+    msg::FlightFrame out{};
+    out.t_exposure_ns = seen.t_ns;
+    out.t_ns = seen.t_ns + 40'000'000;
+    out.ball_seen = seen.ball_m.has_value();
+    out.ball_x_m = seen.ball_m ? seen.ball_m->x() : std::nan("");
+    out.ball_y_m = seen.ball_m ? seen.ball_m->y() : std::nan("");
+    out.ball_z_m = seen.ball_m ? seen.ball_m->z() : std::nan("");
+    camera(out);
+  }
+  void show(const FlownShot& shot) {
+    for (const auto& frame : shot.frames) show(frame);
+  }
+
+  const FlownShot in_goal = fly(aimed(0.3, 0.5), airless());
+  Heard<msg::KickOutcome> outcome{participant};
+  Says<msg::FlightFrame> camera{participant};
+  Says<msg::KickReceipt> receipt{participant};
+  Says<msg::Referee> referee{participant};
+  std::optional<ShotObserverNode> node;
+  std::optional<Running> running;
+};
+
+TEST_F(ShotObserverNodeTest, SaysWhatBecameOfAKick) {
+  start();
+  kicked(11, in_goal);
+  show(in_goal);
+  const auto said = outcome.nth(1);
+  EXPECT_EQ(said.robot_id, 1);
+  EXPECT_EQ(said.seq, 1u);
+  EXPECT_EQ(said.kick_id, 11);
+  EXPECT_EQ(said.outcome, msg::OUTCOME_ON_TARGET);
+  EXPECT_TRUE(said.on_target);
+  EXPECT_NEAR(said.x_cross_m, 0.3, 5.0 * said.sd_cross_m);
+  EXPECT_NEAR(said.z_cross_m, 0.5, 5.0 * said.sd_cross_m);
+  EXPECT_GT(said.observations, 20u);
+  EXPECT_GT(said.t_ns, in_goal.truth.t_ns);
+  EXPECT_NEAR(said.exit_speed_mps, 7.6, 1.0);
+  EXPECT_NEAR(said.exit_elevation_rad, 0.61, 0.1);
+  EXPECT_TRUE(log_lines->wait_for("kick 11: on_target"));
+}
+
+TEST_F(ShotObserverNodeTest, AMissIsNotOnTarget) {
+  start();
+  const auto wide = fly(aimed(-2.0, 0.5), airless());
+  kicked(12, wide);
+  show(wide);
+  EXPECT_EQ(outcome.nth(1).outcome, msg::OUTCOME_WIDE_LEFT);
+  EXPECT_FALSE(outcome.nth(1).on_target);
+}
+
+TEST_F(ShotObserverNodeTest, ARefusedOrderHasNoOutcome) {
+  start();
+  kicked(1, in_goal, false);
+  show(in_goal);
+  EXPECT_TRUE(outcome.now().empty());
+}
+
+TEST_F(ShotObserverNodeTest, AShotWithoutNumbersIsToldWithNaN) {
+  start();
+  auto unseen = in_goal;
+  for (auto& frame : unseen.frames) frame.ball_m.reset();
+  kicked(3, unseen);
+  show(unseen);
+  const auto said = outcome.nth(1);
+  EXPECT_EQ(said.outcome, msg::OUTCOME_UNKNOWN);
+  for (const double number :
+       {said.x_cross_m, said.z_cross_m, said.sd_cross_m, said.exit_speed_mps, said.exit_elevation_rad})
+    EXPECT_TRUE(std::isnan(number));
+}
+
+TEST_F(ShotObserverNodeTest, TheRefereesStopSettlesAnOpenShot) {
+  start();
+  kicked(4, in_goal);
+  const std::int64_t stop_t_ns = in_goal.release_t_ns + 400'000'000;
+  for (const auto& frame : in_goal.frames) {
+    if (frame.t_ns > stop_t_ns && outcome.now().empty()) play(false, stop_t_ns);
+    show(frame);
+  }
+  const auto said = outcome.nth(1);
+  EXPECT_EQ(said.kick_id, 4);
+  EXPECT_EQ(said.outcome, msg::OUTCOME_BLOCKED);
+  EXPECT_EQ(outcome.now().size(), 1u);
+}
+
+// The camera shows the past: frames exposed before the stop still belong to the shot.
+TEST_F(ShotObserverNodeTest, FramesThatAreOlderThanTheStopStillCount) {
+  start();
+  kicked(5, in_goal);
+  const std::int64_t stop_t_ns = in_goal.truth.t_ns + 100'000'000;
+  for (const auto& frame : in_goal.frames) {
+    if (frame.t_ns + 40'000'000 == (stop_t_ns / kFrame_ns) * kFrame_ns) play(false, stop_t_ns);
+    show(frame);
+  }
+  EXPECT_EQ(outcome.nth(1).outcome, msg::OUTCOME_ON_TARGET);
+}
+
+}  // namespace
+}  // namespace trivela::nodes

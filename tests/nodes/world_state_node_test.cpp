@@ -1,0 +1,124 @@
+#include "nodes/world_state/world_state_node.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/nodes/node_fixture.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+
+constexpr std::int64_t kCycle_ns = 20'000'000;
+
+class WorldStateNodeTest : public NodeTest {
+ protected:
+  static msg::Odometry odometry(std::int64_t cycle) {
+    msg::Odometry out{};
+    out.t_ns = cycle * kCycle_ns;
+    return out;
+  }
+  static msg::VisionFrame vision(std::int64_t cycle) {
+    msg::VisionFrame out{};
+    out.t_ns = out.t_exposure_ns = cycle * kCycle_ns;
+    out.pose_seen = out.ball_seen = true;
+    out.x_m = 1.0;
+    out.y_m = 2.0;
+    out.heading_rad = 0.5;
+    out.ball_y_m = 0.27;
+    return out;
+  }
+  static msg::Referee referee() {
+    msg::Referee out{};
+    out.half = 1;
+    out.playing = true;
+    out.possession_id = 3;
+    return out;
+  }
+
+  Heard<msg::WorldState> world{participant};
+  Says<msg::Odometry> wheels_say{participant};
+  Says<msg::VisionFrame> camera_says{participant};
+  Says<msg::Referee> referee_says{participant};
+};
+
+TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
+  for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
+    bus::Stop own_stop;
+    const bus::Participant own_participant{bus::fresh_domain()};
+    NodeContext own{context.settings, context.robot, own_participant, context.logger, own_stop};
+    Heard<msg::WorldState> heard{own_participant};
+    Says<msg::Odometry> wheels_tell{own_participant};
+    Says<msg::VisionFrame> camera_tells{own_participant};
+    Says<msg::Referee> referee_tells{own_participant};
+    WorldStateNode node{own};
+    const Running running{kind, own_stop, {&node.node()}};
+    wheels_tell.expect_reader();
+    referee_tells(referee());
+    for (std::int64_t cycle = 1; cycle <= 5; ++cycle) {
+      camera_tells(vision(cycle));
+      wheels_tell(odometry(cycle));
+      heard.first(static_cast<std::size_t>(cycle));
+    }
+    const auto last = heard.nth(5);
+    EXPECT_EQ(last.robot_id, 1);
+    EXPECT_EQ(last.seq, 5u);
+    EXPECT_EQ(last.t_ns, 5 * kCycle_ns);
+    EXPECT_TRUE(last.playing);
+    EXPECT_EQ(last.half, 1);
+    EXPECT_EQ(last.possession_id, 3u);
+    EXPECT_NEAR(last.x_m, 1.0, 1e-9);
+    EXPECT_NEAR(last.heading_rad, 0.5, 1e-9);
+    EXPECT_TRUE(last.possession);
+    EXPECT_NEAR(last.ball_x_m, 1.0 - 0.27 * std::sin(0.5), 1e-9);
+  }
+}
+
+TEST_F(WorldStateNodeTest, WithoutCameraAndRefereeNobodyPlays) {
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  wheels_say(odometry(1));
+  EXPECT_FALSE(world.nth(1).playing);
+  EXPECT_FALSE(world.nth(1).ball_known);
+}
+
+TEST_F(WorldStateNodeTest, AnotherRobotsSensorsAreNotItsOwn) {
+  Says<msg::Odometry> other_wheels{participant, 2};
+  Says<msg::VisionFrame> other_camera{participant, 2};
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  other_wheels.expect_reader();
+  referee_says(referee());
+  other_camera(vision(1));
+  other_wheels(odometry(1));
+  wheels_say(odometry(2));
+  EXPECT_EQ(world.nth(1).t_ns, 2 * kCycle_ns);
+  EXPECT_FALSE(world.nth(1).playing) << "the other robot is localised, this one is not";
+}
+
+TEST_F(WorldStateNodeTest, OdometryThatIsNotFiniteStopsThePlayForThatCycleOnly) {
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  referee_says(referee());
+  camera_says(vision(1));
+  wheels_say(odometry(1));
+  EXPECT_TRUE(world.nth(1).playing);
+  std::size_t n = 1;
+  for (double msg::Odometry::*field : {&msg::Odometry::vy_mps, &msg::Odometry::x_m, &msg::Odometry::var_position_m2}) {
+    auto broken = odometry(static_cast<std::int64_t>(++n));
+    broken.*field = std::numeric_limits<double>::quiet_NaN();
+    wheels_say(broken);
+    EXPECT_FALSE(world.nth(n).playing);
+    wheels_say(odometry(static_cast<std::int64_t>(++n)));
+    const auto good = world.nth(n);
+    EXPECT_TRUE(good.playing);
+    EXPECT_TRUE(std::isfinite(good.vy_mps + good.x_m + good.sd_position_m));
+  }
+}
+
+}  // namespace
+}  // namespace trivela::nodes
