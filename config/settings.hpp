@@ -40,6 +40,7 @@ struct Hal {
 struct Odometry {
   double wheel_sd_radps = 1.0;        ///< noise and slip of one wheel's speed
   double gyro_sd_radps = 0.02;        ///< noise of the gyro
+  double drive_timeout_s = 0.2;       ///< without a drive command for longer the base stops
   double drift_ratio = 0.05;          ///< position error per metre driven
   double heading_drift_ratio = 0.02;  ///< heading error per radian turned
 };

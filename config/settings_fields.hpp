@@ -115,6 +115,7 @@ template <class V>
 void fields(V& v, Odometry& o) {
   v("wheel_sd_radps", o.wheel_sd_radps, Range{1e-6, 100.0});
   v("gyro_sd_radps", o.gyro_sd_radps, Range{1e-6, 10.0});
+  v("drive_timeout_s", o.drive_timeout_s, Range{0.01, 10.0});
   v("drift_ratio", o.drift_ratio, Range{0.0, 1.0});
   v("heading_drift_ratio", o.heading_drift_ratio, Range{0.0, 1.0});
 }

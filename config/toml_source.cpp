@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 
@@ -30,9 +31,9 @@ TomlSource parse_text(std::string_view text, std::string name) {
 
 TomlSource parse_file(const std::filesystem::path& path) {
   std::ifstream in{path, std::ios::binary};
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) throw Error{fmt::format("{}: cannot read the configuration", path.string())};
-  return parse_text(text.str(), path.string());
+  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  if (!in || in.bad()) throw Error{fmt::format("{}: cannot read the configuration", path.string())};
+  return parse_text(text, path.string());
 }
 
 const toml::node* TableReader::find(std::string_view key) {

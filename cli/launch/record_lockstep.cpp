@@ -10,10 +10,23 @@
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/reader.hpp"
 
 namespace trivela::cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Rows that the log says it is missing, with a sentence where there are any.
+std::int64_t lost_rows(const std::string& log) {
+  std::int64_t missing = 0;
+  for (const auto& loss : evaluator::log::Reader{log}.losses()) missing += loss.missing();
+  if (missing > 0) fmt::print(stderr, "trivela: {} rows are missing in {}: trivela report says which\n", missing, log);
+  return missing;
+}
+
+}  // namespace
 
 int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
   // Runs at the same time hear each other in neither domain nor tag.
@@ -31,7 +44,7 @@ int record_lockstep(const std::string& feeder, config::Settings settings, int do
   const MatchResult result = run_match(feeder, config.path(), signals);
   fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
              result.played_s / result.wall_s);
-  if (result.trouble.empty()) return kDone;
+  if (result.trouble.empty()) return lost_rows(out) == 0 ? kDone : kDoneWithLoss;
   fmt::print(stderr, "trivela: {} after {:.1f} s of play; {}\n", result.trouble, result.played_s,
              log.recorded() ? "what was recorded until then is in " + out : "nothing was recorded");
   return kFailed;

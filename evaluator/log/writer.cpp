@@ -175,6 +175,8 @@ Stats Writer::stats() const {
           .queue_high_water = impl_->queue.high_water()};
 }
 
+std::size_t Writer::waiting() const { return impl_->queue.waiting(); }
+
 void Writer::finalise(std::optional<std::int64_t> closed_t_ns) {
   if (std::exchange(impl_->finalised, true)) return;
   impl_->queue.close();

@@ -70,6 +70,9 @@ class Writer {
 
   Stats stats() const;
 
+  /// Rows pushed and not committed yet.
+  std::size_t waiting() const;
+
   /// Commits the rest and the counters, sets closed_t_ns (none: the latest t_ns recorded), and folds the write-ahead
   /// log into the one file. Throws std::runtime_error where rows could not be written; the earlier ones are kept.
   void finalise(std::optional<std::int64_t> closed_t_ns = std::nullopt);

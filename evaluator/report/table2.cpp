@@ -76,6 +76,11 @@ Report make_report(const log::Reader& reader) {
                 .unclosed_kicks = {},
                 .refused_orders = {},
                 .warnings = reader.warnings()};
+  for (const log::RecordedSession& session : report.sessions) {
+    if (!session.scenario.starts_with("replay of ")) continue;
+    report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
+                              ": the outcomes are those of the recorded kicks, whatever was ordered here");
+  }
   reader.query(kUnclosedKicksSql, [&](Cells row) {
     report.unclosed_kicks.push_back({.session_id = integer(row[0]),
                                      .robot_id = static_cast<int>(integer(row[1])),

@@ -53,9 +53,12 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
 
 /// In lockstep the next sample waits for the drive command of the last one: a replayed log knows no other pace.
 std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanoseconds timeout) {
+  if (wheels_->ended()) {
+    context_.idle(timeout);
+    return std::nullopt;
+  }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
-  if (wheels_->ended()) context_.idle(timeout);
   if (!sample) cycle_over_.release();
   return sample;
 }
@@ -75,10 +78,27 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   out.robot_id = context_.robot_id();
   out.seq = ++seq_;
   odometry_out_.write(out);
+  stop_without_commands(sample.t_ns);
+}
+
+/// A robot that nobody drives any more stands still. In lockstep the next command is waited for instead.
+void OdometryNode::stop_without_commands(std::int64_t t_ns) {
+  if (context_.settings.run.lockstep) return;
+  const std::lock_guard lock{drive_mutex_};
+  const double silence_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - commanded_}.count();
+  if (!driving_ || silence_s <= context_.settings.odometry.drive_timeout_s) return;
+  driving_ = false;
+  wheels_->drive({}, t_ns);
+  context_.logger->warn("no drive command for {:.2f} s: the base stops", silence_s);
 }
 
 void OdometryNode::on_drive(const msg::DriveCommand& command) {
-  wheels_->drive({command.vx_mps, command.vy_mps, command.omega_radps}, command.t_ns);
+  {
+    const std::lock_guard lock{drive_mutex_};
+    commanded_ = std::chrono::steady_clock::now();
+    driving_ = true;
+    wheels_->drive({command.vx_mps, command.vy_mps, command.omega_radps}, command.t_ns);
+  }
   step_done(step_done_, context_.robot_id(), msg::STEP_ODOMETRY, command.t_ns);
   if (context_.settings.run.lockstep) cycle_over_.release();
 }

@@ -10,7 +10,8 @@
 
 namespace trivela::nodes {
 
-/// Owns the base: wheel samples in, Odometry out; DriveCommand in, set-points to the wheels.
+/// Owns the base: wheel samples in, Odometry out; DriveCommand in, set-points to the wheels. Without commands for
+/// odometry.drive_timeout_s the base stops.
 class OdometryNode {
  public:
   OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels);
@@ -19,6 +20,7 @@ class OdometryNode {
  private:
   std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
   void on_wheels(const hal::WheelSample& sample);
+  void stop_without_commands(std::int64_t t_ns);
   void on_drive(const msg::DriveCommand& command);
 
   NodeContext& context_;
@@ -30,6 +32,9 @@ class OdometryNode {
   FirstCycle first_;
   std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
+  std::mutex drive_mutex_;  // device thread and drive reaction
+  std::chrono::steady_clock::time_point commanded_{};
+  bool driving_ = false;
 };
 
 }  // namespace trivela::nodes

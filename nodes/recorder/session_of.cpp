@@ -12,6 +12,19 @@ std::int64_t now_ns(auto clock_now) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
 }
 
+/// The settings without what differs from run to run and from machine to machine, so that equal set-ups have equal
+/// hashes; robot and scenario follow in full.
+config::Settings set_up(config::Settings settings) {
+  settings.domain.domain_id = config::Domain{}.domain_id;
+  settings.domain.tag = config::Domain{}.tag;
+  settings.recorder.log = config::Recorder{}.log;
+  settings.run.robot = config::Run{}.robot;
+  settings.run.scenario = config::Run{}.scenario;
+  settings.run.log_level = config::Run{}.log_level;
+  settings.hal.replay_log = std::filesystem::path{settings.hal.replay_log}.filename().string();
+  return settings;
+}
+
 }  // namespace
 
 evaluator::log::Session session_of(const NodeContext& context) {
@@ -24,8 +37,10 @@ evaluator::log::Session session_of(const NodeContext& context) {
   if (!simulated) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = realtime_ns - session.started_t_ns;
   session.config_toml =
-      "### settings\n" + config::to_toml_text(settings) + "\n### robot\n" + config::to_toml_text(context.robot);
-  if (simulated) {
+      "### settings\n" + config::to_toml_text(set_up(settings)) + "\n### robot\n" + config::to_toml_text(context.robot);
+  if (settings.hal.wheels == "replay") {
+    session.scenario = "replay of " + std::filesystem::path{settings.hal.replay_log}.filename().string();
+  } else if (simulated) {
     session.seed = settings.simulator.seed;
     session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
     session.config_toml += "\n### scenario\n" + config::to_toml_text(config::load_scenario(settings.run.scenario));
