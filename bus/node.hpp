@@ -95,7 +95,7 @@ class Node {
   /// Calls react(value) for each value of a device, in a thread of its own. The source,
   /// std::optional<Value>(std::chrono::nanoseconds timeout), waits for the next value no longer than the timeout.
   template <class Source, class F>
-  void on_device(std::string device, Source source, F react, std::vector<std::string> outputs = {}) {
+  void on_device(const std::string& device, Source source, F react, std::vector<std::string> outputs = {}) {
     Slot& slot = add(device, "device:" + device, std::move(outputs));
     slot.poll = [source = std::move(source), react = std::move(react)](std::chrono::nanoseconds timeout) mutable {
       if (auto value = source(timeout)) react(*value);

@@ -1,12 +1,13 @@
-#include <fmt/core.h>
-
+#include <cstdio>
 #include <exception>
 
 #include "cli/verbs.hpp"
 
 namespace cli = trivela::cli;
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
   app.require_subcommand(1);
@@ -26,12 +27,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return cli::kBadUsage;
-  } catch (const cli::UsageError& error) {
-    fmt::print(stderr, "trivela: {}\n", error.what());
-    return cli::kBadUsage;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "trivela: {}\n", error.what());
-    return cli::kFailed;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try { return run(argc, argv); } catch (const cli::UsageError& error) {
+  std::fprintf(stderr, "trivela: %s\n", error.what());
+  return cli::kBadUsage;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "trivela: %s\n", error.what());
+  return cli::kFailed;
 }

@@ -52,7 +52,7 @@ class TableText {
 
  private:
   static std::string number(double value) { return decimal(fmt::format("{}", value)); }
-  static std::string decimal(std::string text) {
+  static std::string decimal(const std::string& text) {
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
   }
   static std::string quoted(std::string_view text) {

@@ -71,6 +71,7 @@ std::string casualty(std::deque<ChildProcess>& children) {
 void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
   const auto complain = [&](const std::string& sentence) { trouble += (trouble.empty() ? "" : "; ") + sentence; };
   std::vector<bool> ran;
+  ran.reserve(children.size());
   for (ChildProcess& child : children) ran.push_back(!child.ended());
   // The recorder is first in the list and stops last: it hears what the others say on their way out.
   for (std::size_t i = 1; i < children.size(); ++i) children[i].terminate();

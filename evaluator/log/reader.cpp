@@ -73,8 +73,7 @@ std::unique_ptr<SQLite::Database> open(const fs::path& path) {
 }  // namespace
 
 struct Reader::Impl {
-  explicit Impl(const fs::path& path_)
-      : path(path_.string()), has_wal(fs::exists(path + "-wal")), database(open(path_)) {}
+  explicit Impl(const fs::path& file) : path(file.string()), has_wal(fs::exists(path + "-wal")), database(open(file)) {}
 
   std::string path;
   bool has_wal;  // before opening, which may make one

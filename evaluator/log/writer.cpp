@@ -28,11 +28,11 @@ Session with_uuid(Session session) {
 }  // namespace
 
 struct Writer::Impl {
-  Impl(const std::filesystem::path& path_, const Session& session, WriterOptions options_)
-      : path(path_.string()),
-        options(std::move(options_)),
+  Impl(const std::filesystem::path& file, const Session& session, WriterOptions chosen)
+      : path(file.string()),
+        options(std::move(chosen)),
         queue(options.queue_capacity),
-        connection(path_, with_uuid(session)),
+        connection(file, with_uuid(session)),
         thread([this] { run(); }) {}
 
   void warn(const std::string& sentence) const {
@@ -138,7 +138,7 @@ Writer::~Writer() {
 
 std::int64_t Writer::session_id() const { return impl_->connection.session_id(); }
 
-TableId Writer::table(std::string_view name, std::vector<std::string> columns) {
+TableId Writer::table(std::string_view name, const std::vector<std::string>& columns) {
   const std::lock_guard lock(impl_->mutex);
   impl_->tables.push_back(impl_->connection.describe(name, columns));
   impl_->book.add({.stream = std::string(name)});

@@ -52,7 +52,7 @@ class Writer {
 
   /// Registers rows of `columns` (without session_id) for the table `name`. Throws std::runtime_error naming the
   /// table or column that the schema does not have, or the column that must not be left out.
-  TableId table(std::string_view name, std::vector<std::string> columns);
+  TableId table(std::string_view name, const std::vector<std::string>& columns);
 
   /// Queues a row, values in the order of the columns. False: the queue is full, and the row is counted as overflow.
   /// NaN in a column that may be NULL is written as NULL. A row with NaN elsewhere, with an infinity or against the

@@ -40,15 +40,13 @@ std::vector<std::string> notes(const Comparison& comparison) {
       "Its \"efficiency improvement of 46%\" comes from the rounded 52 % and 76 %; the counts give 44.8 %, relative. "
       "In percentage points the gain is 23.4.",
       "Its \"overall efficiency\" from 50 % to 83 % and \"increase of over 60%\" is supported by no count, definition "
-      "or "
-      "table: Table 2 has 52.3 % and 75.8 % for the same two tournaments.",
+      "or table: Table 2 has 52.3 % and 75.8 % for the same two tournaments.",
       "Its \"negligible\" difference in kicks out of the goal is 31 against 32 kicks, but 47.7 % against 24.2 % of "
       "them.",
       "Its number of kicks that is \"much higher\" (132 against 65) is no rate: matches and minutes played are not "
       "given.",
       "\"Proving\" is too strong, and nothing is said of the matches' results: before and after are two tournaments "
-      "with "
-      "other opponents and floors, and the calibration of the height changed at the same time as the policy.",
+      "with other opponents and floors, and the calibration of the height changed at the same time as the policy.",
       "\"In goal\" means between the posts and below the bar, saves included; it is not goals scored."};
   notes.insert(notes.end(), paper.begin(), paper.end());
   return notes;

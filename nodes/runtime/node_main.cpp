@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -16,7 +17,7 @@
 namespace trivela::nodes {
 
 std::chrono::nanoseconds NodeContext::cycle() const {
-  return std::chrono::nanoseconds{static_cast<std::int64_t>(settings.run.cycle_s * 1e9 + 0.5)};
+  return std::chrono::nanoseconds{std::llround(settings.run.cycle_s * 1e9)};
 }
 
 void NodeContext::idle(std::chrono::nanoseconds timeout) const {
