@@ -47,15 +47,22 @@ void RecorderNode::record(const std::string& table) {
   const TableId id = log_.table(table, columns_of<T>());
   bus::ReaderOptions everything;
   everything.keep_all = true;
+  // State streams have a sample a cycle.
+  std::optional<std::size_t> cycle_stream;
+  if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
   node_.on<T>(
-      [this, table, id, watch = SequenceWatch{}](const T& sample, const bus::SampleInfo& info) mutable {
+      [this, table, id, cycle_stream, watch = SequenceWatch{}](const T& sample, const bus::SampleInfo& info) mutable {
         store(table, id, watch, sample, info.writer);
-        // The last word of a cycle: whatever came before it is here.
-        if constexpr (std::is_same_v<T, msg::DriveCommand>) {
-          step_done(step_done_, sample.robot_id, msg::STEP_RECORDER, sample.t_ns);
-        }
+        if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
+}
+
+void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
+  if (!step_done_) return;
+  const std::lock_guard lock{mutex_};
+  if (const auto complete = cycles_.see(stream, t_ns))
+    step_done(step_done_, context_.robot_id(), msg::STEP_RECORDER, *complete);
 }
 
 void RecorderNode::record_decisions() {

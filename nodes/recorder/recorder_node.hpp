@@ -1,9 +1,11 @@
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "evaluator/log/writer.hpp"
+#include "nodes/recorder/cycle_watch.hpp"
 #include "nodes/recorder/sequence_watch.hpp"
 #include "nodes/runtime/node_context.hpp"
 
@@ -23,10 +25,14 @@ class RecorderNode {
   std::int64_t store(const std::string& table, evaluator::log::TableId id, SequenceWatch& watch, T sample,
                      std::uint64_t writer);
 
+  void report_cycle(std::size_t stream, std::int64_t t_ns);
+
   NodeContext& context_;
   evaluator::log::Writer& log_;
   bus::Node node_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
+  std::mutex mutex_;  // of cycles_
+  CycleWatch cycles_;
 };
 
 /// What the log says about this session.
