@@ -61,8 +61,11 @@ void RecorderNode::record(const std::string& table) {
 void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
   if (!step_done_) return;
   const std::lock_guard lock{mutex_};
-  if (const auto complete = cycles_.see(stream, t_ns))
-    step_done(step_done_, context_.robot_id(), msg::STEP_RECORDER, *complete);
+  const auto complete = cycles_.see(stream, t_ns);
+  if (!complete) return;
+  // The match waits for a disk that does not keep up, so that a full queue costs time and not rows.
+  if (log_.waiting() > context_.settings.recorder.queue_capacity / 2) log_.flush();
+  step_done(step_done_, context_.robot_id(), msg::STEP_RECORDER, *complete);
 }
 
 void RecorderNode::record_decisions() {
