@@ -59,6 +59,7 @@ class FarSide {
   std::optional<Sample> next(std::chrono::nanoseconds timeout) {
     std::unique_lock lock{mutex_};
     reader_ = std::this_thread::get_id();
+    if (ended_ && samples_.empty()) ++reads_in_vain_;
     changed_.wait_for(lock, timeout, [&] { return ended_ || !samples_.empty(); });
     if (samples_.empty()) return std::nullopt;
     const Sample sample = samples_.front();
@@ -69,6 +70,12 @@ class FarSide {
     const std::lock_guard lock{mutex_};
     commands_.push_back(command);
     changed_.notify_all();
+  }
+
+  /// How often it was read after its end.
+  int reads_in_vain() const {
+    const std::lock_guard lock{mutex_};
+    return reads_in_vain_;
   }
 
   /// The thread that reads the samples.
@@ -84,6 +91,7 @@ class FarSide {
   std::vector<Command> commands_;
   std::thread::id reader_;
   bool ended_ = false;
+  int reads_in_vain_ = 0;
 };
 
 struct Driven {

@@ -101,13 +101,12 @@ TEST_F(RecorderNodeTest, RecordsEveryStreamOfEveryRobot) {
   }
 }
 
-TEST_F(RecorderNodeTest, RecordsTheSameInAThreadOfItsOwn) {
+// As its program runs it, where a stop finds samples that have arrived and are not taken yet.
+TEST_F(RecorderNodeTest, RecordsInAThreadOfItsOwnWhateverArrivedBeforeTheStop) {
   start(Executor::kWaitset);
   std::vector<msg::KickDecision> decisions;
   for (std::uint64_t seq = 1; seq <= 2000; ++seq) decisions.push_back(numbered<msg::KickDecision>(seq));
   say(participant, decisions);
-  const auto deadline = std::chrono::steady_clock::now() + kPlenty;
-  while (log->stats().rows_written < 2000 && std::chrono::steady_clock::now() < deadline) log->flush();
   const auto reader = read();
   EXPECT_EQ(count(reader, "kick_decisions"), 2000);
   EXPECT_EQ(loss(reader, "kick_decisions").missing(), 0);

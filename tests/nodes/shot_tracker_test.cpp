@@ -87,7 +87,9 @@ TEST(ShotTracker, ABallThatRollsInIsOnTarget) {
     kick.rolling = true;
     const auto tracked = watched(fly(kick, airless(), seed));
     EXPECT_EQ(tracked.verdict.outcome, Outcome::kOnTarget) << kicking::name(tracked.verdict.outcome);
-    EXPECT_NEAR(tracked.verdict.x_cross_m.value_or(9), 0.3, 0.2);
+    ASSERT_TRUE(tracked.verdict.x_cross_m);
+    EXPECT_NEAR(*tracked.verdict.x_cross_m, 0.3, 0.1);
+    EXPECT_LT(*tracked.verdict.sd_cross_m, 0.025) << "every frame before the line counts";
   }
 }
 
@@ -120,7 +122,7 @@ TEST(ShotTracker, ABallThatRestsBeforeTheLineIsShort) {
 
 TEST(ShotTracker, ABallTurnedAwayByAnOpponentIsBlocked) {
   for (const double opponent_y_m : {5.0, 5.5, 8.2}) {
-    for (const double opponent_x_m : {0.0, 0.15}) {
+    for (const double opponent_x_m : {0.0, 0.15, 0.3}) {
       for (unsigned seed = 1; seed <= 8; ++seed) {
         Kick kick = aimed(0.0, 0.5);
         kick.opponent = {opponent_x_m, opponent_y_m};
