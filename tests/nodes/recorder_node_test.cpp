@@ -171,6 +171,25 @@ TEST_F(RecorderNodeTest, NaNWhereANumberMustBeIsCountedAndNotFatal) {
   EXPECT_EQ(loss(reader, "drive_commands").nan_refused, 1);
 }
 
+TEST_F(RecorderNodeTest, InLockstepACycleIsOverWhenEveryStateStreamOfItIsRecorded) {
+  context.settings.run.lockstep = true;
+  Heard<msg::StepDone> done{participant};
+  start();
+  const auto state = [&]<class T>(const T& sample) { say<T>(participant, {sample}); };
+  state(numbered<msg::DriveCommand>(1));
+  state(numbered<msg::Odometry>(1));
+  state(numbered<msg::VisionFrame>(1));
+  state(numbered<msg::FlightFrame>(1));
+  state(numbered<msg::Referee>(1));
+  state(numbered<msg::WorldState>(1));
+  state(numbered<msg::KickerStatus>(1, 2));
+  EXPECT_TRUE(done.now().empty()) << "one stream is missing; another robot's is none of it";
+  state(numbered<msg::KickerStatus>(1));
+  EXPECT_EQ(done.nth(1).node, msg::STEP_RECORDER);
+  EXPECT_EQ(done.nth(1).t_ns, 20);
+  EXPECT_EQ(log->stats().rows_missing, 0);
+}
+
 TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   context.settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
   context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
