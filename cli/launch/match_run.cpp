@@ -73,11 +73,12 @@ void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
   std::vector<bool> ran;
   ran.reserve(children.size());
   for (ChildProcess& child : children) ran.push_back(!child.ended());
-  // The recorder is first in the list and stops last: it hears what the others say on their way out.
+  // Each is asked once, since a second signal would hit one that has stopped listening. The recorder is first in the
+  // list and stops last: it hears what the others say on their way out.
   for (std::size_t i = 1; i < children.size(); ++i) children[i].terminate();
   for (; !children.empty(); children.pop_back()) {
     ChildProcess& last = children.back();
-    last.terminate();
+    if (children.size() == 1) last.terminate();
     if (!last.wait(kPatience)) {
       complain(fmt::format("{} did not stop within 10 s", last.name()));
     } else if (ran[children.size() - 1] && !last.succeeded()) {
