@@ -126,7 +126,7 @@ TEST_F(OdometryNodeTest, AfterTheLastSampleItStillDrivesAndStops) {
   const Running running{Executor::kWaitset, stop, {&node.node()}};
   wheels->end();
   drive.expect_reader();
-  for (std::size_t n = 1; n <= 20; ++n) {
+  for (std::size_t n = 1; n <= 200; ++n) {
     drive({});
     EXPECT_EQ(wheels->commands(n).size(), n);
   }

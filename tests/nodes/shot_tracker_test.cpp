@@ -138,6 +138,21 @@ TEST(ShotTracker, ABallTurnedAwayByAnOpponentIsBlocked) {
   }
 }
 
+// Nobody stops the game, and the ball flies on past the post with most of its speed. It was seen flying straight
+// before.
+TEST(ShotTracker, ABallThatGlancesOffAnOpponentAndPassesTheLineIsBlocked) {
+  for (const double side : {-1.0, 1.0}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      Kick kick = aimed(0.0, 0.5);
+      kick.opponent = {side * 0.3, 5.4};
+      const auto shot = fly(kick, airless(), seed, 1.2);
+      ASSERT_EQ(shot.truth.outcome, Outcome::kBlocked);
+      const auto tracked = only(watch(shot, shot.release_t_ns, false));
+      EXPECT_EQ(tracked.verdict.outcome, Outcome::kBlocked) << kicking::name(tracked.verdict.outcome) << seed;
+    }
+  }
+}
+
 TEST(ShotTracker, ALateReceiptGivesWhatAnEarlyOneGives) {
   const Kick kicks[] = {aimed(0.3, 0.5), aimed(-2.0, 0.6), aimed(1.06, 0.5), aimed(0.0, 1.06), aimed(0.2, 1.9)};
   for (const Kick& kick : kicks) {
