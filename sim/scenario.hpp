@@ -52,13 +52,15 @@ struct Kicker {
   std::vector<double> exit_elevations_rad{0.63417893, 0.63026363, 0.62666896, 0.62356544,
                                           0.62107594, 0.61953496, 0.61838909, 0.61807589};
   double speed_scale_ratio = 1.0;  ///< this robot's speed against the table; 1: as calibrated
-  double delay_s = 0.060;          ///< coil energised to ball released; CAMBADA release 1.0: 50 ms mean, 80 ms max
-  double delay_sd_s = 0.015;       ///< CAMBADA release 1.0: the spread between mean and max
-  double speed_sd_ratio = 0.02;    ///< assumption
+  double delay_s =
+      0.060;  ///< coil energised to ball released; assumption, CAMBADA release 1.0 says 50 ms mean, 80 ms max
+  double delay_sd_s = 0.015;                       ///< assumption: the spread between those
+  double speed_sd_ratio = 0.02;                    ///< assumption
   double direction_sd_rad = 0.026179938779914945;  ///< 1.5 degrees; assumption
-  double transfer_forward_ratio = 1.0;   ///< ball-point velocity that the ball keeps; 1: rigid body, no floor loss
-  double transfer_backward_ratio = 1.0;  ///< the same when driving backwards
-  double transfer_lateral_ratio = 1.0;   ///< the same sideways; Table 1 of the paper is explained by 1
+  double transfer_forward_ratio =
+      1.0;  ///< ball-point velocity that the ball keeps; assumption, 1: rigid body, no floor loss
+  double transfer_backward_ratio = 1.0;  ///< the same when driving backwards; assumption
+  double transfer_lateral_ratio = 1.0;   ///< the same sideways; assumption, Table 1 of the paper is explained by 1
   double charge_per_kick_ratio = 0.5;    ///< capacitor energy that the highest power takes; assumption
   double recharge_per_s = 0.333;         ///< capacitor energy regained a second; assumption: 3 s from empty to full
 };
