@@ -6,8 +6,8 @@
 
 namespace trivela::kicking {
 
-/// The paper's law of a moving robot (section 2.2) [m/s]: V_kick = V0 - u cos(theta), u = k v_front. Exact at no angle
-/// but 45 degrees and h = 0; with k about 0.7 it is good to a few centimetres up to 1 m/s.
+/// The paper's law of a moving robot (section 2.2) [m/s]: V_kick = V0 - u cos(theta), u = k v_front. Exact to first
+/// order at 45 degrees and h = 0, not in general; with k about 0.7 it is good to a few centimetres up to 1 m/s.
 double moving_kick_paper(double v0_mps, double u_mps, double exit_angle_rad);
 
 /// Kick of a robot whose forward velocity adds u = k v_front [m/s] to the ball's horizontal speed V cos(theta), through
