@@ -46,7 +46,7 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
   refuse_twin(context_, odometry_out_, "odometry");
   node_.on_device(
       "wheels", [this](std::chrono::nanoseconds timeout) { return next_sample(timeout); },
-      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry>());
+      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry, msg::SimDrive>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand& command) { on_drive(command); },
                               bus::writes<msg::SimDrive, msg::StepDone>());
 }
@@ -59,7 +59,7 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
   }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
-  if (!sample) cycle_over_.release();
+  if (!sample && context_.settings.run.lockstep) cycle_over_.release();
   return sample;
 }
 
