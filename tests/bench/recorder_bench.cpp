@@ -97,8 +97,12 @@ void play_robots(const bus::DomainConfig& domain, const Plan& plan, int report, 
   std::vector<bus::Writer<msg::KickDecision>> writers;
   for (int robot = 1; robot <= plan.robots; ++robot) writers.emplace_back(participant);
   for (const auto& writer : writers) {
-    if (!writer.wait_for_readers(1, kPatience)) throw std::runtime_error{"the recorder has not come within 20 s"};
+    // The recorder and the one that watches for its match.
+    if (!writer.wait_for_readers(2, kPatience)) throw std::runtime_error{"the recorder has not come within 20 s"};
   }
+  char go = 'r';
+  if (write(report, &go, 1) != 1 || read(release, &go, 1) != 1)
+    throw std::runtime_error{"the recorder has not found the robots"};
   const auto period_ns = static_cast<std::int64_t>(1e9 / plan.rate_hz);
   const auto ticks = static_cast<std::int64_t>(plan.seconds * plan.rate_hz);
   const double cpu_before_s = cpu_s();
@@ -198,6 +202,15 @@ Result measure(const Plan& plan) {
   nodes::RecorderNode node{context, log};
   const double cpu_before_s = cpu_s();
   std::thread recording{[&] { bus::Executor{bus::Executor::kWaitset, stop, {&node.node()}}.run(); }};
+  {
+    // A writer may know a reader before the reader knows the writer, and then its first samples are nobody's.
+    bus::Reader<msg::KickDecision> watch{context.participant};
+    char ready = 0;
+    const bool found = watch.wait_for_writers(static_cast<std::size_t>(plan.robots), kPatience) &&
+                       read(report.read_end(), &ready, 1) == 1;
+    if (!found) release.close_end(1);
+  }
+  if (write(release.write_end(), "g", 1) != 1) fmt::print(stderr, "the robots' process is gone\n");
   Result result;
   const bool reported = read(report.read_end(), &result.sent, sizeof result.sent) == sizeof result.sent;
   result.cpu_s = cpu_s() - cpu_before_s;
