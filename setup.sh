@@ -32,12 +32,14 @@ follow() {
 
 as_root() { if [[ $(id -u) == 0 ]]; then "$@"; else sudo "$@"; fi; }
 
-# Installs what packages.txt lists and is not there yet.
+# Installs what packages.txt lists and is not there yet: all of it, or with "programs" what stands above its last heading.
 install_packages() {
   step "Debian packages (packages.txt)"
+  local until=${1:-all}
   command -v apt-get >/dev/null || stop "apt-get is missing: Trivela is built with Debian 12's packages, listed in packages.txt"
   local missing=() name total count=0 log=build/logs/apt.log
   while read -r name; do
+    [[ $until == programs && $name == "# run_tests alone"* ]] && break
     [[ -z $name || $name == \#* ]] && continue
     [[ $(dpkg-query -W -f '${Status}' "$name" 2>/dev/null) == "install ok installed" ]] || missing+=("$name")
   done <packages.txt

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluator/log/writer.hpp"
+#include "kicking/lob/scan.hpp"
+
+namespace trivela::evaluator::log {
+
+/// What a scan record says about itself.
+struct ScanSession {
+  kicking::lob::ScannerIdentity identity;
+  kicking::lob::ScanGeometry geometry;
+  kicking::lob::LaserMount mount;
+  std::int64_t started_t_ns = 0;
+  std::int64_t realtime_offset_ns = 0;  ///< UTC since 1970 minus the record's clock
+  bool simulated = false;
+  std::string source;  ///< device address, "synthetic" with its seed, or the simulator's scenario
+  std::string software_version;
+};
+
+/// From t_ns on kicks are of this set-point.
+struct TestedSetPoint {
+  std::int64_t t_ns = 0;
+  double power = 0.0;
+  std::int64_t kick_id = 0;  ///< 0: entered by hand
+};
+
+/// What a human said of the lob launched at launch_t_ns; the last word counts.
+struct Verdict {
+  std::int64_t launch_t_ns = 0;
+  bool accepted = true;
+  std::string why;
+};
+
+/// Records scans to a new SQLite file by the rules of the match log: WAL, synchronous FULL, group commits, no
+/// overwriting, sound after a kill. Ranges are kept as the device gave them. Any thread; `finalise` once and last.
+class ScanWriter {
+ public:
+  /// Throws std::runtime_error naming the path where it cannot be created or holds anything already.
+  ScanWriter(const std::filesystem::path& path, const ScanSession& session, WriterOptions options = {});
+  ~ScanWriter();
+  ScanWriter(const ScanWriter&) = delete;
+  ScanWriter& operator=(const ScanWriter&) = delete;
+
+  /// Queues a scan. False: the queue is full, and the scan is counted as lost.
+  bool push(const kicking::lob::Scan& scan);
+  void set_point(const TestedSetPoint& tested);
+  void verdict(const Verdict& verdict);
+
+  /// Waits until everything pushed so far is committed.
+  void flush();
+  void finalise();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads a scan record and never changes it.
+class ScanReader {
+ public:
+  /// Throws std::runtime_error naming the path where it does not exist, is no scan record, or is damaged.
+  explicit ScanReader(const std::filesystem::path& path);
+  ~ScanReader();
+  ScanReader(ScanReader&&) noexcept;
+
+  const ScanSession& session() const;
+  std::size_t size() const;
+  /// Start of scan i, without reading its ranges.
+  std::int64_t t_ns(std::size_t i) const;
+  kicking::lob::Scan scan(std::size_t i) const;
+  std::vector<TestedSetPoint> set_points() const;
+  std::vector<Verdict> verdicts() const;
+  /// Sentences: not closed, scans lost.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// True: the file is a scan record (and not, say, a match log or a CSV).
+bool is_scan_log(const std::filesystem::path& path);
+
+}  // namespace trivela::evaluator::log

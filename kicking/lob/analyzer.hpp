@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kicking/constants.hpp"
+#include "kicking/lob/lob_record.hpp"
+#include "kicking/lob/scan.hpp"
+
+namespace trivela::kicking::lob {
+
+struct AnalyzerConfig {
+  CentreMethod centre = CentreMethod::kCircle;
+  std::size_t background_scans = 40;    ///< that the background is learned from, at the start
+  double foreground_margin_m = 0.15;    ///< a return is foreground when nearer than the background by this ...
+  double foreground_mads = 5.0;         ///< ... and by so many median absolute deviations
+  double cluster_gap_m = 0.10;          ///< between neighbouring returns, beside the step of the beams
+  double chord_tolerance = 0.40;        ///< of the angle that the ball covers
+  double lost_s = 0.15;                 ///< a flight ends when the ball was not seen for so long
+  int least_points = 8;
+  double least_chord_ratio = 0.85;      ///< mean over the flight; below: the plane is misaligned
+  double largest_residual_m = 0.03;     ///< rms; above: not the flight of a ball
+  std::optional<double> drag_coefficient;  ///< none: fitted
+  Ball ball{};
+  double air_density_kgpm3 = 1.2;
+};
+
+/// What a page draws of the scan added last.
+struct ScanView {
+  std::int64_t t_ns = 0;
+  bool background_known = false;
+  std::vector<std::uint8_t> foreground;  ///< a beam each: 1 nearer than the background
+  std::vector<std::uint8_t> ball;        ///< a beam each: 1 of the cluster taken for the ball
+  std::optional<BallCentre> centre;
+  const std::vector<BallCentre>* track = nullptr;  ///< of the flight under way; null: none
+};
+
+/// From scans to lobs: background, foreground, clusters, ball centre, track, fits (paper, section 2.1).
+/// The paper says that points matched to the background are the ball; it is the others.
+class Analyzer {
+ public:
+  /// @throws std::invalid_argument for a geometry without beams or with a step or period that is not positive.
+  Analyzer(const ScanGeometry& geometry, const LaserMount& mount, const AnalyzerConfig& config = {});
+  ~Analyzer();
+  Analyzer(Analyzer&&) noexcept;
+  Analyzer& operator=(Analyzer&&) noexcept;
+
+  /// Takes the next scan; a flight that has just ended comes back with its fits or the reason for refusing it.
+  /// @throws std::invalid_argument for a scan with another number of beams.
+  std::optional<LobRecord> add(const Scan& scan);
+
+  /// Ends the flight under way, as at the end of a record.
+  std::optional<LobRecord> finish();
+
+  const ScanView& view() const;
+
+  /// The background range of each beam [m]; negative: no return. Empty until it is known.
+  const std::vector<double>& background_m() const;
+
+  /// Learns the background anew from the next scans.
+  void forget_background();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace trivela::kicking::lob
