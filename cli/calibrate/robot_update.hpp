@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/robot.hpp"
+#include "kicking/calibration/deflection_fit.hpp"
+#include "kicking/calibration/delay_fit.hpp"
+#include "kicking/calibration/rotation_fit.hpp"
+#include "kicking/calibration/table_fit.hpp"
+#include "kicking/calibration/transfer_fit.hpp"
+
+namespace trivela::cli {
+
+/// Today in UTC, YYYY-MM-DD.
+std::string today();
+
+/// How a table fit goes into the file.
+struct TableChoice {
+  kicking::TableKind kind = kicking::TableKind::kEffective;
+  bool angle_per_set_point = false;  ///< the paper: one mean angle for all
+};
+
+/// A robot's file that a calibration brings up to date: the figures measured replace the old ones, all others stay, and
+/// [calibration] says what was measured from what.
+class RobotUpdate {
+ public:
+  /// `tool`: the verb as it was called, for the file's first line and [calibration]. `date`: ISO 8601.
+  RobotUpdate(config::Robot robot, std::string tool, std::string date)
+      : robot_(std::move(robot)), tool_(std::move(tool)), date_(std::move(date)) {}
+
+  // Each replaces the figures of one fit; `files` are the records and tables that it was made from.
+
+  /// [table] and kicker.exit_angle_deg. @throws std::invalid_argument for a table that does not rise.
+  void set_table(const kicking::TableFit& fit, const TableChoice& choice, const std::vector<std::string>& files);
+  /// kicker.alpha_slope_deg_per_mps, and transfer_exact.lateral_ratio where the fit has it.
+  void set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files);
+  /// kicker.beta_slope_s.
+  void set_rotation(const kicking::RotationFit& fit, const std::vector<std::string>& files);
+  /// transfer_exact and transfer_paper, forward and backward as far as the fit has them.
+  void set_transfer(const kicking::TransferFit& fit, const std::vector<std::string>& files);
+  /// kicker.delay_s.
+  void set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files);
+
+  const config::Robot& robot() const { return robot_; }
+
+  /// A line a figure: key, old value, new value, standard error, kicks.
+  const std::vector<std::string>& changes() const { return changes_; }
+
+  /// The file: a comment that names the tool and what is measured, then the robot.
+  std::string text() const;
+
+  /// Writes it whole or not at all. @throws std::runtime_error naming the path.
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files);
+  void changed(const std::string& key, double before, double after, const std::string& certainty);
+
+  config::Robot robot_;
+  std::string tool_;
+  std::string date_;
+  std::vector<std::string> changes_;
+};
+
+}  // namespace trivela::cli

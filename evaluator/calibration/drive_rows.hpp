@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluator/log/reader.hpp"
+#include "kicking/calibration/deflection_fit.hpp"
+#include "kicking/calibration/rotation_fit.hpp"
+#include "kicking/calibration/transfer_fit.hpp"
+#include "kicking/robot_model.hpp"
+
+namespace trivela::evaluator {
+
+/// Kicks of a log as the rows of a fit, and a sentence on each kind of kick left out.
+template <class Row>
+struct DriveKicks {
+  std::vector<Row> rows;
+  std::vector<std::string> left_out;
+};
+
+// What the robot believed at the order (kick_decisions) and what it saw of the flight (kick_outcomes, flight_frames).
+// The simulator's truth is never read. The pointing line goes from the robot's centre along its heading, at the order.
+// `model` is the robot's calibration so far: its table and exit angle give the speeds, its ball offset the ball.
+
+/// Kicks of policy "lateral_drive": b is the crossing right of where the pointing line meets the goal line, d from the
+/// ball to that point.
+DriveKicks<kicking::DeflectionRow> lateral_kicks(const log::Reader& reader, const kicking::RobotModel& model);
+
+/// Kicks of policy "turn_drive": the allowed error that would have brought the ball to the middle of the target: how
+/// far the ball crosses from the pointing line, plus the half cycle by which an order is late on average.
+DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kicking::RobotModel& model,
+                                            double cycle_s);
+
+/// Kicks of policy "straight_drive".
+DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model);
+
+/// Order to release [s] of every accepted kick of a robot that does not turn, by the flight camera alone: the instant
+/// at which the ball's track in flight meets its track in the handler.
+DriveKicks<double> release_delays(const log::Reader& reader);
+
+}  // namespace trivela::evaluator

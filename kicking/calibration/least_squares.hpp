@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kicking/lob/lob_record.hpp"
+
+namespace trivela::kicking {
+
+/// A number with its standard error.
+using lob::Estimate;
+
+/// Mean and standard deviation of a sample; sd 0 for a single value.
+struct Spread {
+  double mean = 0.0;
+  double sd = 0.0;  ///< with n - 1
+};
+
+/// @throws std::invalid_argument for an empty sample or a value that is not finite.
+Spread spread_of(std::span<const double> values);
+
+/// A fitted one-parameter model: y = slope x + residual.
+struct OriginLine {
+  Estimate slope;
+  std::vector<double> residuals;  ///< y - slope x, in the order of the points
+  double rms = 0.0;               ///< sqrt(mean(residual^2))
+};
+
+/// Least squares through the origin: slope = sum(x y) / sum(x^2), se^2 = sum(residual^2) / ((n - 1) sum(x^2)).
+/// `what` names the points in errors.
+/// @throws std::invalid_argument for columns of different length, fewer than two points, a value that is not finite, or
+/// x all zero.
+OriginLine line_through_origin(std::span<const double> x, std::span<const double> y, const char* what);
+
+}  // namespace trivela::kicking

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kicking/calibration/least_squares.hpp"
+#include "kicking/constants.hpp"
+
+namespace trivela::kicking {
+
+/// One kick of a robot that drives towards the goal or away from it.
+struct TransferRow {
+  double vy_mps = 0.0;          ///< forward
+  double v0_mps = 0.0;          ///< exit speed of the power for a robot at rest, effective
+  double exit_angle_rad = 0.0;  ///< of that power
+  double distance_m = 0.0;      ///< ball to goal line along the pointing line, at the order
+  double z_cross_m = 0.0;       ///< height of the ball's centre over the floor, at the goal line
+};
+
+/// Constants of one direction of driving.
+struct TransferDirection {
+  int kicks = 0;
+  Estimate exact;                  ///< k of u = k v in the exact law
+  Estimate paper;                  ///< k of V_kick = V0 - k v cos(theta) (paper, section 2.2)
+  std::vector<std::size_t> rows;   ///< of the input, from 0
+  std::vector<double> residual_m;  ///< measured height - height of the exact law with k
+  double rms_m = 0.0;
+};
+
+/// Forward and backward apart. None: no two kicks in that direction.
+struct TransferFit {
+  std::optional<TransferDirection> forward;
+  std::optional<TransferDirection> backward;
+};
+
+/// Least squares in height of the exact law: from d - v tau with v_h = V0 cos(theta) + k v, T = d / v_h,
+/// z = r + V0 sin(theta) T - g T^2 / 2. The paper's k is the slope of V0(d, h) - V_kick over v cos(theta), where V0(d,
+/// h) is the speed that a robot at rest needs for the height observed. Kicks slower than 0.05 m/s say nothing and are
+/// left out. `delay_s`: order to release.
+/// @throws std::invalid_argument where no direction has two kicks, for a value that is not finite or positive where it
+/// must be, and where no k explains the heights.
+TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m = Ball{}.radius_m,
+                         double gravity_mps2 = kGravity_mps2);
+
+}  // namespace trivela::kicking
