@@ -25,6 +25,9 @@ enum class Role : std::uint32_t {
   kVisionDropout,
   kFlightNoise,
   kFlightDropout,
+  kLaserNoise,
+  kLaserDropout,
+  kLaserMixed,
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

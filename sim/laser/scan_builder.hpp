@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kicking/lob/scan.hpp"
+#include "sim/laser/laser_model.hpp"
+#include "sim/random.hpp"
+#include "sim/truth.hpp"
+
+namespace trivela::sim {
+
+/// What a range finder measures while the world goes on. Beam i of scan j is measured at t_j + i beam_period:
+///   in the scan plane  ball centre (X, Z) from the scanner, e off the plane, rho = sqrt(r^2 - e^2)
+///   beam of elevation a  along = X cos a + Z sin a,  q = X sin a - Z cos a
+///   range  along - sqrt(rho^2 - q^2) if |q| < rho and along > 0, else floor, wall or ceiling; + N(0, range_sd)
+/// beside dropouts and mixed pixels. Answers beyond the scanner's limits are the error code 1. The random numbers are
+/// fixed by (seed, opportunity, scan, beam): however often the world is stepped, the noise is the same.
+class ScanBuilder {
+ public:
+  /// The first scan starts at `first_t_ns`. Throws std::invalid_argument for a geometry without beams or with a beam or
+  /// scan period that is not positive.
+  ScanBuilder(const LaserModel& laser, double ball_radius_m, const Draws& draws, std::int64_t first_t_ns = 0);
+
+  /// The ball's centre in F at t_ns, none if there is no ball. Call after each physics step, a millisecond at most: the
+  /// beams since the last call are measured, the ball being on the straight line between the two places. Time goes
+  /// forward only; std::invalid_argument otherwise.
+  void advance(std::int64_t t_ns, const std::optional<Vec3>& ball);
+
+  /// The oldest scan whose last beam has been measured and that was not taken yet.
+  std::optional<kicking::lob::Scan> take();
+
+  /// The random numbers of another opportunity, from the next beam on.
+  void use(const Draws& draws) { draws_ = draws; }
+
+ private:
+  struct Beam {
+    double cos_a;
+    double sin_a;
+    double background_m;  ///< infinite: nothing there
+  };
+  struct InPlane {
+    double x;
+    double z;
+    double off;
+  };
+
+  InPlane in_plane(const Vec3& ball) const;
+  void measure(std::size_t beam, const std::optional<InPlane>& ball);
+  std::uint32_t answer(std::size_t beam, double range_m);
+  void mix(std::size_t beam, double edge_m, std::uint32_t side);
+
+  LaserModel laser_;
+  double radius_m_;
+  Draws draws_;
+  std::vector<Beam> beams_;
+  std::vector<kicking::lob::Scan> complete_;
+  std::vector<std::uint32_t> range_mm_;
+  std::int64_t scan_t_ns_;
+  std::uint32_t scan_ = 0;
+  std::size_t beam_ = 0;
+  double edge_m_ = 0.0;  ///< range of the ball in the beam before; 0: it missed
+  std::int64_t t_ns_;
+  std::optional<InPlane> ball_;
+};
+
+}  // namespace trivela::sim
