@@ -41,6 +41,8 @@ install_packages() {
   while read -r name; do
     [[ $until == programs && $name == "# run_tests alone"* ]] && break
     [[ -z $name || $name == \#* ]] && continue
+    # A Node.js from elsewhere brings its npm and conflicts with Debian's.
+    [[ $name == nodejs || $name == npm ]] && command -v "${name/nodejs/node}" >/dev/null && continue
     [[ $(dpkg-query -W -f '${Status}' "$name" 2>/dev/null) == "install ok installed" ]] || missing+=("$name")
   done <packages.txt
   [[ ${#missing[@]} -gt 0 ]] || { echo "        all there"; return 0; }
