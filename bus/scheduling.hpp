@@ -2,14 +2,16 @@
 
 namespace trivela::bus {
 
-/// Which of the two were permitted.
+/// Which of the three were permitted.
 struct Realtime {
-  bool scheduled = false;      // SCHED_FIFO for this thread and those it starts
-  bool memory_locked = false;  // no page of this process leaves the memory
+  bool scheduled = false;         ///< SCHED_FIFO for this thread and those it starts
+  bool memory_locked = false;     ///< no page of this process leaves the memory
+  bool processors_awake = false;  ///< no processor sleeps while this process lives (/dev/cpu_dma_latency = 0)
 };
 
-/// Asks for SCHED_FIFO at a priority (1..99) and locked memory. Call it before the first Participant: the bus's threads
-/// inherit it. Under load it matters a hundred times more than the transport.
+/// Asks for SCHED_FIFO at a priority (1..99), locked memory and processors that stay awake. Call it before the first
+/// Participant: the bus's threads inherit it. Under load scheduling matters a hundred times more than the transport;
+/// when idle the wake-up of a sleeping processor takes longer than the whole chain.
 Realtime set_realtime(int priority);
 
 }  // namespace trivela::bus

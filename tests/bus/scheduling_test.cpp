@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "bus/participant.hpp"
@@ -29,6 +31,14 @@ bool is_realtime(pid_t thread) {
          sched_getscheduler(thread) == SCHED_FIFO;
 }
 
+// What the kernel keeps to at present; -1: it does not say.
+std::int32_t longest_wake_up_us() {
+  std::int32_t latency_us = -1;
+  std::ifstream in{"/dev/cpu_dma_latency", std::ios::binary};
+  in.read(reinterpret_cast<char*>(&latency_us), sizeof latency_us);
+  return latency_us;
+}
+
 // In children, so that this process stays as it is.
 TEST(SchedulingDeathTest, SaysTruthfullyWhetherItWasPermitted) {
   EXPECT_EXIT(
@@ -50,6 +60,11 @@ TEST(SchedulingDeathTest, TheBussThreadsInheritIt) {
         _exit(!started.empty() && std::all_of(started.begin(), started.end(), is_realtime) ? 0 : 1);
       },
       ::testing::ExitedWithCode(0), "");
+}
+
+TEST(SchedulingDeathTest, TheProcessorsStayAwakeWhereThatWasPermitted) {
+  EXPECT_EXIT(_exit(!set_realtime(kPriority).processors_awake || longest_wake_up_us() == 0 ? 0 : 1),
+              ::testing::ExitedWithCode(0), "");
 }
 
 TEST(SchedulingDeathTest, AnImpossiblePriorityIsNotPermitted) {
