@@ -10,14 +10,14 @@
 namespace trivela::evaluator {
 
 /// Gives a lob the power of the last set-point at or before its launch, and the last verdict on it: a verdict is on the
-/// lob whose launch is nearest to the verdict's, half a second away at most, since another fit gives another instant.
-/// Rejected: Refusal::kOperator with the human's words. Accepted: the refusal is lifted where there are effective values,
-/// and stays where there are none. Both lists in the order they were said.
+/// lob whose launch is within half a second of its own, since another fit gives another instant. Rejected:
+/// Refusal::kOperator with the human's words. Accepted: the refusal is lifted where there are effective values, and
+/// stays where there are none. Verdicts in the order they were said.
 void annotate(kicking::lob::LobRecord& lob, std::span<const log::TestedSetPoint> set_points,
               std::span<const log::Verdict> verdicts);
 
-/// The lobs of a scan record in the order of their flights, refused ones too, each with its power and the verdicts of the
-/// record; `later_verdicts`, said of a finished record and kept beside it, come after those.
+/// The lobs of a scan record in the order of their flights, refused ones too, each with its power and the verdicts of
+/// the record; `later_verdicts`, said of a finished record and kept beside it, come after those.
 /// @throws std::runtime_error where the record cannot be read, std::invalid_argument where its geometry makes no sense.
 std::vector<kicking::lob::LobRecord> lobs_of_scans(const log::ScanReader& scans,
                                                    const kicking::lob::AnalyzerConfig& config = {},

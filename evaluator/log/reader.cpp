@@ -2,24 +2,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "evaluator/log/schema.hpp"
+#include "evaluator/log/log_file.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
-
-namespace fs = std::filesystem;
-
-Value value_of(const SQLite::Column& column) {
-  if (column.isInteger()) return column.getInt64();
-  if (column.isFloat()) return column.getDouble();
-  if (column.isText()) return column.getString();
-  return std::monostate{};
-}
 
 std::optional<double> number_of(const Value& value) {
   const auto* const number = std::get_if<double>(&value);
@@ -41,71 +31,27 @@ std::optional<Crossing> crossing_of(const Value& outcome, const Value& x_cross_m
   return Crossing{text_of(outcome), number_of(x_cross_m), number_of(z_cross_m)};
 }
 
-// Opens and checks; SQLite's own words follow ours.
-std::unique_ptr<SQLite::Database> open(const fs::path& path) {
-  if (!fs::is_regular_file(path)) throw std::runtime_error(fmt::format("there is no match log {}", path.string()));
-  try {
-    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 5000);
-    database->exec("PRAGMA trusted_schema = OFF; PRAGMA temp_store = MEMORY;");
-    const int application_id = database->execAndGet("PRAGMA application_id").getInt();
-    const int version = database->execAndGet("PRAGMA user_version").getInt();
-    if (application_id != kApplicationId || version < 1) {
-      throw std::runtime_error(fmt::format("{} is not a match log", path.string()));
-    }
-    if (version > kSchemaVersion) {
-      throw std::runtime_error(fmt::format("{} is a match log of version {}; this program reads version {} and older",
-                                           path.string(), version, kSchemaVersion));
-    }
-    const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
-    if (check != "ok") throw std::runtime_error(fmt::format("the match log {} is damaged: {}", path.string(), check));
-    return database;
-  } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() == SQLITE_NOTADB) {
-      throw std::runtime_error(fmt::format("{} is not a match log", path.string()));
-    }
-    if (error.getErrorCode() == SQLITE_CORRUPT) {
-      throw std::runtime_error(fmt::format("the match log {} is damaged: {}", path.string(), error.what()));
-    }
-    throw std::runtime_error(fmt::format("cannot read the match log {}: {}", path.string(), error.what()));
-  }
-}
-
 }  // namespace
 
 struct Reader::Impl {
-  explicit Impl(const fs::path& file) : path(file.string()), has_wal(fs::exists(path + "-wal")), database(open(file)) {}
-
-  std::string path;
-  bool has_wal;  // before opening, which may make one
-  std::unique_ptr<SQLite::Database> database;
+  LogFile file;
 };
 
-Reader::Reader(const fs::path& path) : impl_(std::make_unique<Impl>(path)) {}
+Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {}
 Reader::~Reader() = default;
 
-void Reader::query(std::string_view sql, const RowFunction& fn) const {
-  try {
-    SQLite::Statement statement(*impl_->database, std::string(sql));
-    std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
-    while (statement.executeStep()) {
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
-      fn(row);
-    }
-  } catch (const SQLite::Exception& error) {
-    throw std::runtime_error(fmt::format("cannot read the match log {}: {}", impl_->path, error.what()));
-  }
-}
+void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
                           const RowFunction& fn) const {
-  const auto schema = columns_of(*impl_->database, table);
-  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", impl_->path, table));
+  const auto schema = columns_of(impl_->file.database(), table);
+  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", impl_->file.path(), table));
   const auto has = [&](const std::string& name) {
     return std::ranges::find(*schema, name, &Column::name) != schema->end();
   };
   for (const std::string& column : columns) {
     if (has(column)) continue;
-    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, impl_->path, column));
+    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, impl_->file.path(), column));
   }
   std::vector<std::string> order;
   for (const char* const key : {"session_id", "robot_id", "seq", "shadow_index"}) {
@@ -196,10 +142,7 @@ std::vector<std::string> Reader::warnings() const {
   std::vector<std::string> warnings;
   for (const RecordedSession& session : sessions()) {
     if (session.closed_t_ns) continue;
-    warnings.push_back(fmt::format("session {} was not closed: {}", session.uuid,
-                                   impl_->has_wal
-                                       ? "its recorder still runs or was killed, the last rows may be missing"
-                                       : "no -wal file lies beside the log, its last part may be missing"));
+    warnings.push_back(fmt::format("session {} was not closed: {}", session.uuid, impl_->file.not_closed()));
   }
   for (const Loss& loss : losses()) {
     if (loss.missing() > 0) warnings.push_back(fmt::format("{}: {} rows are missing", loss.stream, loss.missing()));

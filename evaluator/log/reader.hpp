@@ -2,10 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,9 +45,6 @@ struct Kick {
   std::optional<Crossing> truth;         ///< of the simulator
   std::optional<double> truth_margin_m;  ///< true crossing to the nearest edge of another outcome
 };
-
-/// Called with the cells of one row, in the order of the columns asked for.
-using RowFunction = std::function<void(std::span<const Value>)>;
 
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader {

@@ -49,13 +49,20 @@ class ScanWriter {
   ScanWriter(const ScanWriter&) = delete;
   ScanWriter& operator=(const ScanWriter&) = delete;
 
-  /// Queues a scan. False: the queue is full, and the scan is counted as lost.
+  /// Queues a scan. False: the queue is full, and the scan is counted as lost. Throws std::invalid_argument for another
+  /// number of beams than the session's.
   bool push(const kicking::lob::Scan& scan);
   void set_point(const TestedSetPoint& tested);
   void verdict(const Verdict& verdict);
 
-  /// Waits until everything pushed so far is committed.
+  /// Waits until everything pushed so far is committed. Throws std::runtime_error where the disk refuses.
   void flush();
+
+  /// What the disk says at present; none: all is well. Scans that it refused are kept and tried again.
+  std::optional<std::string> health() const;
+
+  /// Ends the record and folds the write-ahead log into the one file. Throws std::runtime_error where scans could not
+  /// be written; the earlier ones are kept.
   void finalise();
 
  private:
@@ -63,7 +70,8 @@ class ScanWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a scan record and never changes it.
+/// Reads a scan record and never changes it; one whose recorder was killed, or still runs, opens too. One thread at a
+/// time.
 class ScanReader {
  public:
   /// Throws std::runtime_error naming the path where it does not exist, is no scan record, or is damaged.
@@ -73,8 +81,14 @@ class ScanReader {
 
   const ScanSession& session() const;
   std::size_t size() const;
+
+  /// Takes up what was recorded since; returns size().
+  std::size_t refresh();
+
   /// Start of scan i, without reading its ranges.
   std::int64_t t_ns(std::size_t i) const;
+
+  /// Throws std::runtime_error naming the path and the scan where its ranges are damaged.
   kicking::lob::Scan scan(std::size_t i) const;
   std::vector<TestedSetPoint> set_points() const;
   std::vector<Verdict> verdicts() const;

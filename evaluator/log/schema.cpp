@@ -10,7 +10,8 @@ namespace trivela::evaluator::log {
 void create_log(SQLite::Database& database, const Session& session) {
   const std::int64_t session_id = session_id_of(session.uuid);
   SQLite::Transaction transaction(database);
-  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kSchemaVersion));
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
+                            kMatchLog.version));
   database.exec(kSchemaSql);
 
   SQLite::Statement insert(database,

@@ -11,15 +11,23 @@
 
 namespace trivela::evaluator::log {
 
-inline constexpr int kApplicationId = 0x4B49434B;  ///< "KICK", shown by file(1)
-inline constexpr int kSchemaVersion = 1;           ///< PRAGMA user_version
+/// A kind of file that this folder writes.
+struct LogKind {
+  const char* name = "";
+  const char* content = "";  ///< what is lost where one is overwritten
+  int application_id = 0;    ///< shown by file(1)
+  int version = 1;           ///< PRAGMA user_version
+};
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 1};     ///< "KICK"
+inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 1};  ///< "SCAN"
 
 struct Column {
   std::string name;
   bool not_null = false;
 };
 
-/// Creates the tables and the session's rows in one transaction; `uuid` must be set. Throws SQLite::Exception.
+/// Creates the tables and the session's rows of a match log in one transaction; `uuid` must be set. Throws
+/// SQLite::Exception.
 void create_log(SQLite::Database& database, const Session& session);
 
 /// Names of the tables, without views.

@@ -10,8 +10,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "evaluator/log/digest.hpp"
-
 namespace trivela::evaluator::log {
 namespace {
 
@@ -27,7 +25,7 @@ fs::path beside(const fs::path& path, const char* suffix) {
 }
 
 // True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
-bool claim(const fs::path& path) {
+bool claim(const fs::path& path, const LogKind& kind) {
   if (fs::exists(beside(path, "-wal"))) {
     throw std::runtime_error(
         fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
@@ -35,45 +33,46 @@ bool claim(const fs::path& path) {
   if (fs::exists(path)) {
     if (fs::is_regular_file(path) && fs::file_size(path) == 0) return false;
     throw std::runtime_error(
-        fmt::format("{} exists already; a recorded match is never overwritten, choose another file", path.string()));
+        fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
   }
   std::FILE* const file = std::fopen(path.c_str(), "wx");
-  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the match log {}", path.string()));
+  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the {} {}", kind.name, path.string()));
   std::fclose(file);
   return true;
 }
 
-std::unique_ptr<SQLite::Database> create(const fs::path& path, const Session& session) {
-  const bool made_here = claim(path);
+std::unique_ptr<SQLite::Database> create(const fs::path& path, const NewLog& log) {
+  const bool made_here = claim(path, log.kind);
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
-    create_log(*database, session);
-    database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as a match log
+    log.create(*database);
+    database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as what it is
     return database;
   } catch (const std::exception& error) {
     if (made_here) {
       for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
     }
-    throw std::runtime_error(fmt::format("cannot create the match log {}: {}", path.string(), error.what()));
+    throw std::runtime_error(fmt::format("cannot create the {} {}: {}", log.kind.name, path.string(), error.what()));
   }
 }
 
 }  // namespace
 
-SessionWriter::SessionWriter(const fs::path& path, const Session& session)
-    : database_(create(path, session)), session_id_(session_id_of(session.uuid)), latest_t_ns_(session.started_t_ns) {
+SessionWriter::SessionWriter(const fs::path& path, const NewLog& log)
+    : kind_(log.kind), database_(create(path, log)), session_id_(log.session_id), latest_t_ns_(log.started_t_ns) {
   for (const std::string& table : tables_of(*database_)) schema_[table] = *columns_of(*database_, table);
 }
 
 RowTable SessionWriter::describe(std::string_view name, const std::vector<std::string>& columns) const {
   const auto schema = schema_.find(name);
-  if (schema == schema_.end()) throw std::runtime_error(fmt::format("the match log has no table '{}'", name));
+  if (schema == schema_.end()) throw std::runtime_error(fmt::format("the {} has no table '{}'", kind_.name, name));
   RowTable table{.name = std::string(name), .not_null = {}, .t_ns = {}, .insert_sql = {}};
   for (const std::string& column : columns) {
     const auto found = std::ranges::find(schema->second, column, &Column::name);
     if (found == schema->second.end() || column == "session_id") {
-      throw std::runtime_error(fmt::format("table '{}' of the match log has no column '{}' to fill", name, column));
+      throw std::runtime_error(
+          fmt::format("table '{}' of the {} has no column '{}' to fill", name, kind_.name, column));
     }
     if (column == "t_ns") table.t_ns = table.not_null.size();
     table.not_null.push_back(found->not_null);
@@ -105,6 +104,8 @@ SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table,
       statement.bind(parameter, *number);
     } else if (const auto* const integer = std::get_if<std::int64_t>(&value)) {
       statement.bind(parameter, *integer);
+    } else if (const auto* const bytes = std::get_if<Blob>(&value)) {
+      statement.bindNoCopy(parameter, bytes->data(), static_cast<int>(bytes->size()));
     } else {
       statement.bindNoCopy(parameter, std::get<std::string>(value));
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,15 @@
 #include "evaluator/log/schema.hpp"
 
 namespace trivela::evaluator::log {
+
+/// A log to be made: its tables hold `sessions` with session_id and closed_t_ns, and `losses`; every other has the key
+/// session_id.
+struct NewLog {
+  LogKind kind;
+  std::int64_t session_id = 0;
+  std::int64_t started_t_ns = 0;
+  std::function<void(SQLite::Database&)> create;  ///< makes the tables and the session's row; throws SQLite::Exception
+};
 
 /// A table that rows are inserted into.
 struct RowTable {
@@ -36,8 +46,8 @@ struct GroupResult {
 /// The connection of one session: what the writing thread does, one group a transaction. For one thread at a time.
 class SessionWriter {
  public:
-  /// Creates the log; see Writer. `session.uuid` must be set.
-  SessionWriter(const std::filesystem::path& path, const Session& session);
+  /// Creates the log; see Writer.
+  SessionWriter(const std::filesystem::path& path, const NewLog& log);
 
   /// See Writer::table.
   RowTable describe(std::string_view name, const std::vector<std::string>& columns) const;
@@ -52,6 +62,7 @@ class SessionWriter {
   /// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
   bool fold();
 
+  const LogKind& kind() const { return kind_; }
   std::int64_t session_id() const { return session_id_; }
   std::int64_t latest_t_ns() const { return latest_t_ns_; }
 
@@ -60,6 +71,7 @@ class SessionWriter {
   Fate insert(const Row& row, const RowTable& table, SQLite::Statement& statement);
   void write_losses(const std::vector<Loss>& losses);
 
+  LogKind kind_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::string, std::vector<Column>, std::less<>> schema_;  // by table
   std::vector<std::unique_ptr<SQLite::Statement>> statements_;      // by table

@@ -20,26 +20,29 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Session with_uuid(Session session) {
+NewLog match_log(Session session) {
   if (session.uuid.empty()) session.uuid = make_uuid();
-  return session;
+  return {.kind = kMatchLog,
+          .session_id = session_id_of(session.uuid),
+          .started_t_ns = session.started_t_ns,
+          .create = [session](SQLite::Database& database) { create_log(database, session); }};
 }
 
 }  // namespace
 
 struct Writer::Impl {
-  Impl(const std::filesystem::path& file, const Session& session, WriterOptions chosen)
+  Impl(const std::filesystem::path& file, const NewLog& log, WriterOptions chosen)
       : path(file.string()),
         options(std::move(chosen)),
         queue(options.queue_capacity),
-        connection(file, with_uuid(session)),
+        connection(file, log),
         thread([this] { run(); }) {}
 
   void warn(const std::string& sentence) const {
     if (options.warn) {
       options.warn(sentence);
     } else {
-      fmt::print(stderr, "match log: {}\n", sentence);
+      fmt::print(stderr, "{}: {}\n", connection.kind().name, sentence);
     }
   }
 
@@ -69,7 +72,8 @@ struct Writer::Impl {
       queue.settle(group.size(), std::nullopt);
       return true;
     } catch (const std::exception& error) {
-      const std::string sentence = fmt::format("cannot write the match log {}: {}", path, error.what());
+      const std::string sentence =
+          fmt::format("cannot write the {} {}: {}", connection.kind().name, path, error.what());
       if (!queue.error()) warn(sentence);
       queue.settle(0, sentence);
       return false;
@@ -125,8 +129,11 @@ struct Writer::Impl {
   std::thread thread;  // last: everything that it uses exists
 };
 
+Writer::Writer(const std::filesystem::path& path, const NewLog& log, WriterOptions options)
+    : impl_(std::make_unique<Impl>(path, log, std::move(options))) {}
+
 Writer::Writer(const std::filesystem::path& path, const Session& session, WriterOptions options)
-    : impl_(std::make_unique<Impl>(path, session, std::move(options))) {}
+    : Writer(path, match_log(session), std::move(options)) {}
 
 Writer::~Writer() {
   try {
@@ -191,11 +198,13 @@ void Writer::finalise(std::optional<std::int64_t> closed_t_ns) {
       impl_->warn(fmt::format("{} is being read; it is whole together with its -wal file", impl_->path));
     }
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("cannot finalise the match log {}, {} rows are missing: {}", impl_->path,
-                                         missing, refused.value_or(error.what())));
+    throw std::runtime_error(fmt::format("cannot finalise the {} {}, {} rows are missing: {}",
+                                         impl_->connection.kind().name, impl_->path, missing,
+                                         refused.value_or(error.what())));
   }
   if (missing > 0) {
-    throw std::runtime_error(fmt::format("{} rows are missing at the end of the match log {}: {}", missing, impl_->path,
+    throw std::runtime_error(fmt::format("{} rows are missing at the end of the {} {}: {}", missing,
+                                         impl_->connection.kind().name, impl_->path,
                                          refused.value_or("the disk refused them")));
   }
 }

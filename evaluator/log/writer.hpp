@@ -22,6 +22,8 @@ struct WriterOptions {
   std::function<void(const std::string&)> warn;  ///< one line an event, called from any thread; none: standard error
 };
 
+struct NewLog;
+
 /// A registered table with its columns.
 struct TableId {
   std::size_t index = 0;
@@ -35,13 +37,16 @@ struct Stats {
   std::size_t queue_high_water = 0;
 };
 
-/// Records one session to a new match log (SQLite, WAL, synchronous FULL) from one thread of its own.
+/// Records one session to a new log (SQLite, WAL, synchronous FULL) from one thread of its own.
 /// `push` never waits for the disk. All functions may be called from any thread, but `finalise` once and last.
 class Writer {
  public:
-  /// Creates the log. Throws std::runtime_error naming the path where it cannot be created, or where it holds
+  /// Creates a match log. Throws std::runtime_error naming the path where it cannot be created, or where it holds
   /// anything already: a recorded match is never overwritten.
   Writer(const std::filesystem::path& path, const Session& session, WriterOptions options = {});
+
+  /// Creates a log of another kind by the same rules.
+  Writer(const std::filesystem::path& path, const NewLog& log, WriterOptions options = {});
 
   /// Finalises where that was not done; errors go to `warn`.
   ~Writer();
