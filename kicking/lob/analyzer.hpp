@@ -6,27 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "kicking/constants.hpp"
+#include "kicking/lob/analyzer_config.hpp"
 #include "kicking/lob/lob_record.hpp"
 #include "kicking/lob/scan.hpp"
 
 namespace trivela::kicking::lob {
-
-struct AnalyzerConfig {
-  CentreMethod centre = CentreMethod::kCircle;
-  std::size_t background_scans = 40;    ///< that the background is learned from, at the start
-  double foreground_margin_m = 0.15;    ///< a return is foreground when nearer than the background by this ...
-  double foreground_mads = 5.0;         ///< ... and by so many median absolute deviations
-  double cluster_gap_m = 0.10;          ///< between neighbouring returns, beside the step of the beams
-  double chord_tolerance = 0.40;        ///< of the angle that the ball covers
-  double lost_s = 0.15;                 ///< a flight ends when the ball was not seen for so long
-  int least_points = 8;
-  double least_chord_ratio = 0.85;      ///< mean over the flight; below: the plane is misaligned
-  double largest_residual_m = 0.03;     ///< rms; above: not the flight of a ball
-  std::optional<double> drag_coefficient;  ///< none: fitted
-  Ball ball{};
-  double air_density_kgpm3 = 1.2;
-};
 
 /// What a page draws of the scan added last.
 struct ScanView {

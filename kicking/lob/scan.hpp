@@ -17,8 +17,8 @@ struct ScannerIdentity {
   std::string protocol;
 };
 
-/// When and where the beams of a scan look. Beam i has the angle first_angle_rad + i step_rad in the scanner's own plane
-/// (counter-clockwise, 0 = its front) and is measured at the scan's t_ns + i beam_period_s.
+/// When and where the beams of a scan look. Beam i has the angle first_angle_rad + i step_rad in the scanner's own
+/// plane (counter-clockwise, 0 = its front) and is measured at the scan's t_ns + i beam_period_s.
 struct ScanGeometry {
   std::size_t beams = 1081;
   double first_angle_rad = -2.356194490192345;  ///< UTM-30LX: step 0 at -135 degrees
@@ -40,8 +40,8 @@ struct Scan {
 inline constexpr std::uint32_t kFirstRange_mm = 20;
 
 /// Where the scanner stands in the plane of the kick: x along the kick from the ball's centre at the launch, z over the
-/// floor. A beam of scanner angle a looks along elevation = front_elevation_rad + a (or - a when mirrored), counted from
-/// +x over +z.
+/// floor. A beam of scanner angle a looks along elevation = front_elevation_rad + a (or - a when mirrored), counted
+/// from +x over +z.
 struct LaserMount {
   double x_m = 4.0;
   double z_m = 0.05;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -36,34 +37,35 @@ class ScanBuilder {
   void use(const Draws& draws) { draws_ = draws; }
 
  private:
+  /// Direction of a beam in the scan plane, and what it reads without a ball.
   struct Beam {
     double cos_a;
     double sin_a;
     double background_m;  ///< infinite: nothing there
   };
-  struct InPlane {
-    double x;
-    double z;
-    double off;
-  };
 
-  InPlane in_plane(const Vec3& ball) const;
-  void measure(std::size_t beam, const std::optional<InPlane>& ball);
-  std::uint32_t answer(std::size_t beam, double range_m);
-  void mix(std::size_t beam, double edge_m, std::uint32_t side);
+  /// Ball centre from the scanner: x along u, z up, y to the left of the scan plane.
+  Vec3 in_plane(const Vec3& ball) const;
+  /// Range of the ball in the beam; none: the beam misses it.
+  std::optional<double> ball_range(const Beam& beam, const Vec3& ball) const;
+  void measure(std::size_t i, const std::optional<Vec3>& ball);
+  std::uint32_t answer(std::size_t i, double range_m) const;
+  /// The beam beside the ball's edge, maybe a mixed pixel.
+  void mix(std::size_t i, double edge_m);
+  std::int64_t beam_t_ns(std::size_t i) const;
 
   LaserModel laser_;
   double radius_m_;
   Draws draws_;
   std::vector<Beam> beams_;
-  std::vector<kicking::lob::Scan> complete_;
-  std::vector<std::uint32_t> range_mm_;
-  std::int64_t scan_t_ns_;
-  std::uint32_t scan_ = 0;
-  std::size_t beam_ = 0;
-  double edge_m_ = 0.0;  ///< range of the ball in the beam before; 0: it missed
+  std::deque<kicking::lob::Scan> complete_;
+  std::int64_t first_t_ns_;
+  kicking::lob::Scan scan_;  ///< under way
+  std::uint32_t scan_index_ = 0;
+  std::size_t next_beam_ = 0;
+  std::optional<double> edge_m_;  ///< range of the ball in the beam before
   std::int64_t t_ns_;
-  std::optional<InPlane> ball_;
+  std::optional<Vec3> ball_;  ///< at t_ns_, in_plane()
 };
 
 }  // namespace trivela::sim

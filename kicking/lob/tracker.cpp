@@ -1,0 +1,149 @@
+#include "kicking/lob/tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kicking/lob/free_fall.hpp"
+
+namespace trivela::kicking::lob {
+namespace {
+
+constexpr std::size_t kLeastCentres = 5;  // that show an acceleration
+
+double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
+
+double apart_m(const BallCentre& a, double x_m, double z_m) { return std::hypot(a.x_m - x_m, a.z_m - z_m); }
+
+}  // namespace
+
+Tracker::Tracker(const AnalyzerConfig& config, double scan_period_s)
+    : config_(config), lost_s_(std::max(config.lost_s, 2.5 * scan_period_s)) {
+  for (Track& track : tracks_) track.centres.reserve(128);
+}
+
+std::optional<Flight> Tracker::add(std::int64_t t_ns, std::span<const BallCentre> candidates) {
+  used_.assign(candidates.size(), 0);
+  std::optional<Flight> ended;
+  for (Track& track : tracks_) {
+    track.taken.reset();
+    if (track.centres.empty()) continue;
+    if (is_over(track, t_ns)) {
+      auto flight = end(track);
+      if (flight && (!ended || flight->centres.size() > ended->centres.size())) ended = std::move(flight);
+    } else {
+      extend(track, candidates);
+    }
+  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!used_[i]) look_for_rest(candidates[i]);
+    for (const BallCentre& second : unused_[1]) {
+      for (const BallCentre& first : unused_[0]) {
+        if (!used_[i] && may_start_flight(first, second, candidates[i])) start(first, second, i, candidates);
+      }
+    }
+  }
+  std::swap(unused_[0], unused_[1]);
+  unused_[1].clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!used_[i]) unused_[1].push_back(candidates[i]);
+  }
+  return ended;
+}
+
+void Tracker::extend(Track& track, std::span<const BallCentre> candidates) {
+  double nearest_m = 0.0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (used_[i]) continue;
+    const FallingPoint expected = predict_fall(track.centres, candidates[i].t_ns);
+    const double gap_s = seconds(track.centres.back().t_ns, candidates[i].t_ns);
+    const double off_m = apart_m(candidates[i], expected.x_m, expected.z_m);
+    if (off_m > 0.10 + gap_s * gap_s || (track.taken && off_m >= nearest_m)) continue;
+    nearest_m = off_m;
+    track.taken = i;
+  }
+  if (!track.taken) return;
+  used_[*track.taken] = 1;
+  track.centres.push_back(candidates[*track.taken]);
+}
+
+void Tracker::start(const BallCentre& first, const BallCentre& second, std::size_t third,
+                    std::span<const BallCentre> candidates) {
+  constexpr double kAfterLanding_s = 0.5, kFromLanding_m = 1.0;
+  const auto track = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.centres.empty(); });
+  if (track == tracks_.end()) return;
+  track->centres = {first, second, candidates[third]};
+  track->taken = third;
+  track->bounced = landed_ && seconds(landed_->t_ns, first.t_ns) < kAfterLanding_s &&
+                   apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m;
+  used_[third] = 1;
+}
+
+bool Tracker::is_over(const Track& track, std::int64_t t_ns) const {
+  constexpr double kIntoFloor_m = 0.12;
+  return seconds(track.centres.back().t_ns, t_ns) > lost_s_ ||
+         predict_fall(track.centres, t_ns).z_m < config_.ball.radius_m - kIntoFloor_m;
+}
+
+bool Tracker::is_flight(const Track& track) const {
+  return track.centres.size() >= kLeastCentres && falls_freely(track.centres);
+}
+
+std::optional<Flight> Tracker::end(Track& track) {
+  std::optional<Flight> flight;
+  if (is_flight(track)) {
+    landed_ = track.centres.back();
+    if (!track.bounced) {
+      constexpr double kFromRest_m = 0.5, kAfterRest_s = 0.5;
+      const BallCentre& first = track.centres.front();
+      const bool lay = rest_.seen >= 5 && std::abs(seconds(rest_.t_ns, first.t_ns)) < kAfterRest_s &&
+                       apart_m(first, rest_.x_m, rest_.z_m) < kFromRest_m;
+      flight = Flight{track.centres, lay ? rest_.z_m : config_.ball.radius_m};
+    }
+  }
+  track.centres.clear();
+  track.taken.reset();
+  return flight;
+}
+
+std::optional<Flight> Tracker::finish() {
+  std::optional<Flight> longest;
+  for (Track& track : tracks_) {
+    auto flight = end(track);
+    if (flight && (!longest || flight->centres.size() > longest->centres.size())) longest = std::move(flight);
+  }
+  return longest;
+}
+
+void Tracker::look_for_rest(const BallCentre& candidate) {
+  constexpr double kStill_m = 0.03, kNearFloor_m = 0.1, kForgotten_s = 1.0;
+  constexpr int kMemory = 40;
+  if (rest_.seen > 0 && apart_m(candidate, rest_.x_m, rest_.z_m) < kStill_m) {
+    rest_.seen = std::min(rest_.seen + 1, kMemory);
+    rest_.x_m += (candidate.x_m - rest_.x_m) / rest_.seen;
+    rest_.z_m += (candidate.z_m - rest_.z_m) / rest_.seen;
+    rest_.t_ns = candidate.t_ns;
+  } else if (std::abs(candidate.z_m - config_.ball.radius_m) < kNearFloor_m &&
+             (rest_.seen < 5 || seconds(rest_.t_ns, candidate.t_ns) > kForgotten_s)) {
+    rest_ = {candidate.x_m, candidate.z_m, 1, candidate.t_ns};
+  }
+}
+
+const std::vector<BallCentre>* Tracker::under_way() const {
+  const Track* longest = nullptr;
+  for (const Track& track : tracks_) {
+    if (!track.bounced && is_flight(track) && (!longest || track.centres.size() > longest->centres.size()))
+      longest = &track;
+  }
+  return longest ? &longest->centres : nullptr;
+}
+
+std::optional<std::size_t> Tracker::ball() const {
+  const auto* const centres = under_way();
+  for (const Track& track : tracks_) {
+    if (&track.centres == centres) return track.taken;
+  }
+  return std::nullopt;
+}
+
+}  // namespace trivela::kicking::lob

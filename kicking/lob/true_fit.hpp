@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kicking/lob/analyzer_config.hpp"
+#include "kicking/lob/lob_record.hpp"
+
+namespace trivela::kicking::lob {
+
+/// A flight fitted in time.
+struct FittedFlight {
+  using Parameters = Eigen::Matrix<double, 5, 1>;  ///< x and t of the launch [m, s], v_x, v_z [m/s], C_d
+  using Covariance = Eigen::Matrix<double, 5, 5>;
+
+  Parameters parameters = Parameters::Zero();
+  Covariance covariance = Covariance::Zero();  ///< zero row and column: C_d was given
+  std::int64_t t0_ns = 0;                      ///< that t is counted from
+  std::vector<double> residuals_m;             ///< distance of each centre from the flight at its time
+  double residual_rms_m = 0.0;
+
+  double launch_x_m() const { return parameters[0]; }
+  TrueFit values() const;
+};
+
+/// Least squares of the flight equation to centres p_i at their beam times t_i:
+///   minimise  sum rho(|p(t_i) - p_i|),  d2p/dt2 = -k |v| v - g e_z,  k = rho_air C_d pi r^2 / (2 m),
+/// rho being Huber's with 1.345 robust standard deviations; Levenberg-Marquardt. Free are x and t of the launch, its
+/// velocity, and C_d unless config.drag_coefficient gives it. The launch is where the rising ball passes `launch_z_m`,
+/// and nothing else is known of it: a laser whose x was measured badly does no harm. Standard errors are those of
+/// s^2 (J^T W J)^-1, s^2 = sum w |p(t_i) - p_i|^2 / (2 n - parameters).
+///
+/// Where the flight tells little about drag (standard error above 0.1, or C_d outside -0.1 to 1), the nominal C_d =
+/// 0.25 is taken, with se 0.
+/// @returns none for fewer than 5 centres, for a path that never rises above launch_z_m, and if it does not converge.
+std::optional<FittedFlight> fit_flight(std::span<const BallCentre> centres, double launch_z_m,
+                                       const AnalyzerConfig& config);
+
+}  // namespace trivela::kicking::lob
