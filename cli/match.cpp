@@ -57,10 +57,10 @@ config::Settings settings_of(const MatchFlags& flags) {
 void add_match(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("match", "play a simulated match with real node processes and record it");
   auto flags = std::make_shared<MatchFlags>();
-  verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each: stopped or moving")
+  verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
       ->required()
       ->expected(1)
-      ->check(CLI::IsMember({"stopped", "moving"}))
+      ->check(CLI::IsMember({"stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive"}))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--minutes", flags->minutes, "length of a half")
       ->check(Between{0.01, 1000.0})

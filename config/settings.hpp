@@ -91,12 +91,24 @@ struct Simulator {
   std::int64_t seed = 1;
   std::uint32_t halves = 2;
   double half_minutes = 5.0;
+  std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
 };
 
 struct Recorder {
   std::string log = "match.db";
   std::uint32_t queue_capacity = 65536;
   double group_commit_s = 0.1;
+};
+
+/// Records a range finder's scans beside the match log.
+struct ScanRecorder {
+  bool enabled = false;                                       ///< in lockstep the simulator waits for it
+  std::string device = "sim";                                 ///< sim, tcp://HOST:PORT or a serial device
+  std::string file = "scans.db";                              ///< must not exist
+  double mount_x_m = 4.0;                                     ///< scanner from the ball at the launch, along the kick
+  double mount_z_m = 0.05;                                    ///< over the floor
+  double mount_front_elevation_rad = kicking::radians(90.0);  ///< of its front; 90 degrees: it looks straight up
+  bool mount_mirrored = false;                                ///< it lies on its other side
 };
 
 /// Everything a node takes from default.toml, defaults included.
@@ -113,6 +125,7 @@ struct Settings {
   ShotObserver shot_observer;
   Simulator simulator;
   Recorder recorder;
+  ScanRecorder scan_recorder;
 };
 
 /// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.

@@ -8,8 +8,13 @@ namespace trivela::config {
 
 template <>
 struct Names<kicking::PolicyName> {
-  static constexpr std::array<std::pair<std::string_view, kicking::PolicyName>, 2> entries{
-      {{"stopped", kicking::PolicyName::kStopped}, {"moving", kicking::PolicyName::kMoving}}};
+  static constexpr std::array<std::pair<std::string_view, kicking::PolicyName>, kicking::kPolicyCount> entries{
+      {{"stopped", kicking::PolicyName::kStopped},
+       {"moving", kicking::PolicyName::kMoving},
+       {"standing_drive", kicking::PolicyName::kStandingDrive},
+       {"lateral_drive", kicking::PolicyName::kLateralDrive},
+       {"turn_drive", kicking::PolicyName::kTurnDrive},
+       {"straight_drive", kicking::PolicyName::kStraightDrive}}};
 };
 template <>
 struct Names<kicking::HeightLaw> {
@@ -57,6 +62,23 @@ void fields(V& v, AlignmentRule& a) {
 }
 
 template <class V>
+void fields(V& v, TestDriveConfig& t) {
+  using config::Degrees, config::Range;
+  v("kicks_per_level", t.kicks_per_level, Range{1, 1000});
+  v("powers", t.powers, Range{0.0, 1000.0});
+  v("distance_m", t.distance_m, Range{1.0, 20.0});
+  v("run_up_m", t.run_up_m, Range{0.3, 8.0});
+  v("approach_mps", t.approach_mps, Range{0.1, 5.0});
+  v("lateral_mps", t.lateral_mps, Range{-5.0, 5.0});
+  v("straight_mps", t.straight_mps, Range{-5.0, 5.0});
+  v("turn_radps", t.turn_radps, Range{-20.0, 20.0});
+  v("turn_lead_deg", Degrees{t.turn_lead_rad}, Range{5.0, 80.0});
+  v("turn_widest_deg", Degrees{t.turn_widest_rad}, Range{1.0, 60.0});
+  v("turn_steps", t.turn_steps, Range{1, 20});
+  v("turn_kicks_per_step", t.turn_kicks_per_step, Range{1, 1000});
+}
+
+template <class V>
 void fields(V& v, PolicyConfig& p) {
   using config::Degrees, config::Range;
   v("height_law", p.height_law);
@@ -80,6 +102,7 @@ void fields(V& v, PolicyConfig& p) {
   v("max_turn_rate_radps", p.max_turn_rate_radps, Range{0.0, 30.0});
   v("max_turn_acceleration_radps2", p.max_turn_acceleration_radps2, Range{0.0, 200.0});
   v("alignment", p.alignment);
+  v("test_drive", p.test_drive);
 }
 
 }  // namespace trivela::kicking
@@ -166,6 +189,7 @@ void fields(V& v, Simulator& s) {
   v("seed", s.seed, Range{0, 9e15});
   v("halves", s.halves, Range{1, 255});
   v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
+  v("max_possessions", s.max_possessions, Range{0, 1000000});
 }
 
 template <class V>
@@ -173,6 +197,17 @@ void fields(V& v, Recorder& r) {
   v("log", r.log);
   v("queue_capacity", r.queue_capacity, Range{1, 10000000});
   v("group_commit_s", r.group_commit_s, Range{0.001, 10.0});
+}
+
+template <class V>
+void fields(V& v, ScanRecorder& s) {
+  v("enabled", s.enabled);
+  v("device", s.device);
+  v("file", s.file);
+  v("mount_x_m", s.mount_x_m, Range{-50.0, 50.0});
+  v("mount_z_m", s.mount_z_m, Range{0.0, 5.0});
+  v("mount_front_elevation_deg", Degrees{s.mount_front_elevation_rad}, Range{-180.0, 180.0});
+  v("mount_mirrored", s.mount_mirrored);
 }
 
 template <class V>
@@ -189,6 +224,7 @@ void fields(V& v, Settings& s) {
   v("shot_observer", s.shot_observer);
   v("simulator", s.simulator);
   v("recorder", s.recorder);
+  v("scan_recorder", s.scan_recorder);
 }
 
 }  // namespace trivela::config

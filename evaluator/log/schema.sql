@@ -23,7 +23,8 @@ CREATE TABLE sessions (                    -- one recording
 CREATE TABLE session_policies (            -- the policy in charge, by half
   session_id INTEGER NOT NULL,             -- sessions.session_id
   half INTEGER NOT NULL,                   -- 1, 2
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving')), -- in charge of the kicks
+  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
+    'straight_drive')), -- in charge of the kicks
   PRIMARY KEY (session_id, half)
 ) STRICT, WITHOUT ROWID;
 
@@ -155,10 +156,12 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   kick_id INTEGER NOT NULL,                -- joins order, receipt, outcome and truth; 0: held
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving')), -- in charge
+  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
+    'straight_drive')), -- in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: kick now
   reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
-    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state')), -- why it fires or holds
+    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
+    'drive_finished')), -- why it fires or holds
   x_m REAL NOT NULL,                       -- robot pose in F, m
   y_m REAL NOT NULL,                       -- robot pose in F, m
   heading_rad REAL NOT NULL,               -- robot pose in F, rad
@@ -197,7 +200,8 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving')), -- not in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: it would kick now
   reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
-    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state')), -- why it fires or holds
+    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
+    'drive_finished')), -- why it fires or holds
   power REAL,                              -- set-point of the robot's own table
   v_kick_mps REAL,                         -- exit speed asked of the kicker, m/s
   aligned INTEGER NOT NULL CHECK (aligned IN (0, 1)), -- 1: the two segments meet

@@ -7,7 +7,7 @@
 
 namespace trivela::evaluator::log {
 
-/// The policy in charge of the kicks of one half: "stopped" or "moving".
+/// The policy in charge of the kicks of one half: "stopped", "moving" or a test drive such as "turn_drive".
 struct HalfPolicy {
   int half = 1;  ///< 1, 2
   std::string policy;

@@ -1,11 +1,13 @@
 #include "kicking/policy/policy.hpp"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "kicking/policy/judgement.hpp"
 #include "kicking/policy/moving.hpp"
 #include "kicking/policy/stopped.hpp"
+#include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -23,13 +25,36 @@ Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
   return Reason::kFire;
 }
 
+using Rule = Judgement (*)(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, PolicyMemory&);
+
+/// In the order of PolicyName.
+constexpr std::array<Rule, kPolicyCount> kRules{judge_stopped,       judge_moving,     judge_standing_drive,
+                                                judge_lateral_drive, judge_turn_drive, judge_straight_drive};
+
 bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PolicyMemory& memory) {
   return memory.fired_t_ns && 1e-9 * static_cast<double>(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
 }
 
 }  // namespace
 
-const char* name(PolicyName policy) { return policy == PolicyName::kStopped ? "stopped" : "moving"; }
+const char* name(PolicyName policy) {
+  switch (policy) {
+    case PolicyName::kStopped:
+      return "stopped";
+    case PolicyName::kMoving:
+      return "moving";
+    case PolicyName::kStandingDrive:
+      return "standing_drive";
+    case PolicyName::kLateralDrive:
+      return "lateral_drive";
+    case PolicyName::kTurnDrive:
+      return "turn_drive";
+    case PolicyName::kStraightDrive:
+      return "straight_drive";
+  }
+  assert(false);
+  return "unknown";
+}
 
 const char* name(Reason reason) {
   switch (reason) {
@@ -55,6 +80,8 @@ const char* name(Reason reason) {
       return "out_of_range";
     case Reason::kStaleState:
       return "stale_state";
+    case Reason::kDriveFinished:
+      return "drive_finished";
   }
   assert(false);
   return "unknown";
@@ -63,27 +90,33 @@ const char* name(Reason reason) {
 Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                 const PolicyInput& input, PolicyMemory& memory) {
   if (memory.possession_id != input.possession_id) {
+    const TestDriveMemory drive = memory.drive;
     memory = {};
     memory.possession_id = input.possession_id;
+    memory.drive = drive;
+    memory.drive.passing = false;
   }
 
   const Reason hindered = hindrance(config, input);
   if (hindered != Reason::kFire) {
     memory.turning = false;
     memory.settling_since_t_ns.reset();
+    memory.drive.passing = false;
     Judgement held = describe(config, goal, {});
     held.reason = hindered;
     return held;
   }
-  const auto judge_policy = policy == PolicyName::kStopped ? judge_stopped : judge_moving;
-  Judgement judgement = judge_policy(config, robot, goal, input, memory);
+  Judgement judgement = kRules[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
   if (order_pending(config, input, memory)) {
     judgement.reason = Reason::kOrderPending;
   } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
     judgement.reason = Reason::kKickerNotReady;
   }
   judgement.fire = judgement.reason == Reason::kFire;
-  if (judgement.fire) memory.fired_t_ns = input.t_ns;
+  if (judgement.fire) {
+    memory.fired_t_ns = input.t_ns;
+    count_drive_kick(policy, config, input, memory.drive);
+  }
   return judgement;
 }
 

@@ -13,7 +13,10 @@ namespace trivela::kicking {
 
 /// kStopped: drive, brake, turn, settle, kick: "a two-step behaviour", the method before the paper.
 /// kMoving: the paper's: alignment is evaluated in parallel with the motion.
-enum class PolicyName { kStopped, kMoving };
+/// The others calibrate a robot (kicking/policy/test_drive.hpp). In the order of the wire's Policy.
+enum class PolicyName { kStopped, kMoving, kStandingDrive, kLateralDrive, kTurnDrive, kStraightDrive };
+
+inline constexpr std::size_t kPolicyCount = 6;
 
 /// Why a policy fires or holds, in the order of the wire's DecisionReason.
 enum class Reason {
@@ -27,13 +30,21 @@ enum class Reason {
   kSettling,
   kNotAligned,
   kOutOfRange,
-  kStaleState
+  kStaleState,
+  kDriveFinished
 };
 
-/// "stopped", "moving".
+/// "stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive".
 const char* name(PolicyName policy);
 /// "fire", "not_playing", ...
 const char* name(Reason reason);
+
+/// What was seen of a kick.
+struct SeenKick {
+  std::int64_t kick_id = 0;
+  std::uint32_t possession_id = 0;  ///< that it ended
+  std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F; none: it was not seen to cross
+};
 
 /// What one cycle knows.
 struct PolicyInput {
@@ -46,15 +57,29 @@ struct PolicyInput {
   bool kicker_ready = false;
   double state_age_s = 0.0;                   ///< of the older of world state and kicker status
   std::optional<double> opponent_distance_m;  ///< for the record; neither policy looks at it
+  std::optional<SeenKick> last_kick;          ///< the latest one with an outcome; the turn drive alone looks at it
 };
 
-/// What a policy remembers from cycle to cycle. A new possession starts it afresh.
+/// How far a test drive has come. It outlives the possession.
+struct TestDriveMemory {
+  std::size_t level = 0;    ///< entry of the drive's list
+  std::uint32_t kicks = 0;  ///< that count for this level; of the turn drive: for this step
+  bool passing = false;     ///< on its way past the mark or the target; of this possession
+  std::uint32_t step = 0;   ///< turn drive: halvings done
+  double low_rad = 0.0;     ///< turn drive: the allowed error, as an angle, is between these
+  std::optional<double> high_rad;
+  double late_sum_m = 0.0;  ///< turn drive: of this step's balls, beyond the target in the sense of turning
+  std::optional<std::uint32_t> awaited_possession;  ///< turn drive: its kick has not been seen yet
+};
+
+/// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress.
 struct PolicyMemory {
   std::optional<std::uint32_t> possession_id;
-  std::optional<std::int64_t> fired_t_ns;  ///< last order of this possession
-  bool aligned_before = false;             ///< moving: in the previous cycle
-  bool turning = false;                    ///< stopped: has come to rest, turns or settles
-  std::optional<std::int64_t> settling_since_t_ns;
+  std::optional<std::int64_t> fired_t_ns;           ///< last order of this possession
+  bool aligned_before = false;                      ///< moving: in the previous cycle
+  bool turning = false;                             ///< stopped: has come to rest, turns or settles
+  std::optional<std::int64_t> settling_since_t_ns;  ///< stopped, standing drive
+  TestDriveMemory drive;
 };
 
 /// One decision with every number behind it.

@@ -2,6 +2,7 @@
 
 #include "kicking/alignment/alignment.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/policy/test_drive_config.hpp"
 
 namespace trivela::kicking {
 
@@ -64,6 +65,8 @@ struct PolicyConfig {
   /// quarters).
   double max_turn_rate_radps = 2.5;
   double max_turn_acceleration_radps2 = 4.0;
+
+  TestDriveConfig test_drive{};
 };
 
 }  // namespace trivela::kicking

@@ -9,8 +9,11 @@ namespace {
 
 static_assert(int{msg::POLICY_STOPPED} == int(kicking::PolicyName::kStopped));
 static_assert(int{msg::POLICY_MOVING} == int(kicking::PolicyName::kMoving));
+static_assert(int{msg::POLICY_STRAIGHT_DRIVE} == int(kicking::PolicyName::kStraightDrive));
+static_assert(int{msg::POLICY_STRAIGHT_DRIVE} + 1 == int(kicking::kPolicyCount));
 static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
+static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

@@ -1,6 +1,7 @@
 #include "nodes/kick_decision/kick_decision_node.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "nodes/kick_decision/decision_message.hpp"
@@ -26,6 +27,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
       drive_out_(node_.writer<msg::DriveCommand>()),
       step_done_(step_done_writer(context, node_)),
       kicker_(node_.stores<msg::KickerStatus>()),
+      outcome_(node_.stores<msg::KickOutcome>()),
       first_(context.settings.run.lockstep),
       kick_id_base_(kick_id_base(context.settings.run.session, context.robot_id())) {
   refuse_twin(context_, order_out_, "kick_decision");
@@ -47,7 +49,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   stay_alive();
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
-  const kicking::PolicyInput input = policy_input(world, kicker);
+  kicking::PolicyInput input = policy_input(world, kicker);
+  input.last_kick = last_kick(world, kicker);
   const kicking::PolicyName chosen = in_charge(world.half);
   const auto judge = [&](kicking::PolicyName policy) {
     return kicking::judge(policy, context_.settings.policy, context_.robot.model, context_.settings.goal, input,
@@ -55,7 +58,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   };
   const kicking::Judgement judgement = judge(chosen);
   msg::KickDecision decision = decision_message(world, kicker, chosen, judgement);
-  for (const kicking::PolicyName policy : kPolicies) {
+  for (const kicking::PolicyName policy : kShadows) {
     if (policy == chosen || !context_.settings.kick_decision.shadows) continue;
     decision.shadows[decision.shadow_count++] = shadow_message(policy, judge(policy));
   }
@@ -69,6 +72,22 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, orders_);
 }
 
+/// What was seen of the last order's kick, once the observer has said it. The next possession begins a second after a
+/// kick, when its outcome has long been told; in lockstep, where a second may be short, the turn drive waits for it.
+std::optional<kicking::SeenKick> KickDecisionNode::last_kick(const msg::WorldState& world,
+                                                             const msg::KickerStatus* kicker) {
+  if (orders_ == 0) return std::nullopt;
+  const bool awaited = context_.settings.run.lockstep && in_charge(world.half) == kicking::PolicyName::kTurnDrive &&
+                       world.playing && world.possession_id != last_order_possession_id_ && kicker != nullptr &&
+                       kicker->last_kick_id == last_order_.kick_id && kicker->last_accepted;
+  // An outcome is of later than its order.
+  const auto outcome = awaited ? input_of_cycle(context_, *outcome_, last_order_.t_ns) : outcome_->latest();
+  if (!outcome || outcome->kick_id != last_order_.kick_id) return std::nullopt;
+  kicking::SeenKick seen{outcome->kick_id, last_order_possession_id_, std::nullopt};
+  if (std::isfinite(outcome->x_cross_m)) seen.x_cross_m = outcome->x_cross_m;
+  return seen;
+}
+
 std::int64_t KickDecisionNode::send_order(const msg::WorldState& world, const kicking::Judgement& judgement) {
   const auto validity_ns = static_cast<std::int64_t>(context_.settings.kick_decision.order_validity_s * 1e9);
   msg::KickOrder order{};
@@ -80,6 +99,8 @@ std::int64_t KickDecisionNode::send_order(const msg::WorldState& world, const ki
   order.fire_t_ns = world.t_ns;
   order.valid_until_t_ns = world.t_ns + validity_ns;
   order_out_.write(order);
+  last_order_ = order;
+  last_order_possession_id_ = world.possession_id;
   context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", orders_,
                         static_cast<double>(world.t_ns) * 1e-9, kicking::name(in_charge(world.half)), order.power,
                         judgement.distance_m);

@@ -48,14 +48,14 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
 void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
   if (!receipt.accepted) return;
   const auto& model = context_.robot.model;
-  const double expected_mps = model.table.speed_for(receipt.power) * std::cos(model.exit_angle_rad);
+  const double expected_mps = model.table.speed_for(receipt.power) * std::cos(model.exit_angle_at(receipt.power));
   const std::lock_guard lock{mutex_};
   publish(tracker_.release(receipt.kick_id, receipt.release_t_ns, expected_mps));
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
   first_.once([this] {
-    expect_readers(outcome_out_, 1);  // recorder
+    expect_readers(outcome_out_, 2);  // kick_decision, recorder
   });
   const auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
   if (!referee || referee->playing) {

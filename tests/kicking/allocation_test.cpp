@@ -33,19 +33,22 @@ TEST(Allocation, IsCounted) {
 TEST(Allocation, ThereIsNoneInADecision) {
   PolicyMemory memory;
   const RobotModel robot;
+  PolicyConfig config;
   double sum = 0.0;
   const std::size_t before = allocations;
-  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving}) {
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kStandingDrive,
+                                  PolicyName::kLateralDrive, PolicyName::kTurnDrive, PolicyName::kStraightDrive}) {
     for (const HeightLaw height : {HeightLaw::kPaper, HeightLaw::kExtendedRange, HeightLaw::kExact}) {
       for (const MotionLaw motion : {MotionLaw::kPaper, MotionLaw::kExact}) {
         for (const AlphaLaw alpha : {AlphaLaw::kPaperLine, AlphaLaw::kPhysical}) {
-          PolicyConfig config;
           config.height_law = height;
           config.motion_law = motion;
           config.alpha_law = alpha;
           for (int i = 0; i < 50; ++i) {
             PolicyInput input = tests::ready_at({0.5, 3, 0.05 * i - 1.0}, {0.2, 1.0, 0.5});
             input.t_ns = 20'000'000 * i;
+            input.possession_id = static_cast<std::uint32_t>(i / 10);
+            input.last_kick = SeenKick{i, input.possession_id - 1, 0.1};
             const Judgement judgement = judge(policy, config, robot, {}, input, memory);
             sum += judgement.distance_m + p_inside({8, 0.6, 1, 6}, {0.02, 0.01, 0.05, 0.25}, 0, {}).p_inside;
           }

@@ -30,8 +30,7 @@ struct Played {
 /// Plays a possession without noise: the robot follows the drive command within the limits of acceleration, 20 ms a
 /// cycle.
 inline Played play(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, PolicyInput input,
-                   double limit_s = 8.0) {
-  PolicyMemory memory;
+                   PolicyMemory& memory, double limit_s = 8.0) {
   Played played;
   for (; played.seconds < limit_s; played.seconds += config.cycle_s) {
     const Judgement judgement = judge(policy, config, robot, {}, input, memory);
@@ -52,6 +51,12 @@ inline Played play(PolicyName policy, const PolicyConfig& config, const RobotMod
     input.t_ns += std::llround(config.cycle_s * 1e9);
   }
   return played;
+}
+
+/// The same with a fresh memory.
+inline Played play(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input) {
+  PolicyMemory memory;
+  return play(policy, config, robot, input, memory);
 }
 
 }  // namespace trivela::kicking::tests

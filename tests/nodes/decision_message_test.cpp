@@ -23,13 +23,14 @@ TEST(WireEnums, CarryTheAlgorithmsLabels) {
     EXPECT_STREQ(kicking::name(ours), bus::label(to_wire(ours)));
   }
   EXPECT_EQ(to_wire(PolicyName::kMoving), msg::POLICY_MOVING);
+  EXPECT_EQ(bus::enumeration<msg::Policy>::enumerators.size(), kicking::kPolicyCount);
   for (const auto& reason : bus::enumeration<msg::DecisionReason>::enumerators) {
     const auto ours = static_cast<Reason>(reason.value);
     EXPECT_EQ(to_wire(ours), reason.value);
     EXPECT_STREQ(kicking::name(ours), bus::label(to_wire(ours)));
   }
   EXPECT_EQ(bus::enumeration<msg::DecisionReason>::enumerators.size(),
-            static_cast<std::size_t>(Reason::kStaleState) + 1);
+            static_cast<std::size_t>(Reason::kDriveFinished) + 1);
   for (const auto& outcome : bus::enumeration<msg::Outcome>::enumerators) {
     EXPECT_STREQ(kicking::name(static_cast<kicking::Outcome>(outcome.value)), outcome.label);
   }

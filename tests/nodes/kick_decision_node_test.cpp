@@ -184,6 +184,45 @@ TEST_F(KickDecisionNodeTest, AShadowSeesTheCyclesWithoutTheBallToo) {
   EXPECT_TRUE(fired) << "it does kick once it has settled";
 }
 
+// Turning counter-clockwise, 15 degrees before the target is where the first bisection's middle lies.
+TEST_F(KickDecisionNodeTest, TheTurnDriveHearsWhatBecameOfItsKick) {
+  context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kTurnDrive};
+  context.settings.policy.test_drive.turn_radps = {1.0};
+  context.settings.policy.test_drive.turn_kicks_per_step = 1;
+  Says<msg::KickOutcome> observer{participant};
+  start();
+  observer.expect_reader();
+  const auto sweep = [this](std::uint32_t possession_id) {
+    auto state = world(-context.settings.policy.test_drive.turn_lead_rad);
+    state.possession_id = possession_id;
+    cycle(state);
+    auto aligned = world(kicking::radians(-14.9));
+    aligned.possession_id = possession_id;
+    aligned.omega_radps = 1.0;
+    cycle(aligned);
+    return decision.nth(2 * possession_id);
+  };
+  const auto first = sweep(1);
+  EXPECT_TRUE(first.fire);
+  EXPECT_EQ(first.policy, msg::POLICY_TURN_DRIVE);
+  EXPECT_NEAR(first.beta_rad, kicking::radians(15.0), 1e-9);
+  EXPECT_EQ(first.shadow_count, 2) << "stopped and moving ride along";
+  msg::KickOutcome others{};
+  others.t_ns = t_ns;
+  others.kick_id = first.kick_id - 1;
+  others.x_cross_m = 3.0;
+  observer(others);
+  t_ns += 1'000'000'000;
+  EXPECT_NEAR(sweep(2).beta_rad, kicking::radians(15.0), 1e-9) << "the outcome of another kick";
+  msg::KickOutcome late{};
+  late.t_ns = t_ns;
+  late.kick_id = order.nth(2).kick_id;
+  late.x_cross_m = -2.0;
+  observer(late);
+  t_ns += 1'000'000'000;
+  EXPECT_NEAR(sweep(3).beta_rad, kicking::radians(22.5), 1e-9) << "it went to the left: earlier";
+}
+
 TEST_F(KickDecisionNodeTest, DrawsASessionForItsKickIdsWhereNoneIsGiven) {
   context.settings.run.session = 0;
   start();

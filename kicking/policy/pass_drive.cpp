@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include "kicking/policy/drive.hpp"
+#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/test_drive.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+constexpr double kAtMark_m = 0.2;   // beyond the noise of self-localisation
+constexpr double kFewCycles = 3.0;  // past the place of the kick, within which the order must go out
+constexpr double kTooLate_m = 0.5;  // past it without an order: it starts over
+
+/// Drives to the start mark and stands there, facing +y of F: velocity in R.
+Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, const Eigen::Vector2d& mark_m) {
+  const Eigen::Vector2d way = to_robot(robot, mark_m);
+  const double distance = way.norm();
+  if (distance <= 0.5 * kAtMark_m) return {0.0, 0.0};
+  return std::min(config.test_drive.approach_mps, std::sqrt(config.max_brake_mps2 * distance)) / distance * way;
+}
+
+/// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due at
+/// distance_m straight before the target.
+Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                     PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps) {
+  const Shot shot = stopped_shot(config, robot, goal, input);
+  Judgement judgement = describe(config, goal, shot);
+  const Eigen::Vector2d target = target_on_line(config, goal);
+  set_alignment(judgement, align(input.pose, 0.0, 0.0, 0.0, target, config.alignment));
+  judgement.drive.omega_radps = turn_rate_for(-wrap_angle(input.pose.heading_rad), config.stopped_turn_gain_hz, config);
+
+  const Eigen::Vector2d position(input.pose.x_m, input.pose.y_m);
+  const Eigen::Vector2d kick_place = target - Eigen::Vector2d(0.0, config.test_drive.distance_m);
+  const Eigen::Vector2d ahead = std::copysign(1.0, velocity_mps) * along;
+  const double passed_m = (position - kick_place).dot(ahead);
+  bool& passing = memory.drive.passing;
+  if (!passing) {
+    const Eigen::Vector2d mark = kick_place - config.test_drive.run_up_m * ahead;
+    const Eigen::Vector2d velocity = towards_mark(config, input.pose, mark);
+    judgement.drive.vx_mps = velocity.x();
+    judgement.drive.vy_mps = velocity.y();
+    const bool there = (mark - position).norm() <= kAtMark_m &&
+                       std::hypot(input.twist.vx_mps, input.twist.vy_mps) <= config.rest_speed_mps &&
+                       std::abs(wrap_angle(input.pose.heading_rad)) <= 2.0 * config.aim_tolerance_rad;
+    judgement.reason = there ? Reason::kKickerNotReady : Reason::kApproaching;
+    passing = there && input.kicker_ready;
+    if (!passing) return judgement;
+  }
+  judgement.drive.vx_mps = velocity_mps * along.x();
+  judgement.drive.vy_mps = velocity_mps * along.y();
+  judgement.reason = Reason::kNotAligned;
+  if (passed_m >= 0.0 && passed_m <= kFewCycles * config.cycle_s * std::abs(velocity_mps))
+    judgement.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
+  if (passed_m > kTooLate_m) passing = false;
+  return judgement;
+}
+
+Judgement finished(const PolicyConfig& config, const Goal& goal) {
+  Judgement judgement = describe(config, goal, {});
+  judgement.reason = Reason::kDriveFinished;
+  return judgement;
+}
+
+}  // namespace
+
+Judgement judge_lateral_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                              const PolicyInput& input, PolicyMemory& memory) {
+  const auto& velocities = config.test_drive.lateral_mps;
+  if (memory.drive.level >= velocities.size()) return finished(config, goal);
+  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.drive.level]);
+}
+
+Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                               const PolicyInput& input, PolicyMemory& memory) {
+  const auto& velocities = config.test_drive.straight_mps;
+  if (memory.drive.level >= velocities.size()) return finished(config, goal);
+  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.drive.level]);
+}
+
+void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, TestDriveMemory& memory) {
+  memory.passing = false;
+  if (drive == PolicyName::kTurnDrive) {
+    memory.awaited_possession = input.possession_id;  // it counts once it was seen
+  } else if (++memory.kicks >= config.test_drive.kicks_per_level) {
+    memory.kicks = 0;
+    ++memory.level;
+  }
+}
+
+}  // namespace trivela::kicking

@@ -1,0 +1,84 @@
+#include <cmath>
+
+#include "kicking/policy/drive.hpp"
+#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/test_drive.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+constexpr double kFewCycles = 3.0;  // within which an order must follow the alignment; a later kick would tell nothing
+
+/// The allowed error of this step, as an angle.
+double allowed_rad(const TestDriveConfig& config, const TestDriveMemory& memory) {
+  return 0.5 * (memory.low_rad + memory.high_rad.value_or(config.turn_widest_rad));
+}
+
+/// Takes in what was seen of the last kick. Once a step has its kicks, their mean halves the interval: balls that went
+/// beyond the target in the sense of turning left too late, so that a wider error must be allowed.
+void learn(const PolicyConfig& config, const PolicyInput& input, double omega_radps, TestDriveMemory& memory) {
+  if (!memory.awaited_possession || !input.last_kick) return;
+  if (input.last_kick->possession_id != *memory.awaited_possession) return;
+  memory.awaited_possession.reset();
+  if (!input.last_kick->x_cross_m) return;
+  // Counter-clockwise, the pointing line comes from the right and goes left.
+  memory.late_sum_m += std::copysign(1.0, omega_radps) * (config.target_x_m - *input.last_kick->x_cross_m);
+  const TestDriveConfig& drive = config.test_drive;
+  if (++memory.kicks < drive.turn_kicks_per_step) return;
+  const double tried = allowed_rad(drive, memory);
+  (memory.late_sum_m > 0.0 ? memory.low_rad : memory.high_rad.emplace()) = tried;
+  memory.kicks = 0;
+  memory.late_sum_m = 0.0;
+  if (++memory.step < drive.turn_steps) return;
+  const std::size_t next = memory.level + 1;
+  memory = {};
+  memory.level = next;
+}
+
+}  // namespace
+
+Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                           const PolicyInput& input, PolicyMemory& memory) {
+  TestDriveMemory& progress = memory.drive;
+  const TestDriveConfig& drive = config.test_drive;
+  if (progress.level < drive.turn_radps.size()) learn(config, input, drive.turn_radps[progress.level], progress);
+  if (progress.level >= drive.turn_radps.size()) {
+    Judgement judgement = describe(config, goal, {});
+    judgement.reason = Reason::kDriveFinished;
+    return judgement;
+  }
+  const double omega_radps = drive.turn_radps[progress.level];
+  const double sense = std::copysign(1.0, omega_radps);
+  const Shot shot = stopped_shot(config, robot, goal, input);
+  Judgement judgement = describe(config, goal, shot);
+  const Eigen::Vector2d target = target_on_line(config, goal);
+  AlignmentRule rule = config.alignment;
+  rule.half_width_m = 0.0;  // the allowed error is all that there is
+  judgement.beta_rad = sense * allowed_rad(drive, progress);
+  const Alignment alignment = align(input.pose, 0.0, judgement.beta_rad, omega_radps, target, rule);
+  set_alignment(judgement, alignment);
+
+  if (!progress.passing) {
+    const double start_rad = bearing({input.pose.x_m, input.pose.y_m}, target) - sense * drive.turn_lead_rad;
+    const double error_rad = wrap_angle(start_rad - input.pose.heading_rad);
+    judgement.drive.omega_radps = turn_rate_for(error_rad, config.stopped_turn_gain_hz, config);
+    const bool there = std::abs(error_rad) <= 3.0 * config.aim_tolerance_rad &&
+                       std::abs(input.twist.omega_radps) <= config.rest_turn_rate_radps;
+    judgement.reason = there ? Reason::kKickerNotReady : Reason::kTurning;
+    progress.passing = there && input.kicker_ready;
+    if (!progress.passing) return judgement;
+  }
+  judgement.drive.omega_radps = omega_radps;
+  // How far the pointing line still has to go to the target's middle.
+  const double to_go_m = alignment.offset_right_m ? sense * *alignment.offset_right_m : HUGE_VAL;
+  const double allowed_m = sense > 0.0 ? judgement.right_m : judgement.left_m;
+  const double late_m = allowed_m - to_go_m;
+  judgement.aligned = late_m >= 0.0 && late_m <= kFewCycles * config.cycle_s * std::abs(omega_radps) * 2.0 *
+                                                     alignment.distance_m;  // at 45 degrees the line moves at 2 d omega
+  judgement.reason = Reason::kNotAligned;
+  if (judgement.aligned) judgement.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
+  if (late_m > alignment.distance_m) progress.passing = false;
+  return judgement;
+}
+
+}  // namespace trivela::kicking
