@@ -13,7 +13,8 @@
 ///       v("mounting_deg", Degrees{o.mounting_rad});
 ///     }
 ///
-/// A field whose type has a `fields` of its own is a sub-table.
+/// A std::optional is a key or a sub-table that may be absent. A field whose type has a `fields` of its own is a
+/// sub-table.
 namespace trivela::config {
 
 /// An angle in rad that the file shows in degrees.

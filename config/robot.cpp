@@ -10,40 +10,79 @@ namespace trivela::config {
 
 namespace {
 
-kicking::EffectiveTable table_of(const TableColumns& columns, const std::string& file) {
-  if (columns.kind != kicking::TableKind::kEffective) {
-    throw Error{fmt::format(
-        "{}: table.kind = \"true\": the policies' laws are drag-free and need an \"effective\" table", file)};
-  }
-  if (columns.powers.size() != columns.exit_speeds_mps.size()) {
-    throw Error{fmt::format("{}: table.powers has {} entries, table.exit_speeds_mps {}", file, columns.powers.size(),
-                            columns.exit_speeds_mps.size())};
-  }
+void require_as_long(const TableColumns& columns, const char* key, std::size_t entries, const std::string& file) {
+  if (columns.powers.size() == entries) return;
+  throw Error{fmt::format("{}: table.powers has {} entries, table.{} {}", file, columns.powers.size(), key, entries)};
+}
+
+/// The columns as a table of set-points. Throws Error naming the file.
+template <class Table>
+Table table_of(const TableColumns& columns, const std::string& file) {
+  require_as_long(columns, "exit_speeds_mps", columns.exit_speeds_mps.size(), file);
   std::vector<kicking::SetPoint> points;
   for (std::size_t i = 0; i < columns.powers.size(); ++i)
     points.push_back({columns.powers[i], columns.exit_speeds_mps[i]});
   try {
-    return kicking::EffectiveTable{points};
+    return Table{std::span<const kicking::SetPoint>(points)};
   } catch (const std::invalid_argument& error) {
     throw Error{fmt::format("{}: table: {}", file, error.what())};
   }
 }
 
+std::optional<kicking::AngleTable> angles_of(const TableColumns& columns, const std::string& file) {
+  if (!columns.exit_angles_deg) return std::nullopt;
+  require_as_long(columns, "exit_angles_deg", columns.exit_angles_deg->size(), file);
+  std::vector<kicking::AnglePoint> points;
+  for (std::size_t i = 0; i < columns.powers.size(); ++i)
+    points.push_back({columns.powers[i], kicking::radians((*columns.exit_angles_deg)[i])});
+  return kicking::AngleTable{points};
+}
+
+template <class Table>
+void write_table(const Table& table, TableColumns& columns) {
+  columns.kind = Table::kKind;
+  for (const kicking::SetPoint& point : table.set_points()) {
+    columns.powers.push_back(point.power);
+    columns.exit_speeds_mps.push_back(point.speed_mps);
+  }
+}
+
 }  // namespace
 
-Robot load_robot(const std::filesystem::path& path) {
+Robot load_robot_of_any_table(const std::filesystem::path& path) {
   RobotFile file;
   const TomlSource source = parse_file(path);
   read_into(source, file);
-  file.robot.model.table = table_of(file.table, source.file);
-  return file.robot;
+  Robot& robot = file.robot;
+  if (file.table.kind == kicking::TableKind::kTrue) {
+    robot.true_table = table_of<kicking::TrueTable>(file.table, source.file);
+  } else {
+    robot.model.table = table_of<kicking::EffectiveTable>(file.table, source.file);
+  }
+  robot.model.exit_angles = angles_of(file.table, source.file);
+  return robot;
+}
+
+Robot load_robot(const std::filesystem::path& path) {
+  Robot robot = load_robot_of_any_table(path);
+  if (robot.true_table) {
+    throw Error{fmt::format(
+        "{}: table.kind = \"true\": the policies' laws are drag-free and need an \"effective\" table", path.string())};
+  }
+  return robot;
 }
 
 std::string to_toml_text(const Robot& robot) {
   RobotFile file{robot, {}};
-  for (const kicking::SetPoint& point : robot.model.table.set_points()) {
-    file.table.powers.push_back(point.power);
-    file.table.exit_speeds_mps.push_back(point.speed_mps);
+  if (robot.true_table) {
+    write_table(*robot.true_table, file.table);
+  } else {
+    write_table(robot.model.table, file.table);
+  }
+  if (robot.model.exit_angles) {
+    auto& angles_deg = file.table.exit_angles_deg.emplace();
+    for (const kicking::AnglePoint& point : robot.model.exit_angles->points())
+      angles_deg.push_back(kicking::degrees(point.exit_angle_rad));
   }
   return to_toml(file);
 }

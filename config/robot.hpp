@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "config/calibration.hpp"
 #include "config/field_types.hpp"
 #include "kicking/robot_model.hpp"
 
@@ -24,12 +26,17 @@ struct Robot {
   std::string source = "CAMBADA release 1.0 (2015), config/kicker.map, robot 1";
   kicking::RobotModel model{};
   WheelBase base{};
+  std::optional<kicking::TrueTable> true_table{};  ///< in place of model.table; load_robot() refuses such a file
+  std::optional<Calibration> calibration{};        ///< where measured figures come from
 };
 
 /// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be
-/// whole: kind, powers and exit speeds. Throws Error: also for a table of kind "true", which the drag-free laws of the
-/// policies must not be given, and for set-points that do not rise.
+/// whole: kind, powers and exit speeds, and may have an exit angle for each power. Throws Error: also for a table of
+/// kind "true", which the drag-free laws of the policies must not be given, and for set-points that do not rise.
 Robot load_robot(const std::filesystem::path& path);
+
+/// The same for the tools that calibrate: a table of kind "true" comes back as true_table.
+Robot load_robot_of_any_table(const std::filesystem::path& path);
 
 /// The robot as TOML that load_robot() reads back.
 std::string to_toml_text(const Robot& robot);

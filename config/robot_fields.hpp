@@ -1,5 +1,6 @@
 #pragma once
 
+#include "config/calibration_fields.hpp"
 #include "config/field_types.hpp"
 #include "config/robot.hpp"
 
@@ -41,6 +42,7 @@ struct TableColumns {
   kicking::TableKind kind = kicking::TableKind::kEffective;
   std::vector<double> powers;
   std::vector<double> exit_speeds_mps;
+  std::optional<std::vector<double>> exit_angles_deg;
 };
 
 struct RobotFile {
@@ -53,6 +55,7 @@ void fields(V& v, TableColumns& t) {
   v("kind", t.kind);
   v("powers", t.powers, Range{0.0, 1e6});
   v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
+  v("exit_angles_deg", t.exit_angles_deg, Range{5.0, 80.0});
 }
 
 template <class V>
@@ -69,6 +72,7 @@ void fields(V& v, RobotFile& f) {
   v("table", f.table);
   v("kicker", f.robot.model);
   v("base", f.robot.base);
+  v("calibration", f.robot.calibration);
 }
 
 }  // namespace trivela::config

@@ -103,6 +103,17 @@ void TableReader::operator()(std::string_view key, std::vector<double>& value) {
   value = std::move(numbers);
 }
 
+void TableReader::operator()(std::string_view key, std::vector<std::string>& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  std::vector<std::string> texts;
+  for (const toml::node& element : array_of(key, *node)) {
+    if (!element.is_string()) fail(key, element, "expected strings");
+    texts.push_back(*element.value<std::string>());
+  }
+  value = std::move(texts);
+}
+
 const toml::table& TableReader::table_of(std::string_view key, const toml::node& node) const {
   if (!node.is_table()) fail(key, node, "expected a table");
   return *node.as_table();

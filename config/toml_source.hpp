@@ -1,7 +1,9 @@
 #pragma once
 
 #include <toml++/toml.h>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,23 @@ class TableReader {
     ((limits[0] = range.min, limits[1] = range.max), ...);
     std::int64_t number = static_cast<std::int64_t>(value);
     if (read_integer(key, number, Range{limits[0], limits[1]})) value = static_cast<I>(number);
+  }
+  void operator()(std::string_view key, std::vector<std::string>& value);
+  template <std::integral I>
+  void operator()(std::string_view key, std::vector<I>& value, auto range) {
+    std::vector<double> numbers(value.begin(), value.end());
+    (*this)(key, numbers, range);
+    value.clear();
+    for (const double number : numbers) {
+      if (number != std::floor(number)) fail(key, *table_.get(key), "expected whole numbers");
+      value.push_back(static_cast<I>(number));
+    }
+  }
+  template <class T>
+  void operator()(std::string_view key, std::optional<T>& value, auto... range) {
+    if (find(key) == nullptr) return;
+    if (!value) value.emplace();
+    (*this)(key, *value, range...);
   }
   template <NamedEnum E>
   void operator()(std::string_view key, E& value) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ class TableText {
   template <std::integral I>
   requires(!std::same_as<I, bool>) void operator()(std::string_view key, const I& value, auto...) {
     line(key, fmt::format("{}", value));
+  }
+  void operator()(std::string_view key, const std::vector<std::string>& value) { list(key, value, quoted); }
+  template <std::integral I>
+  void operator()(std::string_view key, const std::vector<I>& value, auto...) {
+    list(key, value, [](I element) { return fmt::format("{}", element); });
+  }
+  template <class T>
+  void operator()(std::string_view key, std::optional<T>& value, auto... range) {
+    if (value) (*this)(key, *value, range...);
   }
   template <NamedEnum E>
   void operator()(std::string_view key, const E& value) {
@@ -58,6 +68,10 @@ class TableText {
   static std::string quoted(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
+      if (static_cast<unsigned char>(c) < 0x20) {
+        out += fmt::format("\\u{:04x}", static_cast<int>(c));
+        continue;
+      }
       if (c == '"' || c == '\\') out += '\\';
       out += c;
     }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "kicking/ballistics/transfer.hpp"
+#include "kicking/calibration/angle_table.hpp"
 #include "kicking/calibration/power_table.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -13,8 +16,10 @@ struct RobotModel {
   /// Effective: apex height and range of lobs, drag-free.
   EffectiveTable table{{15, 5.97}, {20, 7.33},  {25, 8.39},  {30, 9.21},
                        {35, 9.82}, {40, 10.18}, {45, 10.44}, {50, 10.51}};
-  /// Elevation of the kick over the floor (kicker.map).
+  /// Elevation of the kick over the floor (kicker.map): one for all powers, as the paper takes it.
   double exit_angle_rad = radians(36.78);
+  /// Where they were calibrated apart: an angle for each power, which then holds instead.
+  std::optional<AngleTable> exit_angles{};
   /// For the paper's V_kick law: k of kicker.map forward; the released code halves it when the robot reverses; lateral
   /// is unused.
   Transfer transfer_paper{0.70, 0.35, 1.0};
@@ -32,6 +37,9 @@ struct RobotModel {
   /// about 0.11 s.
   double beta_slope_s = 0.12;
   Ball ball{};
+
+  /// Elevation of a kick of this power [rad].
+  double exit_angle_at(double power) const { return exit_angles ? exit_angles->angle_for(power) : exit_angle_rad; }
 };
 
 }  // namespace trivela::kicking

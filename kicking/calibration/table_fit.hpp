@@ -32,7 +32,7 @@ struct TrialMean {
 
 struct TableOptions {
   /// Least power whose angles count for the mean: CAMBADA's own map leaves the weak kicks out. None: all.
-  std::optional<double> least_angle_power;
+  std::optional<double> least_angle_power = {};
   /// Make a table that does not rise usable: pool adjacent violators, weighted by trials. Set-points of one pool get
   /// its mean, 2 mm/s from one to the next, less where a neighbour is nearer, so that the table rises.
   bool isotonic = false;

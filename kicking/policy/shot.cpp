@@ -7,14 +7,17 @@
 namespace trivela::kicking {
 namespace {
 
+constexpr int kBisections = 40;  // of a gap between set-points: 1e-11 of a power
+
 /// The point that the drag-free flight shall pass, by the law for heights.
-FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m) {
+FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m,
+                         double exit_angle_rad) {
   const FlightPoint target{distance_m, config.target_height_m - robot.ball.radius_m};
   switch (config.height_law) {
     case HeightLaw::kPaper:
       return {distance_m, 0.0};
     case HeightLaw::kExtendedRange:
-      return {extended_range(target, robot.exit_angle_rad), 0.0};
+      return {extended_range(target, exit_angle_rad), 0.0};
     case HeightLaw::kExact:
       break;
   }
@@ -31,13 +34,51 @@ Carry carry_towards(const Eigen::Vector2d& line, double heading_rad, const Robot
   return {in_field.dot(along), in_field.dot(Eigen::Vector2d(along.y(), -along.x()))};
 }
 
+/// Exit speeds that the kick needs at one exit angle.
+struct Speeds {
+  std::optional<double> v0_mps;
+  std::optional<double> v_kick_mps;
+};
+
+/// Where the exit angle depends on the power: the angle of the least power whose kick is fast enough at its own angle,
+/// by bisection between the two set-points around it; that of the last set-point where none is.
+template <typename SpeedsAt>
+double matching_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
+  if (!robot.exit_angles) return robot.exit_angle_rad;
+  const auto fast_enough = [&](double power) {
+    const auto needed_mps = speeds_at(robot.exit_angle_at(power)).v_kick_mps;
+    return needed_mps && robot.table.speed_for(power) >= *needed_mps;
+  };
+  double low = robot.table.front().power;
+  if (fast_enough(low)) return robot.exit_angle_at(low);
+  for (const SetPoint& point : robot.table.set_points()) {
+    if (!fast_enough(point.power)) {
+      low = point.power;
+      continue;
+    }
+    double high = point.power;
+    for (int i = 0; i < kBisections; ++i) (fast_enough(0.5 * (low + high)) ? high : low) = 0.5 * (low + high);
+    return robot.exit_angle_at(high);
+  }
+  return robot.exit_angle_at(low);
+}
+
+/// Speeds at the angle of the power that they need.
+template <typename SpeedsAt>
+void set_speeds(Shot& shot, const RobotModel& robot, const SpeedsAt& speeds_at) {
+  shot.exit_angle_rad = matching_angle(robot, speeds_at);
+  const Speeds speeds = speeds_at(shot.exit_angle_rad);
+  shot.v0_mps = speeds.v0_mps;
+  shot.v_kick_mps = speeds.v_kick_mps;
+}
+
 /// Power, range and prediction, once the speeds are known.
 void set_power(Shot& shot, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
   if (!shot.v_kick_mps) return;
   const PowerReading reading = robot.table.power_for(*shot.v_kick_mps);
   shot.power = reading.power;
   const KickAction action{.v_kick_mps = robot.table.speed_for(reading.power),
-                          .exit_angle_rad = robot.exit_angle_rad,
+                          .exit_angle_rad = robot.exit_angle_at(reading.power),
                           .transfer = robot.transfer_exact,
                           .delay_s = robot.delay_s,
                           .ball_offset_m = robot.ball_offset_m};
@@ -59,8 +100,10 @@ Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model) {
 Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
   Shot shot;
   shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
-  shot.v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m), robot.exit_angle_rad);
-  shot.v_kick_mps = shot.v0_mps;
+  set_speeds(shot, robot, [&](double angle_rad) {
+    const auto v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m, angle_rad), angle_rad);
+    return Speeds{v0_mps, v0_mps};
+  });
   set_power(shot, robot, goal, input);
   return shot;
 }
@@ -71,17 +114,19 @@ Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal
   const Eigen::Vector2d line = target_on_line(config, goal) - held_ball(release, robot);
   Shot shot;
   shot.distance_m = line.norm();
-  const FlightPoint point = flight_point(config, robot, shot.distance_m);
-  shot.v0_mps = crossing_speed(point, robot.exit_angle_rad);
-  if (!shot.v0_mps) return shot;
-  if (exact) {
-    const auto aim =
-        aim_exact(point, robot.exit_angle_rad, carry_towards(line, release.heading_rad, robot, input.twist));
-    if (aim) shot.v_kick_mps = aim->v_kick_mps;
-  } else {
-    const double u_mps = robot.transfer_paper.along_mps(input.twist.vy_mps);
-    shot.v_kick_mps = moving_kick_paper(*shot.v0_mps, u_mps, robot.exit_angle_rad);
-  }
+  set_speeds(shot, robot, [&](double angle_rad) {
+    const FlightPoint point = flight_point(config, robot, shot.distance_m, angle_rad);
+    Speeds speeds{crossing_speed(point, angle_rad), std::nullopt};
+    if (!speeds.v0_mps) return speeds;
+    if (exact) {
+      const auto aim = aim_exact(point, angle_rad, carry_towards(line, release.heading_rad, robot, input.twist));
+      if (aim) speeds.v_kick_mps = aim->v_kick_mps;
+    } else {
+      const double u_mps = robot.transfer_paper.along_mps(input.twist.vy_mps);
+      speeds.v_kick_mps = moving_kick_paper(*speeds.v0_mps, u_mps, angle_rad);
+    }
+    return speeds;
+  });
   set_power(shot, robot, goal, input);
   return shot;
 }

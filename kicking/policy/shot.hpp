@@ -13,6 +13,7 @@ struct Shot {
   std::optional<double> v0_mps;      ///< for a robot at rest
   std::optional<double> v_kick_mps;  ///< for this robot
   std::optional<double> power;
+  double exit_angle_rad = 0.0;        ///< that v0 and v_kick hold for: the power's own
   bool too_far = false;               ///< no set-point is fast enough
   bool reachable = false;             ///< a set-point reaches the height, or the least one still passes below the bar
   std::optional<Crossing> predicted;  ///< where that set-point sends the ball, if the order goes out now

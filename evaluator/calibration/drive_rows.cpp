@@ -1,0 +1,170 @@
+#include "evaluator/calibration/drive_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "evaluator/calibration/release_track.hpp"
+#include "evaluator/metrics/ball_sightings.sql.hpp"
+#include "evaluator/metrics/drive_kicks.sql.hpp"
+#include "kicking/geometry/frames.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+constexpr double kStill_radps = 0.3;   // turning slower than this the ball's track in the handler is straight
+constexpr double kBounced_m = 0.05;    // over the floor: lower at the line, the ball has touched it
+constexpr double kLeastReach_m = 0.5;  // of the goal line in front of the ball
+
+using RobotKey = std::pair<std::int64_t, std::int64_t>;  // session, robot
+
+/// One row of drive_kicks.sql.
+struct DriveKick {
+  std::string policy;
+  std::int64_t order_t_ns = 0;
+  kicking::Pose pose;
+  kicking::Twist twist;
+  double goal_line_y_m = 0.0;
+  double power = 0.0;
+  std::optional<double> x_cross_m;
+  std::optional<double> z_cross_m;
+  RobotKey robot;
+
+  /// The crossing in R as it was at the order: x to the right of the pointing line, y along it.
+  Eigen::Vector2d crossing_in_robot() const { return kicking::to_robot(pose, {*x_cross_m, goal_line_y_m}); }
+};
+
+std::optional<double> number_if_any(const log::Value& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
+  return std::nullopt;
+}
+
+double number(const log::Value& cell) { return number_if_any(cell).value_or(NAN); }
+
+std::vector<DriveKick> all_kicks(const log::Reader& reader) {
+  std::vector<DriveKick> kicks;
+  reader.query(kDriveKicksSql, [&](std::span<const log::Value> row) {
+    kicks.push_back({.policy = std::get<std::string>(row[0]),
+                     .order_t_ns = std::get<std::int64_t>(row[1]),
+                     .pose = {number(row[2]), number(row[3]), number(row[4])},
+                     .twist = {number(row[5]), number(row[6]), number(row[7])},
+                     .goal_line_y_m = number(row[8]),
+                     .power = number(row[9]),
+                     .x_cross_m = number_if_any(row[10]),
+                     .z_cross_m = number_if_any(row[11]),
+                     .robot = {std::get<std::int64_t>(row[12]), std::get<std::int64_t>(row[13])}});
+  });
+  return kicks;
+}
+
+void count_out(std::vector<std::string>& left_out, std::size_t kicks, const std::string& why) {
+  if (kicks > 0) left_out.push_back(fmt::format("{} {} left out: {}", kicks, kicks == 1 ? "kick" : "kicks", why));
+}
+
+/// Rows of the kicks of one drive that were seen to cross the goal line.
+template <class Row>
+DriveKicks<Row> rows_of(const log::Reader& reader, const std::string& policy,
+                        const std::function<std::optional<Row>(const DriveKick&)>& row_of, const char* why_none) {
+  DriveKicks<Row> result;
+  std::size_t unseen = 0;
+  std::size_t none = 0;
+  for (const DriveKick& kick : all_kicks(reader)) {
+    if (kick.policy != policy) continue;
+    if (!kick.x_cross_m || !kick.z_cross_m) {
+      ++unseen;
+      continue;
+    }
+    auto row = row_of(kick);
+    if (row) {
+      result.rows.push_back(*row);
+    } else {
+      ++none;
+    }
+  }
+  count_out(result.left_out, unseen, "not seen to cross the goal line");
+  count_out(result.left_out, none, why_none);
+  return result;
+}
+
+/// Horizontal speed along the pointing line [m/s]: V cos(theta) + k_y v_y.
+double v_h_mps(const DriveKick& kick, const kicking::RobotModel& model) {
+  const double v_kick_mps = model.table.speed_for(kick.power);
+  return v_kick_mps * std::cos(model.exit_angle_at(kick.power)) + model.transfer_exact.along_mps(kick.twist.vy_mps);
+}
+
+constexpr const char* kBackwards = "the robot pointed away from the goal line";
+
+}  // namespace
+
+DriveKicks<kicking::DeflectionRow> lateral_kicks(const log::Reader& reader, const kicking::RobotModel& model) {
+  const auto row_of = [&](const DriveKick& kick) -> std::optional<kicking::DeflectionRow> {
+    const Eigen::Vector2d crossing = kick.crossing_in_robot();
+    const double distance_m = crossing.y() - model.ball_offset_m;
+    if (distance_m < kLeastReach_m) return std::nullopt;
+    return kicking::DeflectionRow{.vx_mps = kick.twist.vx_mps,
+                                  .distance_m = distance_m,
+                                  .b_m = crossing.x(),
+                                  .lever_m = model.ball_offset_m,
+                                  .v_h_mps = v_h_mps(kick, model)};
+  };
+  return rows_of<kicking::DeflectionRow>(reader, "lateral_drive", row_of, kBackwards);
+}
+
+DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kicking::RobotModel& model,
+                                            double cycle_s) {
+  const auto row_of = [&](const DriveKick& kick) -> std::optional<kicking::RotationRow> {
+    const Eigen::Vector2d crossing = kick.crossing_in_robot();
+    if (crossing.y() - model.ball_offset_m < kLeastReach_m) return std::nullopt;
+    const double omega = kick.twist.omega_radps;
+    const double lead_rad = std::copysign(1.0, omega) * std::atan2(-crossing.x(), crossing.y());
+    return kicking::RotationRow{.omega_radps = omega,
+                                .allowed_error_m = crossing.y() * std::tan(lead_rad + 0.5 * std::abs(omega) * cycle_s),
+                                .distance_m = crossing.y(),
+                                .v_h_mps = v_h_mps(kick, model)};
+  };
+  return rows_of<kicking::RotationRow>(reader, "turn_drive", row_of, kBackwards);
+}
+
+DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model) {
+  const auto row_of = [&](const DriveKick& kick) -> std::optional<kicking::TransferRow> {
+    const double distance_m = kick.crossing_in_robot().y() - model.ball_offset_m;
+    if (distance_m < kLeastReach_m || *kick.z_cross_m < model.ball.radius_m + kBounced_m) return std::nullopt;
+    return kicking::TransferRow{.vy_mps = kick.twist.vy_mps,
+                                .v0_mps = model.table.speed_for(kick.power),
+                                .exit_angle_rad = model.exit_angle_at(kick.power),
+                                .distance_m = distance_m,
+                                .z_cross_m = *kick.z_cross_m};
+  };
+  return rows_of<kicking::TransferRow>(reader, "straight_drive", row_of,
+                                       "the ball lay on the floor at the goal line, or the robot pointed away from it");
+}
+
+DriveKicks<double> release_delays(const log::Reader& reader) {
+  std::map<RobotKey, std::vector<BallSighting>> sightings;
+  reader.query(kBallSightingsSql, [&](std::span<const log::Value> row) {
+    sightings[{std::get<std::int64_t>(row[0]), std::get<std::int64_t>(row[1])}].push_back(
+        {std::get<std::int64_t>(row[2]), {number(row[3]), number(row[4]), number(row[5])}});
+  });
+  DriveKicks<double> result;
+  std::size_t turning = 0;
+  std::size_t unseen = 0;
+  for (const DriveKick& kick : all_kicks(reader)) {
+    if (std::abs(kick.twist.omega_radps) > kStill_radps) {
+      ++turning;
+    } else if (const auto delay_s = release_delay_s(sightings[kick.robot], kick.order_t_ns)) {
+      result.rows.push_back(*delay_s);
+    } else {
+      ++unseen;
+    }
+  }
+  count_out(result.left_out, turning, "the robot turned");
+  count_out(result.left_out, unseen, "the flight camera saw too little of the release");
+  return result;
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,132 @@
+// A robot's file with its provenance, angles of their own and true tables.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "config/error.hpp"
+#include "config/robot.hpp"
+
+namespace trivela::config {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+class CalibratedRobot : public testing::Test {
+ protected:
+  CalibratedRobot() {
+    std::string pattern = (fs::temp_directory_path() / "trivela_robot_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~CalibratedRobot() override { fs::remove_all(folder_); }
+
+  fs::path file(const std::string& text) const {
+    const fs::path path = folder_ / "robot.toml";
+    std::ofstream{path} << text;
+    return path;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+const std::string kTable = "[table]\nkind = \"effective\"\npowers = [10.0, 20.0]\nexit_speeds_mps = [5.0, 7.0]\n";
+
+/// Every key of [calibration] with a value of its own.
+Robot fully_calibrated() {
+  Robot robot;
+  robot.name = "seven";
+  Calibration& c = robot.calibration.emplace();
+  c.source = "trivela calibrate \"table\"";
+  c.date = "2015-04-13";
+  c.kicks = 61;
+  const std::vector<double> sds{0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.0};
+  c.table = TableOrigin{{"2015-04-11", 15, {"lobs 1.db", "lobs_2.db"}}, {2, 2, 2, 2, 2, 2, 2, 1}, sds, 0.0425, true};
+  c.exit_angle = ExitAngleOrigin{{"2015-04-12", 16, {"angles.csv"}}, 0.001, 0.02};
+  c.deflection = DeflectionOrigin{{"2015-04-13", 17, {}}, 0.003, 0.01, 0.125};
+  c.rotation = RotationOrigin{{"2015-04-14", 18, {"turns.csv"}}, 0.0025, 0.011};
+  c.transfer = TransferOrigin{{"2015-04-15", 19, {"runs.csv"}}, 0.1, 0.2, 0.3, 0.4};
+  c.delay = DelayOrigin{{"2015-04-16", 20, {"runs.csv"}}, 0.0004, 0.0021};
+  return robot;
+}
+
+TEST_F(CalibratedRobot, ReadsBackWithAllItsProvenance) {
+  const Robot robot = fully_calibrated();
+  const std::string text = to_toml_text(robot);
+  const Robot again = load_robot(file(text));
+  EXPECT_EQ(to_toml_text(again), text);
+  const Calibration& c = *again.calibration;
+  EXPECT_EQ(c.source, "trivela calibrate \"table\"");
+  EXPECT_EQ(c.kicks, 61u);
+  EXPECT_THAT(c.table->files, testing::ElementsAre("lobs 1.db", "lobs_2.db"));
+  EXPECT_THAT(c.table->trials, testing::ElementsAre(2, 2, 2, 2, 2, 2, 2, 1));
+  EXPECT_EQ(c.table->exit_speed_sds_mps[2], 0.03);
+  EXPECT_TRUE(c.table->isotonic);
+  EXPECT_NEAR(c.exit_angle->exit_angle_se_rad, 0.001, 1e-12);
+  EXPECT_EQ(c.deflection->lateral_ratio_se, 0.125);
+  EXPECT_EQ(c.rotation->date, "2015-04-14");
+  EXPECT_EQ(c.transfer->paper_backward_se_ratio, 0.4);
+  EXPECT_EQ(c.delay->delay_sd_s, 0.0021);
+}
+
+TEST_F(CalibratedRobot, SaysNothingOfFiguresThatWereNotMeasured) {
+  Robot robot;
+  robot.calibration.emplace().delay = DelayOrigin{{"2015-04-16", 20, {}}, 0.0004, 0.0021};
+  const std::string text = to_toml_text(robot);
+  EXPECT_THAT(text, AllOf(HasSubstr("[calibration.delay]"), Not(HasSubstr("[calibration.table]"))));
+  EXPECT_FALSE(load_robot(file(text)).calibration->table);
+  EXPECT_THAT(to_toml_text(Robot{}), AllOf(Not(HasSubstr("calibration")), Not(HasSubstr("exit_angles_deg"))));
+  EXPECT_FALSE(load_robot(file(kTable)).calibration);
+}
+
+TEST_F(CalibratedRobot, HasAnAngleForEachPowerWhereTheFileDoes) {
+  const Robot robot = load_robot(file(kTable + "exit_angles_deg = [44.0, 40.0]\n"));
+  ASSERT_TRUE(robot.model.exit_angles);
+  EXPECT_NEAR(kicking::degrees(robot.model.exit_angle_at(15.0)), 42.0, 1e-12);
+  EXPECT_EQ(to_toml_text(load_robot(file(to_toml_text(robot)))), to_toml_text(robot));
+  EXPECT_EQ(load_robot(file(kTable)).model.exit_angle_at(15.0), kicking::RobotModel{}.exit_angle_rad);
+}
+
+TEST_F(CalibratedRobot, NamesAnglesThatDoNotFitTheTable) {
+  EXPECT_THAT([&] { load_robot(file(kTable + "exit_angles_deg = [44.0]\n")); },
+              ThrowsMessage<Error>(HasSubstr("table.powers has 2 entries, table.exit_angles_deg 1")));
+  EXPECT_THAT([&] { load_robot(file(kTable + "exit_angles_deg = [44.0, 95.0]\n")); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml:5"), HasSubstr("must lie in [5, 80]"))));
+}
+
+TEST_F(CalibratedRobot, OfATrueTableIsForTheToolsAlone) {
+  Robot robot;
+  robot.true_table.emplace({kicking::SetPoint{10, 5.1}, kicking::SetPoint{20, 7.2}});
+  const std::string text = to_toml_text(robot);
+  EXPECT_THAT(text, HasSubstr("kind = \"true\""));
+  const Robot again = load_robot_of_any_table(file(text));
+  EXPECT_EQ(again.true_table->back().speed_mps, 7.2);
+  EXPECT_EQ(to_toml_text(again), text);
+  EXPECT_THAT([&] { load_robot(file(text)); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml"), HasSubstr("effective"))));
+}
+
+TEST_F(CalibratedRobot, NamesBrokenProvenance) {
+  const auto load = [&](const std::string& calibration) {
+    return [this, calibration] { load_robot(file(kTable + "[calibration]\n" + calibration)); };
+  };
+  EXPECT_THAT(load("kick = 3\n"), ThrowsMessage<Error>(HasSubstr("calibration.kick: unknown key")));
+  EXPECT_THAT(load("[calibration.delay]\nkicks = -3\n"), ThrowsMessage<Error>(HasSubstr("calibration.delay.kicks")));
+  EXPECT_THAT(load("[calibration.delay]\nfiles = [3]\n"), ThrowsMessage<Error>(HasSubstr("expected strings")));
+  EXPECT_THAT(load("[calibration.table]\ntrials = [1.5, 2]\n"),
+              ThrowsMessage<Error>(HasSubstr("expected whole numbers")));
+  EXPECT_THAT(load("[calibration.table]\ntrials = \"two\"\n"), ThrowsMessage<Error>(HasSubstr("expected an array")));
+}
+
+TEST_F(CalibratedRobot, KeepsAnyTextOfItsSource) {
+  Robot robot;
+  robot.source = "two\nlines, a \"quote\", a \\ and a\ttab";
+  EXPECT_EQ(load_robot(file(to_toml_text(robot))).source, robot.source);
+}
+
+}  // namespace
+}  // namespace trivela::config
