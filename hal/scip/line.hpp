@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace trivela::hal::scip {
+
+/// A two-way line of bytes to a device. One thread at a time; every call returns by its deadline.
+class Line {
+ public:
+  using Deadline = std::chrono::steady_clock::time_point;
+  enum class Opening {
+    kOpen,
+    kPending,  ///< call open() again
+    kFailed,   ///< why() says it
+  };
+
+  virtual ~Line() = default;
+
+  /// Opens it, or goes on with opening it.
+  virtual Opening open(Deadline deadline) = 0;
+
+  /// Waits for bytes: how many came; 0: none in time; none: the line dropped, why() says it.
+  virtual std::optional<std::size_t> read(std::span<char> bytes, Deadline deadline) = 0;
+
+  /// Sends all of them. False: it could not, why() says it; some may have left.
+  virtual bool write(std::string_view bytes, Deadline deadline) = 0;
+
+  virtual void close() noexcept = 0;
+
+  /// "/dev/ttyACM0", "tcp://192.168.0.10:10940".
+  virtual const std::string& name() const = 0;
+  /// The last failure, as a clause: "no such file or directory".
+  virtual const std::string& why() const = 0;
+};
+
+/// The serial device at `path`, raw, 8 bits, no parity, no flow control, 115200 baud where it has a speed (a USB
+/// scanner has none).
+std::unique_ptr<Line> serial_line(const std::string& path);
+
+/// A TCP connection; `host` is a name or an address.
+std::unique_ptr<Line> tcp_line(const std::string& host, std::uint16_t port);
+
+}  // namespace trivela::hal::scip

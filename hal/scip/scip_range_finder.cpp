@@ -1,0 +1,236 @@
+#include "hal/scip/scip_range_finder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "hal/scip/status.hpp"
+
+namespace trivela::hal::scip {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+constexpr nanoseconds kLongestCall = milliseconds(850);  // and kWriting
+constexpr nanoseconds kPause = milliseconds(200);
+constexpr nanoseconds kLongestOpening = std::chrono::seconds(1);
+constexpr nanoseconds kAnswer = milliseconds(400);
+constexpr nanoseconds kFirstScan = std::chrono::seconds(3);  // a motor may have to come up to speed
+constexpr nanoseconds kForgiven = milliseconds(200);
+constexpr nanoseconds kWriting = milliseconds(100);
+constexpr nanoseconds kGoodbye = milliseconds(200);
+
+std::int64_t ns_of(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration_cast<nanoseconds>(t.time_since_epoch()).count();
+}
+
+bool same(const kicking::lob::ScanGeometry& a, const kicking::lob::ScanGeometry& b) {
+  return a.beams == b.beams && a.first_angle_rad == b.first_angle_rad && a.step_rad == b.step_rad &&
+         a.scan_period_s == b.scan_period_s;
+}
+
+bool success(const Reply& reply) {
+  return reply.status == "00" || reply.status == "99" || (reply.echo == kBM && reply.status == "02") ||
+         reply.echo == kScip20;
+}
+
+}  // namespace
+
+ScipRangeFinder::ScipRangeFinder(std::unique_ptr<Line> line, Asking asking)
+    : line_(std::move(line)), asking_(asking), status_("opening " + line_->name()) {}
+
+ScipRangeFinder::~ScipRangeFinder() {
+  if (!talking()) return;
+  const auto deadline = Clock::now() + kGoodbye;
+  if (!line_->write(std::string{kQT} + "\n", deadline)) return;
+  // A socket closed with scans unread would take the request back.
+  std::array<char, 4096> bytes{};
+  while (Clock::now() < deadline) {
+    const auto count = line_->read(bytes, deadline);
+    if (!count) return;
+    for (const Reply& reply : parser_.feed({bytes.data(), *count})) {
+      if (reply.echo == kQT) return;
+    }
+  }
+}
+
+bool ScipRangeFinder::connected(nanoseconds timeout) {
+  const auto deadline = enter(timeout);
+  while (!up()) {
+    step(deadline);
+    if (Clock::now() >= deadline) break;
+  }
+  return up();
+}
+
+std::optional<kicking::lob::Scan> ScipRangeFinder::read(nanoseconds timeout) {
+  const auto deadline = enter(timeout);
+  while (scans_.empty()) {
+    step(deadline);
+    if (scans_.empty() && Clock::now() >= deadline) return std::nullopt;
+  }
+  auto scan = std::move(scans_.front());
+  scans_.pop_front();
+  return scan;
+}
+
+ScipRangeFinder::Clock::time_point ScipRangeFinder::enter(nanoseconds timeout) {
+  const auto now = Clock::now();
+  // What came while nobody read is still to be read: once, it gets a chance.
+  if (talking() && now >= phase_ends_ && !std::exchange(forgave_, true)) phase_ends_ = now + kForgiven;
+  return now + std::clamp(timeout, nanoseconds::zero(), kLongestCall);
+}
+
+void ScipRangeFinder::step(Clock::time_point deadline) {
+  const auto until = std::min(deadline, phase_ends_);
+  switch (phase_) {
+    case Phase::kClosed:
+      std::this_thread::sleep_until(until);
+      if (Clock::now() < phase_ends_) return;
+      phase_ = Phase::kOpening;
+      phase_ends_ = Clock::now() + kLongestOpening;
+      return;
+    case Phase::kOpening:
+      return open(until);
+    case Phase::kMeasuring:
+      if (asking_ == Asking::kOneByOne && !std::exchange(asked_, true)) send(measuring_);
+      return receive(until);
+    default:
+      return receive(until);
+  }
+}
+
+void ScipRangeFinder::open(Clock::time_point deadline) {
+  const Line::Opening opening = line_->open(deadline);
+  if (opening == Line::Opening::kOpen) {
+    if (std::exchange(opened_, true)) ++counters_.reconnects;
+    phase_ = Phase::kStarting;
+    scan_came_ = false;
+    in_step_ = false;
+    parser_ = {};
+    start_up_.emplace(asking_);
+    ask(start_up_->request());
+  } else if (opening == Line::Opening::kFailed || Clock::now() >= phase_ends_) {
+    drop(fmt::format("no device {}: {}", line_->name(), line_->why()));
+  }
+}
+
+void ScipRangeFinder::receive(Clock::time_point deadline) {
+  std::array<char, 4096> bytes;
+  if (phase_ == Phase::kClosed) return;
+  const auto count = line_->read(bytes, deadline);
+  const auto arrival = Clock::now();
+  if (!count) return drop(fmt::format("{}: the line is cut: {}", line_->name(), line_->why()));
+  const bool was_in_step = in_step_;
+  for (const Reply& reply : parser_.feed({bytes.data(), *count})) take(reply, arrival);
+  take_damage(was_in_step);
+  if (talking() && Clock::now() >= phase_ends_) time_out();
+}
+
+void ScipRangeFinder::take_damage(bool count) {
+  const Damages damages = parser_.take_damages();
+  // Before its first answer, the rest of what an earlier host asked for passes by.
+  if (!count || damages.torn + damages.wrong_sums == 0) return;
+  counters_.torn_lines += damages.torn;
+  counters_.wrong_sums += damages.wrong_sums;
+  asked_ = false;
+}
+
+void ScipRangeFinder::take(const Reply& reply, Clock::time_point arrival) {
+  if (phase_ == Phase::kStarting) {
+    const auto progress = start_up_->take(reply);
+    if (progress == StartUp::Progress::kWaiting) return;
+    in_step_ = true;
+    if (!success(reply)) ++counters_.error_replies;
+    follow(progress);
+  } else if (phase_ == Phase::kMeasuring) {
+    take_scan(reply, arrival);
+  }
+}
+
+void ScipRangeFinder::follow(StartUp::Progress progress) {
+  if (progress == StartUp::Progress::kNext) ask(start_up_->request());
+  if (progress == StartUp::Progress::kFailed) drop(fmt::format("{}: {}", line_->name(), start_up_->why()));
+  if (progress == StartUp::Progress::kDone) start_measuring();
+}
+
+void ScipRangeFinder::start_measuring() {
+  const auto geometry = geometry_of(start_up_->parameters());
+  if (known_ && !same(geometry, geometry_)) {
+    return drop(fmt::format("{}: another scanner is there, {} with {} beams", line_->name(),
+                            start_up_->identity().product, geometry.beams));
+  }
+  known_ = true;
+  identity_ = start_up_->identity();
+  geometry_ = geometry;
+  clock_.emplace(std::llround(static_cast<double>(geometry.beams) * geometry.beam_period_s * 1e9));
+  const Section section = whole_section(start_up_->parameters());
+  measuring_ = asking_ == Asking::kContinuous ? measure_request(section) : get_request(section);
+  asked_ = false;
+  complaint_ = fmt::format("{}: no scan", line_->name());
+  phase_ = Phase::kMeasuring;
+  phase_ends_ = Clock::now() + kFirstScan;
+}
+
+void ScipRangeFinder::take_scan(const Reply& reply, Clock::time_point arrival) {
+  asked_ = false;
+  const bool accepted = asking_ == Asking::kContinuous && reply.status == "00" && reply.data.empty();
+  if (accepted) return;
+  if (!success(reply)) {
+    ++counters_.error_replies;
+    complaint_ = status_ = fmt::format("{}: {}", line_->name(), meaning(measuring_, reply.status));
+    return;
+  }
+  auto ranges = ranges_of(reply, geometry_.beams);
+  const std::string_view echo = std::string_view{measuring_}.substr(0, kMeasureEchoStays);
+  if (!ranges || !reply.stamp_ms || !reply.echo.starts_with(echo)) {
+    ++counters_.torn_lines;
+    return;
+  }
+  const ScanClock::Instant instant = clock_->add(*reply.stamp_ms, ns_of(arrival));
+  if (instant.gap_ms && asking_ == Asking::kContinuous) {
+    const auto periods = std::llround(static_cast<double>(*instant.gap_ms) * 1e-3 / geometry_.scan_period_s);
+    if (periods > 1) counters_.lost_scans += static_cast<std::uint64_t>(periods - 1);
+  }
+  last_t_ns_ = std::max(instant.t_ns, last_t_ns_ + 1);
+  scans_.push_back({last_t_ns_, std::move(*ranges)});
+  ++counters_.scans;
+  scan_came_ = true;
+  forgave_ = false;
+  phase_ends_ = arrival + kSilence;
+  complaint_ = fmt::format("{}: no scan for {:.1f} s", line_->name(), std::chrono::duration<double>(kSilence).count());
+  status_ = "measuring";
+}
+
+void ScipRangeFinder::time_out() {
+  ++counters_.time_outs;
+  if (phase_ == Phase::kMeasuring) return drop(complaint_);
+  status_ = fmt::format("{}: no answer to {}", line_->name(), start_up_->request());
+  follow(start_up_->timed_out());
+}
+
+void ScipRangeFinder::ask(const std::string& request) {
+  phase_ends_ = Clock::now() + kAnswer;
+  forgave_ = false;
+  send(request);
+}
+
+void ScipRangeFinder::send(const std::string& request) {
+  if (!line_->write(request + "\n", Clock::now() + kWriting)) {
+    drop(fmt::format("{}: the line is cut: {}", line_->name(), line_->why()));
+  }
+}
+
+void ScipRangeFinder::drop(const std::string& why) {
+  line_->close();
+  phase_ = Phase::kClosed;
+  phase_ends_ = Clock::now() + kPause;
+  status_ = why;
+}
+
+}  // namespace trivela::hal::scip

@@ -1,0 +1,56 @@
+#include <fcntl.h>
+#include <termios.h>
+
+#include <cerrno>
+
+#include "hal/scip/descriptor.hpp"
+#include "hal/scip/line.hpp"
+
+namespace trivela::hal::scip {
+namespace {
+
+class SerialLine final : public Line {
+ public:
+  explicit SerialLine(const std::string& path) : path_(path) {}
+
+  Opening open(Deadline) override {
+    fd_.reset(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (fd_ && make_raw()) return Opening::kOpen;
+    why_ = system_error(errno);
+    fd_.reset();
+    return Opening::kFailed;
+  }
+
+  std::optional<std::size_t> read(std::span<char> bytes, Deadline deadline) override {
+    return fd_.read(bytes, deadline, why_);
+  }
+  bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
+  void close() noexcept override { fd_.reset(); }
+  const std::string& name() const override { return path_; }
+  const std::string& why() const override { return why_; }
+
+ private:
+  bool make_raw() const {
+    termios settings{};
+    if (::tcgetattr(fd_.get(), &settings) != 0) return false;
+    ::cfmakeraw(&settings);
+    settings.c_cflag |= CLOCAL | CREAD;
+    settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+    settings.c_cc[VMIN] = 1;  // so that 0 bytes mean that it was hung up
+    settings.c_cc[VTIME] = 0;
+    ::cfsetspeed(&settings, B115200);
+    if (::tcsetattr(fd_.get(), TCSANOW, &settings) != 0) return false;
+    ::tcflush(fd_.get(), TCIOFLUSH);  // what an earlier host left unread
+    return true;
+  }
+
+  std::string path_;
+  std::string why_;
+  Descriptor fd_;
+};
+
+}  // namespace
+
+std::unique_ptr<Line> serial_line(const std::string& path) { return std::make_unique<SerialLine>(path); }
+
+}  // namespace trivela::hal::scip

@@ -1,0 +1,184 @@
+#include "hal/scip/scip_range_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/hal/scip_link.hpp"
+
+namespace trivela::hal::scip {
+namespace {
+
+using tests::Clock;
+using tests::milliseconds;
+using tests::number_of;
+using tests::ScipLink;
+
+struct Way {
+  const char* name;
+  EmulatedPort port;
+  Asking asking;
+};
+
+class EveryWay : public testing::TestWithParam<Way> {
+ protected:
+  static EmulatorConfig config() {
+    EmulatorConfig config;
+    config.port = GetParam().port;
+    config.geometry = tests::fast_geometry();
+    return config;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Scip, EveryWay,
+                         testing::Values(Way{"TerminalMd", EmulatedPort::kTerminal, Asking::kContinuous},
+                                         Way{"TerminalGd", EmulatedPort::kTerminal, Asking::kOneByOne},
+                                         Way{"TcpMd", EmulatedPort::kTcp, Asking::kContinuous},
+                                         Way{"TcpGd", EmulatedPort::kTcp, Asking::kOneByOne}),
+                         [](const auto& way) { return way.param.name; });
+
+TEST_P(EveryWay, ScansArriveInOrderWithTheirRangesErrorCodesAmongThem) {
+  ScipLink link{config(), GetParam().asking};
+  std::optional<std::uint32_t> last;
+  for (int i = 0; i < 40; ++i) {
+    const auto scan = link.next();
+    EXPECT_EQ(scan.range_mm, tests::numbered_scan(number_of(scan), config().geometry).range_mm);
+    if (last) {
+      EXPECT_GT(number_of(scan), *last);
+    }
+    last = number_of(scan);
+  }
+  const LinkCounters counters = link.finder().counters();
+  EXPECT_EQ(counters.scans, 40U);
+  EXPECT_EQ(counters.torn_lines + counters.wrong_sums + counters.error_replies + counters.reconnects, 0U);
+  EXPECT_EQ(*last, 39U + counters.lost_scans);
+  EXPECT_TRUE(link.finder().up());
+  EXPECT_EQ(link.finder().status(), "measuring");
+}
+
+TEST_P(EveryWay, IdentityAndGeometryAreTheScanners) {
+  auto emulated = config();
+  emulated.first_step = 44;
+  emulated.identity = {"Hokuyo Automatic Co.,Ltd.", "UTM-30LX", "H1", "2.1", "SCIP 2.0"};
+  emulated.geometry.beams = 682;
+  ScipLink link{emulated, GetParam().asking};
+  ASSERT_TRUE(link.until([&] { return link.finder().connected(milliseconds(500)); })) << link.finder().status();
+  EXPECT_EQ(link.finder().identity().vendor, "Hokuyo Automatic Co.,Ltd.");
+  EXPECT_EQ(link.finder().identity().product, "UTM-30LX");
+  EXPECT_EQ(link.finder().identity().serial, "H1");
+  EXPECT_EQ(link.finder().geometry().beams, 682U);
+  EXPECT_DOUBLE_EQ(link.finder().geometry().first_angle_rad, emulated.geometry.first_angle_rad);
+  EXPECT_DOUBLE_EQ(link.finder().geometry().scan_period_s, 0.010);
+  EXPECT_DOUBLE_EQ(link.finder().geometry().max_range_m, 30.0);
+  EXPECT_EQ(link.next().range_mm.size(), 682U);
+}
+
+TEST_P(EveryWay, ClosingStopsTheScannerAndTheNextClientGoesOn) {
+  ScipLink link{config(), GetParam().asking};
+  link.next();
+  EXPECT_TRUE(link.emulator().laser_on());
+  link.close_finder();
+  EXPECT_TRUE(link.until([&] { return !link.emulator().laser_on(); }));
+  link.open_finder();
+  link.next();
+  EXPECT_EQ(link.finder().counters().torn_lines + link.finder().counters().wrong_sums, 0U);
+}
+
+TEST_P(EveryWay, TimesAreThoseOfTheFirstBeam) {
+  auto emulated = config();
+  emulated.geometry = {};                       // 40 scans a second
+  emulated.first_stamp_ms = (1U << 24U) - 300;  // starts over after 0.3 s
+  ScipLink link{emulated, GetParam().asking};
+  std::int64_t last_t_ns = 0;
+  std::uint32_t last_number = 0;
+  for (int i = 0; i < 30; ++i) {
+    const auto scan = link.next();
+    const std::int64_t now_ns = Clock::now().time_since_epoch().count();
+    const double age_ms = static_cast<double>(now_ns - scan.t_ns) * 1e-6;
+    EXPECT_GE(age_ms, 1081 * 0.025 / 1440 * 1e3 - 1.1);  // the scan takes that long; a stamp is to the millisecond
+    EXPECT_GT(scan.t_ns, last_t_ns);
+    if (i > 20 && GetParam().asking == Asking::kContinuous) {
+      const double step_ms = static_cast<double>(scan.t_ns - last_t_ns) * 1e-6;
+      EXPECT_NEAR(step_ms, 25.0 * (number_of(scan) - last_number), 2.0);
+    }
+    last_t_ns = scan.t_ns;
+    last_number = number_of(scan);
+  }
+  EXPECT_EQ(link.finder().counters().reconnects, 0U);
+  EXPECT_LE(link.finder().counters().lost_scans, last_number - 29U);
+}
+
+TEST(ScipRangeFinder, AStreamThatAnEarlierClientLeftIsEndedFirst) {
+  EmulatorConfig config;
+  config.geometry = tests::fast_geometry();
+  ScipLink link{config};
+  link.next();
+  // A client that dies says no QT: here one that only reads.
+  auto dying = serial_line(link.emulator().address());
+  ASSERT_EQ(dying->open(Clock::now()), Line::Opening::kOpen);
+  link.close_finder();
+  ASSERT_TRUE(dying->write("BM\nMD0000108001000\n", Clock::now() + milliseconds(100)));
+  const auto sent = link.emulator().scans_sent();
+  ASSERT_TRUE(link.until([&] { return link.emulator().scans_sent() > sent + 2; }));
+  dying.reset();
+  link.open_finder();
+  link.next();
+  const LinkCounters counters = link.finder().counters();
+  EXPECT_EQ(counters.torn_lines + counters.wrong_sums + counters.reconnects, 0U);
+}
+
+TEST(ScipRangeFinder, AFastSourceIsPlayedWholeWhenNotPaced) {
+  EmulatorConfig config;
+  config.paced = false;
+  config.geometry = tests::fast_geometry();
+  ScipLink link{config};
+  for (std::uint32_t n = 0; n < 500; ++n) ASSERT_EQ(number_of(link.next()), n);
+  EXPECT_EQ(link.finder().counters().lost_scans, 0U);
+}
+
+TEST(ScipRangeFinder, NoDeviceIsSaidAndNoCallHangs) {
+  auto finder = open_range_finder("/dev/no-such-scanner");
+  for (const int timeout_ms : {0, 50, 5000}) {
+    const auto start = Clock::now();
+    EXPECT_FALSE(finder->read(milliseconds(timeout_ms)));
+    EXPECT_FALSE(finder->connected(milliseconds(timeout_ms)));
+    EXPECT_LE(Clock::now() - start, 2 * tests::kLongestCall);
+  }
+  EXPECT_EQ(finder->status(), "no device /dev/no-such-scanner: no such file or directory");
+  EXPECT_FALSE(finder->up());
+  EXPECT_FALSE(finder->ended());
+}
+
+TEST(ScipRangeFinder, AFileIsNoScanner) {
+  auto finder = open_range_finder("/dev/null");
+  EXPECT_FALSE(finder->read(milliseconds(300)));
+  EXPECT_EQ(finder->status(), "no device /dev/null: inappropriate ioctl for device");
+}
+
+TEST(OpenRangeFinder, NamesAMalformedAddress) {
+  for (const std::string address :
+       {"", "tcp://", "tcp://host", "tcp://host:", "tcp://:10940", "tcp://host:0", "tcp://host:70000", "tcp://host:1x",
+        "tcp://a:b:1", "udp://host:1", "tcp://h/x:1"}) {
+    try {
+      open_range_finder(address);
+      ADD_FAILURE() << address;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "range finder '" + address +
+                    "': an address is tcp://HOST:PORT (Hokuyo's port is 10940) or the path of a device");
+    }
+  }
+}
+
+TEST(OpenRangeFinder, TakesNamesAndAddressesOfHosts) {
+  for (const std::string address : {"tcp://localhost:1", "tcp://127.0.0.1:1", "tcp://[::1]:1"}) {
+    auto finder = open_range_finder(address);
+    const auto start = Clock::now();
+    EXPECT_FALSE(finder->read(milliseconds(300)));
+    EXPECT_LE(Clock::now() - start, tests::kLongestCall);
+    EXPECT_NE(finder->status().find(address), std::string::npos) << finder->status();
+  }
+}
+
+}  // namespace
+}  // namespace trivela::hal::scip
