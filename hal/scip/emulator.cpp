@@ -17,6 +17,8 @@
 #include <thread>
 #include <utility>
 
+#include "hal/scip/emulated_faults.hpp"
+#include "hal/scip/emulated_playback.hpp"
 #include "hal/scip/emulated_scanner.hpp"
 #include "hal/scip/emulated_socket.hpp"
 
@@ -27,38 +29,20 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
 constexpr std::size_t kLongestRequest = 64;
-constexpr std::size_t kLongestQueue = 32768;                  // bytes; scans measured meanwhile are lost
-constexpr nanoseconds kLongestGap = std::chrono::seconds(1);  // of a source; another recording begins
-
-nanoseconds seconds(double s) { return nanoseconds{static_cast<std::int64_t>(s * 1e9)}; }
-
-bool count_down(int& left) { return left > 0 && left-- > 0; }
+constexpr std::size_t kLongestQueue = 32768;  // bytes; scans measured meanwhile are lost
 
 std::unique_ptr<EmulatedSocket> open_socket(const EmulatorConfig& config) {
   return config.port == EmulatedPort::kTcp ? emulated_tcp(config.tcp_port) : emulated_terminal();
 }
 
-// One sum, in the middle of the scan.
-void corrupt(std::string& reply) {
-  const std::size_t end = reply.find('\n', reply.size() / 2);
-  if (end != std::string::npos && end > 0) reply[end - 1] = reply[end - 1] == '0' ? '1' : '0';
-}
-
-// Some bytes in the middle, with a line's end among them.
-void tear(std::string& reply) {
-  const std::size_t end = reply.find('\n', reply.size() / 2);
-  if (end != std::string::npos && end > 20) reply.erase(end - 20, 40);
-}
-
 }  // namespace
 
 struct Emulator::Impl {
-  Impl(const EmulatorConfig& what, ScanSource scans)
-      : config(what),
-        source(std::move(scans)),
+  Impl(const EmulatorConfig& config, ScanSource source)
+      : paced(config.paced),
         socket(open_socket(config)),
         scanner(config.identity, parameters_for(config.geometry, config.first_step, config.identity.product)),
-        measuring_takes(seconds(static_cast<double>(config.geometry.beams) * config.geometry.beam_period_s)),
+        playback(config, std::move(source), Clock::now()),
         wake(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
   void run();
@@ -67,46 +51,37 @@ struct Emulator::Impl {
   void read_requests();
   void take_request(std::string_view request);
   void play();
-  void fetch();
   void send_scan();
-  void say(std::string text);
+  void say(const std::string& text);
   void write_out();
   void client_gone();
-  bool scan_due(Clock::time_point now) const;
   void poke() const {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(wake.get(), &one, sizeof one);
   }
+  template <class Change>
+  void change(Change change_faults) {
+    const std::lock_guard lock{mutex};
+    change_faults(faults);
+  }
 
-  const EmulatorConfig config;
-  const ScanSource source;
+  const bool paced;
   const std::unique_ptr<EmulatedSocket> socket;
   EmulatedScanner scanner;
-  const nanoseconds measuring_takes;
+  EmulatedPlayback playback;
   const Descriptor wake;
 
-  std::mutex mutex;  // of all below; the thread lets go of it while it waits
+  std::mutex mutex;  // of all but the constants; the thread lets go of it while it waits
   std::condition_variable changed;
   bool stopping = false;
   bool cable_wanted = true;
   bool cable = true;
   std::exception_ptr cable_error;
-  bool silent = false;
-  int sums_to_corrupt = 0;
-  int lines_to_tear = 0;
-  int scans_to_skip = 0;
-  int statuses = 0;
-  std::string status;
+  EmulatedFaults faults;
   std::uint64_t scans_sent = 0;
-
+  bool was_measuring = false;
   std::string in;
   std::string out;
-  bool was_measuring = false;
-  bool source_ended = false;
-  std::optional<kicking::lob::Scan> next;
-  Clock::time_point switched_on = Clock::now();
-  std::uint32_t first_stamp_ms = config.first_stamp_ms;
-  Clock::time_point next_starts = switched_on;  // beam 0 of `next`
 
   std::thread thread;
 };
@@ -139,11 +114,10 @@ void Emulator::Impl::wait_for_events(std::unique_lock<std::mutex>& lock) {
   std::array<pollfd, 3> polled{{{wake.get(), POLLIN, 0},
                                 {cable ? socket->listener() : -1, POLLIN, 0},
                                 {cable ? socket->client() : -1, events, 0}}};
-  const auto now = Clock::now();
   timespec time_out{};
   timespec* limit = nullptr;
-  if (scanner.measuring() && next && (config.paced || out.empty())) {
-    const nanoseconds left = config.paced ? next_starts + measuring_takes - now : nanoseconds::zero();
+  if (scanner.measuring() && playback.has_next() && (paced || out.empty())) {
+    const nanoseconds left = paced ? playback.complete() - Clock::now() : nanoseconds::zero();
     time_out.tv_nsec = std::clamp<std::int64_t>(left.count(), 0, 999'999'999);
     limit = &time_out;
   }
@@ -177,62 +151,35 @@ void Emulator::Impl::read_requests() {
 }
 
 void Emulator::Impl::take_request(std::string_view request) {
-  if (silent) return;
-  if (count_down(statuses)) return say(plain_reply(request, status));
+  if (faults.silent) return;
+  if (const std::string refusal = faults.refusal(request); !refusal.empty()) return say(refusal);
   say(scanner.answer(request));
-  if (scanner.take_reset()) {
-    switched_on = next_starts = Clock::now();
-    first_stamp_ms = 0;
-  }
-}
-
-bool Emulator::Impl::scan_due(Clock::time_point now) const {
-  return scanner.measuring() && next && (config.paced ? now >= next_starts + measuring_takes : out.empty());
+  if (scanner.take_reset()) playback.reset_clock(Clock::now());
 }
 
 void Emulator::Impl::play() {
   const auto now = Clock::now();
-  if (scanner.measuring() && !was_measuring) {
-    next_starts = std::max(next_starts, now);
-    if (!next) fetch();
-  }
-  while (scan_due(now)) {
-    if (out.size() > kLongestQueue) {
-      next_starts += seconds(config.geometry.scan_period_s);
-    } else {
-      send_scan();
-    }
-    if (!config.paced) break;
+  if (scanner.measuring() && !was_measuring) playback.begin(now);
+  const auto due = [&] {
+    return scanner.measuring() && playback.has_next() && (paced ? now >= playback.complete() : out.empty());
+  };
+  while (due()) {
+    out.size() > kLongestQueue ? playback.postpone() : send_scan();
+    if (!paced) break;
   }
   was_measuring = scanner.measuring();
 }
 
 void Emulator::Impl::send_scan() {
-  const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(next_starts - switched_on);
-  const auto stamp_ms = first_stamp_ms + static_cast<std::uint32_t>(since.count());
-  std::string reply = scanner.next_scan(next->range_mm, stamp_ms);
-  if (!reply.empty() && !count_down(scans_to_skip)) {
-    if (count_down(statuses)) reply = plain_reply(reply.substr(0, reply.find('\n')), status);
-    if (count_down(sums_to_corrupt)) corrupt(reply);
-    if (count_down(lines_to_tear)) tear(reply);
-    if (!silent) ++scans_sent;
-    say(std::move(reply));
-  }
-  fetch();
+  std::string reply = scanner.next_scan(playback.range_mm(), playback.stamp_ms());
+  if (!reply.empty()) reply = faults.spoil(std::move(reply));
+  if (!reply.empty() && !faults.silent) ++scans_sent;
+  say(reply);
+  playback.advance();
 }
 
-void Emulator::Impl::fetch() {
-  const auto last_t_ns = next ? std::optional{next->t_ns} : std::nullopt;
-  next = source_ended ? std::nullopt : source();
-  source_ended = !next;
-  if (!next || !last_t_ns) return;
-  const nanoseconds gap{next->t_ns - *last_t_ns};
-  const bool goes_on = gap > nanoseconds::zero() && gap <= kLongestGap;
-  next_starts += goes_on ? gap : seconds(config.geometry.scan_period_s);
-}
-
-void Emulator::Impl::say(std::string text) {
-  if (!silent) out += text;
+void Emulator::Impl::say(const std::string& text) {
+  if (!faults.silent) out += text;
 }
 
 void Emulator::Impl::write_out() {
@@ -283,29 +230,26 @@ void Emulator::plug_cable() {
 }
 
 void Emulator::corrupt_sums(int scans) {
-  const std::lock_guard lock{impl_->mutex};
-  impl_->sums_to_corrupt = scans;
+  impl_->change([&](EmulatedFaults& faults) { faults.sums_to_corrupt = scans; });
 }
 
 void Emulator::tear_lines(int scans) {
-  const std::lock_guard lock{impl_->mutex};
-  impl_->lines_to_tear = scans;
+  impl_->change([&](EmulatedFaults& faults) { faults.lines_to_tear = scans; });
 }
 
 void Emulator::skip_scans(int scans) {
-  const std::lock_guard lock{impl_->mutex};
-  impl_->scans_to_skip = scans;
+  impl_->change([&](EmulatedFaults& faults) { faults.scans_to_skip = scans; });
 }
 
 void Emulator::answer_with(const std::string& status, int replies) {
-  const std::lock_guard lock{impl_->mutex};
-  impl_->status = status;
-  impl_->statuses = replies;
+  impl_->change([&](EmulatedFaults& faults) {
+    faults.status = status;
+    faults.statuses = replies;
+  });
 }
 
 void Emulator::be_silent(bool silent) {
-  const std::lock_guard lock{impl_->mutex};
-  impl_->silent = silent;
+  impl_->change([&](EmulatedFaults& faults) { faults.silent = silent; });
 }
 
 bool Emulator::laser_on() const {

@@ -25,7 +25,7 @@ struct EmulatorConfig {
 };
 
 /// The next scan to play: its ranges, and its t_ns for the distance to the one before. None: no more, the emulator goes
-/// on answering and sends no scans. Called by the emulator's thread, and only while somebody measures.
+/// on answering and sends no scans. Called by the emulator's thread, and only while somebody measures; must not throw.
 using ScanSource = std::function<std::optional<kicking::lob::Scan>()>;
 
 /// A scanner that is not there: speaks the device's side of SCIP 2.0, with a thread of its own. One client at a time,

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <thread>
 #include <utility>
-
-#include "hal/scip/status.hpp"
 
 namespace trivela::hal::scip {
 namespace {
@@ -98,7 +95,7 @@ void ScipRangeFinder::step(Clock::time_point deadline) {
     case Phase::kOpening:
       return open(until);
     case Phase::kMeasuring:
-      if (asking_ == Asking::kOneByOne && !std::exchange(asked_, true)) send(measuring_);
+      if (asking_ == Asking::kOneByOne && !std::exchange(asked_, true)) send(intake_->request());
       return receive(until);
     default:
       return receive(until);
@@ -160,56 +157,42 @@ void ScipRangeFinder::follow(StartUp::Progress progress) {
 }
 
 void ScipRangeFinder::start_measuring() {
-  const auto geometry = geometry_of(start_up_->parameters());
-  if (known_ && !same(geometry, geometry_)) {
+  intake_.emplace(asking_, start_up_->parameters());
+  if (known_ && !same(intake_->geometry(), geometry_)) {
     return drop(fmt::format("{}: another scanner is there, {} with {} beams", line_->name(),
-                            start_up_->identity().product, geometry.beams));
+                            start_up_->identity().product, intake_->geometry().beams));
   }
   known_ = true;
   identity_ = start_up_->identity();
-  geometry_ = geometry;
-  clock_.emplace(std::llround(static_cast<double>(geometry.beams) * geometry.beam_period_s * 1e9));
-  const Section section = whole_section(start_up_->parameters());
-  measuring_ = asking_ == Asking::kContinuous ? measure_request(section) : get_request(section);
+  geometry_ = intake_->geometry();
   asked_ = false;
-  complaint_ = fmt::format("{}: no scan", line_->name());
   phase_ = Phase::kMeasuring;
   phase_ends_ = Clock::now() + kFirstScan;
 }
 
 void ScipRangeFinder::take_scan(const Reply& reply, Clock::time_point arrival) {
   asked_ = false;
-  const bool accepted = asking_ == Asking::kContinuous && reply.status == "00" && reply.data.empty();
-  if (accepted) return;
-  if (!success(reply)) {
-    ++counters_.error_replies;
-    complaint_ = status_ = fmt::format("{}: {}", line_->name(), meaning(measuring_, reply.status));
+  auto scan = intake_->take(reply, ns_of(arrival), counters_);
+  if (!scan) {
+    if (!intake_->complaint().empty()) status_ = fmt::format("{}: {}", line_->name(), intake_->complaint());
     return;
   }
-  auto ranges = ranges_of(reply, geometry_.beams);
-  const std::string_view echo = std::string_view{measuring_}.substr(0, kMeasureEchoStays);
-  if (!ranges || !reply.stamp_ms || !reply.echo.starts_with(echo)) {
-    ++counters_.torn_lines;
-    return;
-  }
-  const ScanClock::Instant instant = clock_->add(*reply.stamp_ms, ns_of(arrival));
-  if (instant.gap_ms && asking_ == Asking::kContinuous) {
-    const auto periods = std::llround(static_cast<double>(*instant.gap_ms) * 1e-3 / geometry_.scan_period_s);
-    if (periods > 1) counters_.lost_scans += static_cast<std::uint64_t>(periods - 1);
-  }
-  last_t_ns_ = std::max(instant.t_ns, last_t_ns_ + 1);
-  scans_.push_back({last_t_ns_, std::move(*ranges)});
-  ++counters_.scans;
+  last_t_ns_ = scan->t_ns = std::max(scan->t_ns, last_t_ns_ + 1);
+  scans_.push_back(*std::move(scan));
   scan_came_ = true;
   forgave_ = false;
   phase_ends_ = arrival + kSilence;
-  complaint_ = fmt::format("{}: no scan for {:.1f} s", line_->name(), std::chrono::duration<double>(kSilence).count());
   status_ = "measuring";
 }
 
 void ScipRangeFinder::time_out() {
   ++counters_.time_outs;
-  if (phase_ == Phase::kMeasuring) return drop(complaint_);
+  if (phase_ == Phase::kMeasuring) {
+    const std::chrono::duration<double> silence = scan_came_ ? kSilence : kFirstScan;
+    const std::string& complaint = intake_->complaint();
+    return drop(fmt::format("{}: no scan for {:.1f} s{}{}", line_->name(), silence.count(),
+                            complaint.empty() ? "" : ", and before: ", complaint));
+  }
   status_ = fmt::format("{}: no answer to {}", line_->name(), start_up_->request());
   follow(start_up_->timed_out());
 }

@@ -9,9 +9,8 @@
 
 #include "hal/range_finder.hpp"
 #include "hal/scip/line.hpp"
-#include "hal/scip/messages.hpp"
 #include "hal/scip/reply.hpp"
-#include "hal/scip/scan_clock.hpp"
+#include "hal/scip/scan_intake.hpp"
 #include "hal/scip/start_up.hpp"
 
 namespace trivela::hal::scip {
@@ -73,16 +72,14 @@ class ScipRangeFinder final : public RangeFinder {
   bool asked_ = false;              // for the next scan, one by one
   std::optional<StartUp> start_up_;
   ReplyParser parser_;
-  std::optional<ScanClock> clock_;
-  std::string measuring_;  // the MD or GD
-  bool known_ = false;     // identity_ and geometry_
+  std::optional<ScanIntake> intake_;
+  bool known_ = false;  // identity_ and geometry_
   kicking::lob::ScannerIdentity identity_;
   kicking::lob::ScanGeometry geometry_;
   std::deque<kicking::lob::Scan> scans_;  // read, not yet taken
   std::int64_t last_t_ns_ = 0;
   LinkCounters counters_;
   std::string status_;
-  std::string complaint_;  // of a phase that ends
 };
 
 }  // namespace trivela::hal::scip
