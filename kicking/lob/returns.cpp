@@ -35,6 +35,7 @@ Scans part(std::span<const ForegroundReturn> returns) {
   return scans;
 }
 
+/// Infinite if no two returns share a scan.
 double step_rad(const Scans& scans) {
   double step = std::numeric_limits<double>::infinity();
   for (const auto& scan : scans) {
@@ -45,7 +46,6 @@ double step_rad(const Scans& scans) {
       step = std::min(step, difference);
     }
   }
-  if (std::isinf(step)) throw std::invalid_argument("no two returns are of the same scan");
   return step;
 }
 
@@ -71,6 +71,7 @@ LobRecord analyse_returns(std::span<const ForegroundReturn> returns, const Scann
   if (sorted.empty()) return best;
   const Scans scans = part(sorted);
   const double step = step_rad(scans);
+  if (std::isinf(step)) return best;
   Candidates candidates({.x_m = place.x_m, .z_m = place.z_m}, step, config);
   Tracker tracker(config, scan_period_s(scans));
   std::size_t most = 0;

@@ -9,7 +9,7 @@
 namespace trivela::kicking::lob {
 namespace {
 
-constexpr std::size_t kLeastCentres = 5;  // that show an acceleration
+constexpr int kLeastCentres = 5;  // that show an acceleration, or a ball that lies
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
@@ -69,13 +69,16 @@ void Tracker::extend(Track& track, std::span<const BallCentre> candidates) {
 
 void Tracker::start(const BallCentre& first, const BallCentre& second, std::size_t third,
                     std::span<const BallCentre> candidates) {
-  constexpr double kAfterLanding_s = 0.5, kFromLanding_m = 1.0;
+  constexpr double kAfterLanding_s = 0.5, kFromLanding_m = 1.0, kAfterRest_s = 0.5, kFromRest_m = 0.5;
   const auto track = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.centres.empty(); });
   if (track == tracks_.end()) return;
   track->centres = {first, second, candidates[third]};
   track->taken = third;
   track->bounced = landed_ && seconds(landed_->t_ns, first.t_ns) < kAfterLanding_s &&
                    apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m;
+  const bool lay = rest_.seen >= kLeastCentres && seconds(rest_.t_ns, first.t_ns) < kAfterRest_s &&
+                   apart_m(first, rest_.x_m, rest_.z_m) < kFromRest_m;
+  track->launch_z_m = lay ? rest_.z_m : config_.ball.radius_m;
   used_[third] = 1;
 }
 
@@ -86,20 +89,14 @@ bool Tracker::is_over(const Track& track, std::int64_t t_ns) const {
 }
 
 bool Tracker::is_flight(const Track& track) const {
-  return track.centres.size() >= kLeastCentres && falls_freely(track.centres);
+  return std::ssize(track.centres) >= kLeastCentres && falls_freely(track.centres);
 }
 
 std::optional<Flight> Tracker::end(Track& track) {
   std::optional<Flight> flight;
   if (is_flight(track)) {
     landed_ = track.centres.back();
-    if (!track.bounced) {
-      constexpr double kFromRest_m = 0.5, kAfterRest_s = 0.5;
-      const BallCentre& first = track.centres.front();
-      const bool lay = rest_.seen >= 5 && std::abs(seconds(rest_.t_ns, first.t_ns)) < kAfterRest_s &&
-                       apart_m(first, rest_.x_m, rest_.z_m) < kFromRest_m;
-      flight = Flight{track.centres, lay ? rest_.z_m : config_.ball.radius_m};
-    }
+    if (!track.bounced) flight = Flight{track.centres, track.launch_z_m};
   }
   track.centres.clear();
   track.taken.reset();
@@ -124,7 +121,7 @@ void Tracker::look_for_rest(const BallCentre& candidate) {
     rest_.z_m += (candidate.z_m - rest_.z_m) / rest_.seen;
     rest_.t_ns = candidate.t_ns;
   } else if (std::abs(candidate.z_m - config_.ball.radius_m) < kNearFloor_m &&
-             (rest_.seen < 5 || seconds(rest_.t_ns, candidate.t_ns) > kForgotten_s)) {
+             (rest_.seen < kLeastCentres || seconds(rest_.t_ns, candidate.t_ns) > kForgotten_s)) {
     rest_ = {candidate.x_m, candidate.z_m, 1, candidate.t_ns};
   }
 }

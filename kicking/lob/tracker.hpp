@@ -45,6 +45,7 @@ class Tracker {
     std::vector<BallCentre> centres;   ///< empty: free
     std::optional<std::size_t> taken;  ///< of the last candidates
     bool bounced = false;
+    double launch_z_m = 0.0;
   };
   /// A ball that lies near the floor.
   struct Rest {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kicking/lob/drag_path.hpp"
 
@@ -13,7 +14,7 @@ using Parameters = FittedFlight::Parameters;
 using Covariance = FittedFlight::Covariance;
 using Jacobian = Eigen::Matrix<double, 2, 5>;
 
-constexpr double kHuber = 1.345;  // 95 % efficiency for normal errors
+constexpr double kHuber = 2.0;  // standard deviations of a coordinate; 13 % of all distances are longer
 constexpr double kNominalDrag = Air{}.drag_coefficient;
 constexpr double kLargestDragError = 0.1;
 
@@ -84,9 +85,8 @@ double huber_cost(const std::vector<double>& distances_m, double bend_m) {
 }
 
 struct Normal {
-  Covariance curvature = Covariance::Identity();  ///< parameters that are not free keep a 1
+  Covariance curvature = Covariance::Identity();  ///< J^T W J; parameters that are not free keep a 1
   Parameters gradient = Parameters::Zero();
-  double weighted_squares_m2 = 0.0;
 };
 
 Normal normal_at(Model& model, const Parameters& p, double bend_m) {
@@ -101,7 +101,6 @@ Normal normal_at(Model& model, const Parameters& p, double bend_m) {
     const auto jacobian = jacobians[i].leftCols(n);
     normal.curvature.topLeftCorner(n, n) += weight * jacobian.transpose() * jacobian;
     normal.gradient.head(n) += weight * jacobian.transpose() * error;
-    normal.weighted_squares_m2 += weight * error.squaredNorm();
   }
   return normal;
 }
@@ -123,7 +122,7 @@ bool descend(Model& model, Parameters& p, double bend_m) {
       model.errors(next, distances_m);
       const double next_cost = huber_cost(distances_m, bend_m);
       if (!(next_cost <= cost)) continue;
-      const bool settled = step.norm() < 1e-9 || cost - next_cost < 1e-12 * cost;
+      const bool settled = step.norm() < 1e-9 || cost - next_cost < 1e-10 * cost;
       p = next;
       cost = next_cost;
       damping *= 0.1;
@@ -164,6 +163,18 @@ double robust_sd_m(Model& model, const Parameters& p) {
   return std::clamp(1.4826 * *middle, 0.0005, 0.03);
 }
 
+/// Huber's: of a centre's coordinate, from the bent errors psi (|psi| = min(d, bend)) and the mean slope of psi, which
+/// in the plane is 1 within the bend and bend / (2 d) beyond.
+double variance_m2(const std::vector<double>& distances_m, double bend_m, int parameters) {
+  double squares = 0.0, slope = 0.0;
+  for (const double d : distances_m) {
+    squares += std::pow(std::min(d, bend_m), 2);
+    slope += d <= bend_m ? 1.0 : bend_m / (2.0 * d);
+  }
+  const auto n = static_cast<double>(distances_m.size());
+  return squares / (2.0 * n - parameters) / std::pow(slope / n, 2);
+}
+
 std::optional<FittedFlight> fit(std::span<const BallCentre> centres, double launch_z_m, const AnalyzerConfig& config,
                                 const std::optional<double>& drag_coefficient) {
   constexpr double kExpectedSd_m = 0.01;
@@ -178,12 +189,12 @@ std::optional<FittedFlight> fit(std::span<const BallCentre> centres, double laun
   FittedFlight flight;
   flight.parameters = *p;
   flight.t0_ns = centres[0].t_ns;
-  const Normal normal = normal_at(model, *p, bend_m);
-  const int n = model.free();
-  const double variance = normal.weighted_squares_m2 / (2.0 * static_cast<double>(model.size()) - n);
-  flight.covariance.topLeftCorner(n, n) =
-      variance * normal.curvature.topLeftCorner(n, n).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   model.errors(*p, flight.residuals_m);
+  const int n = model.free();
+  const Normal unweighted = normal_at(model, *p, std::numeric_limits<double>::infinity());
+  flight.covariance.topLeftCorner(n, n) =
+      variance_m2(flight.residuals_m, bend_m, n) *
+      unweighted.curvature.topLeftCorner(n, n).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   double squares = 0.0;
   for (const double d : flight.residuals_m) squares += d * d;
   flight.residual_rms_m = std::sqrt(squares / static_cast<double>(model.size()));

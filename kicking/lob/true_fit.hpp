@@ -28,10 +28,10 @@ struct FittedFlight {
 
 /// Least squares of the flight equation to centres p_i at their beam times t_i:
 ///   minimise  sum rho(|p(t_i) - p_i|),  d2p/dt2 = -k |v| v - g e_z,  k = rho_air C_d pi r^2 / (2 m),
-/// rho being Huber's with 1.345 robust standard deviations; Levenberg-Marquardt. Free are x and t of the launch, its
+/// rho being Huber's, bent at 2 robust standard deviations; Levenberg-Marquardt. Free are x and t of the launch, its
 /// velocity, and C_d unless config.drag_coefficient gives it. The launch is where the rising ball passes `launch_z_m`,
 /// and nothing else is known of it: a laser whose x was measured badly does no harm. Standard errors are those of
-/// s^2 (J^T W J)^-1, s^2 = sum w |p(t_i) - p_i|^2 / (2 n - parameters).
+/// s^2 (J^T J)^-1, s^2 = [sum |psi|^2 / (2 n - parameters)] / (mean slope of psi)^2, psi = rho' the bent error.
 ///
 /// Where the flight tells little about drag (standard error above 0.1, or C_d outside -0.1 to 1), the nominal C_d =
 /// 0.25 is taken, with se 0.

@@ -1,0 +1,324 @@
+#include "kicking/lob/analyzer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/lob.hpp"
+#include "sim/laser/scan_builder.hpp"
+#include "tests/kicking/lob_scene.hpp"
+
+namespace trivela::kicking::lob {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using tests::kick;
+using tests::lobs_of;
+
+/// Effective exit of a flight with drag: what its height and distance give.
+Exit effective_exit(const sim::SyntheticKick& k) {
+  const DragFlight flight =
+      fly_with_drag(k.exit_speed_mps, k.exit_angle_rad, drag_per_m({}, {.drag_coefficient = k.drag_coefficient}));
+  return exit_from_lob(flight.apex_m, flight.range_m);
+}
+
+/// Within 0.15 degrees and 0.03 m/s, and within five standard errors where those are larger.
+void expect_kick(const LobRecord& lob, const sim::SyntheticKick& k) {
+  ASSERT_EQ(lob.refusal, Refusal::kNone) << lob.why;
+  const auto near = [](const Estimate& estimate, double truth, double tolerance) {
+    EXPECT_NEAR(estimate.value, truth, std::max(tolerance, 5.0 * estimate.se));
+  };
+  near(lob.true_values->exit_angle_rad, k.exit_angle_rad, radians(0.15));
+  near(lob.true_values->exit_speed_mps, k.exit_speed_mps, 0.03);
+  const Exit effective = effective_exit(k);
+  near(lob.effective->exit_angle_rad, effective.angle_rad, radians(0.15));
+  near(lob.effective->exit_speed_mps, effective.speed_mps, 0.03);
+}
+
+TEST(Analyzer, FindsEachLobOfARecordAndNoBounce) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(6.0, 35.0), kick(8.39, 36.78), kick(10.5, 38.0)};
+  const sim::LaserModel laser;
+  const auto record = sim::synthesize_record(laser, plan, {}, 3);
+  const auto lobs = tests::lobs_in(record.scans, laser.geometry, record.mount);
+  ASSERT_EQ(lobs.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    SCOPED_TRACE(i);
+    expect_kick(lobs[i], plan.kicks[i]);
+    EXPECT_NEAR(1e-9 * static_cast<double>(lobs[i].launch_t_ns - record.truth[i].launch_t_ns), 0.0, 0.003);
+  }
+}
+
+TEST(Analyzer, RecoversTruthOverExitsAndPlacesOfTheLaser) {
+  for (const double x : {-1.0, 2.0, 4.0, 6.0}) {
+    sim::LaserModel laser;
+    laser.x_m = x;
+    sim::RecordPlan plan;
+    for (const double speed : {6.0, 8.0, 10.0}) {
+      for (const double angle : {30.0, 40.0, 50.0}) plan.kicks.push_back(kick(speed, angle, 0.15 + 0.01 * angle / 5.0));
+    }
+    const auto lobs = lobs_of(laser, plan, 5);
+    ASSERT_EQ(lobs.size(), plan.kicks.size()) << "laser at " << x;
+    for (std::size_t i = 0; i < lobs.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "laser at " << x << ", kick " << i);
+      expect_kick(lobs[i], plan.kicks[i]);
+    }
+  }
+}
+
+TEST(Analyzer, ScannerOnItsOtherSideSeesTheSameLob) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  sim::LaserModel laser;
+  for (const bool mirrored : {false, true}) {
+    laser.mirrored = mirrored;
+    for (const double front_deg : {90.0, 70.0, 110.0}) {
+      laser.front_elevation_rad = radians(front_deg);
+      const auto lobs = lobs_of(laser, plan);
+      ASSERT_EQ(lobs.size(), 1u);
+      expect_kick(lobs[0], plan.kicks[0]);
+    }
+  }
+}
+
+TEST(Analyzer, TenScansASecondAreEnough) {
+  sim::LaserModel laser;
+  laser.geometry = tests::urg_04lx();
+  sim::RecordPlan plan;
+  plan.background_s = 5.0;
+  for (int i = 0; i < 4; ++i) plan.kicks.push_back(kick(8.39, 36.78));
+  AnalyzerConfig config;
+  config.drag_coefficient = 0.25;
+  const auto lobs = lobs_of(laser, plan, 2, config);
+  ASSERT_EQ(lobs.size(), 4u);
+  for (const LobRecord& lob : lobs) {
+    ASSERT_EQ(lob.refusal, Refusal::kNone) << lob.why;
+    EXPECT_NEAR(degrees(lob.true_values->exit_angle_rad.value), 36.78, 0.3);
+    EXPECT_NEAR(lob.true_values->exit_speed_mps.value, 8.39, 0.05);
+  }
+}
+
+TEST(Analyzer, TimesOfTheBeamsMatterByDegreesAtTenScansASecond) {
+  sim::LaserModel laser;
+  laser.geometry = tests::urg_04lx();
+  sim::RecordPlan plan;
+  plan.background_s = 5.0;
+  for (int i = 0; i < 4; ++i) plan.kicks.push_back(kick(8.39, 36.78, 0.0));
+  const auto record = sim::synthesize_record(laser, plan, {}, 2);
+  AnalyzerConfig config;
+  config.drag_coefficient = 0.0;
+  ScanGeometry no_times = laser.geometry;
+  no_times.beam_period_s = 1e-12;
+  const auto with = tests::lobs_in(record.scans, laser.geometry, record.mount, config);
+  const auto without = tests::lobs_in(record.scans, no_times, record.mount, config);
+  ASSERT_EQ(with.size(), 4u);
+  ASSERT_EQ(without.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(degrees(with[i].true_values->exit_angle_rad.value), 36.78, 0.3);
+    EXPECT_NEAR(degrees(without[i].true_values->exit_angle_rad.value), 36.78 + 2.0, 0.5);
+  }
+}
+
+TEST(Analyzer, LaunchHeightIsThatOfTheBallThatLay) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  const sim::LaserModel laser;
+  auto record = sim::synthesize_record(laser, plan, {}, 4);
+  const auto right = tests::lobs_in(record.scans, laser.geometry, record.mount);
+  record.mount.z_m += 0.04;  // measured badly
+  const auto wrong = tests::lobs_in(record.scans, laser.geometry, record.mount);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_NEAR(wrong[0].effective->height_m.value, right[0].effective->height_m.value, 1e-3);
+  EXPECT_NEAR(wrong[0].true_values->exit_speed_mps.value, right[0].true_values->exit_speed_mps.value, 1e-3);
+}
+
+TEST(Analyzer, RefusesAKickBesideTheScanPlane) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  plan.lateral_error_m = 0.07;  // a ball there covers 0.77 of its angle
+  const auto lobs = lobs_of({}, plan);
+  ASSERT_EQ(lobs.size(), 1u);
+  EXPECT_EQ(lobs[0].refusal, Refusal::kPlaneMisaligned) << lobs[0].why;
+  EXPECT_THAT(lobs[0].why, HasSubstr("covers 0.7"));
+}
+
+TEST(Analyzer, SeesNoLobOfAKickThatLeavesThePlane) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  plan.direction_error_rad = radians(4.0);  // out of sight after 1.6 m
+  for (const LobRecord& lob : lobs_of({}, plan)) EXPECT_NE(lob.refusal, Refusal::kNone);
+}
+
+/// Scans of things that move by themselves: for each beam the nearest of circles at the scan's time.
+struct Disc {
+  double x_m, z_m, radius_m;
+};
+
+std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double seconds) {
+  const ScanGeometry geometry;
+  const LaserMount mount;
+  sim::ScanBuilder empty(sim::LaserModel{}, 0.11, sim::Draws{1, 1});
+  std::vector<Scan> scans;
+  const auto take = [&](double t_s) {
+    empty.advance(std::llround(t_s * 1e9), std::nullopt);
+    while (auto scan = empty.take()) scans.push_back(std::move(*scan));
+  };
+  take(2.0);
+  const std::size_t background = scans.size();
+  take(2.0 + seconds);
+  for (std::size_t j = background; j < scans.size(); ++j) {
+    for (std::size_t i = 0; i < geometry.beams; ++i) {
+      const auto beam = static_cast<double>(i);
+      const double t_s = 1e-9 * static_cast<double>(scans[j].t_ns) - 2.0 + beam * geometry.beam_period_s;
+      const double angle = mount.front_elevation_rad + geometry.first_angle_rad + beam * geometry.step_rad;
+      for (const Disc& disc : scene(t_s)) {
+        const double x = disc.x_m - mount.x_m, z = disc.z_m - mount.z_m;
+        const double along = x * std::cos(angle) + z * std::sin(angle);
+        const double q = x * std::sin(angle) - z * std::cos(angle);
+        const double depth2 = disc.radius_m * disc.radius_m - q * q;
+        if (along <= 0.0 || depth2 <= 0.0) continue;
+        const auto range_mm = static_cast<std::uint32_t>(1000.0 * (along - std::sqrt(depth2)));
+        if (scans[j].range_mm[i] < 100 || range_mm < scans[j].range_mm[i]) scans[j].range_mm[i] = range_mm;
+      }
+    }
+  }
+  return scans;
+}
+
+std::vector<LobRecord> lobs_in(const std::vector<Scan>& scans) { return tests::lobs_in(scans, {}, {}); }
+
+/// Two legs that swing, a body, an arm, a head.
+std::vector<Disc> person(double x_m, double t_s) {
+  const double swing = 0.35 * std::sin(2.0 * std::numbers::pi * t_s);
+  return {{x_m + swing, 0.15, 0.10},       {x_m - swing, 0.15, 0.10}, {x_m + 0.6 * swing, 0.5, 0.11},
+          {x_m - 0.6 * swing, 0.5, 0.11},  {x_m, 1.0, 0.22},          {x_m, 1.3, 0.25},
+          {x_m + 0.8 * swing, 0.95, 0.09}, {x_m, 1.7, 0.12}};
+}
+
+TEST(NotALob, EmptyFieldAndNoReturnAtAll) {
+  EXPECT_THAT(lobs_in(scans_of([](double) { return std::vector<Disc>{}; }, 2.0)), IsEmpty());
+  const Scan nothing{0, std::vector<std::uint32_t>(ScanGeometry{}.beams, 1)};
+  EXPECT_THAT(lobs_in(std::vector<Scan>(100, nothing)), IsEmpty());
+}
+
+TEST(NotALob, BallThatLiesOrRolls) {
+  for (const double speed : {0.0, 0.5, 2.5, 5.0, 9.0}) {
+    const auto scans = scans_of([&](double t) { return std::vector<Disc>{{speed * t, 0.11, 0.11}}; }, 2.5);
+    EXPECT_THAT(lobs_in(scans), IsEmpty()) << speed << " m/s";
+  }
+}
+
+TEST(NotALob, BallThatIsCarriedOrSwung) {
+  const auto carried = [](double t) { return std::vector<Disc>{{1.5 * t, 0.9 + 0.05 * std::sin(9 * t), 0.11}}; };
+  EXPECT_THAT(lobs_in(scans_of(carried, 3.0)), IsEmpty());
+  // At the top of the swing it accelerates like a ball in the air.
+  const auto swung = [](double t) {
+    return std::vector<Disc>{{2.0 + 0.7 * std::sin(4 * t), 1.2 - 0.7 * std::cos(4 * t), 0.11}};
+  };
+  for (const LobRecord& lob : lobs_in(scans_of(swung, 4.0))) EXPECT_NE(lob.refusal, Refusal::kNone);
+}
+
+TEST(NotALob, PersonWhoWalksOrRunsThrough) {
+  for (const double speed : {0.8, 1.5, 3.0}) {
+    for (const LobRecord& lob : lobs_in(scans_of([&](double t) { return person(speed * t, t); }, 4.0)))
+      EXPECT_NE(lob.refusal, Refusal::kNone) << speed << " m/s " << lob.centres.size();
+  }
+}
+
+TEST(Tracker, LobIsFoundWhileAPersonWalksBehindIt) {
+  const auto scene = [](double t) {
+    auto discs = person(7.5 - 1.2 * t, t);
+    const double flown = t - 0.7, v_x = 8.39 * std::cos(radians(36.78)), v_z = 8.39 * std::sin(radians(36.78));
+    if (flown > 0.0) {
+      discs.push_back({v_x * flown, 0.11 + v_z * flown - 0.5 * kGravity_mps2 * flown * flown, 0.11});
+    } else {
+      discs.push_back({0.0, 0.11, 0.11});
+    }
+    return discs;
+  };
+  std::vector<LobRecord> accepted = lobs_in(scans_of(scene, 1.75));
+  std::erase_if(accepted, [](const LobRecord& lob) { return lob.refusal != Refusal::kNone; });
+  ASSERT_EQ(accepted.size(), 1u);
+  EXPECT_NEAR(accepted[0].true_values->exit_speed_mps.value, 8.39, 0.03);
+  EXPECT_NEAR(degrees(accepted[0].true_values->exit_angle_rad.value), 36.78, 0.2);
+}
+
+TEST(Analyzer, ShowsBackgroundForegroundBallAndTrack) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  const sim::LaserModel laser;
+  const auto record = sim::synthesize_record(laser, plan, {}, 1);
+  Analyzer analyzer(laser.geometry, record.mount);
+  const std::int64_t launch = record.truth[0].launch_t_ns;
+  bool ended = false;
+  for (std::size_t i = 0; i < record.scans.size() && !ended; ++i) {
+    const Scan& scan = record.scans[i];
+    ended = analyzer.add(scan).has_value();
+    const ScanView& view = analyzer.view();
+    EXPECT_EQ(view.t_ns, scan.t_ns);
+    EXPECT_EQ(view.background_known, i >= 39);
+    EXPECT_EQ(analyzer.background_m().empty(), i < 39);
+    ASSERT_EQ(view.ball.size(), scan.range_mm.size());
+    for (std::size_t beam = 0; beam < view.ball.size(); ++beam) EXPECT_LE(view.ball[beam], view.foreground[beam]);
+    const double flown_s = 1e-9 * static_cast<double>(scan.t_ns - launch);
+    EXPECT_TRUE(flown_s > -0.1 || view.track == nullptr);
+    if (flown_s < 0.2 || flown_s > 0.9) continue;
+    ASSERT_TRUE(view.centre);
+    ASSERT_NE(view.track, nullptr);
+    EXPECT_EQ(view.track->back().t_ns, view.centre->t_ns);
+    EXPECT_NEAR(std::count(view.ball.begin(), view.ball.end(), 1), view.centre->returns, 2);
+    const double at_s = 1e-9 * static_cast<double>(view.centre->t_ns - launch);
+    EXPECT_NEAR(view.centre->x_m, 8.39 * std::cos(radians(36.78)) * at_s, 0.35);
+  }
+  EXPECT_TRUE(ended);
+  EXPECT_EQ(std::count(analyzer.background_m().begin(), analyzer.background_m().end(), -1.0) > 100, true);
+}
+
+TEST(Analyzer, LearnsTheBackgroundAnewWhenTold) {
+  const ScanGeometry geometry;
+  Analyzer analyzer(geometry, {});
+  const Scan near{0, std::vector<std::uint32_t>(geometry.beams, 3000)};
+  const Scan nearer{0, std::vector<std::uint32_t>(geometry.beams, 2000)};
+  for (int i = 0; i < 40; ++i) analyzer.add(near);
+  analyzer.add(nearer);
+  EXPECT_EQ(analyzer.view().foreground[500], 1);
+  analyzer.forget_background();
+  EXPECT_FALSE(analyzer.view().background_known);
+  EXPECT_THAT(analyzer.background_m(), IsEmpty());
+  for (int i = 0; i < 41; ++i) analyzer.add(nearer);
+  EXPECT_EQ(analyzer.view().foreground[500], 0);
+  EXPECT_EQ(analyzer.background_m()[500], 2.0);
+}
+
+TEST(Analyzer, RefusesScansAndGeometriesThatMakeNoSense) {
+  ScanGeometry geometry;
+  Analyzer analyzer(geometry, {});
+  EXPECT_THROW(analyzer.add({0, std::vector<std::uint32_t>(7, 1)}), std::invalid_argument);
+  const auto broken = [](auto change) {
+    ScanGeometry g;
+    change(g);
+    EXPECT_THROW(Analyzer(g, {}), std::invalid_argument);
+  };
+  broken([](ScanGeometry& g) { g.beams = 0; });
+  broken([](ScanGeometry& g) { g.step_rad = 0.0; });
+  broken([](ScanGeometry& g) { g.beam_period_s = -1.0; });
+  broken([](ScanGeometry& g) { g.scan_period_s = std::nan(""); });
+}
+
+TEST(Analyzer, EndOfTheRecordEndsTheFlight) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  plan.fly_s = 0.97;  // it is in the air for 1.0 s
+  plan.pause_s = 0.0;
+  const auto lobs = lobs_of({}, plan);
+  ASSERT_EQ(lobs.size(), 1u);
+  expect_kick(lobs[0], plan.kicks[0]);
+}
+
+}  // namespace
+}  // namespace trivela::kicking::lob
