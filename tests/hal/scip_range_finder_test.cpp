@@ -51,7 +51,7 @@ TEST_P(EveryWay, ScansArriveInOrderWithTheirRangesErrorCodesAmongThem) {
   const LinkCounters counters = link.finder().counters();
   EXPECT_EQ(counters.scans, 40U);
   EXPECT_EQ(counters.torn_lines + counters.wrong_sums + counters.error_replies + counters.reconnects, 0U);
-  EXPECT_EQ(*last, 39U + counters.lost_scans);
+  EXPECT_EQ(last, 39U);
   EXPECT_TRUE(link.finder().up());
   EXPECT_EQ(link.finder().status(), "measuring");
 }
@@ -90,22 +90,22 @@ TEST_P(EveryWay, TimesAreThoseOfTheFirstBeam) {
   emulated.first_stamp_ms = (1U << 24U) - 300;  // starts over after 0.3 s
   ScipLink link{emulated, GetParam().asking};
   std::int64_t last_t_ns = 0;
-  std::uint32_t last_number = 0;
-  for (int i = 0; i < 30; ++i) {
+  int punctual = 0;
+  for (std::uint32_t n = 0; n < 30; ++n) {
     const auto scan = link.next();
-    const std::int64_t now_ns = Clock::now().time_since_epoch().count();
-    const double age_ms = static_cast<double>(now_ns - scan.t_ns) * 1e-6;
-    EXPECT_GE(age_ms, 1081 * 0.025 / 1440 * 1e3 - 1.1);  // the scan takes that long; a stamp is to the millisecond
+    ASSERT_EQ(number_of(scan), n);
+    const auto age =
+        std::chrono::duration<double>(Clock::now() - Clock::time_point{std::chrono::nanoseconds{scan.t_ns}});
+    EXPECT_GE(age.count(), 1081 * 0.025 / 1440 - 0.0011);  // the scan takes that long; a stamp is to the millisecond
     EXPECT_GT(scan.t_ns, last_t_ns);
-    if (i > 20 && GetParam().asking == Asking::kContinuous) {
-      const double step_ms = static_cast<double>(scan.t_ns - last_t_ns) * 1e-6;
-      EXPECT_NEAR(step_ms, 25.0 * (number_of(scan) - last_number), 2.0);
-    }
+    if (std::abs(static_cast<double>(scan.t_ns - last_t_ns) * 1e-9 - 0.025) < 0.0011) ++punctual;
     last_t_ns = scan.t_ns;
-    last_number = number_of(scan);
   }
   EXPECT_EQ(link.finder().counters().reconnects, 0U);
-  EXPECT_LE(link.finder().counters().lost_scans, last_number - 29U);
+  // The first ones may find out how fast the line is; one by one, a busy host asks too late for the next.
+  if (GetParam().asking == Asking::kContinuous) {
+    EXPECT_GE(punctual, 15);
+  }
 }
 
 TEST(ScipRangeFinder, AStreamThatAnEarlierClientLeftIsEndedFirst) {
@@ -168,6 +168,15 @@ TEST(OpenRangeFinder, NamesAMalformedAddress) {
                     "': an address is tcp://HOST:PORT (Hokuyo's port is 10940) or the path of a device");
     }
   }
+}
+
+TEST(OpenRangeFinder, AHostMayHaveAName) {
+  EmulatorConfig config;
+  config.port = EmulatedPort::kTcp;
+  config.geometry = tests::fast_geometry();
+  ScipLink link{config};
+  auto finder = open_range_finder("tcp://localhost:" + link.emulator().address().substr(16));
+  EXPECT_TRUE(link.until([&] { return finder->connected(milliseconds(500)); })) << finder->status();
 }
 
 TEST(OpenRangeFinder, TakesNamesAndAddressesOfHosts) {
