@@ -1,4 +1,4 @@
-// Any bytes into the reading side of the SCIP client: parser, decoding, the conversation, geometry, clock. The first
+// Any bytes into the reading side of the SCIP client: parser, decoding, the conversation, geometry, scans. The first
 // byte says how the others are cut into pieces.
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "hal/scip/codec.hpp"
 #include "hal/scip/messages.hpp"
 #include "hal/scip/reply.hpp"
-#include "hal/scip/scan_clock.hpp"
+#include "hal/scip/scan_intake.hpp"
 #include "hal/scip/start_up.hpp"
 #include "hal/scip/status.hpp"
 
@@ -64,7 +64,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   require(replies.size() == same.size());
   require(damages.torn == same_damages.torn && damages.wrong_sums == same_damages.wrong_sums);
   StartUp start_up{bytes[0] % 2 == 0 ? Asking::kContinuous : Asking::kOneByOne};
-  ScanClock clock{19'000'000};
+  ScanIntake intake{bytes[0] % 2 == 0 ? Asking::kContinuous : Asking::kOneByOne, {"", 20, 5600, 1024, 0, 47, 20, 600}};
+  trivela::hal::LinkCounters counters;
   std::int64_t arrival_ns = 1;
   for (std::size_t i = 0; i < replies.size(); ++i) {
     const Reply& reply = replies[i];
@@ -76,10 +77,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     require(!meaning(reply.echo, reply.status).empty());
     require(start_up.request().size() <= 15);
     if (start_up.take(reply) == StartUp::Progress::kWaiting) start_up.timed_out();
-    if (reply.stamp_ms) {
-      const auto instant = clock.add(*reply.stamp_ms, arrival_ns += 25'000'000);
-      require(instant.t_ns <= arrival_ns && (!instant.gap_ms || *instant.gap_ms >= 0));
-    }
+    const auto scan = intake.take(reply, arrival_ns += 25'000'000, counters);
+    require(!scan || (scan->t_ns <= arrival_ns && scan->range_mm.size() == intake.geometry().beams));
   }
+  require(counters.scans + counters.torn_lines + counters.error_replies <= replies.size());
   return 0;
 }
