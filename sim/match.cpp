@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/laser/field_laser.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
 #include "sim/sensor_suite.hpp"
@@ -29,13 +30,16 @@ const Scenario& playable(const Scenario& scenario) {
 }  // namespace
 
 struct Match::State {
-  State(const Scenario& values, std::uint64_t match_seed, int half_count, double half_minutes)
+  State(const Scenario& values, std::uint64_t match_seed, int half_count, double half_minutes,
+        std::uint32_t possession_limit)
       : scenario(playable(values)),
         seed(match_seed),
         halves(half_count),
         half_ns(nanoseconds(half_minutes * 60.0)),
+        max_possessions(possession_limit),
         world(scenario),
-        sensors(scenario) {
+        sensors(scenario),
+        laser(scenario.laser, scenario.ball.radius_m) {
     if (halves < 1 || halves > 255) throw std::runtime_error{fmt::format("halves: {} is outside 1..255", halves)};
     if (!(half_minutes > 0.0 && half_minutes <= 1e6)) {
       throw std::runtime_error{fmt::format("half_minutes: {} is outside 0..1e6", half_minutes)};
@@ -53,6 +57,7 @@ struct Match::State {
     opportunity = draw_opportunity(scenario, draws);
     world.place(opportunity, draws);
     sensors.begin(draws);
+    laser.begin(draws);
     sensors.remember(world);
     stop_until_t_ns = world.t_ns() + nanoseconds(scenario.possession.stop_s);
     if (scenario.possession.stop_s <= 0.0) start_play();
@@ -129,7 +134,8 @@ struct Match::State {
     if (phase == Phase::kStop && now >= stop_until_t_ns) return start_play();
     if (phase == Phase::kClosing && now >= stop_until_t_ns) return open_half();
     if (phase != Phase::kPlay || !ending || now < play_until_t_ns) return;
-    if (now - half_start_t_ns >= half_ns) return close_half();
+    const bool enough = max_possessions > 0 && possession_id >= max_possessions;
+    if (enough || now - half_start_t_ns >= half_ns) return close_half();
     begin_possession();
   }
 
@@ -137,8 +143,10 @@ struct Match::State {
   std::uint64_t seed;
   int halves;
   std::int64_t half_ns;
+  std::uint32_t max_possessions;
   World world;
   SensorSuite sensors;
+  FieldLaser laser;
 
   Phase phase = Phase::kStop;
   int half = 1;
@@ -151,8 +159,9 @@ struct Match::State {
   std::optional<PossessionEnd> ending;
 };
 
-Match::Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes)
-    : state_(std::make_unique<State>(scenario, seed, halves, half_minutes)) {}
+Match::Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes,
+             std::uint32_t max_possessions)
+    : state_(std::make_unique<State>(scenario, seed, halves, half_minutes, max_possessions)) {}
 Match::~Match() = default;
 Match::Match(Match&&) noexcept = default;
 Match& Match::operator=(Match&&) noexcept = default;
@@ -166,7 +175,8 @@ Sensors Match::sense() const {
           .kicker = {.charge = s.world.kicker().charge()},
           .vision = s.sensors.vision(s.world),
           .flight = s.sensors.flight(s.world),
-          .referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id}};
+          .referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id},
+          .scans = s.laser.scans()};
 }
 
 StepEvents Match::step(const Commands& commands) {
@@ -174,11 +184,13 @@ StepEvents Match::step(const Commands& commands) {
   assert(!done());
   StepEvents events;
   s.world.command(commands);
+  s.laser.forget();
   const std::int64_t start = s.world.t_ns(), cycle = nanoseconds(s.scenario.cycle_s);
   const auto substeps = static_cast<std::int64_t>(std::ceil(s.scenario.cycle_s / s.scenario.substep_s - 1e-9));
   for (std::int64_t i = 1; i <= substeps; ++i) {
     s.world.advance_to(start + cycle * i / substeps);
     s.sensors.remember(s.world);
+    s.laser.see(s.world.t_ns(), s.world.ball_m());
     s.watch(events);
   }
   s.sensors.next_cycle();

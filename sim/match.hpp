@@ -25,10 +25,12 @@ namespace trivela::sim {
 ///     while (!match.done()) { publish(match.sense()); report(match.step(commands)); }
 class Match {
  public:
-  /// `halves` halves of `half_minutes` minutes each; a half ends with the possession under way and one more stop, after
-  /// which the observers have seen everything. Throws std::runtime_error naming key and value for a scenario that
+  /// `halves` halves of `half_minutes` minutes each, or of `max_possessions` possessions if those are over first (0: no
+  /// such limit); a half ends with the possession under way and one more stop, after which the observers have seen
+  /// everything. Throws std::runtime_error naming key and value for a scenario that
   /// first_problem() refuses, fewer than 1 or more than 255 halves, or a duration that is not positive.
-  Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes);
+  Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes,
+        std::uint32_t max_possessions = 0);
   ~Match();
   Match(Match&&) noexcept;
   Match& operator=(Match&&) noexcept;

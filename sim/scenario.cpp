@@ -25,6 +25,7 @@ struct RangeCheck {
   void operator()(std::string_view key, std::vector<double>& values, Range range) {
     for (double& value : values) (*this)(key, value, range);
   }
+  void operator()(std::string_view, bool&) {}
   template <class T>
   void operator()(std::string_view key, T& nested) {
     const std::string outer = section;

@@ -124,6 +124,21 @@ struct FlightCamera {
   double dropout_ratio = 0.02;  ///< frames without a ball; assumption
 };
 
+/// A laser range finder beside the field (sim/laser/). Off in a match: it is for the calibration.
+struct Laser {
+  bool enabled = false;
+  double x_m = 0.0;                                 ///< in F; assumption: on the axis of the field ...
+  double y_m = 1.0;                                 ///< ... and 4 m before the ball of a robot 12 m from the goal line
+  double z_m = 0.05;                                ///< over the floor; assumption: it lies on its side
+  double heading_rad = 0.0;                         ///< of the scan plane: 0 faces +y
+  double front_elevation_rad = 1.5707963267948966;  ///< 90 degrees: it looks straight up; assumption
+  double range_sd_m = 0.010;                        ///< UTM-30LX and URG-04LX: 4 to 16 mm measured at 1 to 4 m
+  double dropout_ratio = 0.005;                     ///< UTM-30LX recording: 0.7 % invalid
+  double mixed_ratio = 0.3;                         ///< of the beams that just miss the ball; assumption
+  double mixed_depth_m = 0.5;                       ///< behind the ball's edge; assumption
+  double wall_ahead_m = 12.0;                       ///< upright wall before the scanner; assumption
+};
+
 struct Scenario {
   double cycle_s = 0.02;     ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
   double substep_s = 0.001;  ///< longest step of the physics
@@ -136,6 +151,7 @@ struct Scenario {
   Odometry odometry;
   Vision vision;
   FlightCamera flight_camera;
+  Laser laser;
 };
 
 }  // namespace trivela::sim

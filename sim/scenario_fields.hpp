@@ -134,6 +134,21 @@ void fields(V& v, FlightCamera& c) {
 }
 
 template <class V>
+void fields(V& v, Laser& l) {
+  v("enabled", l.enabled);
+  v("x_m", l.x_m, Range{-30.0, 30.0});
+  v("y_m", l.y_m, Range{-30.0, 30.0});
+  v("z_m", l.z_m, Range{0.01, 5.0});
+  v("heading_deg", Degrees{l.heading_rad}, Range{-360.0, 360.0});
+  v("front_elevation_deg", Degrees{l.front_elevation_rad}, Range{-180.0, 180.0});
+  v("range_sd_m", l.range_sd_m, Range{0.0, 1.0});
+  v("dropout_ratio", l.dropout_ratio, kRatio);
+  v("mixed_ratio", l.mixed_ratio, kRatio);
+  v("mixed_depth_m", l.mixed_depth_m, Range{0.0, 10.0});
+  v("wall_ahead_m", l.wall_ahead_m, Range{0.5, 60.0});
+}
+
+template <class V>
 void fields(V& v, Scenario& s) {
   v("cycle_s", s.cycle_s, Range{0.001, 0.5});
   v("substep_s", s.substep_s, Range{0.00001, 0.01});
@@ -146,6 +161,7 @@ void fields(V& v, Scenario& s) {
   v("odometry", s.odometry);
   v("vision", s.vision);
   v("flight_camera", s.flight_camera);
+  v("laser", s.laser);
 }
 
 /// What is wrong with a scenario: the dotted key and a sentence.

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/lob/scan.hpp"
 
 namespace trivela::sim {
 
@@ -61,6 +63,7 @@ struct Sensors {
   VisionFrame vision;
   FlightFrame flight;
   RefereeWord referee;
+  std::vector<kicking::lob::Scan> scans;  ///< of the laser, finished in the cycle before t_ns
 };
 
 }  // namespace trivela::sim

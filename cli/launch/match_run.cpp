@@ -89,16 +89,17 @@ void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
 
 }  // namespace
 
-MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals) {
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
+                      const std::vector<std::string>& more_nodes) {
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   MatchResult result;
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = std::chrono::steady_clock::now();
   const std::vector<std::string> arguments{"--config", config_file.string()};
-  for (const char* node : kNodes) {
-    children.emplace_back(node, programs / (std::string{"trivela-"} + node), arguments);
-  }
+  std::vector<std::string> nodes{kNodes.begin(), kNodes.end()};
+  nodes.insert(nodes.end(), more_nodes.begin(), more_nodes.end());
+  for (const std::string& node : nodes) children.emplace_back(node, programs / ("trivela-" + node), arguments);
   children.emplace_back(feeder, programs / ("trivela-" + feeder), arguments, progress.write_end());
   progress.close_write_end();
   ProgressBar bar;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/launch/signal_inbox.hpp"
 
@@ -15,9 +16,11 @@ struct MatchResult {
   std::string trouble;  ///< empty: played to the end
 };
 
-/// Starts the node processes and their `feeder` (simulator or replay_player) with one configuration file, waits until
+/// Starts the node processes, `more_nodes` beside those of every match, and their `feeder` (simulator or replay_player)
+/// with one configuration file, waits until
 /// the feeder is through, a node dies or somebody asks to stop through `signals`, and ends them all, the recorder last,
 /// so that the log is finalised. The programs are those beside this one. Draws a progress bar on a terminal.
-MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals);
+MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
+                      const std::vector<std::string>& more_nodes = {});
 
 }  // namespace trivela::cli

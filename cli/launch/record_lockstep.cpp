@@ -16,9 +16,6 @@ namespace trivela::cli {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Rows that the log says it is missing, with a sentence where there are any.
 std::int64_t lost_rows(const std::string& log) {
   std::int64_t missing = 0;
   for (const auto& loss : evaluator::log::Reader{log}.losses()) missing += loss.missing();
@@ -26,22 +23,31 @@ std::int64_t lost_rows(const std::string& log) {
   return missing;
 }
 
-}  // namespace
+std::vector<std::string> more_nodes(const config::Settings& settings) {
+  if (settings.scan_recorder.enabled) return {"scan_recorder"};
+  return {};
+}
 
-int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
+config::Settings lockstep_settings(config::Settings settings, int domain, const std::string& log) {
   // Runs at the same time hear each other in neither domain nor tag.
   std::random_device random;
   settings.domain.domain_id = domain >= 0 ? static_cast<std::uint32_t>(domain) : 1 + random() % 100;
   settings.domain.tag = fmt::format("run-{}-{:08x}", getpid(), random());
   settings.run.lockstep = true;
-  settings.recorder.log = fs::absolute(out).string();
+  settings.recorder.log = fs::absolute(log).string();
+  settings.scan_recorder.file = fs::absolute(settings.scan_recorder.file).string();
   for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.hal.replay_log}) {
     if (!file->empty()) *file = fs::absolute(*file).string();
   }
+  return settings;
+}
+
+int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
+  settings = lockstep_settings(std::move(settings), domain, out);
   SignalInbox signals;  // before the files, which a signal must not leave behind
   const LogClaim log{out};
   const ConfigFile config{config::to_toml_text(settings)};
-  const MatchResult result = run_match(feeder, config.path(), signals);
+  const MatchResult result = run_match(feeder, config.path(), signals, more_nodes(settings));
   fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
              result.played_s / result.wall_s);
   if (result.trouble.empty()) return lost_rows(out) == 0 ? kDone : kDoneWithLoss;

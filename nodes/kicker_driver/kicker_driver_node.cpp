@@ -51,8 +51,9 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   first_.once([this] {
     expect_device(*kicker_);
-    expect_readers(status_out_, 2);   // kick_decision, recorder
-    expect_readers(receipt_out_, 2);  // shot_observer, recorder
+    expect_readers(status_out_, 2);  // kick_decision, recorder
+    const bool scans = context_.settings.scan_recorder.enabled;
+    expect_readers(receipt_out_, scans ? 3 : 2);  // shot_observer, recorder, scan_recorder
   });
   const auto referee = input_of_cycle(context_, *referee_, sample.t_ns);
   const std::lock_guard lock{mutex_};

@@ -18,6 +18,7 @@ config::Settings set_up(config::Settings settings) {
   settings.domain.domain_id = config::Domain{}.domain_id;
   settings.domain.tag = config::Domain{}.tag;
   settings.recorder.log = config::Recorder{}.log;
+  settings.scan_recorder.file = config::ScanRecorder{}.file;
   settings.run.robot = config::Run{}.robot;
   settings.run.scenario = config::Run{}.scenario;
   settings.run.log_level = config::Run{}.log_level;

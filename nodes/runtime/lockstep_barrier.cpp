@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -15,8 +14,10 @@ constexpr std::chrono::milliseconds kGlance{100};  // how often a stop is looked
 }  // namespace
 
 bool LockstepBarrier::finished(std::int64_t t_ns) const {
-  return std::all_of(nodes_.begin(), nodes_.end(), [t_ns](const Progress& node) { return node.t_ns >= t_ns; }) &&
-         nodes_[msg::STEP_KICKER_DRIVER].orders == nodes_[msg::STEP_KICK_DECISION].orders;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].t_ns < due(i, t_ns)) return false;
+  }
+  return nodes_[msg::STEP_KICKER_DRIVER].orders == nodes_[msg::STEP_KICK_DECISION].orders;
 }
 
 bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
@@ -32,7 +33,7 @@ bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
     if (std::chrono::steady_clock::now() - last_news > kPatience) {
       std::string missing;
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        if (nodes_[i].t_ns < t_ns) missing += std::string{" "} + bus::label(static_cast<msg::StepNode>(i));
+        if (nodes_[i].t_ns < due(i, t_ns)) missing += std::string{" "} + bus::label(static_cast<msg::StepNode>(i));
       }
       throw std::runtime_error{fmt::format("cycle of t {} ns was not finished within 20 s by:{}", t_ns,
                                            missing.empty() ? " kicker_driver (an order is unanswered)" : missing)};

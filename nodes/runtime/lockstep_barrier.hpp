@@ -16,6 +16,9 @@ class LockstepBarrier {
   LockstepBarrier(const bus::Participant& participant, std::uint8_t robot_id)
       : reader_(participant), robot_id_(robot_id) {}
 
+  /// From now on the scan recorder must have recorded the scan of t_ns, too.
+  void expect_scan(std::int64_t t_ns) { scan_t_ns_ = t_ns; }
+
   /// False: the stop was requested. Throws std::runtime_error naming the nodes that have not finished the cycle of t_ns
   /// when nothing came for 20 s.
   bool wait_for(std::int64_t t_ns, const bus::Stop& stop);
@@ -25,6 +28,10 @@ class LockstepBarrier {
 
  private:
   bool finished(std::int64_t t_ns) const;
+  /// What a node must have reported for the cycle of t_ns to be over.
+  std::int64_t due(std::size_t node, std::int64_t t_ns) const {
+    return node == msg::STEP_SCAN_RECORDER ? scan_t_ns_ : t_ns;
+  }
 
   struct Progress {
     std::int64_t t_ns = -1;
@@ -33,7 +40,9 @@ class LockstepBarrier {
   };
   bus::Reader<msg::StepDone> reader_;
   std::uint8_t robot_id_;
-  std::array<Progress, 5> nodes_{};
+  static constexpr std::int64_t kNothing = -1;
+  std::int64_t scan_t_ns_ = kNothing;
+  std::array<Progress, 6> nodes_{};
 };
 
 }  // namespace trivela::nodes

@@ -1,6 +1,7 @@
 #include "nodes/simulator/sim_messages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace trivela::nodes {
@@ -65,6 +66,21 @@ msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word) {
   out.half = static_cast<std::uint8_t>(word.half);
   out.playing = word.playing;
   out.possession_id = word.possession_id;
+  return out;
+}
+
+msg::SimScan scan_message(const kicking::lob::Scan& scan, const kicking::lob::ScanGeometry& geometry) {
+  msg::SimScan out{};
+  out.t_ns = scan.t_ns;
+  out.beam_count = static_cast<std::uint16_t>(std::min(scan.range_mm.size(), std::size(out.range_mm)));
+  out.first_angle_rad = geometry.first_angle_rad;
+  out.step_rad = geometry.step_rad;
+  out.beam_period_s = geometry.beam_period_s;
+  out.scan_period_s = geometry.scan_period_s;
+  out.min_range_m = geometry.min_range_m;
+  out.max_range_m = geometry.max_range_m;
+  for (std::size_t i = 0; i < out.beam_count; ++i)
+    out.range_mm[i] = static_cast<std::uint16_t>(std::min<std::uint32_t>(scan.range_mm[i], 0xffff));
   return out;
 }
 

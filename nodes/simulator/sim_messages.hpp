@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bus/messages.hpp"
+#include "kicking/lob/scan.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
 
@@ -12,6 +13,7 @@ msg::SimKicker kicker_message(const sim::Sensors& sensors);
 msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame);
 msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame);
 msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word);
+msg::SimScan scan_message(const kicking::lob::Scan& scan, const kicking::lob::ScanGeometry& geometry);
 msg::KickTruth truth_message(const sim::KickTruth& truth);
 msg::PossessionTruth possession_message(const sim::PossessionTruth& truth);
 

@@ -7,25 +7,36 @@
 
 #include "config/scenario.hpp"
 #include "nodes/simulator/sim_messages.hpp"
+#include "sim/laser/field_laser.hpp"
 
 namespace trivela::nodes {
 namespace {
 
-sim::Match match_of(const config::Settings& settings) {
-  const sim::Scenario scenario = config::load_scenario(settings.run.scenario);
+sim::Scenario scenario_of(const config::Settings& settings) {
+  sim::Scenario scenario = config::load_scenario(settings.run.scenario);
   if (scenario.cycle_s != settings.run.cycle_s) {
     throw std::runtime_error{fmt::format("{}: cycle_s = {} differs from run.cycle_s = {}", settings.run.scenario,
                                          scenario.cycle_s, settings.run.cycle_s)};
   }
-  return sim::Match{scenario, static_cast<std::uint64_t>(settings.simulator.seed),
-                    static_cast<int>(settings.simulator.halves), settings.simulator.half_minutes};
+  const config::ScanRecorder& scans = settings.scan_recorder;
+  if (scans.enabled && scans.device == "sim" && !scenario.laser.enabled) {
+    throw std::runtime_error{
+        fmt::format("scan_recorder is enabled, but {} has no laser: laser.enabled = false", settings.run.scenario)};
+  }
+  return scenario;
+}
+
+sim::Match match_of(const sim::Scenario& scenario, const config::Simulator& settings) {
+  return sim::Match{scenario, static_cast<std::uint64_t>(settings.seed), static_cast<int>(settings.halves),
+                    settings.half_minutes, settings.max_possessions};
 }
 
 }  // namespace
 
 SimulatorNode::SimulatorNode(NodeContext& context)
     : context_(context),
-      match_(match_of(context.settings)),
+      scenario_(scenario_of(context.settings)),
+      match_(match_of(scenario_, context.settings.simulator)),
       wheels_(context.participant, {.owner = fmt::format("simulator/{}", context.robot_id())}),
       kicker_(context.participant),
       vision_(context.participant),
@@ -36,6 +47,7 @@ SimulatorNode::SimulatorNode(NodeContext& context)
       drive_(context.participant, context.robot_id()),
       fire_(context.participant),
       barrier_(context.participant, context.robot_id()) {
+  if (scenario_.laser.enabled) scan_.emplace(context.participant);
   if (wheels_.other_writer_exists(std::chrono::milliseconds(300))) {
     throw std::runtime_error{fmt::format("another simulator of robot {} runs in domain {}: stop it first",
                                          context.settings.run.robot_id, context.settings.domain.domain_id)};
@@ -60,13 +72,15 @@ void SimulatorNode::run() {
 
 bool SimulatorNode::nodes_are_here() {
   const bus::Stop& stop = context_.stop;
-  return readers_before_stop(stop, wheels_, 1) &&            // odometry
-         readers_before_stop(stop, kicker_, 1) &&            // kicker_driver
-         readers_before_stop(stop, vision_, 2) &&            // world_state, recorder
-         readers_before_stop(stop, flight_, 2) &&            // shot_observer, recorder
-         readers_before_stop(stop, referee_, 4) &&           // world_state, kicker_driver, shot_observer, recorder
-         readers_before_stop(stop, kick_truth_, 1) &&        // recorder
-         readers_before_stop(stop, possession_truth_, 1) &&  // recorder
+  const bool scans = scan_ && context_.settings.scan_recorder.enabled;
+  return (!scans || readers_before_stop(stop, *scan_, 1)) &&  // scan_recorder
+         readers_before_stop(stop, wheels_, 1) &&             // odometry
+         readers_before_stop(stop, kicker_, 1) &&             // kicker_driver
+         readers_before_stop(stop, vision_, 2) &&             // world_state, recorder
+         readers_before_stop(stop, flight_, 2) &&             // shot_observer, recorder
+         readers_before_stop(stop, referee_, 4) &&            // world_state, kicker_driver, shot_observer, recorder
+         readers_before_stop(stop, kick_truth_, 1) &&         // recorder
+         readers_before_stop(stop, possession_truth_, 1) &&   // recorder
          ready_before_stop(
              stop, [this](auto timeout) { return fire_.wait_for_writers(1, timeout); }, "no kicker_driver is there");
 }
@@ -84,6 +98,15 @@ void SimulatorNode::publish(const sim::Sensors& sensors) {
   write(vision_, vision_message(t_ns_, sensors.vision), cycle_);
   write(flight_, flight_message(t_ns_, sensors.flight), cycle_);
   write(wheels_, wheels_message(sensors), cycle_);
+  publish_scans(sensors);
+}
+
+void SimulatorNode::publish_scans(const sim::Sensors& sensors) {
+  if (!scan_) return;
+  for (const kicking::lob::Scan& scan : sensors.scans) {
+    write(*scan_, scan_message(scan, sim::laser_model(scenario_.laser).geometry), ++scans_);
+    if (context_.settings.scan_recorder.enabled) barrier_.expect_scan(scan.t_ns);
+  }
 }
 
 bool SimulatorNode::await_cycle(std::int64_t t_ns) {

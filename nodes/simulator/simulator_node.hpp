@@ -25,6 +25,7 @@ class SimulatorNode {
  private:
   bool nodes_are_here();
   void publish(const sim::Sensors& sensors);
+  void publish_scans(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
   std::optional<sim::Commands> commands(std::int64_t t_ns);
   void publish_truth(const sim::StepEvents& events);
@@ -34,6 +35,7 @@ class SimulatorNode {
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
 
   NodeContext& context_;
+  sim::Scenario scenario_;
   sim::Match match_;
   bus::Writer<msg::SimWheels> wheels_;
   bus::Writer<msg::SimKicker> kicker_;
@@ -42,6 +44,7 @@ class SimulatorNode {
   bus::Writer<msg::Referee> referee_;
   bus::Writer<msg::KickTruth> kick_truth_;
   bus::Writer<msg::PossessionTruth> possession_truth_;
+  std::optional<bus::Writer<msg::SimScan>> scan_;  // where the scenario has a laser
   bus::Mailbox<msg::SimDrive> drive_;
   bus::Reader<msg::SimFire> fire_;
   LockstepBarrier barrier_;
@@ -50,6 +53,7 @@ class SimulatorNode {
   std::uint64_t fires_ = 0;
   std::uint64_t kicks_ = 0;
   std::uint64_t possessions_ = 0;
+  std::uint64_t scans_ = 0;
   std::chrono::steady_clock::time_point started_{};
   ProgressLine progress_;
 };

@@ -46,6 +46,8 @@ struct Counter {
   void operator()(std::string_view key, double&, Range) { keys.emplace(key), bytes += sizeof(double); }
   void operator()(std::string_view key, Degrees, Range) { keys.emplace(key), bytes += sizeof(double); }
   void operator()(std::string_view key, std::vector<double>& v, Range) { keys.emplace(key), bytes += sizeof v; }
+  // A flag among doubles takes as much room as one.
+  void operator()(std::string_view key, bool&) { keys.emplace(key), bytes += sizeof(double); }
   template <class T>
   void operator()(std::string_view, T& nested) {
     fields(*this, nested);
@@ -56,11 +58,11 @@ TEST(Scenario, ListsEveryMemberWithItsUnit) {
   Scenario scenario;
   Counter seen;
   fields(seen, scenario);
-  EXPECT_EQ(seen.bytes, sizeof(Scenario));  // nothing but doubles and vectors: no member is left out
+  EXPECT_EQ(seen.bytes, sizeof(Scenario));  // nothing but doubles, flags and vectors: no member is left out
   const std::set<std::string_view> units{"m",   "s",   "mps", "mps2",  "radps", "radps2",
                                          "rad", "deg", "kg",  "kgpm3", "ratio", "ln"};
   for (const auto& key : seen.keys) {
-    if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s") continue;
+    if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s" || key == "enabled") continue;
     EXPECT_TRUE(units.contains(std::string_view{key}.substr(key.rfind('_') + 1))) << key;
   }
 }

@@ -1,0 +1,106 @@
+#include "nodes/scan_recorder/scan_recorder_node.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "nodes/runtime/step_done.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+std::int64_t now_ns(auto clock_now) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
+}
+
+evaluator::log::ScanSession session_of_scans(const NodeContext& context, const hal::RangeFinder& scanner,
+                                             std::int64_t t_ns) {
+  const config::ScanRecorder& settings = context.settings.scan_recorder;
+  evaluator::log::ScanSession session;
+  session.identity = scanner.identity();
+  session.geometry = scanner.geometry();
+  session.mount = {.x_m = settings.mount_x_m,
+                   .z_m = settings.mount_z_m,
+                   .front_elevation_rad = settings.mount_front_elevation_rad,
+                   .mirrored = settings.mount_mirrored};
+  session.started_t_ns = t_ns;
+  session.simulated = settings.device == "sim";
+  const std::int64_t clock_ns = session.simulated ? t_ns : now_ns(std::chrono::steady_clock::now());
+  session.realtime_offset_ns = now_ns(std::chrono::system_clock::now()) - clock_ns;
+  session.source = session.simulated
+                       ? "synthetic: scenario " + std::filesystem::path{context.settings.run.scenario}.stem().string()
+                       : settings.device;
+  session.software_version = TRIVELA_VERSION;
+  return session;
+}
+
+}  // namespace
+
+ScanRecorderNode::ScanRecorderNode(NodeContext& context, std::unique_ptr<hal::RangeFinder> scanner)
+    : context_(context),
+      scanner_(std::move(scanner)),
+      node_(context.participant, "scan_recorder", context.robot_id()),
+      step_done_(step_done_writer(context, node_)) {
+  node_.on_device(
+      "range_finder", [this](std::chrono::nanoseconds timeout) { return next_scan(timeout); },
+      [this](const kicking::lob::Scan& scan) { on_scan(scan); }, bus::writes<msg::StepDone>());
+  bus::ReaderOptions everything;
+  everything.keep_all = true;
+  node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); }, {}, everything);
+}
+
+std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanoseconds timeout) {
+  if (scanner_->ended()) {
+    context_.idle(timeout);
+    return std::nullopt;
+  }
+  if (!connected_) {
+    connected_ = scanner_->connected(timeout);
+    if (!connected_) return std::nullopt;
+    context_.logger->info("{}: {}", scanner_->identity().product, scanner_->status());
+  }
+  return scanner_->read(timeout);
+}
+
+/// Throws std::runtime_error where the record cannot be made.
+void ScanRecorderNode::open(std::int64_t t_ns) {
+  evaluator::log::WriterOptions options;
+  options.warn = [logger = context_.logger](const std::string& line) { logger->warn(line); };
+  log_.emplace(context_.settings.scan_recorder.file, session_of_scans(context_, *scanner_, t_ns), options);
+  for (const auto& tested : early_) log_->set_point(tested);
+  early_.clear();
+}
+
+void ScanRecorderNode::on_scan(const kicking::lob::Scan& scan) {
+  const std::lock_guard lock{mutex_};
+  if (!log_) open(scan.t_ns);
+  bool kept = log_->push(scan);
+  if (!kept && context_.settings.run.lockstep) {  // the match waits for a slow disk
+    log_->flush();
+    kept = log_->push(scan);
+  }
+  if (kept) {
+    ++scans_;
+  } else if (++lost_ == 1) {
+    context_.logger->warn("scans are lost: the disk does not keep up");
+  }
+  step_done(step_done_, context_.robot_id(), msg::STEP_SCAN_RECORDER, scan.t_ns);
+}
+
+void ScanRecorderNode::on_receipt(const msg::KickReceipt& receipt) {
+  if (!receipt.accepted) return;
+  const evaluator::log::TestedSetPoint tested{receipt.fired_t_ns, receipt.power, receipt.kick_id};
+  const std::lock_guard lock{mutex_};
+  if (log_) {
+    log_->set_point(tested);
+  } else {
+    early_.push_back(tested);
+  }
+}
+
+void ScanRecorderNode::finish() {
+  const std::lock_guard lock{mutex_};
+  if (log_) log_->finalise();
+}
+
+}  // namespace trivela::nodes

@@ -1,0 +1,100 @@
+#include "nodes/scan_recorder/scan_recorder_node.hpp"
+
+#include "hal/sim/sim_range_finder.hpp"
+#include "tests/nodes/node_fixture.hpp"
+#include "tests/nodes/temporary_folder.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+using evaluator::log::ScanReader;
+
+/// The recorder of a simulated laser, whose scans the test says.
+class ScanRecorderNodeTest : public NodeTest {
+ protected:
+  ScanRecorderNodeTest() {
+    context.settings.scan_recorder.enabled = true;
+    context.settings.scan_recorder.file = (folder / "scans.db").string();
+    context.settings.scan_recorder.mount_x_m = 3.5;
+    context.settings.run.scenario = "somewhere/calibration.toml";
+  }
+
+  void start() {
+    node.emplace(context, std::make_unique<hal::SimRangeFinder>(participant, std::uint8_t{1}));
+    running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+    scans.expect_reader();
+    receipts.expect_reader();
+  }
+  void scan() {
+    msg::SimScan said{};
+    said.t_ns = 25'000'000 * static_cast<std::int64_t>(++said_scans);
+    said.beam_count = 2;
+    said.step_rad = 0.01;
+    said.beam_period_s = 1e-5;
+    said.scan_period_s = 0.025;
+    said.range_mm[0] = static_cast<std::uint16_t>(1000 + said_scans);
+    scans(said);
+  }
+  void receipt(std::int64_t kick_id, bool accepted, double power, std::int64_t fired_t_ns) {
+    msg::KickReceipt said{};
+    said.kick_id = kick_id;
+    said.accepted = accepted;
+    said.power = power;
+    said.fired_t_ns = fired_t_ns;
+    receipts(said);
+  }
+  /// Stops the node and opens its record.
+  ScanReader read() {
+    running.reset();
+    node->finish();
+    return ScanReader{folder / "scans.db"};
+  }
+
+  TemporaryFolder folder;
+  Says<msg::SimScan> scans{participant};
+  Says<msg::KickReceipt> receipts{participant};
+  Heard<msg::StepDone> done{participant};
+  std::size_t said_scans = 0;
+  std::optional<ScanRecorderNode> node;
+  std::optional<Running> running;
+};
+
+TEST_F(ScanRecorderNodeTest, RecordsScansAndTheSetPointOfEveryKickThatWasAccepted) {
+  context.settings.run.lockstep = true;
+  start();
+  receipt(7, true, 15.0, 5'000'000);  // before the first scan
+  for (int i = 0; i < 20; ++i) scan();
+  receipt(8, false, 0.0, 0);
+  receipt(9, true, 42.5, 300'000'000);
+  done.first(1);
+  while (done.now().back().t_ns < 500'000'000) done.first(done.now().size() + 1);
+  EXPECT_EQ(done.now().back().node, msg::STEP_SCAN_RECORDER);
+  const ScanReader record = read();
+  ASSERT_EQ(record.size(), 20u);
+  EXPECT_EQ(record.t_ns(0), 25'000'000);
+  EXPECT_EQ(record.scan(19).range_mm, (std::vector<std::uint32_t>{1020, 0}));
+  EXPECT_TRUE(record.session().simulated);
+  EXPECT_EQ(record.session().source, "synthetic: scenario calibration");
+  EXPECT_EQ(record.session().mount.x_m, 3.5);
+  EXPECT_EQ(record.session().geometry.beams, 2u);
+  const auto tested = record.set_points();
+  ASSERT_EQ(tested.size(), 2u);
+  EXPECT_EQ(tested[0].kick_id, 7);
+  EXPECT_EQ(tested[0].t_ns, 5'000'000);
+  EXPECT_EQ(tested[1].power, 42.5);
+  EXPECT_EQ(tested[1].t_ns, 300'000'000);
+  EXPECT_TRUE(record.warnings().empty());
+}
+
+TEST_F(ScanRecorderNodeTest, WithoutAnyScanThereIsNoRecord) {
+  start();
+  receipt(7, true, 15.0, 5'000'000);
+  running.reset();
+  node->finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "scans.db"));
+  EXPECT_EQ(node->scans(), 0u);
+}
+
+}  // namespace
+}  // namespace trivela::nodes
