@@ -1,0 +1,153 @@
+#include "cli/lob_points.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "cli/csv_rows.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using kicking::lob::Estimate;
+using kicking::lob::ForegroundReturn;
+using kicking::lob::LobRecord;
+using Json = nlohmann::ordered_json;
+
+const double kDegrees = kicking::degrees(1.0);
+
+std::int64_t to_ns(double t_s) { return std::llround(t_s * 1e9); }
+
+/// Checks each row against those before it.
+class ReturnRows {
+ public:
+  ForegroundReturn read(const Row& row) {
+    const double scan = row.number_in("scan", 0.0, 1e15);
+    if (scan != std::floor(scan)) throw CellError("scan", *row.word("scan"), "is not a whole number");
+    const ForegroundReturn seen{static_cast<std::int64_t>(scan), to_ns(row.number_in("t_scan_start_s", -1e9, 1e9)),
+                                to_ns(row.number_in("t_beam_s", -1e9, 1e9)),
+                                kicking::radians(row.number_in("angle_deg", -360.0, 360.0)), row.positive("range_m")};
+    const auto start = starts_.try_emplace(seen.scan, seen.scan_t_ns).first->second;
+    if (start != seen.scan_t_ns) {
+      throw CellError("t_scan_start_s", *row.word("t_scan_start_s"),
+                      fmt::format("differs from an earlier row of scan {}: {} s", seen.scan, 1e-9 * start));
+    }
+    if (seen.beam_t_ns < seen.scan_t_ns)
+      throw CellError("t_beam_s", *row.word("t_beam_s"), "is before the start of the scan");
+    if (!beams_.insert({seen.scan, std::lround(1e6 * seen.elevation_rad)}).second)
+      throw CellError("angle_deg", *row.word("angle_deg"), fmt::format("stands twice in scan {}", seen.scan));
+    return seen;
+  }
+
+ private:
+  std::map<std::int64_t, std::int64_t> starts_;
+  std::set<std::pair<std::int64_t, long>> beams_;
+};
+
+void put(Json& object, const std::string& key, const Estimate& estimate, double unit = 1.0) {
+  object[key] = estimate.value * unit;
+  object[key + "_se"] = estimate.se * unit;
+}
+
+Json to_json(const LobRecord& lob) {
+  Json effective, true_values;
+  if (const auto& fit = lob.effective) {
+    put(effective, "exit_angle_deg", fit->exit_angle_rad, kDegrees);
+    put(effective, "exit_speed_mps", fit->exit_speed_mps);
+    put(effective, "height_m", fit->height_m);
+    put(effective, "distance_m", fit->distance_m);
+    effective["residual_rms_m"] = fit->residual_rms_m;
+  }
+  if (const auto& fit = lob.true_values) {
+    put(true_values, "exit_angle_deg", fit->exit_angle_rad, kDegrees);
+    put(true_values, "exit_speed_mps", fit->exit_speed_mps);
+    put(true_values, "Cd", fit->drag_coefficient);
+    true_values["residual_rms_m"] = fit->residual_rms_m;
+  }
+  return {{"effective", effective},
+          {"true", true_values},
+          {"residual_rms_m", lob.true_values ? Json(lob.true_values->residual_rms_m) : Json()},
+          {"points", lob.centres.size()},
+          {"accepted", lob.refusal == kicking::lob::Refusal::kNone},
+          {"refusal", kicking::lob::name(lob.refusal)},
+          {"why", lob.why}};
+}
+
+std::string line(const char* what, const Estimate& estimate, const char* unit, double scale = 1.0) {
+  return fmt::format("  {:<12}{:8.3f} +- {:.3f} {}\n", what, estimate.value * scale, estimate.se * scale, unit);
+}
+
+std::string to_text(const LobRecord& lob) {
+  std::string text = fmt::format("{} centres of the ball: {}\n", lob.centres.size(),
+                                 lob.refusal == kicking::lob::Refusal::kNone
+                                     ? "a lob"
+                                     : fmt::format("refused ({}): {}", kicking::lob::name(lob.refusal), lob.why));
+  if (const auto& fit = lob.effective) {
+    text += "effective, from height and distance, drag absorbed:\n";
+    text += line("exit angle", fit->exit_angle_rad, "deg", kDegrees) + line("exit speed", fit->exit_speed_mps, "m/s") +
+            line("height", fit->height_m, "m over the launch") + line("distance", fit->distance_m, "m");
+  }
+  if (const auto& fit = lob.true_values) {
+    text += "true, from the times, with drag:\n";
+    text += line("exit angle", fit->exit_angle_rad, "deg", kDegrees) + line("exit speed", fit->exit_speed_mps, "m/s") +
+            line("Cd", fit->drag_coefficient, fit->drag_coefficient.se > 0.0 ? "" : "(given, not fitted)") +
+            fmt::format("  residual    {:8.4f} m rms\n", fit->residual_rms_m);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_points_flags(CLI::App& verb, PointsFlags& flags) {
+  verb.add_option("--points", flags.points,
+                  "CSV of foreground returns: scan, t_scan_start_s, t_beam_s, angle_deg, range_m; angle 0 along the "
+                  "kick, 90 upwards. Needs --laser-x-m and --laser-z-m")
+      ->type_name("FILE");
+  verb.add_flag("--json", flags.json, "with --points: JSON instead of text");
+  verb.add_option("--centre", flags.centre,
+                  "with --points: ball centre by a circle of known radius, or the paper's middle of the limits")
+      ->check(CLI::IsMember({"circle", "middle"}))
+      ->capture_default_str();
+  verb.add_option("--cd", flags.cd, "with --points: drag coefficient, instead of fitting it")
+      ->check(CLI::Range(0.0, 10.0));
+}
+
+std::optional<std::vector<ForegroundReturn>> read_returns(std::istream& in, const std::string& file,
+                                                          std::ostream& err) {
+  std::vector<ForegroundReturn> returns;
+  ReturnRows rows;
+  RowVerb verb;
+  verb.inputs = {{"scan", ""}, {"t_scan_start_s", ""}, {"t_beam_s", ""}, {"angle_deg", ""}, {"range_m", ""}};
+  verb.results = [](const auto&) { return std::vector<std::string>{}; };
+  verb.compute = [&](const Row& row) {
+    returns.push_back(rows.read(row));
+    return std::vector<Value>{};
+  };
+  std::ostringstream copy;
+  if (run_rows(verb, in, file, RowFormat::kCsv, copy, err) != kDone) return std::nullopt;
+  return returns;
+}
+
+int run_lob_points(const PointsFlags& flags, const kicking::lob::ScannerPlace& place) {
+  std::ifstream file(flags.points);
+  if (!file || std::filesystem::is_directory(flags.points)) throw std::runtime_error("cannot read " + flags.points);
+  const auto returns = read_returns(file, flags.points, std::cerr);
+  if (!returns) return kFailed;
+  kicking::lob::AnalyzerConfig config;
+  if (flags.centre == "middle") config.centre = kicking::lob::CentreMethod::kMiddleOfLimits;
+  config.drag_coefficient = flags.cd;
+  const LobRecord lob = kicking::lob::analyse_returns(*returns, place, config);
+  std::cout << (flags.json ? to_json(lob).dump(2) + '\n' : to_text(lob)) << std::flush;
+  return lob.refusal == kicking::lob::Refusal::kNone ? kDone : kFailed;
+}
+
+}  // namespace trivela::cli
