@@ -69,13 +69,16 @@ void Tracker::extend(Track& track, std::span<const BallCentre> candidates) {
 
 void Tracker::start(const BallCentre& first, const BallCentre& second, std::size_t third,
                     std::span<const BallCentre> candidates) {
-  constexpr double kAfterLanding_s = 0.5, kFromLanding_m = 1.0, kAfterRest_s = 0.5, kFromRest_m = 0.5;
+  constexpr double kAfterLanding_s = 0.5, kFromLanding_m = 1.0, kRetained_mps = 6.0;
+  constexpr double kAfterRest_s = 0.5, kFromRest_m = 0.5;
   const auto track = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.centres.empty(); });
   if (track == tracks_.end()) return;
   track->centres = {first, second, candidates[third]};
   track->taken = third;
-  track->bounced = landed_ && seconds(landed_->t_ns, first.t_ns) < kAfterLanding_s &&
-                   apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m;
+  const double since_s = landed_ ? seconds(landed_->t_ns, first.t_ns) : kAfterLanding_s;
+  track->bounced =
+      since_s < kAfterLanding_s && apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m + kRetained_mps * since_s;
+  used_[third] = 1;
   const bool lay = rest_.seen >= kLeastCentres && seconds(rest_.t_ns, first.t_ns) < kAfterRest_s &&
                    apart_m(first, rest_.x_m, rest_.z_m) < kFromRest_m;
   track->launch_z_m = lay ? rest_.z_m : config_.ball.radius_m;

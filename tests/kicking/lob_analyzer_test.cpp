@@ -86,6 +86,49 @@ TEST(Analyzer, ScannerOnItsOtherSideSeesTheSameLob) {
   }
 }
 
+/// Mean angle [deg] and speed of lobs, by one of the two fits.
+struct MeanExit {
+  double angle_deg = 0.0, speed_mps = 0.0;
+};
+
+MeanExit mean_exit(const std::vector<LobRecord>& lobs, bool effective) {
+  MeanExit mean;
+  const auto n = static_cast<double>(lobs.size());
+  for (const LobRecord& lob : lobs) {
+    EXPECT_EQ(lob.refusal, Refusal::kNone) << lob.why;
+    const auto& angle = effective ? lob.effective->exit_angle_rad : lob.true_values->exit_angle_rad;
+    const auto& speed = effective ? lob.effective->exit_speed_mps : lob.true_values->exit_speed_mps;
+    mean.angle_deg += degrees(angle.value) / n;
+    mean.speed_mps += speed.value / n;
+  }
+  return mean;
+}
+
+TEST(Analyzer, HasTheAccuracyOfTheVectors) {
+  sim::RecordPlan plan;
+  plan.kicks.assign(20, kick(8.39, 36.78));
+  int compared = 0;
+  for (const double x : {4.0, 9.0, -1.0}) {
+    sim::LaserModel laser;
+    laser.x_m = x;
+    const auto record = sim::synthesize_record(laser, plan, {}, 9);
+    for (const auto& row : tests::rows("lob_fit_accuracy.csv")) {
+      const std::string estimator = row.text("estimator"), geometry = row.text("geometry");
+      if (row.text("scanner") != "UTM40Hz" || std::stod(geometry.substr(geometry.find('=') + 1)) != x) continue;
+      AnalyzerConfig config;
+      if (estimator == "circle/time+drag(k known)") config.drag_coefficient = 0.25;
+      if (estimator != "circle/HD" && !estimator.starts_with("circle/time+drag")) continue;
+      const auto lobs = tests::lobs_in(record.scans, laser.geometry, record.mount, config);
+      EXPECT_EQ(lobs.size(), plan.kicks.size());
+      const MeanExit mean = mean_exit(lobs, estimator == "circle/HD");
+      EXPECT_NEAR(mean.angle_deg, row.number("theta_mean"), 0.05) << estimator << ", " << geometry;
+      EXPECT_NEAR(mean.speed_mps, row.number("V_mean"), 0.01) << estimator << ", " << geometry;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 9);
+}
+
 TEST(Analyzer, TenScansASecondAreEnough) {
   sim::LaserModel laser;
   laser.geometry = tests::urg_04lx();
