@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
   int exit_code = cli::kDone;
   cli::add_match(app, exit_code);
   cli::add_replay(app, exit_code);
+  cli::add_calibrate(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_compare(app, exit_code);
   cli::add_solve(app, exit_code);

@@ -51,11 +51,13 @@ class RobotUpdate {
   /// The file: a comment that names the tool and what is measured, then the robot.
   std::string text() const;
 
-  /// Writes it whole or not at all. @throws std::runtime_error naming the path.
+  /// Writes it whole or not at all. @throws std::runtime_error naming the path, and the figure that a robot cannot
+  /// have.
   void write(const std::filesystem::path& path) const;
 
  private:
-  config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files);
+  config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files) const;
+  config::Calibration& calibration();
   void changed(const std::string& key, double before, double after, const std::string& certainty);
 
   config::Robot robot_;

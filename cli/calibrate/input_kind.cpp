@@ -1,0 +1,22 @@
+#include "cli/calibrate/input_kind.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "evaluator/log/scan_log.hpp"
+
+namespace trivela::cli {
+
+InputKind input_kind(const std::string& file) {
+  if (file == "-") return InputKind::kNumbers;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) throw std::runtime_error("cannot read " + file);
+  const std::string magic = "SQLite format 3";
+  std::string start(magic.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != magic) return InputKind::kNumbers;
+  return evaluator::log::is_scan_log(file) ? InputKind::kScanRecord : InputKind::kMatchLog;
+}
+
+}  // namespace trivela::cli

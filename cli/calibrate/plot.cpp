@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "cli/calibrate/fit_flags.hpp"
+#include "cli/calibrate/subcommands.hpp"
+#include "cli/calibrate/trials.hpp"
+#include "evaluator/report/text_table.hpp"
+#include "kicking/constants.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using kicking::Trial;
+
+struct PlotFlags {
+  std::vector<std::string> inputs;
+  std::string out;
+  std::string columns;
+  bool json = false;
+  bool csv = false;
+};
+
+/// Apex height and range of a trial's parabola, over the launch: the inverse of theta and V0 of a lob.
+double height_m(const Trial& trial) {
+  return std::pow(trial.exit_speed_mps * std::sin(trial.exit_angle_rad), 2) / (2.0 * kicking::kGravity_mps2);
+}
+double distance_m(const Trial& trial) {
+  return std::pow(trial.exit_speed_mps, 2) * std::sin(2.0 * trial.exit_angle_rad) / kicking::kGravity_mps2;
+}
+
+using TrialsByPower = std::map<double, std::vector<Trial>>;
+
+TrialsByPower by_power(const std::vector<Trial>& trials) {
+  TrialsByPower powers;
+  for (const Trial& trial : trials) powers[trial.power].push_back(trial);
+  return powers;
+}
+
+/// Figure 5: a colour a power, a pattern a trial.
+evaluator::Chart chart_of(const TrialsByPower& powers) {
+  evaluator::Chart chart{
+      "Parabolas by kick power and trial", "distance from the launch [m]", "height over the launch [m]", {}};
+  int colour = 0;
+  for (const auto& [power, trials] : powers) {
+    for (std::size_t trial = 0; trial < trials.size(); ++trial) {
+      evaluator::ChartSeries series{
+          fmt::format("p{:g}-{}", power, trial + 1), {}, evaluator::ChartMark::kLine, colour, static_cast<int>(trial)};
+      const double h = height_m(trials[trial]);
+      const double d = distance_m(trials[trial]);
+      for (int i = 0; i <= 80; ++i) {
+        const double part = i / 80.0;
+        series.points.push_back({part * d, 4.0 * h * part * (1.0 - part)});
+      }
+      chart.series.push_back(std::move(series));
+    }
+    ++colour;
+  }
+  return chart;
+}
+
+/// One quantity over the trials of a power.
+kicking::Spread spread(const std::vector<Trial>& trials, double (*quantity)(const Trial&)) {
+  std::vector<double> values;
+  for (const Trial& trial : trials) values.push_back(quantity(trial));
+  return kicking::spread_of(values);
+}
+
+struct Repeatability {
+  double power;
+  std::size_t trials;
+  kicking::Spread exit_speed_mps, exit_angle_deg, distance_m, height_m;
+};
+
+std::vector<Repeatability> repeatability(const TrialsByPower& powers) {
+  std::vector<Repeatability> rows;
+  for (const auto& [power, trials] : powers) {
+    rows.push_back({power, trials.size(), spread(trials, [](const Trial& t) { return t.exit_speed_mps; }),
+                    spread(trials, [](const Trial& t) { return kicking::degrees(t.exit_angle_rad); }),
+                    spread(trials, distance_m), spread(trials, height_m)});
+  }
+  return rows;
+}
+
+/// Name, value and digits of the eight numbers of a row; a spread of one trial is unknown.
+struct Cell {
+  const char* name;
+  std::optional<double> value;
+};
+
+std::vector<Cell> cells_of(const Repeatability& row) {
+  const auto sd = [&](const kicking::Spread& s) { return row.trials > 1 ? std::optional(s.sd) : std::nullopt; };
+  return {{"exit_speed_mps", row.exit_speed_mps.mean},
+          {"exit_speed_sd_mps", sd(row.exit_speed_mps)},
+          {"exit_angle_deg", row.exit_angle_deg.mean},
+          {"exit_angle_sd_deg", sd(row.exit_angle_deg)},
+          {"distance_m", row.distance_m.mean},
+          {"distance_sd_m", sd(row.distance_m)},
+          {"height_m", row.height_m.mean},
+          {"height_sd_m", sd(row.height_m)}};
+}
+
+void print_json(const std::vector<Repeatability>& rows, const PlotFlags& flags,
+                const std::vector<std::string>& warnings) {
+  Json json{{"file", flags.out}, {"setpoints", Json::array()}, {"warnings", warnings}};
+  for (const Repeatability& row : rows) {
+    Json& point = json["setpoints"].emplace_back(Json{{"power", row.power}, {"trials", row.trials}});
+    for (const Cell& cell : cells_of(row)) point[cell.name] = cell.value ? Json(*cell.value) : Json(nullptr);
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+/// A line a power under a head; `empty` stands for an unknown spread.
+std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>& rows, const char* format,
+                                               const char* empty) {
+  std::vector<std::vector<std::string>> lines{{"power", "trials"}};
+  for (const Cell& cell : cells_of(rows.front())) lines.front().emplace_back(cell.name);
+  for (const Repeatability& row : rows) {
+    lines.push_back({fmt::format("{:g}", row.power), std::to_string(row.trials)});
+    for (const Cell& cell : cells_of(row)) {
+      lines.back().push_back(cell.value ? fmt::format(fmt::runtime(format), *cell.value) : empty);
+    }
+  }
+  return lines;
+}
+
+void plot(const PlotFlags& flags) {
+  const Trials trials = read_trials(flags.inputs, {.columns = flags.columns});
+  const TrialsByPower powers = by_power(trials.trials);
+  write_chart(chart_of(powers), flags.out);
+  const std::vector<Repeatability> rows = repeatability(powers);
+  if (flags.json) return print_json(rows, flags, trials.warnings);
+  if (flags.csv) {
+    for (const auto& line : lines_of(rows, "{:.6g}", "")) fmt::print("{}\n", fmt::join(line, ","));
+  } else {
+    fmt::print("{}\nWritten: {}\n", evaluator::text_table(lines_of(rows, "{:.3f}", "-")), flags.out);
+  }
+  for (const std::string& warning : trials.warnings) fmt::print(stderr, "trivela: {}\n", warning);
+}
+
+}  // namespace
+
+void add_calibrate_plot(CLI::App& calibrate, int& exit_code) {
+  auto* verb = calibrate.add_subcommand("plot", "parabolas of all powers and trials (Figure 5), and their spread");
+  const auto flags = std::make_shared<PlotFlags>();
+  verb->footer(
+      "INPUT as of `calibrate table`: scan records or tables of power, height_m, distance_m. Prints mean and standard\n"
+      "deviation of exit speed, exit angle, range and height for each power: the kicker's repeatability.");
+  verb->add_option("input", flags->inputs, "Scan records or tables of numbers; - for standard input")->required();
+  verb->add_option("--out", flags->out, "Chart to write, SVG")->required()->type_name("FILE");
+  verb->add_option("--columns", flags->columns, "Names of the table's columns in order, - skips one");
+  auto* json = verb->add_flag("--json", flags->json, "Numbers as JSON");
+  verb->add_flag("--csv", flags->csv, "Numbers as CSV")->excludes(json);
+  verb->callback([flags, &exit_code] {
+    plot(*flags);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,214 @@
+#include "cli/calibrate/robot_update.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+
+#include "config/error.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using kicking::degrees;
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string certainty(double se, std::size_t kicks) { return fmt::format("+- {:.2g}, {} kicks", se, kicks); }
+
+/// "table (16 kicks)" for each figure that was measured.
+std::vector<std::string> measured(const config::Calibration& c) {
+  std::vector<std::string> names;
+  const auto add = [&](const char* name, const auto& origin) {
+    if (origin) names.push_back(fmt::format("{} ({} kicks)", name, origin->kicks));
+  };
+  add("table", c.table);
+  add("exit angle", c.exit_angle);
+  add("alpha", c.deflection);
+  add("beta", c.rotation);
+  add("transfer", c.transfer);
+  add("delay", c.delay);
+  return names;
+}
+
+std::vector<std::string> not_measured(const config::Calibration& c) {
+  std::vector<std::string> names;
+  if (!c.table) names.emplace_back("table");
+  if (!c.exit_angle) names.emplace_back("exit angle");
+  if (!c.deflection) names.emplace_back("alpha");
+  if (!c.rotation) names.emplace_back("beta");
+  if (!c.transfer) names.emplace_back("transfer");
+  if (!c.delay) names.emplace_back("delay");
+  names.insert(names.end(), {"ball", "wheels"});
+  return names;
+}
+
+/// Kicks behind all figures. The exit angle comes from the table's; the delay may come from the kicks of the others.
+std::uint32_t kicks_behind(const config::Calibration& c) {
+  std::uint32_t kicks = 0;
+  bool delay_apart = c.delay.has_value();
+  const auto add = [&](const auto& origin) {
+    if (!origin) return;
+    kicks += origin->kicks;
+    if (c.delay && origin->files == c.delay->files) delay_apart = false;
+  };
+  add(c.table);
+  add(c.deflection);
+  add(c.rotation);
+  add(c.transfer);
+  return delay_apart ? kicks + c.delay->kicks : kicks;
+}
+
+}  // namespace
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
+
+config::FigureOrigin RobotUpdate::origin(std::size_t kicks, const std::vector<std::string>& files) const {
+  return {.date = date_, .kicks = static_cast<std::uint32_t>(kicks), .files = files};
+}
+
+config::Calibration& RobotUpdate::calibration() {
+  if (!robot_.calibration) robot_.calibration.emplace();
+  return *robot_.calibration;
+}
+
+void RobotUpdate::changed(const std::string& key, double before, double after, const std::string& certainty) {
+  changes_.push_back(fmt::format("{} {} -> {} ({})", key, number(before), number(after), certainty));
+}
+
+void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& choice,
+                            const std::vector<std::string>& files) {
+  const std::vector<kicking::SetPoint> points = fit.table();
+  const std::size_t kicks = fit.residual_mps.size();
+  if (choice.kind == kicking::TableKind::kTrue) {
+    robot_.true_table.emplace(std::span<const kicking::SetPoint>(points));
+  } else {
+    robot_.true_table.reset();
+    robot_.model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
+  }
+  config::TableOrigin table{origin(kicks, files), {}, {}, fit.exit_speed_sd_mps, fit.isotonic};
+  std::vector<kicking::AnglePoint> angles;
+  for (const kicking::TrialMean& point : fit.set_points) {
+    table.trials.push_back(static_cast<std::uint32_t>(point.trials));
+    table.exit_speed_sds_mps.push_back(point.exit_speed_mps.sd);
+    angles.push_back({point.power, point.exit_angle_rad.mean});
+  }
+  changes_.push_back(fmt::format("table: {} set-points from {} kicks, exit speed sd {} m/s", points.size(), kicks,
+                                 number(fit.exit_speed_sd_mps)));
+  robot_.model.exit_angles.reset();
+  if (choice.angle_per_set_point) robot_.model.exit_angles.emplace(angles);
+  changed("kicker.exit_angle_deg", degrees(robot_.model.exit_angle_rad), degrees(fit.exit_angle_rad.value),
+          certainty(degrees(fit.exit_angle_rad.se), kicks));
+  robot_.model.exit_angle_rad = fit.exit_angle_rad.value;
+  calibration().table = std::move(table);
+  calibration().exit_angle = {origin(kicks, files), fit.exit_angle_rad.se, fit.angle_spread_rad};
+}
+
+void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files) {
+  const std::size_t kicks = fit.alpha_rad.size();
+  config::DeflectionOrigin deflection{origin(kicks, files), fit.line.slope.se, fit.line.rms, std::nullopt};
+  kicking::RobotModel& model = robot_.model;
+  changed("kicker.alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps), degrees(fit.line.slope.value),
+          certainty(degrees(fit.line.slope.se), kicks));
+  model.alpha_slope_rad_per_mps = fit.line.slope.value;
+  if (fit.lateral) {
+    changed("kicker.transfer_exact.lateral_ratio", model.transfer_exact.lateral, fit.lateral->slope.value,
+            certainty(fit.lateral->slope.se, kicks));
+    model.transfer_exact.lateral = fit.lateral->slope.value;
+    deflection.lateral_ratio_se = fit.lateral->slope.se;
+  }
+  calibration().deflection = std::move(deflection);
+}
+
+void RobotUpdate::set_rotation(const kicking::RotationFit& fit, const std::vector<std::string>& files) {
+  const std::size_t kicks = fit.beta_rad.size();
+  changed("kicker.beta_slope_s", robot_.model.beta_slope_s, fit.line.slope.value, certainty(fit.line.slope.se, kicks));
+  robot_.model.beta_slope_s = fit.line.slope.value;
+  calibration().rotation = {origin(kicks, files), fit.line.slope.se, fit.line.rms};
+}
+
+void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vector<std::string>& files) {
+  std::size_t kicks = 0;
+  config::TransferOrigin transfer;
+  const auto set = [&](const char* key, double& ratio, const kicking::Estimate& estimate, std::size_t of_kicks,
+                       std::optional<double>& se) {
+    changed(key, ratio, estimate.value, certainty(estimate.se, of_kicks));
+    ratio = estimate.value;
+    se = estimate.se;
+  };
+  kicking::RobotModel& model = robot_.model;
+  if (const auto& forward = fit.forward) {
+    const std::size_t n = forward->rows.size();
+    set("kicker.transfer_exact.forward_ratio", model.transfer_exact.forward, forward->exact, n,
+        transfer.exact_forward_se_ratio);
+    set("kicker.transfer_paper.forward_ratio", model.transfer_paper.forward, forward->paper, n,
+        transfer.paper_forward_se_ratio);
+    kicks += n;
+  }
+  if (const auto& backward = fit.backward) {
+    const std::size_t n = backward->rows.size();
+    set("kicker.transfer_exact.backward_ratio", model.transfer_exact.backward, backward->exact, n,
+        transfer.exact_backward_se_ratio);
+    set("kicker.transfer_paper.backward_ratio", model.transfer_paper.backward, backward->paper, n,
+        transfer.paper_backward_se_ratio);
+    kicks += n;
+  }
+  static_cast<config::FigureOrigin&>(transfer) = origin(kicks, files);
+  calibration().transfer = std::move(transfer);
+}
+
+void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files) {
+  const std::size_t kicks = fit.residual_s.size() - fit.rejected.size();
+  changed("kicker.delay_s", robot_.model.delay_s, fit.mean_s.value, certainty(fit.mean_s.se, kicks));
+  robot_.model.delay_s = fit.mean_s.value;
+  calibration().delay = {origin(kicks, files), fit.mean_s.se, fit.sd_s};
+}
+
+std::string RobotUpdate::text() const {
+  config::Robot robot = robot_;
+  std::string head = fmt::format("# Robot {}, written by {} on {}.\n", robot.name, tool_, date_);
+  if (robot.calibration) {
+    config::Calibration& calibration = *robot.calibration;
+    calibration.source = tool_;
+    calibration.date = date_;
+    calibration.kicks = kicks_behind(calibration);
+    head += fmt::format("# Measured: {}.\n# Not measured, kept as they were: {}.\n",
+                        fmt::join(measured(calibration), ", "), fmt::join(not_measured(calibration), ", "));
+  }
+  return head + config::to_toml_text(robot);
+}
+
+void RobotUpdate::write(const std::filesystem::path& path) const {
+  std::filesystem::path beside = path;
+  beside += fmt::format(".{}.new", getpid());
+  std::error_code failed;
+  {
+    std::ofstream out(beside, std::ios::binary);
+    out << text();
+    out.flush();
+    if (!out) failed = std::make_error_code(std::errc::io_error);
+  }
+  std::string refusal = fmt::format("cannot write the robot's file {}", path.string());
+  if (!failed) {
+    try {
+      config::load_robot_of_any_table(beside);
+      std::filesystem::rename(beside, path, failed);
+    } catch (const config::Error& error) {
+      failed = std::make_error_code(std::errc::invalid_argument);
+      const std::string what = error.what();
+      refusal += fmt::format(": a figure is impossible{}", what.substr(beside.string().size()));
+    }
+  }
+  if (!failed) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  throw std::runtime_error(refusal);
+}
+
+}  // namespace trivela::cli

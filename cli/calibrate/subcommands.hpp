@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace trivela::cli {
+
+// Subcommands of `trivela calibrate`. Each adds itself with flags, help and a callback that sets `exit_code`.
+
+void add_calibrate_table(CLI::App& calibrate, int& exit_code);
+void add_calibrate_deflection(CLI::App& calibrate, int& exit_code);
+void add_calibrate_rotation(CLI::App& calibrate, int& exit_code);
+void add_calibrate_transfer(CLI::App& calibrate, int& exit_code);
+void add_calibrate_delay(CLI::App& calibrate, int& exit_code);
+void add_calibrate_plot(CLI::App& calibrate, int& exit_code);
+
+}  // namespace trivela::cli

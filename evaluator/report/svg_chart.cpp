@@ -1,0 +1,165 @@
+#include "evaluator/report/svg_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "evaluator/report/svg_style.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+constexpr double kLeft = 76.0, kTop = 48.0, kPlotWidth = 660.0, kPlotHeight = 420.0, kBottom = 64.0;
+constexpr double kLegendGap = 24.0, kLegendRow = 20.0, kSampleWidth = 34.0, kLetterWidth = 8.0;
+constexpr auto kLegendRows = static_cast<std::size_t>(kPlotHeight / kLegendRow);
+
+/// One axis: its ticks, and values to pixels.
+struct Axis {
+  std::vector<double> ticks;
+  double from_px = 0.0;
+  double to_px = 0.0;
+
+  double px(double value) const {
+    return from_px + (to_px - from_px) * (value - ticks.front()) / (ticks.back() - ticks.front());
+  }
+};
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+Axis axis_of(const Chart& chart, double ChartPoint::*coordinate, double from_px, double to_px) {
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      if (!std::isfinite(point.*coordinate)) throw std::invalid_argument("chart: a point is not finite");
+      low = std::min(low, point.*coordinate);
+      high = std::max(high, point.*coordinate);
+    }
+  }
+  if (low > high) throw std::invalid_argument("chart: no points");
+  return {round_ticks(low, high), from_px, to_px};
+}
+
+std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
+                     escaped(words));
+}
+
+std::string line(const char* kind, double x1, double y1, double x2, double y2) {
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", kind, x1, y1, x2,
+                     y2);
+}
+
+/// A tick without the noise of its sum: "0.3", "-2", "10".
+std::string tick_label(double value) { return fmt::format("{:.6g}", std::abs(value) < 1e-12 ? 0.0 : value); }
+
+std::string axes(const Chart& chart, const Axis& x, const Axis& y) {
+  std::string svg;
+  for (const double tick : x.ticks) {
+    svg += line("grid", x.px(tick), y.from_px, x.px(tick), y.to_px);
+    svg += text(x.px(tick), y.from_px + 20.0, "middle", tick_label(tick));
+  }
+  for (const double tick : y.ticks) {
+    svg += line("grid", x.from_px, y.px(tick), x.to_px, y.px(tick));
+    svg += text(x.from_px - 8.0, y.px(tick) + 5.0, "end", tick_label(tick));
+  }
+  svg +=
+      line("axis", x.from_px, y.from_px, x.to_px, y.from_px) + line("axis", x.from_px, y.from_px, x.from_px, y.to_px);
+  const double middle_x = 0.5 * (x.from_px + x.to_px);
+  const double middle_y = 0.5 * (y.from_px + y.to_px);
+  svg += text(middle_x, kTop - 20.0, "middle", chart.title, " class=\"title\"");
+  svg += text(middle_x, y.from_px + 46.0, "middle", chart.x_label);
+  svg += text(20.0, middle_y, "middle", chart.y_label,
+              fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle_y).c_str());
+  return svg;
+}
+
+std::string marks(const ChartSeries& series, const std::vector<ChartPoint>& pixels) {
+  const std::string style = svg_class(series);
+  std::string svg;
+  if (series.mark == ChartMark::kDots) {
+    for (const ChartPoint& p : pixels) {
+      svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", style, p.x, p.y);
+    }
+    return svg;
+  }
+  svg += fmt::format("<polyline class=\"{}\" points=\"", style);
+  for (const ChartPoint& p : pixels) svg += fmt::format("{:.1f},{:.1f} ", p.x, p.y);
+  return svg + "\"/>\n";
+}
+
+double column_width(const Chart& chart) {
+  std::size_t letters = 0;
+  for (const ChartSeries& series : chart.series) letters = std::max(letters, series.name.size());
+  return kSampleWidth + 10.0 + kLetterWidth * static_cast<double>(letters) + 14.0;
+}
+
+std::string legend(const Chart& chart, double x0) {
+  std::string svg;
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const double x = x0 + column_width(chart) * static_cast<double>(i / kLegendRows);
+    const double y = kTop + kLegendRow * (0.5 + static_cast<double>(i % kLegendRows));
+    const ChartSeries& series = chart.series[i];
+    const bool dots = series.mark == ChartMark::kDots;
+    svg += marks(series, dots ? std::vector<ChartPoint>{{x + 0.5 * kSampleWidth, y}}
+                              : std::vector<ChartPoint>{{x, y}, {x + kSampleWidth, y}});
+    svg += text(x + kSampleWidth + 10.0, y + 5.0, "start", series.name);
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::vector<double> round_ticks(double low, double high) {
+  const double span = std::max(high - low, 1e-9 * std::max({1.0, std::abs(low), std::abs(high)}));
+  const double power = std::pow(10.0, std::floor(std::log10(span / 5.0)));
+  double step = power;
+  for (const double factor : {2.0, 5.0, 10.0}) {
+    if (span / step > 9.0) step = factor * power;
+  }
+  std::vector<double> ticks;
+  const double first = std::floor(low / step + 1e-9);
+  const double last = std::max(first + 1.0, std::ceil(high / step - 1e-9));
+  for (double i = first; i <= last; i += 1.0) ticks.push_back(i * step);
+  return ticks;
+}
+
+std::string to_svg(const Chart& chart) {
+  const Axis x = axis_of(chart, &ChartPoint::x, kLeft, kLeft + kPlotWidth);
+  const Axis y = axis_of(chart, &ChartPoint::y, kTop + kPlotHeight, kTop);
+  const double legend_x = kLeft + kPlotWidth + kLegendGap;
+  const auto columns = static_cast<double>((chart.series.size() + kLegendRows - 1) / kLegendRows);
+  const double width = legend_x + columns * column_width(chart);
+  const double height = kTop + kPlotHeight + kBottom;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\">\n"
+      "<title>{2}</title>\n<style>\n{3}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
+      width, height, escaped(chart.title), svg_style());
+  svg += axes(chart, x, y);
+  for (const ChartSeries& series : chart.series) {
+    std::vector<ChartPoint> pixels;
+    for (const ChartPoint& point : series.points) pixels.push_back({x.px(point.x), y.px(point.y)});
+    svg += marks(series, pixels);
+  }
+  return svg + legend(chart, legend_x) + "</svg>\n";
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,49 @@
+#include "evaluator/report/svg_style.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace trivela::evaluator {
+namespace {
+
+// After Okabe and Ito (2008), darkened where white paper, lightened where a dark screen would swallow them.
+constexpr std::array<std::pair<const char*, const char*>, 8> kColours{{{"#0072b2", "#4da3e0"},
+                                                                       {"#d55e00", "#ff7f32"},
+                                                                       {"#009e73", "#2cc79b"},
+                                                                       {"#b8588f", "#e6a8cb"},
+                                                                       {"#a87800", "#e6b422"},
+                                                                       {"#2f93d1", "#9ad4f7"},
+                                                                       {"#222222", "#eeeeee"},
+                                                                       {"#7a5c3a", "#c8a57a"}}};
+constexpr std::array<const char*, 4> kDashes{"none", "7 4", "2 4", "10 3 2 3"};
+
+}  // namespace
+
+std::string svg_style() {
+  std::string light =
+      "text{font:14px sans-serif;fill:#222}\n.title{font-size:17px;font-weight:600}\n.paper{fill:#fff}\n"
+      ".grid{stroke:#ddd}\n.axis{stroke:#444;stroke-width:1.5}\npolyline{fill:none;stroke-width:2.4}\n"
+      "polyline.thin{stroke-width:1.2}\ncircle{stroke:none}\n";
+  std::string dark = "text{fill:#ddd}\n.paper{fill:#161616}\n.grid{stroke:#383838}\n.axis{stroke:#aaa}\n";
+  for (std::size_t i = 0; i < kColours.size(); ++i) {
+    const auto& [on_white, on_black] = kColours[i];
+    light += fmt::format("polyline.c{0}{{stroke:{1}}}\ncircle.c{0}{{fill:{1}}}\n", i, on_white);
+    dark += fmt::format("polyline.c{0}{{stroke:{1}}}\ncircle.c{0}{{fill:{1}}}\n", i, on_black);
+  }
+  for (std::size_t i = 1; i < kDashes.size(); ++i) {
+    light += fmt::format("polyline.d{}{{stroke-dasharray:{}}}\n", i, kDashes[i]);
+  }
+  return light + "@media (prefers-color-scheme:dark){\n" + dark + "}\n";
+}
+
+std::string svg_class(const ChartSeries& series) {
+  const auto colours = static_cast<int>(kColours.size());
+  std::string style = fmt::format("c{}", series.colour % colours);
+  if (series.colour >= colours) style += " thin";
+  if (const int dash = series.dash % static_cast<int>(kDashes.size()); dash > 0) style += fmt::format(" d{}", dash);
+  return style;
+}
+
+}  // namespace trivela::evaluator
