@@ -1,0 +1,225 @@
+#include "evaluator/calibration/drive_rows.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "evaluator/calibration/release_track.hpp"
+#include "kicking/alignment/release_predictor.hpp"
+#include "kicking/calibration/delay_fit.hpp"
+#include "tests/evaluator/log_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using Int = std::int64_t;
+using kicking::Pose;
+using kicking::Twist;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr double kDelay_s = 0.06;
+constexpr double kPower = 25.0;
+
+/// Where the ball of a kick with this transfer crosses, by the forward predictor.
+kicking::Crossing flown(const Pose& pose, const Twist& twist, const kicking::Transfer& transfer) {
+  const kicking::RobotModel model;
+  const kicking::KickAction kick{model.table.speed_for(kPower), model.exit_angle_rad, transfer, kDelay_s,
+                                 model.ball_offset_m};
+  return *kicking::predict_crossing(pose, twist, kick, 9.0);
+}
+
+/// A log of drive kicks as a recorder writes it, with a truth that contradicts everything.
+class DriveLog : public LogTest {
+ protected:
+  DriveLog() : writer_(path(), session(), options()) {
+    decisions_ = writer_.table(
+        "kick_decisions",
+        {"robot_id",    "seq",        "t_ns",       "kick_id",    "half",        "possession_id", "policy",
+         "fire",        "reason",     "x_m",        "y_m",        "heading_rad", "vx_mps",        "vy_mps",
+         "omega_radps", "target_x_m", "target_y_m", "target_z_m", "distance_m",  "alpha_rad",     "beta_rad",
+         "aligned",     "left_m",     "right_m",    "charge",     "shadow_count"});
+    receipts_ = writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
+                                                "order_t_ns", "fired_t_ns", "release_t_ns", "power"});
+    outcomes_ = writer_.table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
+                                                "x_cross_m", "z_cross_m", "observations"});
+    truths_ = writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
+                                            "x_cross_m", "z_cross_m", "release_t_ns", "release_x_m", "release_y_m",
+                                            "release_vx_mps", "release_vy_mps", "release_vz_mps"});
+    frames_ = writer_.table(
+        "flight_frames", {"robot_id", "seq", "t_ns", "t_exposure_ns", "ball_seen", "ball_x_m", "ball_y_m", "ball_z_m"});
+  }
+
+  void kick(const std::string& policy, const Pose& pose, const Twist& twist, const std::optional<double>& x_cross_m,
+            const std::optional<double>& z_cross_m, bool accepted = true) {
+    const Int id = ++kicks_;
+    const Int t_ns = id * 1'000'000'000;
+    writer_.push(decisions_, {Int{1},       ++seq_,       t_ns,
+                              id,           Int{1},       id,
+                              policy,       Int{1},       "fire",
+                              pose.x_m,     pose.y_m,     pose.heading_rad,
+                              twist.vx_mps, twist.vy_mps, twist.omega_radps,
+                              0.0,          9.0,          0.7,
+                              5.0,          0.0,          0.0,
+                              Int{1},       0.3,          0.3,
+                              1.0,          Int{0}});
+    writer_.push(receipts_,
+                 {Int{1}, ++seq_, t_ns, id, Int{accepted}, accepted ? "none" : "charging", t_ns, t_ns, t_ns, kPower});
+    const auto cell = [](const std::optional<double>& value) { return value ? log::Value(*value) : log::Value(); };
+    writer_.push(outcomes_, {Int{1}, ++seq_, t_ns, id, "wide_left", Int{0}, cell(x_cross_m), cell(z_cross_m), Int{9}});
+    writer_.push(truths_,
+                 {Int{1}, ++seq_, t_ns, id, Int{1}, id, "on_target", 77.0, 77.0, t_ns, 0.0, 0.0, 0.0, 0.0, 0.0});
+  }
+
+  void kick(const std::string& policy, const Pose& pose, const Twist& twist, const kicking::Transfer& transfer) {
+    const kicking::Crossing crossing = flown(pose, twist, transfer);
+    kick(policy, pose, twist, crossing.x_m, crossing.z_m);
+  }
+
+  log::Reader read() {
+    writer_.finalise();
+    return log::Reader(path());
+  }
+
+  log::Writer writer_;
+  log::TableId decisions_{}, receipts_{}, outcomes_{}, truths_{}, frames_{};
+  Int kicks_ = 0;
+  Int seq_ = 0;
+};
+
+TEST_F(DriveLog, LateralKicksGiveTheTransferThatMadeThem) {
+  for (const double vx : {-1.5, -0.8, 0.5, 1.0, 2.0}) {
+    for (const double heading : {-0.2, 0.0, 0.15})
+      kick("lateral_drive", {0.4, 2.5, heading}, {vx, 0.0, 0.0}, {1, 1, 0.8});
+  }
+  kick("moving", {0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}, {});
+  const auto kicks = lateral_kicks(read(), {});
+  ASSERT_EQ(kicks.rows.size(), 15u);
+  EXPECT_THAT(kicks.left_out, IsEmpty());
+  const auto fit = kicking::fit_deflection(kicks.rows, kDelay_s);
+  EXPECT_NEAR(fit.lateral->slope.value, 0.8, 1e-9);
+  EXPECT_NEAR(fit.lateral->rms, 0.0, 1e-9);
+  // By hand, heading 0: y = 9 - 2.5 - 0.27 m from the ball, the ball goes right with the robot.
+  EXPECT_NEAR(kicks.rows[1].distance_m, 6.23, 1e-12);
+  EXPECT_LT(kicks.rows[1].b_m, 0.0);
+}
+
+TEST_F(DriveLog, TurnKicksGiveTheDelayThatMadeThem) {
+  for (const double omega : {-2.0, -1.0, 0.5, 1.0, 2.0}) {
+    kick("turn_drive", {0.0, 3.0, 0.1 * omega}, {0.0, 0.0, omega}, {1, 1, 1});
+  }
+  const auto kicks = turn_kicks(read(), {}, 0.02);
+  ASSERT_EQ(kicks.rows.size(), 5u);
+  for (const auto& row : kicks.rows) EXPECT_GT(row.allowed_error_m, 0.0) << row.omega_radps;
+  const auto fit = kicking::fit_rotation(kicks.rows, kicking::RotationLever{0.27, 0.02});
+  // The model takes the lever's part from the centre, the flight from the ball: 1 ms at 6 m.
+  EXPECT_NEAR(fit.delay->slope.value, kDelay_s, 0.002);
+  EXPECT_NEAR(fit.line.slope.value, kDelay_s + 0.01 + 0.27 / 6.72, 0.003);
+}
+
+TEST_F(DriveLog, StraightKicksGiveTheTransferThatMadeThem) {
+  for (const double vy : {-1.0, -0.5, 0.5, 1.0})
+    kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, vy, 0.0}, {0.9, 0.6, 1});
+  kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, 0.1, 0.11);
+  const auto kicks = straight_kicks(read(), {});
+  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("1 kick left out: the ball lay on the floor")));
+  const auto fit = kicking::fit_transfer(kicks.rows, kDelay_s);
+  EXPECT_NEAR(fit.forward->exact.value, 0.9, 2e-3);
+  EXPECT_NEAR(fit.backward->exact.value, 0.6, 2e-3);
+}
+
+TEST_F(DriveLog, KicksWithoutACrossingOrRefusedAreLeftOut) {
+  kick("lateral_drive", {0, 3, 0}, {1, 0, 0}, std::nullopt, std::nullopt);
+  kick("lateral_drive", {0, 3, 0}, {1, 0, 0}, 0.5, 0.5, false);
+  kick("lateral_drive", {0, 3, 3.1}, {1, 0, 0}, 0.5, 0.5);
+  const auto kicks = lateral_kicks(read(), {});
+  EXPECT_THAT(kicks.rows, IsEmpty());
+  EXPECT_THAT(kicks.left_out, ElementsAre("1 kick left out: not seen to cross the goal line",
+                                          "1 kick left out: the robot pointed away from the goal line"));
+}
+
+/// The ball held at v until the release, then in flight with drag, seen at 50 Hz with an offset of the frames.
+std::vector<BallSighting> seen_release(Int order_t_ns, double delay_s, double vx, double vy, double noise_m = 0.0) {
+  std::vector<BallSighting> sightings;
+  const kicking::RobotModel model;
+  const double k = kicking::drag_per_m({}, {});
+  Eigen::Vector3d ball(0.3, 3.0, 0.11);
+  Eigen::Vector3d velocity(vx, vy, 0.0);
+  ball += velocity * -0.3;
+  bool released = false;
+  int frame = 0;
+  constexpr double kStep_s = 1e-4;
+  for (int i = 0; i < 7000; ++i) {
+    const double t_s = -0.3 + kStep_s * i;
+    if (i % 200 == 70) {
+      const double sign = frame++ % 2 == 0 ? 1.0 : -1.0;
+      sightings.push_back({order_t_ns + std::llround(t_s * 1e9), ball + sign * noise_m * Eigen::Vector3d(1, 1, 1)});
+    }
+    if (!released && t_s + 0.5 * kStep_s >= delay_s) {
+      released = true;
+      velocity += Eigen::Vector3d(0.0, 6.6, 4.9);
+    }
+    if (released) velocity += kStep_s * (Eigen::Vector3d(0, 0, -9.81) - k * velocity.norm() * velocity);
+    ball += kStep_s * velocity;
+  }
+  return sightings;
+}
+
+TEST(ReleaseTrack, FindsTheInstantAtWhichTheTracksMeet) {
+  for (const double delay_s : {0.0, 0.03, 0.06, 0.14}) {
+    for (const double vx : {-2.0, 0.0, 1.0}) {
+      for (const double vy : {-1.0, 0.0, 1.5}) {
+        const auto found = release_delay_s(seen_release(5'000'000'000, delay_s, vx, vy), 5'000'000'000);
+        ASSERT_TRUE(found);
+        EXPECT_NEAR(*found, delay_s, 0.0005) << vx << " " << vy;
+      }
+    }
+  }
+}
+
+TEST(ReleaseTrack, HoldsWithTheNoiseOfTheCamera) {
+  EXPECT_NEAR(*release_delay_s(seen_release(0, 0.06, 0.5, 0.0, 0.03), 0), 0.06, 0.01);
+}
+
+TEST(ReleaseTrack, HasNoDelayWithoutEnoughSightings) {
+  auto sightings = seen_release(0, 0.06, 0.0, 0.0);
+  EXPECT_FALSE(release_delay_s(std::span(sightings).subspan(12), 0));  // none held
+  EXPECT_FALSE(release_delay_s(std::span(sightings).first(20), 0));    // too few in flight
+  EXPECT_FALSE(release_delay_s({}, 0));
+}
+
+TEST_F(DriveLog, DelaysComeFromTheFlightCameraOfKicksThatDoNotTurn) {
+  const std::vector<double> delays{0.05, 0.06, 0.07};
+  for (std::size_t i = 0; i < delays.size(); ++i) {
+    const Int order_t_ns = static_cast<Int>(i + 1) * 1'000'000'000;
+    kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);
+    for (const BallSighting& s : seen_release(order_t_ns, delays[i], 0.0, 0.0)) {
+      writer_.push(frames_, {Int{1}, ++seq_, s.t_ns, s.t_ns, Int{1}, s.ball_m.x(), s.ball_m.y(), s.ball_m.z()});
+    }
+  }
+  kick("turn_drive", {0, 3, 0}, {0, 0, 1.0}, 0.0, 0.7);
+  kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);  // no frames
+  const auto found = release_delays(read());
+  ASSERT_EQ(found.rows.size(), 3u);
+  for (std::size_t i = 0; i < delays.size(); ++i) EXPECT_NEAR(found.rows[i], delays[i], 0.0005);
+  EXPECT_THAT(found.left_out, ElementsAre("1 kick left out: the robot turned",
+                                          HasSubstr("the flight camera saw too little of the release")));
+  EXPECT_NEAR(kicking::fit_delay(found.rows).mean_s.value, 0.06, 0.0005);
+}
+
+TEST(DriveRowsSql, NeverReadsTheSimulatorsTruth) {
+  for (const char* const name : {"drive_kicks", "ball_sightings"}) {
+    std::ifstream in(std::string(TRIVELA_SOURCE_DIR) + "/evaluator/metrics/" + name + ".sql");
+    const std::string sql{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_THAT(sql, HasSubstr("SELECT")) << name;
+    EXPECT_THAT(sql, Not(HasSubstr("truth"))) << name;
+    EXPECT_THAT(sql, Not(testing::ContainsRegex("(FROM|JOIN) kicks"))) << name << ": the view joins the truth";
+  }
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
