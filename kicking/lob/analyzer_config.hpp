@@ -18,7 +18,7 @@ struct AnalyzerConfig {
   double chord_tolerance = 0.40;      ///< of the angle that the ball covers
   double lost_s = 0.15;               ///< a flight ends when the ball was not seen for so long
   int least_points = 8;
-  double least_chord_ratio = 0.85;         ///< mean over the flight; below: the plane is misaligned
+  double least_chord_ratio = 0.85;         ///< mean over a third of the flight; below: the plane is misaligned
   double largest_residual_m = 0.03;        ///< rms; above: not the flight of a ball
   double launch_tolerance_m = 1.0;         ///< a flight that starts farther from x = 0 is a bounce or another ball's
   std::optional<double> drag_coefficient;  ///< none: fitted

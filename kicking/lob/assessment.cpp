@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "kicking/lob/effective_fit.hpp"
@@ -54,10 +56,16 @@ std::optional<Reason> one_side(const std::vector<BallCentre>& centres, const std
                          low_m, high_m, parabola->apex_x_m)};
 }
 
-double mean_chord_ratio(const std::vector<BallCentre>& centres) {
-  double sum = 0.0;
-  for (const BallCentre& centre : centres) sum += centre.chord_ratio;
-  return sum / static_cast<double>(centres.size());
+/// The least of the means over the first, second and last third of the flight.
+double worst_chord_ratio(std::span<const BallCentre> centres) {
+  double worst = std::numeric_limits<double>::infinity();
+  for (std::size_t third = 0; third < 3; ++third) {
+    const std::size_t first = third * centres.size() / 3, end = (third + 1) * centres.size() / 3;
+    double sum = 0.0;
+    for (const BallCentre& centre : centres.subspan(first, end - first)) sum += centre.chord_ratio;
+    worst = std::min(worst, sum / static_cast<double>(end - first));
+  }
+  return worst;
 }
 
 std::optional<Reason> bad_fit(const Parabola& parabola, const std::optional<FittedFlight>& flight,
@@ -87,7 +95,7 @@ std::optional<Reason> reason_against(const std::vector<BallCentre>& centres, con
                                                    static_cast<int>(centres.size()), config.least_points)};
   }
   if (auto reason = one_side(centres, parabola)) return reason;
-  if (const double ratio = mean_chord_ratio(centres); ratio < config.least_chord_ratio) {
+  if (const double ratio = worst_chord_ratio(centres); ratio < config.least_chord_ratio) {
     return Reason{
         Refusal::kPlaneMisaligned,
         sentence("the ball covers %.2f of the angle that it should, at least %.2f are needed: it does not fly in "

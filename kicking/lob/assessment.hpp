@@ -11,7 +11,8 @@ namespace trivela::kicking::lob {
 /// order, when there are
 ///   fewer than least_points centres,
 ///   fewer than two centres on a side of the parabola's apex,
-///   centres whose mean chord ratio is below least_chord_ratio: off the plane by e, a ball covers sqrt(1 - e^2 / r^2),
+///   a third of the flight whose mean chord ratio is below least_chord_ratio: a ball that is off the scan plane by e
+///   covers sqrt(1 - e^2 / r^2) of its angle,
 ///   residuals above largest_residual_m, no fit, or a launch farther than launch_tolerance_m from x = 0.
 /// The residuals are those of the true fit; with the paper's centres, which lie too far by centimetres that change
 /// along the flight, those of the parabola. A refused record has the fits that could be made.

@@ -3,12 +3,15 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kicking/constants.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
+
+constexpr std::size_t kMostErrors = 256;  // a flight has a hundred; no heap while scans come
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
@@ -46,7 +49,7 @@ bool may_start_flight(const BallCentre& first, const BallCentre& second, const B
   return speed >= kSlowest_mps && speed <= kFastest_mps && off <= 0.06 + 2.0 * dt2 * dt2;
 }
 
-std::optional<Estimate> vertical_acceleration(std::span<const BallCentre> centres) {
+std::optional<VerticalMotion> vertical_motion(std::span<const BallCentre> centres) {
   if (centres.size() < 4) return std::nullopt;
   const double middle_s = 0.5 * seconds(centres.front().t_ns, centres.back().t_ns);
   const auto row = [&](const BallCentre& centre) {
@@ -62,19 +65,30 @@ std::optional<Estimate> vertical_acceleration(std::span<const BallCentre> centre
   const Eigen::LDLT<Eigen::Matrix3d> decomposed(moments);
   const Eigen::Vector3d solution = decomposed.solve(sums);
   double squares = 0.0;
+  std::array<double, kMostErrors> errors_m;
+  std::size_t kept = 0;
   for (const BallCentre& centre : centres) {
     const double error = centre.z_m - row(centre).dot(solution);
     squares += error * error;
+    if (kept < errors_m.size()) errors_m[kept++] = std::abs(error);
   }
+  const auto middle = errors_m.begin() + static_cast<std::ptrdiff_t>(kept / 2);
+  std::nth_element(errors_m.begin(), middle, errors_m.begin() + static_cast<std::ptrdiff_t>(kept));
   const double variance = squares / (static_cast<double>(centres.size()) - 3.0);
-  return Estimate{solution[2], std::sqrt(variance * decomposed.solve(Eigen::Matrix3d::Identity())(2, 2))};
+  const double se = std::sqrt(variance * decomposed.solve(Eigen::Matrix3d::Identity())(2, 2));
+  return VerticalMotion{{solution[2], se}, *middle};
 }
 
 bool falls_freely(std::span<const BallCentre> centres) {
-  const auto acceleration = vertical_acceleration(centres);
-  if (!acceleration || !std::isfinite(acceleration->value)) return false;
-  const double allowed = std::clamp(4.0 * acceleration->se, 0.35 * kGravity_mps2, 0.7 * kGravity_mps2);
-  return std::abs(acceleration->value + kGravity_mps2) <= allowed;
+  // Drag bends a long path away from the parabola, with the cube of the time.
+  constexpr double kOff_m = 0.02, kOff_mps3 = 0.02;
+  const auto motion = vertical_motion(centres);
+  if (!motion || !std::isfinite(motion->acceleration_mps2.value)) return false;
+  const auto& [acceleration, se] = motion->acceleration_mps2;
+  const double allowed = std::clamp(2.5 * se, 0.35 * kGravity_mps2, 0.7 * kGravity_mps2);
+  const double duration_s = seconds(centres.front().t_ns, centres.back().t_ns);
+  return std::abs(acceleration + kGravity_mps2) <= allowed &&
+         motion->off_m <= kOff_m + kOff_mps3 * std::pow(duration_s, 3);
 }
 
 }  // namespace trivela::kicking::lob

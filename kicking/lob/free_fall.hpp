@@ -23,11 +23,18 @@ FallingPoint predict_fall(std::span<const BallCentre> centres, std::int64_t t_ns
 /// what 2 m/s2 more or less make.
 bool may_start_flight(const BallCentre& first, const BallCentre& second, const BallCentre& third);
 
-/// Vertical acceleration of a parabola z(t), least squares, with its standard error; none below 4 centres.
-std::optional<Estimate> vertical_acceleration(std::span<const BallCentre> centres);
+/// z(t) as a parabola of its own.
+struct VerticalMotion {
+  Estimate acceleration_mps2;
+  double off_m = 0.0;  ///< median distance of the centres from it, vertically
+};
 
-/// The centres accelerate downwards like a ball in the air: within 35 % of g, or within four standard errors where
-/// those are larger, but never beyond 70 %.
+/// Least squares; none below 4 centres.
+std::optional<VerticalMotion> vertical_motion(std::span<const BallCentre> centres);
+
+/// The centres accelerate downwards like a ball in the air: within 35 % of g, or within 2.5 standard errors where those
+/// are larger, but never beyond 70 %; half of them within 2 cm, after t seconds 2 cm (1 + t^3), of
+/// their own parabola.
 bool falls_freely(std::span<const BallCentre> centres);
 
 }  // namespace trivela::kicking::lob

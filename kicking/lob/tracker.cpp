@@ -9,7 +9,7 @@
 namespace trivela::kicking::lob {
 namespace {
 
-constexpr int kLeastCentres = 5;  // that show an acceleration, or a ball that lies
+constexpr int kLeastCentres = 6;  // that show an acceleration, or a ball that lies
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 

@@ -20,7 +20,7 @@ struct Flight {
 
 /// Finds the flights among the things in each scan that look like a ball. Three centres that agree with free fall start
 /// a track; it takes the nearest centre within 10 cm of where the fall leads (a bit more after a gap), and ends when
-/// the fall leads into the floor or nothing came for lost_s. A track is a flight when it has five centres that
+/// the fall leads into the floor or nothing came for lost_s. A track is a flight when it has six centres that
 /// accelerate like a ball in the air, and does not begin where another flight has just ended: that is a bounce. Several
 /// tracks are kept, so that a person who walks through costs nothing. A ball that lies, rolls or is carried agrees with
 /// no fall.

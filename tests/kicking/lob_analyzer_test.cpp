@@ -71,6 +71,19 @@ TEST(Analyzer, RecoversTruthOverExitsAndPlacesOfTheLaser) {
   }
 }
 
+TEST(Analyzer, HardKicksWithMuchDragAreLobsToo) {
+  sim::RecordPlan plan;
+  for (const double angle : {30.0, 45.0, 60.0}) plan.kicks.push_back(kick(12.0, angle, 0.5));
+  plan.fly_s = 3.0;
+  const auto lobs = lobs_of({}, plan, 6);
+  ASSERT_EQ(lobs.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(lobs[i].refusal, Refusal::kNone) << lobs[i].why;
+    EXPECT_NEAR(lobs[i].true_values->exit_speed_mps.value, 12.0, 0.03);
+    EXPECT_NEAR(lobs[i].true_values->drag_coefficient.value, 0.5, 0.02);
+  }
+}
+
 TEST(Analyzer, ScannerOnItsOtherSideSeesTheSameLob) {
   sim::RecordPlan plan;
   plan.kicks = {kick(8.39, 36.78)};
@@ -188,6 +201,15 @@ TEST(Analyzer, RefusesAKickBesideTheScanPlane) {
   ASSERT_EQ(lobs.size(), 1u);
   EXPECT_EQ(lobs[0].refusal, Refusal::kPlaneMisaligned) << lobs[0].why;
   EXPECT_THAT(lobs[0].why, HasSubstr("covers 0.7"));
+}
+
+TEST(Analyzer, RefusesAKickThatDriftsOutOfThePlane) {
+  sim::RecordPlan plan;
+  plan.kicks = {kick(8.39, 36.78)};
+  plan.direction_error_rad = radians(1.0);
+  const auto lobs = lobs_of({}, plan);
+  ASSERT_EQ(lobs.size(), 1u);
+  EXPECT_EQ(lobs[0].refusal, Refusal::kPlaneMisaligned) << lobs[0].why;
 }
 
 TEST(Analyzer, SeesNoLobOfAKickThatLeavesThePlane) {
