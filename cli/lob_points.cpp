@@ -114,10 +114,10 @@ void add_points_flags(CLI::App& verb, PointsFlags& flags) {
       ->type_name("FILE");
   verb.add_flag("--json", flags.json, "with --points: JSON instead of text");
   verb.add_option("--centre", flags.centre,
-                  "with --points: ball centre by a circle of known radius, or the paper's middle of the limits")
+                  "ball centre by a circle of known radius, or the paper's middle of the limits")
       ->check(CLI::IsMember({"circle", "middle"}))
       ->capture_default_str();
-  verb.add_option("--cd", flags.cd, "with --points: drag coefficient, instead of fitting it")
+  verb.add_option("--cd", flags.cd, "drag coefficient, instead of fitting it")
       ->check(CLI::Range(0.0, 10.0));
 }
 

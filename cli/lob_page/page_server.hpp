@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "cli/lob_page/broadcast.hpp"
+#include "cli/lob_page/scene.hpp"
+
+namespace trivela::cli::lob_page {
+
+/// Where the page is served: an IP address or a host's name, and a port; 0: any free one.
+struct ListenAddress {
+  std::string host = "127.0.0.1";
+  int port = 0;
+};
+
+/// "ADDRESS", "ADDRESS:PORT", "[IPV6]:PORT". Throws UsageError naming a port that is none.
+ListenAddress parse_listen(const std::string& text, int default_port);
+
+/// Serves the page: /, /api/state, /api/events (server-sent events), /api/frame?i=N, /api/table.csv and POST
+/// /api/COMMAND with JSON. A request that names another host than this one, or comes from another site's page, is
+/// refused: somebody else's page must not work the calibration through a browser that can reach it. Threads of its own;
+/// every viewer keeps one.
+class PageServer {
+ public:
+  /// Listens. Throws std::runtime_error naming the address where that is refused. Both must outlive it.
+  PageServer(Scene& scene, Broadcast& broadcast, const ListenAddress& address);
+
+  /// Closes the broadcast and hangs up; within a second, whatever the viewers do.
+  ~PageServer();
+  PageServer(const PageServer&) = delete;
+  PageServer& operator=(const PageServer&) = delete;
+
+  int port() const;
+
+  /// For a browser on this machine, or on another one where every address is listened on.
+  std::string url() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trivela::cli::lob_page

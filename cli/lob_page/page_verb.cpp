@@ -1,0 +1,88 @@
+#include "cli/lob_page/page_verb.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/lob_page/live_scene.hpp"
+#include "cli/lob_page/page_server.hpp"
+#include "cli/lob_page/replay_scene.hpp"
+#include "cli/scan/scanner_session.hpp"
+#include "cli/verbs.hpp"
+#include "config/robot.hpp"
+#include "hal/open_range_finder.hpp"
+
+namespace trivela::cli {
+namespace {
+
+constexpr int kCheck_ms = 200;  // how often the scene is asked whether it still runs
+
+lob_page::CalibrationPlan plan_of(const PageFlags& flags) {
+  lob_page::CalibrationPlan plan{.powers = {}, .trials = flags.trials};
+  if (!flags.plan.empty()) plan.powers = lob_page::parse_powers(flags.plan);
+  if (!flags.robot.empty()) {
+    const config::Robot robot = config::load_robot(flags.robot);
+    for (const kicking::SetPoint& point : robot.model.table.set_points()) plan.powers.push_back(point.power);
+  }
+  return plan;
+}
+
+std::unique_ptr<lob_page::Scene> open_scene(const PageFlags& flags, const kicking::lob::LaserMount& mount,
+                                            const kicking::lob::AnalyzerConfig& config,
+                                            lob_page::Broadcast& broadcast) {
+  const lob_page::CalibrationPlan plan = plan_of(flags);
+  if (!flags.replay.empty()) return std::make_unique<lob_page::ReplayScene>(flags.replay, config, plan, broadcast);
+  const std::string record = !flags.record.empty()
+                                 ? flags.record
+                                 : fmt::format("lobs-{:%Y-%m-%d-%H%M%S}.db", fmt::localtime(std::time(nullptr)));
+  refuse_existing(record);
+  return std::make_unique<lob_page::LiveScene>(
+      hal::open_range_finder(flags.live),
+      lob_page::LiveOptions{.device = flags.live, .record = record, .mount = mount, .analyzer = config, .plan = plan},
+      broadcast);
+}
+
+}  // namespace
+
+void add_page_flags(CLI::App& verb, PageFlags& flags) {
+  auto* live = verb.add_option("--live", flags.live, "page: this scanner, /dev/ttyACM0 or tcp://HOST:PORT");
+  auto* replay = verb.add_option("--replay", flags.replay,
+                                 "page: this scan record, which is not changed; verdicts go to FILE.verdicts.json")
+                     ->excludes(live);
+  verb.add_option("--record", flags.record, "page, live: record, must not exist; default: lobs-<date>.db here")
+      ->excludes(replay);
+  verb.add_option("--listen", flags.listen, "page: ADDRESS[:PORT] to serve it on; 0.0.0.0 opens it to the network")
+      ->capture_default_str();
+  verb.add_option("--port", flags.port, "page: port, 0: any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  auto* plan = verb.add_option("--plan", flags.plan, "page: powers to calibrate, e.g. 15,20,...,50");
+  verb.add_option("--robot", flags.robot, "page: powers of this robot file's table as the plan")->excludes(plan);
+  verb.add_option("--trials", flags.trials, "page: kicks of each power")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
+               const kicking::lob::AnalyzerConfig& config) {
+  const lob_page::ListenAddress address = lob_page::parse_listen(flags.listen, flags.port);
+  SignalInbox signals;  // before all threads, which must not take them
+  lob_page::Broadcast broadcast;
+  const auto scene = open_scene(flags, mount, config, broadcast);
+  const lob_page::PageServer server(*scene, broadcast, address);
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+  while (!signals.stop_requested()) {
+    scene->check();
+    poll(&inbox, 1, kCheck_ms);
+  }
+  scene->finish();
+  return kDone;
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,82 @@
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/scan/verb_parts.hpp"
+#include "cli/verbs.hpp"
+#include "hal/scip/emulator.hpp"
+
+namespace trivela::cli {
+namespace {
+
+/// The scans of a record or of the synthesis, one after the other, time divided by the speed.
+class Playback {
+ public:
+  Playback(const EmulateFlags& flags, const SyntheticFlags& synthetic, const MountFlags& mount)
+      : speed_(flags.speed), loop_(flags.loop) {
+    if (flags.source == "synthetic") {
+      SyntheticScans made = synthesize(synthetic, mount);
+      session_ = made.session;
+      scans_ = std::move(made.record.scans);
+    } else {
+      record_.emplace(flags.source);
+      session_ = record_->session();
+    }
+    if (size() == 0) throw std::runtime_error{fmt::format("{} holds no scans", flags.source)};
+  }
+
+  const evaluator::log::ScanSession& session() const { return session_; }
+
+  std::optional<kicking::lob::Scan> next() {
+    if (next_ == size()) {
+      if (!loop_) return std::nullopt;
+      next_ = 0;
+      offset_ns_ = last_t_ns_ + std::llround(session_.geometry.scan_period_s * 1e9 / speed_);
+    }
+    kicking::lob::Scan scan = at(next_);
+    if (next_ == 0) first_t_ns_ = scan.t_ns;
+    ++next_;
+    last_t_ns_ = offset_ns_ + std::llround(static_cast<double>(scan.t_ns - first_t_ns_) / speed_);
+    scan.t_ns = last_t_ns_;
+    return scan;
+  }
+
+ private:
+  std::size_t size() const { return record_ ? record_->size() : scans_.size(); }
+  kicking::lob::Scan at(std::size_t i) const { return record_ ? record_->scan(i) : scans_[i]; }
+
+  double speed_;
+  bool loop_;
+  std::optional<evaluator::log::ScanReader> record_;
+  std::vector<kicking::lob::Scan> scans_;
+  evaluator::log::ScanSession session_;
+  std::size_t next_ = 0;
+  std::int64_t first_t_ns_ = 0;
+  std::int64_t offset_ns_ = 0;
+  std::int64_t last_t_ns_ = 0;
+};
+
+}  // namespace
+
+int emulate_scanner(const EmulateFlags& flags, const SyntheticFlags& synthetic, const MountFlags& mount) {
+  Playback playback(flags, synthetic, mount);
+  SignalInbox signals;  // before the emulator's thread, which must not take them
+  hal::scip::EmulatorConfig config;
+  config.geometry = playback.session().geometry;
+  if (flags.tcp_port) {
+    config.port = hal::scip::EmulatedPort::kTcp;
+    config.tcp_port = static_cast<std::uint16_t>(*flags.tcp_port);
+  }
+  const hal::scip::Emulator emulator(config, [&] { return playback.next(); });
+  if (playback.session().simulated) fmt::print(stderr, "{}\n", kSyntheticNotice);
+  fmt::print("{}\n", emulator.address());
+  std::fflush(stdout);
+  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+  while (!signals.stop_requested()) poll(&inbox, 1, -1);
+  return kDone;
+}
+
+}  // namespace trivela::cli

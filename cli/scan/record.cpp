@@ -1,0 +1,75 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/scan/scanner_session.hpp"
+#include "cli/scan/verb_parts.hpp"
+#include "cli/verbs.hpp"
+#include "hal/open_range_finder.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kLook{200};  // between two looks at the signals and the terminal
+
+/// One line on standard error that is drawn over; silent unless that is a terminal.
+class StatusLine {
+ public:
+  ~StatusLine() {
+    if (drawn_) fmt::print(stderr, "\n");
+  }
+  void show(const std::string& text) {
+    if (!terminal_ || Clock::now() < next_) return;
+    fmt::print(stderr, "\r  {:<100}", text.substr(0, 100));
+    std::fflush(stderr);
+    drawn_ = true;
+    next_ = Clock::now() + kLook;
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool drawn_ = false;
+  Clock::time_point next_{};
+};
+
+}  // namespace
+
+int record_scans(const std::filesystem::path& out, const std::string& device, const MountFlags& mount,
+                 std::optional<double> seconds, std::optional<double> power) {
+  refuse_existing(out);
+  SignalInbox signals;
+  StatusLine line;
+  const auto finder = hal::open_range_finder(device);
+  while (!finder->connected(kLook)) {
+    line.show("waiting for " + device + ": " + finder->status());
+    if (signals.stop_requested()) throw std::runtime_error{fmt::format("nothing was recorded: {}", finder->status())};
+  }
+  const evaluator::log::ScanSession session = scanner_session(*finder, mount.mount(), device);
+  evaluator::log::ScanWriter writer(out, session);
+  if (power) writer.set_point({.t_ns = session.started_t_ns, .power = *power});
+  const Clock::time_point started = Clock::now();
+  std::size_t scans = 0;
+  std::size_t refused = 0;
+  while (!signals.stop_requested() && !finder->ended()) {
+    const std::chrono::duration<double> passed = Clock::now() - started;
+    if (seconds && passed.count() >= *seconds) break;
+    if (const auto scan = finder->read(kLook)) {
+      scan->range_mm.size() == session.geometry.beams&& writer.push(*scan) ? ++scans : ++refused;
+    }
+    line.show(fmt::format("{:.0f} s, {} scans, {} lost; {}", passed.count(), scans, finder->counters().lost_scans,
+                          finder->status()));
+  }
+  writer.finalise();
+  const hal::LinkCounters counters = finder->counters();
+  fmt::print("{}: {} scans of {} {}\n", out.string(), scans, session.identity.vendor, session.identity.product);
+  if (session.simulated) fmt::print("{}\n", kSyntheticNotice);
+  if (counters.lost_scans + refused == 0) return kDone;
+  fmt::print(stderr, "trivela: {} scans were lost on the line and {} could not be recorded\n", counters.lost_scans,
+             refused);
+  return kDoneWithLoss;
+}
+
+}  // namespace trivela::cli
