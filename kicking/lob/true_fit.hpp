@@ -1,25 +1,22 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "kicking/lob/analyzer_config.hpp"
+#include "kicking/lob/flight_model.hpp"
 #include "kicking/lob/lob_record.hpp"
 
 namespace trivela::kicking::lob {
 
 /// A flight fitted in time.
 struct FittedFlight {
-  using Parameters = Eigen::Matrix<double, 5, 1>;  ///< x and t of the launch [m, s], v_x, v_z [m/s], C_d
-  using Covariance = Eigen::Matrix<double, 5, 5>;
-
-  Parameters parameters = Parameters::Zero();
-  Covariance covariance = Covariance::Zero();  ///< zero row and column: C_d was given
-  std::int64_t t0_ns = 0;                      ///< that t is counted from
-  std::vector<double> residuals_m;             ///< distance of each centre from the flight at its time
+  FlightModel::Parameters parameters = FlightModel::Parameters::Zero();
+  FlightModel::Covariance covariance = FlightModel::Covariance::Zero();  ///< zero row and column: C_d was given
+  std::int64_t t0_ns = 0;                                                ///< that t is counted from
+  std::vector<double> residuals_m;  ///< distance of each centre from the flight at its time
   double residual_rms_m = 0.0;
 
   double launch_x_m() const { return parameters[0]; }
