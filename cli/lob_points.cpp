@@ -117,8 +117,7 @@ void add_points_flags(CLI::App& verb, PointsFlags& flags) {
                   "ball centre by a circle of known radius, or the paper's middle of the limits")
       ->check(CLI::IsMember({"circle", "middle"}))
       ->capture_default_str();
-  verb.add_option("--cd", flags.cd, "drag coefficient, instead of fitting it")
-      ->check(CLI::Range(0.0, 10.0));
+  verb.add_option("--cd", flags.cd, "drag coefficient, instead of fitting it")->check(CLI::Range(0.0, 10.0));
 }
 
 std::optional<std::vector<ForegroundReturn>> read_returns(std::istream& in, const std::string& file,

@@ -43,12 +43,23 @@ std::optional<Flight> Tracker::add(std::int64_t t_ns, std::span<const BallCentre
       }
     }
   }
-  std::swap(unused_[0], unused_[1]);
-  unused_[1].clear();
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!used_[i]) unused_[1].push_back(candidates[i]);
-  }
+  remember_unused(candidates);
   return ended;
+}
+
+void Tracker::remember_unused(std::span<const BallCentre> candidates) {
+  constexpr std::size_t kMost = 12;  // what looks most like a ball; a crowd must not cost the next scan
+  std::swap(unused_[0], unused_[1]);
+  auto& unused = unused_[1];
+  unused.clear();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!used_[i]) unused.push_back(candidates[i]);
+  }
+  if (unused.size() <= kMost) return;
+  std::nth_element(unused.begin(), unused.begin() + kMost, unused.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.chord_ratio - 1.0) < std::abs(b.chord_ratio - 1.0);
+  });
+  unused.resize(kMost);
 }
 
 void Tracker::extend(Track& track, std::span<const BallCentre> candidates) {
@@ -76,9 +87,8 @@ void Tracker::start(const BallCentre& first, const BallCentre& second, std::size
   track->centres = {first, second, candidates[third]};
   track->taken = third;
   const double since_s = landed_ ? seconds(landed_->t_ns, first.t_ns) : kAfterLanding_s;
-  track->bounced =
-      since_s < kAfterLanding_s && apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m + kRetained_mps * since_s;
-  used_[third] = 1;
+  track->bounced = std::abs(since_s) < kAfterLanding_s &&
+                   apart_m(*landed_, first.x_m, first.z_m) < kFromLanding_m + kRetained_mps * since_s;
   const bool lay = rest_.seen >= kLeastCentres && seconds(rest_.t_ns, first.t_ns) < kAfterRest_s &&
                    apart_m(first, rest_.x_m, rest_.z_m) < kFromRest_m;
   track->launch_z_m = lay ? rest_.z_m : config_.ball.radius_m;

@@ -58,6 +58,7 @@ class Tracker {
   void extend(Track& track, std::span<const BallCentre> candidates);
   void start(const BallCentre& first, const BallCentre& second, std::size_t third,
              std::span<const BallCentre> candidates);
+  void remember_unused(std::span<const BallCentre> candidates);
   bool is_over(const Track& track, std::int64_t t_ns) const;
   std::optional<Flight> end(Track& track);
   void look_for_rest(const BallCentre& candidate);

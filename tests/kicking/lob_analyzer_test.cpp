@@ -295,6 +295,24 @@ TEST(NotALob, PersonWhoWalksOrRunsThrough) {
   }
 }
 
+TEST(NotALob, Garbage) {
+  const sim::Draws draws{8, 1};
+  const ScanGeometry geometry;
+  std::vector<Scan> scans(300, Scan{0, std::vector<std::uint32_t>(geometry.beams, 1)});
+  for (std::uint32_t j = 0; j < scans.size(); ++j) {
+    scans[j].t_ns = 25'000'000 * static_cast<std::int64_t>(j);
+    if (j < 40) continue;
+    std::uint32_t range_mm = 0;
+    for (std::uint32_t i = 0; i < geometry.beams; ++i) {
+      // Now steps, now patches as wide as a ball.
+      if (i % (1 + j % 20) == 0)
+        range_mm = static_cast<std::uint32_t>(draws.uniform_in(0, 9e3, sim::Role::kStart, j, i));
+      scans[j].range_mm[i] = range_mm;
+    }
+  }
+  for (const LobRecord& lob : lobs_in(scans)) EXPECT_NE(lob.refusal, Refusal::kNone);
+}
+
 TEST(Tracker, LobIsFoundWhileAPersonWalksBehindIt) {
   const auto scene = [](double t) {
     auto discs = person(7.5 - 1.2 * t, t);
