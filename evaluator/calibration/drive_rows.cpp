@@ -17,7 +17,9 @@ namespace trivela::evaluator {
 namespace {
 
 constexpr double kStill_radps = 0.3;   // turning slower than this the ball's track in the handler is straight
-constexpr double kBounced_m = 0.05;    // over the floor: lower at the line, the ball has touched it
+constexpr double kNearFloor_m = 0.12;  // lower than this over the floor before the line, the ball has touched it
+constexpr double kAirborne_s = 0.25;   // after the order every kick is higher
+constexpr double kFlight_s = 2.0;
 constexpr double kLeastReach_m = 0.5;  // of the goal line in front of the ball
 
 using RobotKey = std::pair<std::int64_t, std::int64_t>;  // session, robot
@@ -97,6 +99,28 @@ double v_h_mps(const DriveKick& kick, const kicking::RobotModel& model) {
   return v_kick_mps * std::cos(model.exit_angle_at(kick.power)) + model.transfer_exact.along_mps(kick.twist.vy_mps);
 }
 
+using SightingsByRobot = std::map<RobotKey, std::vector<BallSighting>>;
+
+SightingsByRobot all_sightings(const log::Reader& reader) {
+  SightingsByRobot sightings;
+  reader.query(kBallSightingsSql, [&](std::span<const log::Value> row) {
+    sightings[{std::get<std::int64_t>(row[0]), std::get<std::int64_t>(row[1])}].push_back(
+        {std::get<std::int64_t>(row[2]), {number(row[3]), number(row[4]), number(row[5])}});
+  });
+  return sightings;
+}
+
+/// Was the ball seen near the floor on its way to the goal line?
+bool touched_floor(const std::vector<BallSighting>& sightings, const DriveKick& kick, double ball_radius_m) {
+  for (const BallSighting& sighting : sightings) {
+    const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
+    if (t_s < kAirborne_s) continue;
+    if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) return false;
+    if (sighting.ball_m.z() < ball_radius_m + kNearFloor_m) return true;
+  }
+  return false;
+}
+
 constexpr const char* kBackwards = "the robot pointed away from the goal line";
 
 }  // namespace
@@ -131,25 +155,27 @@ DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kic
 }
 
 DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model) {
+  const SightingsByRobot sightings = all_sightings(reader);
   const auto row_of = [&](const DriveKick& kick) -> std::optional<kicking::TransferRow> {
     const double distance_m = kick.crossing_in_robot().y() - model.ball_offset_m;
-    if (distance_m < kLeastReach_m || *kick.z_cross_m < model.ball.radius_m + kBounced_m) return std::nullopt;
+    const auto seen = sightings.find(kick.robot);
+    const bool bounced = seen != sightings.end() && touched_floor(seen->second, kick, model.ball.radius_m);
+    if (distance_m < kLeastReach_m || bounced || *kick.z_cross_m < model.ball.radius_m + kNearFloor_m) {
+      return std::nullopt;
+    }
     return kicking::TransferRow{.vy_mps = kick.twist.vy_mps,
                                 .v0_mps = model.table.speed_for(kick.power),
                                 .exit_angle_rad = model.exit_angle_at(kick.power),
                                 .distance_m = distance_m,
                                 .z_cross_m = *kick.z_cross_m};
   };
-  return rows_of<kicking::TransferRow>(reader, "straight_drive", row_of,
-                                       "the ball lay on the floor at the goal line, or the robot pointed away from it");
+  return rows_of<kicking::TransferRow>(
+      reader, "straight_drive", row_of,
+      "the ball touched the floor before the goal line, or the robot pointed away from it");
 }
 
 DriveKicks<double> release_delays(const log::Reader& reader) {
-  std::map<RobotKey, std::vector<BallSighting>> sightings;
-  reader.query(kBallSightingsSql, [&](std::span<const log::Value> row) {
-    sightings[{std::get<std::int64_t>(row[0]), std::get<std::int64_t>(row[1])}].push_back(
-        {std::get<std::int64_t>(row[2]), {number(row[3]), number(row[4]), number(row[5])}});
-  });
+  SightingsByRobot sightings = all_sightings(reader);
   DriveKicks<double> result;
   std::size_t turning = 0;
   std::size_t unseen = 0;

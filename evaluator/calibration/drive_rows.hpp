@@ -31,7 +31,7 @@ DriveKicks<kicking::DeflectionRow> lateral_kicks(const log::Reader& reader, cons
 DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kicking::RobotModel& model,
                                             double cycle_s);
 
-/// Kicks of policy "straight_drive".
+/// Kicks of policy "straight_drive" whose ball crossed without touching the floor, as the flight camera saw it.
 DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model);
 
 /// Order to release [s] of every accepted kick of a robot that does not turn, by the flight camera alone: the instant

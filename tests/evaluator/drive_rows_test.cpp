@@ -125,8 +125,14 @@ TEST_F(DriveLog, StraightKicksGiveTheTransferThatMadeThem) {
   for (const double vy : {-1.0, -0.5, 0.5, 1.0})
     kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, vy, 0.0}, {0.9, 0.6, 1});
   kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, 0.1, 0.11);
+  kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, -1.0, 0.0}, 0.0, 0.4);  // after a bounce
+  const std::vector<std::pair<double, double>> bounce{{4.0, 0.8}, {6.0, 0.9}, {8.3, 0.12}, {9.5, 0.5}};  // y, z
+  for (std::size_t i = 0; i < bounce.size(); ++i) {
+    const Int t_ns = kicks_ * 1'000'000'000 + 300'000'000 * static_cast<Int>(i + 1);
+    writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, 0.0, bounce[i].first, bounce[i].second});
+  }
   const auto kicks = straight_kicks(read(), {});
-  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("1 kick left out: the ball lay on the floor")));
+  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("2 kicks left out: the ball touched the floor")));
   const auto fit = kicking::fit_transfer(kicks.rows, kDelay_s);
   EXPECT_NEAR(fit.forward->exact.value, 0.9, 2e-3);
   EXPECT_NEAR(fit.backward->exact.value, 0.6, 2e-3);
