@@ -203,6 +203,23 @@ TEST(Analyzer, RefusesAKickBesideTheScanPlane) {
   EXPECT_THAT(lobs[0].why, HasSubstr("covers 0.7"));
 }
 
+TEST(Analyzer, WhatItAcceptsBesideTheScanPlaneIsStillRight) {
+  sim::RecordPlan plan;
+  plan.kicks.assign(6, kick(8.39, 36.78));
+  const Exit effective = effective_exit(plan.kicks[0]);
+  for (const auto& [direction_deg, lateral_m] : {std::pair{0.5, 0.0}, std::pair{-0.5, 0.0}, std::pair{0.0, 0.04}}) {
+    plan.direction_error_rad = radians(direction_deg);
+    plan.lateral_error_m = lateral_m;
+    const auto lobs = lobs_of({}, plan);
+    ASSERT_EQ(lobs.size(), 6u);
+    const MeanExit by_shape = mean_exit(lobs, true), by_time = mean_exit(lobs, false);
+    EXPECT_NEAR(by_shape.angle_deg, degrees(effective.angle_rad), 0.2);
+    EXPECT_NEAR(by_shape.speed_mps, effective.speed_mps, 0.02);
+    EXPECT_NEAR(by_time.angle_deg, 36.78, 0.2);
+    EXPECT_NEAR(by_time.speed_mps, 8.39, 0.05);
+  }
+}
+
 TEST(Analyzer, RefusesAKickThatDriftsOutOfThePlane) {
   sim::RecordPlan plan;
   plan.kicks = {kick(8.39, 36.78)};
