@@ -177,7 +177,7 @@ TEST_F(CalibrateVerb, TableThatDoesNotRiseIsNamedAndNotWritten) {
   const Result result = run("table lobs.csv --robot seven --json");
   EXPECT_EQ(result.exit_code, kFailed);
   EXPECT_THAT(result.err,
-              AllOf(HasSubstr("power 30 (1 trials) does not kick faster"), HasSubstr("nothing is written")));
+              AllOf(HasSubstr("power 30 (1 trial) does not kick faster"), HasSubstr("nothing is written")));
   EXPECT_EQ(json::parse(result.out)["not_rising_powers"], json::array({30.0}));
   EXPECT_THAT(files(), ElementsAre("lobs.csv"));
   ASSERT_EQ(run("table lobs.csv --robot seven --isotonic").exit_code, kDone);

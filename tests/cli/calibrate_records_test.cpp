@@ -1,0 +1,96 @@
+// trivela calibrate from a scan record and from a match log.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/calibrate/subcommands.hpp"
+#include "cli/verbs.hpp"
+#include "config/robot.hpp"
+#include "tests/cli/lob_page/recorded_lobs.hpp"
+#include "tests/evaluator/drive_log.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+json run(const std::string& arguments, int expected = kDone) {
+  CLI::App app;
+  int exit_code = -1;
+  add_calibrate_table(app, exit_code);
+  add_calibrate_deflection(app, exit_code);
+  add_calibrate_rotation(app, exit_code);
+  add_calibrate_transfer(app, exit_code);
+  add_calibrate_delay(app, exit_code);
+  testing::internal::CaptureStdout();
+  try {
+    app.parse(arguments + " --json");
+  } catch (...) {
+    testing::internal::GetCapturedStdout();
+    throw;
+  }
+  EXPECT_EQ(exit_code, expected);
+  return json::parse(testing::internal::GetCapturedStdout());
+}
+
+TEST(CalibrateRecords, TrueTableOfASyntheticRecordIsWhatWasKicked) {
+  const lob_page::RecordedLobs lobs({{15, 6.1}, {15, 6.1}, {25, 8.7}, {25, 8.7}, {40, 10.8}});
+  const std::string out = lobs.path("nine.toml").string();
+  const json table = run("table " + lobs.path().string() + " --robot nine --kind true --out " + out);
+  ASSERT_EQ(table["setpoints"].size(), 3u);
+  const double kicked_mps[] = {6.1, 8.7, 10.8};
+  const int trials[] = {2, 2, 1};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(table["setpoints"][i]["exit_speed_mps"].get<double>(), kicked_mps[i], 0.05);
+    EXPECT_NEAR(table["setpoints"][i]["exit_angle_deg"].get<double>(), 36.78, 0.2);
+    EXPECT_EQ(table["setpoints"][i]["trials"], trials[i]);
+  }
+  // Effective: drag is absorbed, the ball seems slower and steeper.
+  const json effective = run("table " + lobs.path().string() + " --robot nine --out " + out);
+  EXPECT_LT(effective["setpoints"][2]["exit_speed_mps"].get<double>(), 0.97 * 10.8);
+  EXPECT_GT(effective["exit_angle_deg"].get<double>(), 36.9);
+  EXPECT_NO_THROW(config::load_robot(out));
+}
+
+class CalibrateDrives : public evaluator::DriveLog {};
+
+TEST_F(CalibrateDrives, GiveTheWorldThatMadeThem) {
+  const kicking::Transfer world{0.9, 0.6, 0.8};
+  for (const double v : {-1.0, -0.5, 0.5, 1.0}) {
+    kick("lateral_drive", {0.0, 3.0, 0.05}, {v, 0.0, 0.0}, world);
+    kick("turn_drive", {0.0, 3.0, 0.0}, {0.0, 0.0, v}, {1, 1, 1});
+    kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, v, 0.0}, world);
+  }
+  writer_.finalise();
+  const std::string log = path().string();
+  const std::string out = " --robot cambada_1 --out " + path("nine.toml").string();
+  EXPECT_NEAR(run("deflection " + log + out)["transfer"]["lateral_ratio"].get<double>(), 0.8, 1e-6);
+  const std::string same = " --robot " + path("nine.toml").string() + " --out " + path("nine.toml").string();
+  EXPECT_NEAR(run("rotation " + log + same)["physical"]["delay_s"].get<double>(), evaluator::kDelay_s, 0.002);
+  const json transfer = run("transfer " + log + same);
+  EXPECT_NEAR(transfer["forward"]["exact"]["value"].get<double>(), 0.9, 2e-3);
+  EXPECT_NEAR(transfer["backward"]["exact"]["value"].get<double>(), 0.6, 2e-3);
+  const config::Robot robot = config::load_robot(path("nine.toml"));
+  EXPECT_EQ(robot.calibration->deflection->kicks, 4u);
+  EXPECT_EQ(robot.calibration->deflection->files, std::vector<std::string>{"match.db"});
+  EXPECT_NEAR(robot.model.transfer_exact.lateral, 0.8, 1e-6);
+}
+
+TEST_F(CalibrateDrives, NeedARobotAndTheRightKindOfRecord) {
+  kick("lateral_drive", {0.0, 3.0, 0.05}, {1.0, 0.0, 0.0}, {});
+  writer_.finalise();
+  const std::string log = path().string();
+  EXPECT_THAT([&] { run("deflection " + log); }, ThrowsMessage<UsageError>(HasSubstr("it needs --robot")));
+  EXPECT_THAT([&] { run("deflection " + log + " --robot cambada_1"); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("1 row, need at least 2")));
+  EXPECT_THAT([&] { run("table " + log + " --robot nine --out " + path("nine.toml").string()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("is a match log; a table needs")));
+  const lob_page::RecordedLobs lobs({{15, 6.1}});
+  EXPECT_THAT([&] { run("delay " + lobs.path().string() + " --robot cambada_1"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("is a scan record; this needs")));
+}
+
+}  // namespace
+}  // namespace trivela::cli
