@@ -79,8 +79,8 @@ std::vector<std::string> not_rising(const kicking::TableFit& fit) {
   std::vector<std::string> sentences;
   for (const std::size_t i : fit.not_rising) {
     const auto& point = fit.set_points[i];
-    sentences.push_back(
-        fmt::format("power {:g} ({} trials) does not kick faster than a weaker one", point.power, point.trials));
+    sentences.push_back(fmt::format("power {:g} ({} {}) does not kick faster than a weaker one", point.power,
+                                    point.trials, point.trials == 1 ? "trial" : "trials"));
   }
   return sentences;
 }
