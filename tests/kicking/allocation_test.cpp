@@ -30,9 +30,8 @@ TEST(Allocation, IsCounted) {
   EXPECT_GT(allocations, before);
 }
 
-TEST(Allocation, ThereIsNoneInADecision) {
+void expect_decisions_without_allocation(const RobotModel& robot) {
   PolicyMemory memory;
-  const RobotModel robot;
   PolicyConfig config;
   double sum = 0.0;
   const std::size_t before = allocations;
@@ -58,6 +57,15 @@ TEST(Allocation, ThereIsNoneInADecision) {
   }
   EXPECT_EQ(allocations, before);
   EXPECT_GT(sum, 0.0);
+}
+
+TEST(Allocation, ThereIsNoneInADecision) { expect_decisions_without_allocation({}); }
+
+TEST(Allocation, ThereIsNoneWithAnExitAngleForEachPower) {
+  RobotModel robot;
+  const AnglePoint angles[] = {{15, 0.8}, {50, 0.6}};
+  robot.exit_angles.emplace(angles);
+  expect_decisions_without_allocation(robot);
 }
 
 }  // namespace
