@@ -16,6 +16,7 @@ let back = null;       // live: looking back, {position, playing}
 let view = null;       // {x, z, scale}: what is in the middle of the canvas, pixels a metre
 let colours = {};
 let arrivals = [];     // of frames in the last second
+let planShown = '';    // what showPlan() has drawn
 
 const live = () => setup && setup.mode === 'live';
 const fixed = (value, digits) => value === null || value === undefined ? '–' : value.toFixed(digits);
@@ -65,6 +66,10 @@ const lookAt = newestOnly(async (position) => {
 // --- what comes from the server
 
 function takeSetup(data) {
+  if (setup && setup.file !== data.file) {
+    newest = -1;
+    back = null;
+  }
   setup = data;
   document.body.dataset.mode = setup.mode;
   const scanner = setup.scanner ? setup.scanner + ', ' : '';
@@ -192,7 +197,12 @@ function details(lob) {
     more.append(element('div', `true: ${pair(lob.true.exit_speed_mps, 2)} m/s, ` +
       `${pair(lob.true.exit_angle_deg, 1)}°, Cd ${pair(lob.true.Cd, 2)}`));
   }
-  more.append(element('div', `${lob.centres.length} scans with the ball, at ${lob.t_s.toFixed(2)} s`));
+  const where = element('button', 'go there');
+  where.onclick = (event) => {
+    event.stopPropagation();
+    seek(lob.end);
+  };
+  more.append(element('div', `${lob.centres.length} scans with the ball, at ${lob.t_s.toFixed(2)} s `), where);
   if (lob.accepted) more.append(element('input', '', {type: 'text', placeholder: 'why it is rejected (optional)'}));
   return more;
 }
@@ -204,16 +214,20 @@ function choose(n) {
 }
 
 function showPlan() {
+  // Buttons that are replaced while a finger is on them are not clicked.
+  const wanted = JSON.stringify([plan, status.power, live()]);
+  if (wanted === planShown) return;
+  planShown = wanted;
   $('power').hidden = !live() && !plan && status.power === null;
   $('tested').textContent = status.power ?? 'not set';
   $('progress').hidden = !plan;
   $('plan').hidden = !plan;
   if (!plan) return;
-  const wanted = plan.powers.length * plan.trials;
+  const kicks = plan.powers.length * plan.trials;
   const done = plan.powers.reduce((sum, row) => sum + Math.min(row.done, plan.trials), 0);
   const now = plan.powers.find((row) => row.power === status.power);
-  $('progress').textContent = done >= wanted ? `All ${wanted} kicks are done.`
-    : `${done} of ${wanted} kicks done` + (now ? `; next: power ${now.power}, kick ${now.done + 1}` : '');
+  $('progress').textContent = done >= kicks ? `All ${kicks} kicks are done.`
+    : `${done} of ${kicks} kicks done` + (live() && now && now.done < plan.trials ? `; next: power ${now.power}, kick ${now.done + 1}` : '');
   $('plan').replaceChildren(...plan.powers.map((row) => {
     const chip = element('button', row.power,
       {'data-power': row.power, 'aria-pressed': row.power === status.power});

@@ -90,14 +90,15 @@ struct PageServer::Impl {
     if (!seat->taken()) return refuse(response, 503, fmt::format("{} viewers are here already", kMostViewers));
     auto seen = std::make_shared<Broadcast::Seen>();
     response.set_header("Cache-Control", "no-store");
-    response.set_chunked_content_provider("text/event-stream",
-                                          [this, seat, seen](std::size_t, httplib::DataSink& sink) {
-                                            const auto messages = broadcast.wait(*seen, kStillHere);
-                                            if (broadcast.closed()) return false;
-                                            std::string text = messages.empty() ? ":\n\n" : "";
-                                            for (const Broadcast::Message& message : messages) text += *message;
-                                            return sink.write(text.data(), text.size());
-                                          });
+    response.set_chunked_content_provider(
+        "text/event-stream", [this, seat, seen](std::size_t, httplib::DataSink& sink) {
+          std::string text = *seen == Broadcast::Seen{} ? "retry: 500\n\n" : "";  // ms, where the line broke
+          const auto messages = broadcast.wait(*seen, kStillHere);
+          if (broadcast.closed()) return false;
+          if (messages.empty()) text += ":\n\n";
+          for (const Broadcast::Message& message : messages) text += *message;
+          return sink.write(text.data(), text.size());
+        });
   }
 
   void post(const Request& request, Response& response) {

@@ -100,6 +100,10 @@ test('a replayed lob appears, is rejected, and the table changes', async () => {
   await page.click('#lobs li[data-lob="1"] .judge');
   await page.waitForSelector('#lobs li[data-lob="1"][data-accepted="true"]', patience);
   assert.equal((await rows(page))[0][1], '2');
+  await page.click('#lobs li[data-lob="1"] .more button');
+  const end = await page.evaluate(() => fetch('/api/state').then((answer) => answer.json()).then((all) => all.lobs[1].end));
+  await drawn(page, end);
+  await page.screenshot({path: join(process.env.BROWSER_FOLDER, 'screenshots', 'replay-chosen.png')});
   await page.click('#lobs li[data-lob="1"] .values');
   assert.deepEqual(page.complaints, []);
 

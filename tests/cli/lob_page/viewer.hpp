@@ -59,7 +59,7 @@ class Viewer {
 
   void take(const std::string& event) {
     const auto data = event.find("\ndata: ");
-    if (data == std::string::npos) return;
+    if (data == std::string::npos) return;               // a comment, or when to come back
     const std::string name = event.substr(7, data - 7);  // after "event: "
     const auto json = nlohmann::json::parse(event.substr(data + 7));
     const std::lock_guard lock(mutex_);
