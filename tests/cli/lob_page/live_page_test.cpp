@@ -99,6 +99,16 @@ TEST_F(LivePage, ShowsAPulledCableAndRecovers) {
   EXPECT_GE(state()["status"]["link"]["reconnects"], 1);
 }
 
+TEST_F(LivePage, CountsDamageOnTheLineAndGoesOn) {
+  ASSERT_TRUE(viewer_.wait([&] { return !viewer_.status.is_null() && viewer_.status["link"]["up"] == true; }));
+  emulator_.corrupt_sums(3);
+  ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["wrong_sums"] == 3; }));
+  emulator_.skip_scans(2);
+  ASSERT_TRUE(viewer_.wait([&] { return viewer_.status["link"]["lost_scans"] == 5; }));
+  const std::size_t frames = state()["status"]["scans"].get<std::size_t>();
+  ASSERT_TRUE(viewer_.wait([&] { return viewer_.frames.back() > frames; })) << "it goes on";
+}
+
 TEST_F(LivePage, RefusesWhatALiveScannerCannotDo) {
   std::string body;
   EXPECT_EQ(post(server_.port(), "player", {{"playing", true}}, {}, "application/json", &body), 404);
