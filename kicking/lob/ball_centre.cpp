@@ -82,7 +82,7 @@ PlanePoint middle_of_limits(std::span<const BeamReturn> cluster, double radius_m
 
 CircleFit circle_of_known_radius(std::span<const BeamReturn> cluster, double radius_m) {
   constexpr double kGolden = 0.6180339887498949;
-  constexpr int kHalvings = 16;  // to two thousandths of the interval
+  constexpr int kSteps = 16;  // to half a thousandth of the interval
   const Middle middle = middle_of(cluster);
   const double guess_m = cluster[cluster.size() / 2].range_m + radius_m;
   const auto turned = [&](double angle) {
@@ -95,7 +95,7 @@ CircleFit circle_of_known_radius(std::span<const BeamReturn> cluster, double rad
   double low = -std::max(0.0, room), high = -low;
   double inner_low = high - kGolden * (high - low), inner_high = low + kGolden * (high - low);
   double cost_low = cost(inner_low), cost_high = cost(inner_high);
-  for (int i = 0; i < kHalvings && room > 0.0; ++i) {
+  for (int i = 0; i < kSteps && room > 0.0; ++i) {
     if (cost_low < cost_high) {
       high = std::exchange(inner_high, inner_low);
       cost_high = cost_low;
