@@ -29,7 +29,9 @@ struct DeflectionFit {
   std::vector<double> travel_residual_rad;  ///< alpha - atan(T vx / (d + lever))
   double travel_rms_rad = 0.0;
 
-  /// k_x of b = k_x vx d / V_h + vx tau, residuals in m; where the delay and every row's V_h are known.
+  /// k_x of b = k_x vx d / V_h + vx tau, residuals in m; where the delay and every row's V_h are known. A constant of
+  /// the drag-free law: drag takes from the sideways speed as well, so that a full transfer comes out as about 0.94 at
+  /// 6 m.
   std::optional<OriginLine> lateral;
 };
 
