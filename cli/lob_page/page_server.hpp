@@ -1,22 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "cli/lob_page/broadcast.hpp"
+#include "cli/lob_page/listen_address.hpp"
 #include "cli/lob_page/scene.hpp"
 
 namespace trivela::cli::lob_page {
-
-/// Where the page is served: an IP address or a host's name, and a port; 0: any free one.
-struct ListenAddress {
-  std::string host = "127.0.0.1";
-  int port = 0;
-};
-
-/// "ADDRESS", "ADDRESS:PORT", "[IPV6]:PORT". Throws UsageError naming a port that is none.
-ListenAddress parse_listen(const std::string& text, int default_port);
 
 /// Serves the page: /, /api/state, /api/events (server-sent events), /api/frame?i=N, /api/table.csv and POST
 /// /api/COMMAND with JSON. A request that names another host than this one, or comes from another site's page, is

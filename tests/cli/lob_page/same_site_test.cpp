@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/lob_page/page_server.hpp"
+#include "cli/lob_page/listen_address.hpp"
 #include "cli/verbs.hpp"
 
 namespace trivela::cli::lob_page {
