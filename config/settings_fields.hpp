@@ -67,6 +67,7 @@ void fields(V& v, TestDriveConfig& t) {
   v("kicks_per_level", t.kicks_per_level, Range{1, 1000});
   v("powers", t.powers, Range{0.0, 1000.0});
   v("distance_m", t.distance_m, Range{1.0, 20.0});
+  v("straight_distance_m", t.straight_distance_m, Range{1.0, 20.0});
   v("run_up_m", t.run_up_m, Range{0.3, 8.0});
   v("approach_mps", t.approach_mps, Range{0.1, 5.0});
   v("lateral_mps", t.lateral_mps, Range{-5.0, 5.0});

@@ -20,10 +20,10 @@ Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, cons
   return std::min(config.test_drive.approach_mps, std::sqrt(config.max_brake_mps2 * distance)) / distance * way;
 }
 
-/// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due at
-/// distance_m straight before the target.
+/// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due
+/// straight before the target, at `distance_m`.
 Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                     PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps) {
+                     PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
   const Shot shot = stopped_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
@@ -31,7 +31,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   judgement.drive.omega_radps = turn_rate_for(-wrap_angle(input.pose.heading_rad), config.stopped_turn_gain_hz, config);
 
   const Eigen::Vector2d position(input.pose.x_m, input.pose.y_m);
-  const Eigen::Vector2d kick_place = target - Eigen::Vector2d(0.0, config.test_drive.distance_m);
+  const Eigen::Vector2d kick_place = target - Eigen::Vector2d(0.0, distance_m);
   const Eigen::Vector2d ahead = std::copysign(1.0, velocity_mps) * along;
   const double passed_m = (position - kick_place).dot(ahead);
   bool& passing = memory.drive.passing;
@@ -68,18 +68,22 @@ Judgement judge_lateral_drive(const PolicyConfig& config, const RobotModel& robo
                               const PolicyInput& input, PolicyMemory& memory) {
   const auto& velocities = config.test_drive.lateral_mps;
   if (memory.drive.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.drive.level]);
+  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.drive.level],
+                    config.test_drive.distance_m);
 }
 
 Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                                const PolicyInput& input, PolicyMemory& memory) {
   const auto& velocities = config.test_drive.straight_mps;
   if (memory.drive.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.drive.level]);
+  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.drive.level],
+                    config.test_drive.straight_distance_m);
 }
 
-void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, TestDriveMemory& memory) {
+void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, const Twist& command,
+                      TestDriveMemory& memory) {
   memory.passing = false;
+  memory.command = command;
   if (drive == PolicyName::kTurnDrive) {
     memory.awaited_possession = input.possession_id;  // it counts once it was seen
   } else if (++memory.kicks >= config.test_drive.kicks_per_level) {

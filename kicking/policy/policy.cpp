@@ -25,6 +25,8 @@ Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
   return Reason::kFire;
 }
 
+bool is_drive(PolicyName policy) { return policy != PolicyName::kStopped && policy != PolicyName::kMoving; }
+
 using Rule = Judgement (*)(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, PolicyMemory&);
 
 /// In the order of PolicyName.
@@ -106,6 +108,13 @@ Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel&
     held.reason = hindered;
     return held;
   }
+  if (is_drive(policy) && order_pending(config, input, memory)) {
+    // Between order and release nothing may change: the next velocity and the way back are for later.
+    Judgement held = describe(config, goal, {});
+    held.reason = Reason::kOrderPending;
+    held.drive = memory.drive.command;
+    return held;
+  }
   Judgement judgement = kRules[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
   if (order_pending(config, input, memory)) {
     judgement.reason = Reason::kOrderPending;
@@ -115,7 +124,7 @@ Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel&
   judgement.fire = judgement.reason == Reason::kFire;
   if (judgement.fire) {
     memory.fired_t_ns = input.t_ns;
-    count_drive_kick(policy, config, input, memory.drive);
+    if (is_drive(policy)) count_drive_kick(policy, config, input, judgement.drive, memory.drive);
   }
   return judgement;
 }

@@ -69,6 +69,7 @@ struct TestDriveMemory {
   double low_rad = 0.0;     ///< turn drive: the allowed error, as an angle, is between these
   std::optional<double> high_rad;
   double late_sum_m = 0.0;  ///< turn drive: of this step's balls, beyond the target in the sense of turning
+  Twist command{};           ///< of the order: it goes on until the ball has left
   std::optional<std::uint32_t> awaited_possession;  ///< turn drive: its kick has not been seen yet
 };
 

@@ -19,7 +19,7 @@ Judgement judge_standing_drive(const PolicyConfig& config, const RobotModel& rob
 Judgement judge_lateral_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                               const PolicyInput& input, PolicyMemory& memory);
 
-/// For the transfer of the forward velocity: the same along the axis, kicking at distance_m from the target.
+/// For the transfer of the forward velocity: the same along the axis, kicking at straight_distance_m from the target.
 Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                                const PolicyInput& input, PolicyMemory& memory);
 
@@ -29,7 +29,8 @@ Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& rob
 Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                            const PolicyInput& input, PolicyMemory& memory);
 
-/// Tells the drive's memory that its order goes out.
-void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, TestDriveMemory& memory);
+/// Tells the drive's memory that its order goes out, with this command to the base.
+void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, const Twist& command,
+                      TestDriveMemory& memory);
 
 }  // namespace trivela::kicking

@@ -16,16 +16,18 @@ struct TestDriveConfig {
   /// Standing: set-points of the kicker (those of CAMBADA's kicker.map).
   std::vector<double> powers{15, 20, 25, 30, 35, 40, 45, 50};
 
-  /// Lateral and straight: robot's centre to target at the kick (paper, Table 1: d = 6.0 m).
+  /// Lateral: robot's centre to target at the kick (paper, Table 1: d = 6.0 m).
   double distance_m = 6.0;
-  /// From the start mark to that place: room to gain speed and to settle (assumed).
+  /// Straight: the same (assumed: so near that the balls of a robot driving away still cross in flight).
+  double straight_distance_m = 4.0;
+  /// Both: from the start mark to that place: room to gain speed and to settle (assumed).
   double run_up_m = 1.6;
   /// Over ground to the start mark (assumed).
   double approach_mps = 1.2;
   /// Lateral: velocities past the target's axis, to the right positive (Table 1, both ways).
   std::vector<double> lateral_mps{0.5, -0.5, 1.0, -1.0, 2.0, -2.0};
   /// Straight: velocities along the axis, towards the goal positive (assumed).
-  std::vector<double> straight_mps{0.5, -0.5, 1.0, -1.0, 1.5, -1.5};
+  std::vector<double> straight_mps{0.5, -0.5, 1.0, -1.0};
 
   /// Turn: turn rates, counter-clockwise positive (assumed; Falcons turn at up to 2.5 rad/s with the ball).
   std::vector<double> turn_radps{0.75, -0.75, 1.5, -1.5, 2.25, -2.25};

@@ -88,7 +88,7 @@ TEST(StandingDrive, AsksNothingOfTheTable) {
 void expect_passes(PolicyName policy, const std::vector<double>& velocities, auto&& expect) {
   PolicyConfig config;
   config.test_drive.kicks_per_level = 3;
-  config.test_drive.distance_m = 5.0;
+  config.test_drive.distance_m = config.test_drive.straight_distance_m = 5.0;
   config.target_x_m = 0.4;
   Drill drill{policy, config};
   std::mt19937 random(7);
@@ -262,6 +262,23 @@ TEST_P(AnyDrive, WaitsForTheKicker) {
   input.kicker_ready = true;
   input.t_ns = 20'000'000'000;
   EXPECT_TRUE(play(GetParam(), {}, {}, input, memory, 20.0).fired);
+}
+
+TEST_P(AnyDrive, GoesOnAsItDidUntilTheBallHasLeft) {
+  PolicyConfig config;
+  config.test_drive.kicks_per_level = 1;  // the next velocity is another one
+  PolicyMemory memory;
+  const Played played = play(GetParam(), config, {}, ready_at({0.0, 3.0, 0.0}), memory, 20.0);
+  ASSERT_TRUE(played.fired);
+  PolicyInput input = played.at;
+  for (int i = 1; i <= 5; ++i) {
+    input.t_ns += 20'000'000;
+    const Judgement judgement = judge(GetParam(), config, {}, {}, input, memory);
+    EXPECT_EQ(judgement.reason, Reason::kOrderPending);
+    EXPECT_EQ(judgement.drive.vx_mps, played.fired->drive.vx_mps);
+    EXPECT_EQ(judgement.drive.vy_mps, played.fired->drive.vy_mps);
+    EXPECT_EQ(judgement.drive.omega_radps, played.fired->drive.omega_radps);
+  }
 }
 
 TEST_P(AnyDrive, WithAnEmptyListKicksNothing) {
