@@ -226,8 +226,8 @@ function showPlan() {
   const kicks = plan.powers.length * plan.trials;
   const done = plan.powers.reduce((sum, row) => sum + Math.min(row.done, plan.trials), 0);
   const now = plan.powers.find((row) => row.power === status.power);
-  $('progress').textContent = done >= kicks ? `All ${kicks} kicks are done.`
-    : `${done} of ${kicks} kicks done` + (live() && now && now.done < plan.trials ? `; next: power ${now.power}, kick ${now.done + 1}` : '');
+  const next = live() && now && now.done < plan.trials ? `; next: power ${now.power}, kick ${now.done + 1}` : '';
+  $('progress').textContent = done >= kicks ? `All ${kicks} kicks are done.` : `${done} of ${kicks} kicks done${next}`;
   $('plan').replaceChildren(...plan.powers.map((row) => {
     const chip = element('button', row.power,
       {'data-power': row.power, 'aria-pressed': row.power === status.power});
@@ -303,7 +303,8 @@ function tick(now) {
 
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  for (const name of ['paper', 'ink', 'quiet', 'rule', 'grid', 'background', 'object', 'outline', 'centre', 'laser', 'curve']) {
+  const names = ['paper', 'quiet', 'grid', 'background', 'object', 'outline', 'centre', 'laser', 'curve'];
+  for (const name of names) {
     colours[name] = style.getPropertyValue('--' + name).trim();
   }
   draw();
@@ -466,7 +467,8 @@ canvas.addEventListener('wheel', (event) => {
   const before = [view.x + (event.offsetX * ratio - canvas.width / 2) / view.scale,
     view.z - (event.offsetY * ratio - canvas.height / 2) / view.scale];
   const zoom = Math.min(Math.max(view.scale * Math.exp(-event.deltaY / 400), 4), 4000) / view.scale;
-  view = {scale: view.scale * zoom, x: before[0] + (view.x - before[0]) / zoom, z: before[1] + (view.z - before[1]) / zoom};
+  view = {x: before[0] + (view.x - before[0]) / zoom, z: before[1] + (view.z - before[1]) / zoom,
+    scale: view.scale * zoom};
   draw();
 }, {passive: false});
 canvas.addEventListener('pointermove', (event) => {

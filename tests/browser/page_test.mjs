@@ -54,7 +54,8 @@ const pixels = (page, colour) => page.evaluate(([r, g, b]) => {
   return n;
 }, colour);
 
-const rows = (page) => page.$$eval('#table tbody tr', (trs) => trs.map((tr) => [...tr.cells].map((td) => td.textContent)));
+const rows = (page) => page.$$eval('#table tbody tr',
+  (trs) => trs.map((tr) => [...tr.cells].map((td) => td.textContent)));
 const picture = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() =>
   requestAnimationFrame(() => done(document.querySelector('#scan').toDataURL())))));
 const drawn = (page, position) =>
@@ -101,7 +102,7 @@ test('a replayed lob appears, is rejected, and the table changes', async () => {
   await page.waitForSelector('#lobs li[data-lob="1"][data-accepted="true"]', patience);
   assert.equal((await rows(page))[0][1], '2');
   await page.click('#lobs li[data-lob="1"] .more button');
-  const end = await page.evaluate(() => fetch('/api/state').then((answer) => answer.json()).then((all) => all.lobs[1].end));
+  const {end} = await page.evaluate(async () => (await (await fetch('/api/state')).json()).lobs[1]);
   await drawn(page, end);
   await page.screenshot({path: join(process.env.BROWSER_FOLDER, 'screenshots', 'replay-chosen.png')});
   await page.click('#lobs li[data-lob="1"] .values');
@@ -136,8 +137,10 @@ test('a live scanner is drawn at its rate; its cable is pulled and put back', as
   const url = await server.firstLine;
   const page = await open(url);
   await page.waitForSelector('#link[data-state="up"]', patience);
-  await page.waitForFunction(() => Number(/(\d+) scans\/s/.exec(document.querySelector('#place').textContent)?.[1]) >= 38,
-    null, patience);
+  await page.waitForFunction(() => {
+    const rate = /(\d+) scans\/s/.exec(document.querySelector('#place').textContent);
+    return rate && Number(rate[1]) >= 38;
+  }, null, patience);
   await page.waitForSelector('#lobs li[data-lob="0"]', patience);
   assert.match(await page.textContent('#progress'), /1 of 8 kicks done; next: power 15, kick 2/);
   await page.click('#plan [data-power="25"]');
@@ -164,8 +167,8 @@ test('a live scanner is drawn at its rate; its cable is pulled and put back', as
   await scanner.end();
   await emulate(new URL(device).port).firstLine;
   await page.waitForSelector('#link[data-state="up"]', patience);
-  await page.waitForFunction((n) => Number(document.querySelector('[data-counter="scans"]').textContent) > n + 40, scans,
-    patience);
+  await page.waitForFunction((before) => Number(document.querySelector('[data-counter="scans"]').textContent) > before + 40,
+    scans, patience);
   assert.ok(Number(await page.textContent('[data-counter="reconnects"]')) >= 1);
   assert.deepEqual(page.complaints, []);
 
