@@ -1,3 +1,4 @@
+#include "cli/calibrate/run.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 
@@ -12,6 +13,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   add_calibrate_transfer(*verb, exit_code);
   add_calibrate_delay(*verb, exit_code);
   add_calibrate_plot(*verb, exit_code);
+  add_calibrate_run(*verb, exit_code);
 }
 
 }  // namespace trivela::cli

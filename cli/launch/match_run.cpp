@@ -60,6 +60,21 @@ class ProgressPipe {
   std::string text_;
 };
 
+/// Where nobody reads.
+class Nowhere {
+ public:
+  Nowhere() : descriptor_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {}
+  Nowhere(const Nowhere&) = delete;
+  Nowhere& operator=(const Nowhere&) = delete;
+  ~Nowhere() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
 /// The end of a node before the match is over, as a sentence; empty if all run.
 std::string casualty(std::deque<ChildProcess>& children) {
   for (ChildProcess& child : children) {
@@ -90,7 +105,7 @@ void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
 }  // namespace
 
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
-                      const std::vector<std::string>& more_nodes) {
+                      const std::vector<std::string>& more_nodes, bool quiet) {
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   MatchResult result;
   ProgressPipe progress;
@@ -99,7 +114,10 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
   const std::vector<std::string> arguments{"--config", config_file.string()};
   std::vector<std::string> nodes{kNodes.begin(), kNodes.end()};
   nodes.insert(nodes.end(), more_nodes.begin(), more_nodes.end());
-  for (const std::string& node : nodes) children.emplace_back(node, programs / ("trivela-" + node), arguments);
+  const Nowhere nowhere;
+  for (const std::string& node : nodes) {
+    children.emplace_back(node, programs / ("trivela-" + node), arguments, quiet ? nowhere.descriptor() : -1);
+  }
   children.emplace_back(feeder, programs / ("trivela-" + feeder), arguments, progress.write_end());
   progress.close_write_end();
   ProgressBar bar;

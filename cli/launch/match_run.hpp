@@ -19,8 +19,9 @@ struct MatchResult {
 /// Starts the node processes, `more_nodes` beside those of every match, and their `feeder` (simulator or replay_player)
 /// with one configuration file, waits until
 /// the feeder is through, a node dies or somebody asks to stop through `signals`, and ends them all, the recorder last,
-/// so that the log is finalised. The programs are those beside this one. Draws a progress bar on a terminal.
+/// so that the log is finalised. `quiet`: what they print on standard output is not
+/// shown. The programs are those beside this one. Draws a progress bar on a terminal.
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
-                      const std::vector<std::string>& more_nodes = {});
+                      const std::vector<std::string>& more_nodes = {}, bool quiet = false);
 
 }  // namespace trivela::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "evaluator/log/reader.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::cli {
+
+/// How far the kicks of a match went from where they were aimed. A kick without a crossing counts as infinitely far.
+struct AimErrors {
+  std::size_t kicks = 0;
+  std::size_t without_crossing = 0;
+  double median_height_m = 0.0;    ///< of |crossing height - target height|
+  double median_sideways_m = 0.0;  ///< of |crossing x - target x|
+};
+
+/// By what the robot saw.
+AimErrors observed_errors(const evaluator::log::Reader& reader, const config::Settings& settings);
+
+/// By the simulator's truth: for a report alone.
+AimErrors true_errors(const evaluator::log::Reader& reader, const config::Settings& settings);
+
+/// A calibrated figure beside the world's.
+struct WorldFigure {
+  std::string key;
+  double calibrated = 0.0;
+  double world = 0.0;
+};
+
+/// The robot's figures beside what the scenario's world would show a test drive without noise: effective values of its
+/// true table; alpha and beta as the fits' lines over the drives' own velocities, by rigid-body velocities from the
+/// true exit of the power that each drive kicks with; delay and transfer as they are. Read from the scenario, for a
+/// report alone: no fit ever sees it.
+std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Scenario& world,
+                                       const config::Settings& settings);
+
+}  // namespace trivela::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace trivela::cli {
+
+/// `trivela calibrate run --in simulation`: every test drive through the real nodes, from an uncalibrated robot to a
+/// finished robot file. The simulator's truth is read once, for a report at the end.
+void add_calibrate_run(CLI::App& calibrate, int& exit_code);
+
+}  // namespace trivela::cli
