@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "config/robot_fields.hpp"
 #include "config/toml_source.hpp"
 #include "config/toml_text.hpp"
@@ -82,7 +84,7 @@ std::string to_toml_text(const Robot& robot) {
   if (robot.model.exit_angles) {
     auto& angles_deg = file.table.exit_angles_deg.emplace();
     for (const kicking::AnglePoint& point : robot.model.exit_angles->points())
-      angles_deg.push_back(kicking::degrees(point.exit_angle_rad));
+      angles_deg.push_back(std::round(kicking::degrees(point.exit_angle_rad) * 1e9) / 1e9);  // rad holds no more
   }
   return to_toml(file);
 }

@@ -18,6 +18,12 @@ namespace {
 
 using kicking::degrees;
 
+// What a file says: figures with five decimals in its unit, errors with three digits.
+double figure(double value) { return std::round(value * 1e5) / 1e5; }
+double figure_deg(double angle_rad) { return kicking::radians(figure(degrees(angle_rad))); }
+double error(double value) { return std::stod(fmt::format("{:.3g}", value)); }
+double error_deg(double angle_rad) { return kicking::radians(error(degrees(angle_rad))); }
+
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string certainty(double se, std::size_t kicks) { return fmt::format("+- {:.2g}, {} kicks", se, kicks); }
@@ -84,7 +90,8 @@ void RobotUpdate::changed(const std::string& key, double before, double after, c
 
 void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& choice,
                             const std::vector<std::string>& files) {
-  const std::vector<kicking::SetPoint> points = fit.table();
+  std::vector<kicking::SetPoint> points = fit.table();
+  for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
   const std::size_t kicks = fit.residual_mps.size();
   if (choice.kind == kicking::TableKind::kTrue) {
     robot_.true_table.emplace(std::span<const kicking::SetPoint>(points));
@@ -92,12 +99,12 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
     robot_.true_table.reset();
     robot_.model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
   }
-  config::TableOrigin table{origin(kicks, files), {}, {}, fit.exit_speed_sd_mps, fit.isotonic};
+  config::TableOrigin table{origin(kicks, files), {}, {}, error(fit.exit_speed_sd_mps), fit.isotonic};
   std::vector<kicking::AnglePoint> angles;
   for (const kicking::TrialMean& point : fit.set_points) {
     table.trials.push_back(static_cast<std::uint32_t>(point.trials));
-    table.exit_speed_sds_mps.push_back(point.exit_speed_mps.sd);
-    angles.push_back({point.power, point.exit_angle_rad.mean});
+    table.exit_speed_sds_mps.push_back(error(point.exit_speed_mps.sd));
+    angles.push_back({point.power, figure_deg(point.exit_angle_rad.mean)});
   }
   changes_.push_back(fmt::format("table: {} set-points from {} kicks, exit speed sd {} m/s", points.size(), kicks,
                                  number(fit.exit_speed_sd_mps)));
@@ -105,23 +112,24 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   if (choice.angle_per_set_point) robot_.model.exit_angles.emplace(angles);
   changed("kicker.exit_angle_deg", degrees(robot_.model.exit_angle_rad), degrees(fit.exit_angle_rad.value),
           certainty(degrees(fit.exit_angle_rad.se), kicks));
-  robot_.model.exit_angle_rad = fit.exit_angle_rad.value;
+  robot_.model.exit_angle_rad = figure_deg(fit.exit_angle_rad.value);
   calibration().table = std::move(table);
-  calibration().exit_angle = {origin(kicks, files), fit.exit_angle_rad.se, fit.angle_spread_rad};
+  calibration().exit_angle = {origin(kicks, files), error_deg(fit.exit_angle_rad.se), error_deg(fit.angle_spread_rad)};
 }
 
 void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files) {
   const std::size_t kicks = fit.alpha_rad.size();
-  config::DeflectionOrigin deflection{origin(kicks, files), fit.line.slope.se, fit.line.rms, std::nullopt};
+  config::DeflectionOrigin deflection{origin(kicks, files), error_deg(fit.line.slope.se), error_deg(fit.line.rms),
+                                      std::nullopt};
   kicking::RobotModel& model = robot_.model;
   changed("kicker.alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps), degrees(fit.line.slope.value),
           certainty(degrees(fit.line.slope.se), kicks));
-  model.alpha_slope_rad_per_mps = fit.line.slope.value;
+  model.alpha_slope_rad_per_mps = figure_deg(fit.line.slope.value);
   if (fit.lateral) {
     changed("kicker.transfer_exact.lateral_ratio", model.transfer_exact.lateral, fit.lateral->slope.value,
             certainty(fit.lateral->slope.se, kicks));
-    model.transfer_exact.lateral = fit.lateral->slope.value;
-    deflection.lateral_ratio_se = fit.lateral->slope.se;
+    model.transfer_exact.lateral = figure(fit.lateral->slope.value);
+    deflection.lateral_ratio_se = error(fit.lateral->slope.se);
   }
   calibration().deflection = std::move(deflection);
 }
@@ -129,8 +137,8 @@ void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::v
 void RobotUpdate::set_rotation(const kicking::RotationFit& fit, const std::vector<std::string>& files) {
   const std::size_t kicks = fit.beta_rad.size();
   changed("kicker.beta_slope_s", robot_.model.beta_slope_s, fit.line.slope.value, certainty(fit.line.slope.se, kicks));
-  robot_.model.beta_slope_s = fit.line.slope.value;
-  calibration().rotation = {origin(kicks, files), fit.line.slope.se, fit.line.rms};
+  robot_.model.beta_slope_s = figure(fit.line.slope.value);
+  calibration().rotation = {origin(kicks, files), error(fit.line.slope.se), error_deg(fit.line.rms)};
 }
 
 void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vector<std::string>& files) {
@@ -139,8 +147,8 @@ void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vecto
   const auto set = [&](const char* key, double& ratio, const kicking::Estimate& estimate, std::size_t of_kicks,
                        std::optional<double>& se) {
     changed(key, ratio, estimate.value, certainty(estimate.se, of_kicks));
-    ratio = estimate.value;
-    se = estimate.se;
+    ratio = figure(estimate.value);
+    se = error(estimate.se);
   };
   kicking::RobotModel& model = robot_.model;
   if (const auto& forward = fit.forward) {
@@ -166,8 +174,8 @@ void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vecto
 void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files) {
   const std::size_t kicks = fit.residual_s.size() - fit.rejected.size();
   changed("kicker.delay_s", robot_.model.delay_s, fit.mean_s.value, certainty(fit.mean_s.se, kicks));
-  robot_.model.delay_s = fit.mean_s.value;
-  calibration().delay = {origin(kicks, files), fit.mean_s.se, fit.sd_s};
+  robot_.model.delay_s = figure(fit.mean_s.value);
+  calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
 }
 
 std::string RobotUpdate::text() const {

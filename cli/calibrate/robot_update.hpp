@@ -30,7 +30,8 @@ class RobotUpdate {
   RobotUpdate(config::Robot robot, std::string tool, std::string date)
       : robot_(std::move(robot)), tool_(std::move(tool)), date_(std::move(date)) {}
 
-  // Each replaces the figures of one fit; `files` are the records and tables that it was made from.
+  // Each replaces the figures of one fit, rounded to five decimals of the file's unit (errors to three digits); `files`
+  // are the records and tables that it was made from.
 
   /// [table] and kicker.exit_angle_deg. @throws std::invalid_argument for a table that does not rise.
   void set_table(const kicking::TableFit& fit, const TableChoice& choice, const std::vector<std::string>& files);
