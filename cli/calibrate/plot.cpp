@@ -85,7 +85,7 @@ std::vector<Repeatability> repeatability(const TrialsByPower& powers) {
   return rows;
 }
 
-/// Name, value and digits of the eight numbers of a row; a spread of one trial is unknown.
+/// Name and value of one of the eight numbers of a row; a spread of one trial is unknown.
 struct Cell {
   const char* name;
   std::optional<double> value;
