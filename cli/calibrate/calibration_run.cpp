@@ -17,11 +17,8 @@ namespace {
 using evaluator::log::Reader;
 using kicking::degrees;
 
-constexpr double kTurnDistance_m = 8.0;  // robot's centre to target (paper, section 3.3)
-constexpr std::size_t kFewestLobs = 2;   // of a set-point (paper, section 2.2)
-// A ball beside the scan plane shows a smaller circle, farther off: where the chord is below 0.9 of the ball's, fits of
-// synthetic lobs are some per cent too fast.
-constexpr double kLeastChord = 0.92;
+constexpr double kTurnDistance_m = 8.0;   // robot's centre to target (paper, section 3.3)
+constexpr std::size_t kFewestLobs = 2;    // of a set-point (paper, section 2.2)
 constexpr std::uint32_t kMostKicks = 40;  // with a set-point in one more round
 
 std::vector<std::string> names(const std::vector<std::string>& files) {
@@ -112,8 +109,6 @@ DriveSummary CalibrationRun::standing() {
   std::vector<kicking::Trial> trials;
   std::vector<std::string> scans;
   std::map<std::string, std::size_t> refused;
-  kicking::lob::AnalyzerConfig strict;
-  strict.least_chord_ratio = kLeastChord;
   const double ball_to_goal_m = scenario_.possession.goal_distance_max_m;
   NextRound round{settings_.policy.test_drive.powers, effort_.kicks};
   for (std::uint32_t i = 1; i <= effort_.rounds && !round.powers.empty(); ++i) {
@@ -129,7 +124,7 @@ DriveSummary CalibrationRun::standing() {
       ++tallies[tested.power].kicks;
       ++summary.kicks;
     }
-    for (const auto& lob : evaluator::lobs_of_scans(reader, strict)) {
+    for (const auto& lob : evaluator::lobs_of_scans(reader, {})) {
       if (lob.refusal != kicking::lob::Refusal::kNone) ++refused[kicking::lob::name(lob.refusal)];
       if (lob.refusal != kicking::lob::Refusal::kNone || !lob.effective || !lob.power) continue;
       ++tallies[*lob.power].lobs;

@@ -198,7 +198,7 @@ Result measure(const Plan& plan) {
   evaluator::log::WriterOptions options;
   options.queue_capacity = settings.recorder.queue_capacity;
   options.group_commit_s = settings.recorder.group_commit_s;
-  evaluator::log::Writer log{path, {}, options};
+  evaluator::log::Writer log{path, evaluator::log::Session{}, options};
   nodes::RecorderNode node{context, log};
   const double cpu_before_s = cpu_s();
   std::thread recording{[&] { bus::Executor{bus::Executor::kWaitset, stop, {&node.node()}}.run(); }};
