@@ -244,6 +244,7 @@ DriveSummary CalibrationRun::straight() {
     return direction ? figure(direction->exact.value, direction->exact.se, "") : std::string{"not measured"};
   };
   summary.found = fmt::format("transfer forward {}, backward {}", share(fit.forward), share(fit.backward));
+  if (!fit.standing_ratio) summary.left_out.push_back("no kick at rest: an error of the table is taken for transfer");
   return summary;
 }
 

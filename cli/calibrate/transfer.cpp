@@ -60,6 +60,7 @@ Json json_of_direction(const std::optional<kicking::TransferDirection>& directio
 FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, double delay_s) {
   FitReport report;
   report.json = {{"delay_s", delay_s},
+                 {"standing_ratio", fit.standing_ratio ? json_of(*fit.standing_ratio) : Json(nullptr)},
                  {"forward", json_of_direction(fit.forward)},
                  {"backward", json_of_direction(fit.backward)},
                  {"rows", Json::array()}};
@@ -84,14 +85,14 @@ FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, 
     constants += fmt::format("{} ({} kicks): k = {} in the exact law (rms {:.3f} m), {} in the paper's\n", name,
                              direction->kicks, text_of(direction->exact), direction->rms_m, text_of(direction->paper));
   };
+  if (fit.standing_ratio)
+    constants = fmt::format("kicks at rest: V0 is {} of the rows'\n", text_of(*fit.standing_ratio));
   add("forward", fit.forward);
   add("backward", fit.backward);
   report.text = evaluator::text_table(lines) + "\n" + constants;
   report.warnings = kicks.left_out;
-  const auto used = (fit.forward ? fit.forward->rows.size() : 0) + (fit.backward ? fit.backward->rows.size() : 0);
-  if (used < kicks.rows.size()) {
-    report.warnings.push_back(
-        fmt::format("kicks left out, at rest or the only one of their direction: {}", kicks.rows.size() - used));
+  if (!fit.standing_ratio) {
+    report.warnings.push_back("fewer than two kicks at rest: an error of the table is taken for transfer");
   }
   return report;
 }

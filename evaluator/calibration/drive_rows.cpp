@@ -121,6 +121,33 @@ bool touched_floor(const std::vector<BallSighting>& sightings, const DriveKick& 
   return false;
 }
 
+/// Vertical speed at the launch height of the flight that was seen [m/s]: sqrt(v_z^2 + 2 g (z - r)), from the free fall
+/// fitted to every sighting before the goal line. It is the kicker's own: the robot's motion adds nothing to it. None:
+/// fewer than ten sightings.
+std::optional<double> launch_v_z_mps(const std::vector<BallSighting>& sightings, const DriveKick& kick,
+                                     double ball_radius_m) {
+  constexpr double kLeft_s = 0.12;  // after the order
+  constexpr double kFewest = 10.0;
+  constexpr double g = kicking::kGravity_mps2;
+  double n = 0.0, t = 0.0, z = 0.0, tt = 0.0, tz = 0.0;
+  for (const BallSighting& sighting : sightings) {
+    const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
+    if (t_s < kLeft_s) continue;
+    if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;
+    const double straight_m = sighting.ball_m.z() + 0.5 * g * t_s * t_s;  // without gravity a line
+    n += 1.0;
+    t += t_s;
+    z += straight_m;
+    tt += t_s * t_s;
+    tz += t_s * straight_m;
+  }
+  if (n < kFewest) return std::nullopt;
+  const double slope_mps = (n * tz - t * z) / (n * tt - t * t), middle_s = t / n;
+  const double v_z_mps = slope_mps - g * middle_s, z_m = z / n - 0.5 * g * middle_s * middle_s;
+  const double squared = v_z_mps * v_z_mps + 2.0 * g * (z_m - ball_radius_m);
+  return squared > 0.0 ? std::optional{std::sqrt(squared)} : std::nullopt;
+}
+
 constexpr const char* kBackwards = "the robot pointed away from the goal line";
 
 }  // namespace
@@ -163,11 +190,15 @@ DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const
     if (distance_m < kLeastReach_m || bounced || *kick.z_cross_m < model.ball.radius_m + kNearFloor_m) {
       return std::nullopt;
     }
-    return kicking::TransferRow{.vy_mps = kick.twist.vy_mps,
-                                .v0_mps = model.table.speed_for(kick.power),
-                                .exit_angle_rad = model.exit_angle_at(kick.power),
-                                .distance_m = distance_m,
-                                .z_cross_m = *kick.z_cross_m};
+    const double exit_angle_rad = model.exit_angle_at(kick.power);
+    const auto v_z_mps =
+        seen == sightings.end() ? std::nullopt : launch_v_z_mps(seen->second, kick, model.ball.radius_m);
+    return kicking::TransferRow{
+        .vy_mps = kick.twist.vy_mps,
+        .v0_mps = v_z_mps ? *v_z_mps / std::sin(exit_angle_rad) : model.table.speed_for(kick.power),
+        .exit_angle_rad = exit_angle_rad,
+        .distance_m = distance_m,
+        .z_cross_m = *kick.z_cross_m};
   };
   return rows_of<kicking::TransferRow>(
       reader, "straight_drive", row_of,

@@ -31,7 +31,9 @@ DriveKicks<kicking::DeflectionRow> lateral_kicks(const log::Reader& reader, cons
 DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kicking::RobotModel& model,
                                             double cycle_s);
 
-/// Kicks of policy "straight_drive" whose ball crossed without touching the floor, as the flight camera saw it.
+/// Kicks of policy "straight_drive" whose ball crossed without touching the floor, as the flight camera saw it. V0 is
+/// that of each kick, from the vertical speed v_z that the camera saw: V0 = v_z / sin(theta), so that the kicker's
+/// scatter is not taken for transfer; where it saw too little, the table's.
 DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model);
 
 /// Order to release [s] of every accepted kick of a robot that does not turn, by the flight camera alone: the instant

@@ -1,10 +1,14 @@
 #include "kicking/calibration/transfer_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
 
@@ -112,17 +116,42 @@ struct World {
   double gravity_mps2;
 };
 
+bool at_rest(const TransferRow& row) { return std::abs(row.vy_mps) < kLeastSpeed_mps; }
+
+double needed_v0_mps(std::span<const TransferRow> rows, std::size_t i, const World& world) {
+  const TransferRow& row = rows[i];
+  const auto v0_mps =
+      crossing_speed({row.distance_m, row.z_cross_m - world.ball_radius_m}, row.exit_angle_rad, world.gravity_mps2);
+  if (!v0_mps) fail(i, "at this exit angle no speed reaches the height");
+  return *v0_mps;
+}
+
+std::optional<Estimate> standing_ratio(std::span<const TransferRow> rows, const World& world) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (at_rest(rows[i])) ratios.push_back(needed_v0_mps(rows, i, world) / rows[i].v0_mps);
+  }
+  if (ratios.size() < 2) return std::nullopt;
+  const auto n = static_cast<double>(ratios.size());
+  const double mean = std::accumulate(ratios.begin(), ratios.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double ratio : ratios) squares += (ratio - mean) * (ratio - mean);
+  return Estimate{mean, std::sqrt(squares / (n - 1.0) / n)};
+}
+
 Estimate paper_ratio(std::span<const TransferRow> rows, const std::vector<std::size_t>& chosen, const World& world) {
   std::vector<double> along, slower;
   for (const std::size_t i : chosen) {
-    const TransferRow& row = rows[i];
-    const auto v0_mps =
-        crossing_speed({row.distance_m, row.z_cross_m - world.ball_radius_m}, row.exit_angle_rad, world.gravity_mps2);
-    if (!v0_mps) fail(i, "at this exit angle no speed reaches the height");
-    along.push_back(row.vy_mps * std::cos(row.exit_angle_rad));
-    slower.push_back(*v0_mps - row.v0_mps);
+    along.push_back(rows[i].vy_mps * std::cos(rows[i].exit_angle_rad));
+    slower.push_back(needed_v0_mps(rows, i, world) - rows[i].v0_mps);
   }
   return line_through_origin(along, slower, "transfer").slope;
+}
+
+std::vector<TransferRow> scaled(std::span<const TransferRow> rows, double ratio) {
+  std::vector<TransferRow> out(rows.begin(), rows.end());
+  for (TransferRow& row : out) row.v0_mps *= ratio;
+  return out;
 }
 
 std::optional<TransferDirection> direction(std::span<const TransferRow> rows, double sign, const World& world) {
@@ -152,7 +181,25 @@ std::optional<TransferDirection> direction(std::span<const TransferRow> rows, do
 TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m, double gravity_mps2) {
   check(rows, delay_s);
   const World world{delay_s, ball_radius_m, gravity_mps2};
-  TransferFit fit{direction(rows, 1.0, world), direction(rows, -1.0, world)};
+  TransferFit fit{standing_ratio(rows, world), {}, {}};
+  const Estimate ratio = fit.standing_ratio.value_or(Estimate{1.0, 0.0});
+  const auto fit_directions = [&](double v0_ratio) {
+    const auto corrected = scaled(rows, v0_ratio);
+    return std::array{direction(corrected, 1.0, world), direction(corrected, -1.0, world)};
+  };
+  auto directions = fit_directions(ratio.value);
+  if (ratio.se > 0.0) {
+    const auto moved = fit_directions(ratio.value + ratio.se);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (!directions[i] || !moved[i]) continue;
+      for (const auto k : {&TransferDirection::exact, &TransferDirection::paper}) {
+        Estimate& estimate = (*directions[i]).*k;
+        estimate.se = std::hypot(estimate.se, ((*moved[i]).*k).value - estimate.value);
+      }
+    }
+  }
+  fit.forward = std::move(directions[0]);
+  fit.backward = std::move(directions[1]);
   if (!fit.forward && !fit.backward) {
     throw std::invalid_argument("transfer: need at least 2 kicks forward or 2 kicks backward, faster than 0.05 m/s");
   }

@@ -3,6 +3,7 @@
 
 #include "kicking/policy/drive.hpp"
 #include "kicking/policy/judgement.hpp"
+#include "kicking/policy/settling.hpp"
 #include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
@@ -21,7 +22,7 @@ Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, cons
 }
 
 /// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due
-/// straight before the target, at `distance_m`.
+/// straight before the target, at `distance_m`. At 0 m/s it stands there: the kick that the others are held against.
 Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
                      PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
   const Shot shot = stopped_shot(config, robot, goal, input);
@@ -34,9 +35,10 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   const Eigen::Vector2d kick_place = target - Eigen::Vector2d(0.0, distance_m);
   const Eigen::Vector2d ahead = std::copysign(1.0, velocity_mps) * along;
   const double passed_m = (position - kick_place).dot(ahead);
+  const bool standing = velocity_mps == 0.0;
   bool& passing = memory.drive.passing;
   if (!passing) {
-    const Eigen::Vector2d mark = kick_place - config.test_drive.run_up_m * ahead;
+    const Eigen::Vector2d mark = standing ? kick_place : kick_place - config.test_drive.run_up_m * ahead;
     const Eigen::Vector2d velocity = towards_mark(config, input.pose, mark);
     judgement.drive.vx_mps = velocity.x();
     judgement.drive.vy_mps = velocity.y();
@@ -49,9 +51,14 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   }
   judgement.drive.vx_mps = velocity_mps * along.x();
   judgement.drive.vy_mps = velocity_mps * along.y();
-  judgement.reason = Reason::kNotAligned;
-  if (passed_m >= 0.0 && passed_m <= kFewCycles * config.cycle_s * std::abs(velocity_mps))
-    judgement.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
+  if (standing) {
+    judgement.reason = settle(config, input, memory);
+  } else if (passed_m >= 0.0 && passed_m <= kFewCycles * config.cycle_s * std::abs(velocity_mps)) {
+    judgement.reason = Reason::kFire;
+  } else {
+    judgement.reason = Reason::kNotAligned;
+  }
+  if (judgement.reason == Reason::kFire && !shot.reachable) judgement.reason = Reason::kOutOfRange;
   if (passed_m > kTooLate_m) passing = false;
   return judgement;
 }

@@ -27,7 +27,7 @@ struct TestDriveConfig {
   /// Lateral: velocities past the target's axis, to the right positive (Table 1, both ways).
   std::vector<double> lateral_mps{0.5, -0.5, 1.0, -1.0, 2.0, -2.0};
   /// Straight: velocities along the axis, towards the goal positive (assumed).
-  std::vector<double> straight_mps{0.5, -0.5, 1.0, -1.0};
+  std::vector<double> straight_mps{0.0, 0.5, -0.5, 1.0, -1.0};
 
   /// Turn: turn rates, counter-clockwise positive (assumed; Falcons turn at up to 2.5 rad/s with the ball).
   std::vector<double> turn_radps{0.75, -0.75, 1.5, -1.5, 2.25, -2.25};

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,44 @@ TEST(TransferFit, HasAStandardErrorThatScattersAsItSays) {
   EXPECT_NEAR(fit.forward->exact.value, 1.0, 1e-3);
   EXPECT_NEAR(fit.forward->exact.se, 0.01 / std::abs(slope_m), 1e-3);
   EXPECT_NEAR(fit.forward->rms_m, 0.01, 1e-6);
+}
+
+TEST(TransferFit, TakesAnErrorOfTheTableFromTheKicksAtRest) {
+  for (const double error : {0.95, 1.0, 1.04}) {
+    std::vector<TransferRow> rows;
+    for (const double v : {0.0, 1.0, -1.0, 0.0, 0.5, -0.5, 0.01})
+      rows.push_back(flown(v, 8.2, 4.0, {0.9, 0.6, 1.0}, 0.06));
+    for (TransferRow& row : rows) row.v0_mps *= error;
+    const TransferFit fit = fit_transfer(rows, 0.06);
+    EXPECT_NEAR(fit.standing_ratio->value, 1.0 / error, 2e-3) << "one of the three creeps forward";
+    EXPECT_NEAR(fit.forward->exact.value, 0.9, 0.02);
+    EXPECT_NEAR(fit.backward->exact.value, 0.6, 0.02);
+    rows.erase(std::remove_if(rows.begin(), rows.end(), [](const auto& row) { return std::abs(row.vy_mps) < 0.05; }),
+               rows.end());
+    EXPECT_FALSE(fit_transfer(rows, 0.06).standing_ratio);
+    const double blind = fit_transfer(rows, 0.06).forward->exact.value - 0.9;
+    if (error == 1.0) {
+      EXPECT_NEAR(blind, 0.0, 1e-6);
+    } else {
+      EXPECT_GT(std::abs(blind), 0.3) << "without them it is taken for transfer";
+    }
+  }
+}
+
+TEST(TransferFit, TheReferencesScatterIsInTheStandardErrors) {
+  std::vector<TransferRow> rows;
+  for (const double v : {0.0, 0.0, 1.0, 1.0, -1.0, -1.0}) rows.push_back(flown(v, 8.2, 4.0, {}, 0.0));
+  EXPECT_NEAR(fit_transfer(rows, 0.0).forward->exact.se, 0.0, 1e-6);
+  rows[0].v0_mps *= 1.01;
+  rows[1].v0_mps *= 0.99;
+  const TransferFit fit = fit_transfer(rows, 0.0);
+  EXPECT_NEAR(fit.standing_ratio->se, 0.01, 1e-3);
+  const double k_per_ratio = [&] {
+    std::vector<TransferRow> faster(rows.begin() + 2, rows.end());
+    for (TransferRow& row : faster) row.v0_mps *= 1.01;
+    return (fit_transfer(faster, 0.0).forward->exact.value - 1.0) / 0.01;
+  }();
+  EXPECT_NEAR(fit.forward->exact.se, std::abs(k_per_ratio) * 0.01, 0.1 * std::abs(k_per_ratio) * 0.01);
 }
 
 TEST(TransferFit, KeepsToTheDirectionsThatWereDriven) {

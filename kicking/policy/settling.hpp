@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+
+#include "kicking/policy/policy.hpp"
+
+namespace trivela::kicking {
+
+/// Has the robot been at rest for settle_s? kApproaching: it moves; kSettling: not yet; kFire: yes.
+inline Reason settle(const PolicyConfig& config, const PolicyInput& input, PolicyMemory& memory) {
+  const bool at_rest = std::hypot(input.twist.vx_mps, input.twist.vy_mps) <= config.rest_speed_mps &&
+                       std::abs(input.twist.omega_radps) <= config.rest_turn_rate_radps;
+  if (!at_rest) {
+    memory.settling_since_t_ns.reset();
+    return Reason::kApproaching;
+  }
+  if (!memory.settling_since_t_ns) memory.settling_since_t_ns = input.t_ns;
+  const double settled_s = 1e-9 * static_cast<double>(input.t_ns - *memory.settling_since_t_ns);
+  return settled_s >= config.settle_s ? Reason::kFire : Reason::kSettling;
+}
+
+}  // namespace trivela::kicking
