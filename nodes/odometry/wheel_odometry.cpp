@@ -19,14 +19,17 @@ std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::sp
     twist.omega_radps = (twist.omega_radps * var_gyro + *gyro_radps * var_omega) / (var_gyro + var_omega);
     var_omega = var_omega * var_gyro / (var_gyro + var_omega);
   }
+  const kicking::Twist mean{0.5 * (estimate_.twist.vx_mps + twist.vx_mps),
+                            0.5 * (estimate_.twist.vy_mps + twist.vy_mps),
+                            0.5 * (estimate_.twist.omega_radps + twist.omega_radps)};
   estimate_.twist = twist;
   estimate_.var_v_m2ps2 = std::max(variance.x(), variance.y());
   estimate_.var_omega_rad2ps2 = var_omega;
   if (last_t_ns_) {
     const double dt_s = static_cast<double>(t_ns - *last_t_ns_) * 1e-9;
-    estimate_.pose = kicking::advance(estimate_.pose, twist, dt_s);
-    const double path_m = std::hypot(twist.vx_mps, twist.vy_mps) * dt_s;
-    const double turn_rad = twist.omega_radps * dt_s;
+    estimate_.pose = kicking::advance(estimate_.pose, mean, dt_s);
+    const double path_m = std::hypot(mean.vx_mps, mean.vy_mps) * dt_s;
+    const double turn_rad = mean.omega_radps * dt_s;
     estimate_.var_position_m2 += std::pow(noise_.drift_ratio * path_m, 2) + estimate_.var_v_m2ps2 * dt_s * dt_s;
     estimate_.var_heading_rad2 += std::pow(noise_.heading_drift_ratio * turn_rad, 2) + var_omega * dt_s * dt_s;
   }

@@ -22,9 +22,10 @@ struct OdometryEstimate {
 
 /// Integrates wheel and gyro samples.
 ///
-/// The turn rate is the variance-weighted mean of wheels and gyro; the pose follows the constant twist of the cycle in
-/// closed form; position variance grows by (drift_ratio * path)^2 and heading variance by (heading_drift_ratio *
-/// turn)^2 plus the turn rate's own noise over the cycle.
+/// The turn rate is the variance-weighted mean of wheels and gyro; the pose follows the mean twist of the cycle's two
+/// ends in closed form (that of its end alone would lead by half a cycle of every change of speed); position variance
+/// grows by (drift_ratio * path)^2 and heading variance by (heading_drift_ratio * turn)^2 plus the turn rate's own
+/// noise over the cycle.
 class WheelOdometry {
  public:
   WheelOdometry(const config::WheelBase& base, const config::Odometry& noise) : kinematics_(base), noise_(noise) {}

@@ -105,11 +105,19 @@ TEST(WheelOdometry, IgnoresSamplesThatAreNotUsable) {
   EXPECT_NEAR(after->pose.y_m - before->pose.y_m, 0.02, 1e-12) << "as if they had never come";
 }
 
-TEST(WheelOdometry, BridgesAGapAtTheSpeedOfItsEnd) {
+TEST(WheelOdometry, BridgesAGapAtTheMeanSpeedOfItsEnds) {
   Driven driven;
   driven.cycle({0.0, 1.0, 0.0});
   driven.t_ns += 4 * kCycle_ns;
-  EXPECT_NEAR(driven.cycle({0.0, 1.0, 0.0})->pose.y_m, 0.1, 1e-12);
+  EXPECT_NEAR(driven.cycle({0.0, 3.0, 0.0})->pose.y_m, 0.2, 1e-12);
+}
+
+TEST(WheelOdometry, AGainOfSpeedNeitherLeadsNorLags) {
+  Driven driven;
+  driven.cycle({});
+  std::optional<OdometryEstimate> estimate;
+  for (int i = 1; i <= 50; ++i) estimate = driven.cycle({0.0, 0.0, 2.0 * i / 50});  // 2 rad/s2 for a second
+  EXPECT_NEAR(estimate->pose.heading_rad, 0.5 * 2.0 * 1.0, 1e-12);
 }
 
 TEST(WheelOdometry, VariancesGrowWithEveryCycleAndFasterOnTheMove) {
