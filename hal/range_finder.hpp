@@ -12,12 +12,13 @@ namespace trivela::hal {
 /// What went wrong on the line so far, and what came.
 struct LinkCounters {
   std::uint64_t scans = 0;
-  std::uint64_t torn_lines = 0;       ///< a reply that is not of the protocol
-  std::uint64_t wrong_sums = 0;       ///< a checksum that does not fit
-  std::uint64_t error_replies = 0;    ///< a status other than success
-  std::uint64_t lost_scans = 0;       ///< gaps between time stamps
-  std::uint64_t time_outs = 0;        ///< nothing came in time
-  std::uint64_t reconnects = 0;       ///< the line was opened again
+  std::uint64_t torn_lines = 0;     ///< a reply that is not of the protocol
+  std::uint64_t wrong_sums = 0;     ///< a checksum that does not fit
+  std::uint64_t error_replies = 0;  ///< a status other than success
+  std::uint64_t error_ranges = 0;   ///< beams with an error code (below kFirstRange_mm, 0 apart) in place of a range
+  std::uint64_t lost_scans = 0;     ///< gaps between time stamps, and what a cut line cost
+  std::uint64_t time_outs = 0;      ///< nothing came in time
+  std::uint64_t reconnects = 0;     ///< the line was opened again
 };
 
 /// A scanning range finder. One thread at a time.
@@ -25,7 +26,8 @@ class RangeFinder {
  public:
   virtual ~RangeFinder() = default;
 
-  /// The device is there and measures. Waits for it up to `timeout`, a second at most. False: not yet, status() says why.
+  /// The device is there and measures. Waits for it up to `timeout`, a second at most. False: not yet, status() says
+  /// why.
   virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// Who it is and how it looks; meaningful once connected() was true.

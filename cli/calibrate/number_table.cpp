@@ -35,9 +35,15 @@ std::vector<CsvRecord> read_blanks(const std::string& text) {
   return records;
 }
 
+/// Comments after numbers too; lines keep their numbers.
 std::vector<CsvRecord> read_csv(const std::string& text) {
   std::vector<CsvRecord> records;
-  std::istringstream in(text);
+  std::istringstream lines(text);
+  std::stringstream in;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find('#'), line.size()));
+    in << (words_of(line).empty() ? "" : line) << '\n';
+  }
   CsvReader reader(in);
   while (auto record = reader.next()) records.push_back(std::move(*record));
   return records;

@@ -54,6 +54,7 @@ config::Robot robot_to_calibrate(const std::string& name, const fs::path& target
   config::Robot robot = config::load_robot_of_any_table(from);
   robot.source = fmt::format("calibrated; what [calibration] does not name comes from: {}", robot.source);
   robot.name = name;
+  robot.calibration.reset();  // another robot's
   return robot;
 }
 

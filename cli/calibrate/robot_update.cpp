@@ -10,6 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -55,14 +56,22 @@ std::vector<std::string> not_measured(const config::Calibration& c) {
   return names;
 }
 
+/// "1_standing" of "1_standing.scans.db" and "1_standing.db": what was recorded at one occasion.
+std::string occasion(const std::string& file) { return file.substr(0, file.find('.')); }
+
+bool same_occasions(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::ranges::equal(a, b, {}, occasion, occasion);
+}
+
 /// Kicks behind all figures. The exit angle comes from the table's; the delay may come from the kicks of the others.
 std::uint32_t kicks_behind(const config::Calibration& c) {
   std::uint32_t kicks = 0;
   bool delay_apart = c.delay.has_value();
   const auto add = [&](const auto& origin) {
     if (!origin) return;
-    kicks += origin->kicks;
-    if (c.delay && origin->files == c.delay->files) delay_apart = false;
+    const bool shared = c.delay && same_occasions(origin->files, c.delay->files);
+    kicks += shared ? std::max(origin->kicks, c.delay->kicks) : origin->kicks;
+    if (shared) delay_apart = false;
   };
   add(c.table);
   add(c.deflection);
@@ -94,6 +103,12 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
   const std::size_t kicks = fit.residual_mps.size();
   if (choice.kind == kicking::TableKind::kTrue) {
+    if (calibration().table && !robot_.true_table) {
+      throw UsageError(
+          fmt::format("robot {} has a calibrated effective table, which a true one would replace: give the "
+                      "true table a robot name and a file of its own",
+                      robot_.name));
+    }
     robot_.true_table.emplace(std::span<const kicking::SetPoint>(points));
   } else {
     robot_.true_table.reset();
@@ -121,6 +136,7 @@ void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::v
   const std::size_t kicks = fit.alpha_rad.size();
   config::DeflectionOrigin deflection{origin(kicks, files), error_deg(fit.line.slope.se), error_deg(fit.line.rms),
                                       std::nullopt};
+  if (const auto& before = calibration().deflection) deflection.lateral_ratio_se = before->lateral_ratio_se;
   kicking::RobotModel& model = robot_.model;
   changed("kicker.alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps), degrees(fit.line.slope.value),
           certainty(degrees(fit.line.slope.se), kicks));
@@ -143,11 +159,15 @@ void RobotUpdate::set_rotation(const kicking::RotationFit& fit, const std::vecto
 
 void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vector<std::string>& files) {
   std::size_t kicks = 0;
-  config::TransferOrigin transfer;
+  config::TransferOrigin transfer = calibration().transfer.value_or(config::TransferOrigin{});
   const auto set = [&](const char* key, double& ratio, const kicking::Estimate& estimate, std::size_t of_kicks,
                        std::optional<double>& se) {
-    changed(key, ratio, estimate.value, certainty(estimate.se, of_kicks));
-    ratio = figure(estimate.value);
+    // Scatter may lead a little beyond what a floor can do; more than that write() refuses.
+    const double nearest = std::clamp(estimate.value, 0.0, 1.5);
+    const double possible = std::abs(nearest - estimate.value) <= 2.0 * estimate.se ? nearest : estimate.value;
+    const char* held = possible == estimate.value ? "" : ", held to 0 to 1.5";
+    changed(key, ratio, possible, certainty(estimate.se, of_kicks) + held);
+    ratio = figure(possible);
     se = error(estimate.se);
   };
   kicking::RobotModel& model = robot_.model;
@@ -167,7 +187,10 @@ void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vecto
         transfer.paper_backward_se_ratio);
     kicks += n;
   }
-  static_cast<config::FigureOrigin&>(transfer) = origin(kicks, files);
+  const bool keeps_one = calibration().transfer && (!fit.forward || !fit.backward);
+  std::vector<std::string> all_files = keeps_one ? transfer.files : std::vector<std::string>{};
+  all_files.insert(all_files.end(), files.begin(), files.end());
+  static_cast<config::FigureOrigin&>(transfer) = origin(kicks + (keeps_one ? transfer.kicks : 0), all_files);
   calibration().transfer = std::move(transfer);
 }
 

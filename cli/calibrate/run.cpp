@@ -137,22 +137,28 @@ int calibrate(const RunFlags& flags) {
   const config::Settings settings = settings_of(flags, scenario);
   config::Robot robot = config::load_robot(flags.start);
   robot.name = flags.robot;
-  robot.source = "simulated: trivela calibrate run --in simulation";
+  robot.source =
+      fmt::format("simulated: trivela calibrate run --in simulation; what [calibration] does not name comes from: {}",
+                  robot.source);
+  robot.calibration.reset();
   const fs::path file = robot_file(flags);
   fs::create_directories(flags.out_dir);
+  fs::path part = file;
+  part += ".part";  // until every figure is in it
 
   SignalInbox signals;
   DriveMatches matches{settings, fs::absolute(flags.out_dir), signals};
   CalibrationRun run{
       matches,      scenario,         settings,
       flags.effort, flags.seed * 100, RobotUpdate{robot, "trivela calibrate run --in simulation", today()},
-      file};
+      part};
   Report report{flags.json};
   report.add(run.standing());
   report.add(run.delay());
   report.add(run.lateral());
   report.add(run.turn());
   report.add(run.straight());
+  fs::rename(part, file);
 
   DrivePlan check{.name = "6_check",
                   .policy = kicking::PolicyName::kStopped,

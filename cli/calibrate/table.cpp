@@ -35,6 +35,7 @@ Json speed_sd(const kicking::TrialMean& point) {
 
 Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::vector<std::string>& warnings) {
   Json json;
+  Json angle_sds_deg = Json::array();
   json["setpoints"] = Json::array();
   for (const kicking::TrialMean& point : fit.set_points) {
     json["setpoints"].push_back({{"power", point.power},
@@ -42,9 +43,11 @@ Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::v
                                  {"exit_speed_mps", point.exit_speed_mps.mean},
                                  {"exit_angle_deg", degrees(point.exit_angle_rad.mean)},
                                  {"exit_speed_sd_mps", speed_sd(point)}});
+    angle_sds_deg.push_back(point.trials > 1 ? Json(degrees(point.exit_angle_rad.sd)) : Json(nullptr));
   }
   json["exit_angle_deg"] = degrees(fit.exit_angle_rad.value);
   json["warnings"] = warnings;
+  json["exit_angle_sds_deg"] = angle_sds_deg;
   json["exit_angle_se_deg"] = degrees(fit.exit_angle_rad.se);
   json["exit_angle_spread_deg"] = degrees(fit.angle_spread_rad);
   json["exit_speed_pooled_sd_mps"] = fit.exit_speed_sd_mps;

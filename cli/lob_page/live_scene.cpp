@@ -23,6 +23,7 @@ json link_json(const hal::RangeFinder& finder) {
           {"torn_lines", counters.torn_lines},
           {"wrong_sums", counters.wrong_sums},
           {"error_replies", counters.error_replies},
+          {"error_ranges", counters.error_ranges},
           {"lost_scans", counters.lost_scans},
           {"time_outs", counters.time_outs},
           {"reconnects", counters.reconnects}};
@@ -115,7 +116,7 @@ void LiveScene::take(const kicking::lob::Scan& scan) {
 void LiveScene::set_power(double power) {
   if (power_ == power) return;
   power_ = power;
-  if (!writer_) return;
+  if (!writer_) return broadcast_.publish(Channel::kStatus, status().dump());
   const std::int64_t now_ns = views_.empty() ? 0 : views_.back().t_ns;
   const evaluator::log::TestedSetPoint tested{.t_ns = now_ns, .power = power};
   writer_->set_point(tested);

@@ -119,7 +119,7 @@ function takeStatus(data) {
     link.textContent = status.link.up ? 'scanner connected' : 'no scanner';
     $('status').textContent = status.link.text;
     const names = {scans: 'scans', lost_scans: 'lost scans', torn_lines: 'torn lines', wrong_sums: 'wrong sums',
-      error_replies: 'error replies', time_outs: 'time-outs', reconnects: 'reconnects'};
+      error_replies: 'error replies', error_ranges: 'error codes', time_outs: 'time-outs', reconnects: 'reconnects'};
     $('counters').replaceChildren(...Object.entries(names).flatMap(([key, text]) =>
       [element('dt', text), element('dd', status.link[key], {'data-counter': key})]),
     element('dt', 'not recorded'), element('dd', status.refused, {'data-counter': 'refused'}));

@@ -44,7 +44,8 @@ std::string own_name() {
 
 void refuse(Response& response, int status, const std::string& sentence) {
   response.status = status;
-  response.set_content(json{{"error", sentence}}.dump(), "application/json");
+  response.set_content(json{{"error", sentence}}.dump(-1, ' ', false, json::error_handler_t::replace),
+                       "application/json");
 }
 
 // Counts a viewer while it lives.
@@ -154,7 +155,8 @@ struct PageServer::Impl {
     server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server.set_socket_options(set_options);
     server.set_tcp_nodelay(true);
-    server.set_keep_alive_max_count(1);  // an idle connection would hold up the end
+    server.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
+    server.set_keep_alive_timeout(1);    // and so would one that never says anything
     server.set_read_timeout(kStalled);
     server.set_write_timeout(kStalled);
     server.set_payload_max_length(64 * 1024);

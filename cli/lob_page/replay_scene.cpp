@@ -68,8 +68,21 @@ void ReplayScene::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
+void ReplayScene::check() const {
+  const std::lock_guard lock(mutex_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
 void ReplayScene::run() {
   std::unique_lock lock(mutex_);
+  try {
+    play_on(lock);
+  } catch (...) {  // the record can no longer be read: check() says so
+    failure_ = std::current_exception();
+  }
+}
+
+void ReplayScene::play_on(std::unique_lock<std::mutex>& lock) {
   while (!stopping_) {
     changed_.wait(lock, [&] { return stopping_ || player_.playing(); });
     const Clock::time_point before = Clock::now();

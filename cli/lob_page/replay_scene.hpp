@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <thread>
@@ -28,10 +29,11 @@ class ReplayScene : public Scene {
   std::string table_csv() const override;
   void command(const std::string& name, const nlohmann::json& arguments) override;
   void finish() override;
-  void check() const override {}
+  void check() const override;
 
  private:
   void run();
+  void play_on(std::unique_lock<std::mutex>& lock);
   void play(const nlohmann::json& arguments);
   void judge(const nlohmann::json& arguments);
   std::string frame_now(std::size_t i) const;
@@ -49,6 +51,7 @@ class ReplayScene : public Scene {
   nlohmann::json setup_;
   std::size_t shown_lobs_ = 0;
   bool stopping_ = false;
+  std::exception_ptr failure_;
   std::condition_variable changed_;
   std::thread thread_;  // last: everything that it uses exists
 };

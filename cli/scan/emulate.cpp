@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <poll.h>
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 
@@ -70,13 +71,22 @@ int emulate_scanner(const EmulateFlags& flags, const SyntheticFlags& synthetic, 
     config.port = hal::scip::EmulatedPort::kTcp;
     config.tcp_port = static_cast<std::uint16_t>(*flags.tcp_port);
   }
-  const hal::scip::Emulator emulator(config, [&] { return playback.next(); });
+  std::atomic<bool> failed = false;
+  const hal::scip::Emulator emulator(config, [&]() -> std::optional<kicking::lob::Scan> {
+    try {
+      return playback.next();
+    } catch (const std::exception& error) {  // the emulator's thread has nobody else to tell
+      fmt::print(stderr, "trivela: {}\n", error.what());
+      failed = true;
+      return std::nullopt;
+    }
+  });
   if (playback.session().simulated) fmt::print(stderr, "{}\n", kSyntheticNotice);
   fmt::print("{}\n", emulator.address());
   std::fflush(stdout);
   pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  while (!signals.stop_requested()) poll(&inbox, 1, -1);
-  return kDone;
+  while (!signals.stop_requested() && !failed) poll(&inbox, 1, 200);
+  return failed ? kFailed : kDone;
 }
 
 }  // namespace trivela::cli

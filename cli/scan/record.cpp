@@ -43,6 +43,7 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   SignalInbox signals;
   StatusLine line;
   const auto finder = hal::open_range_finder(device);
+  if (isatty(STDERR_FILENO) == 0) fmt::print(stderr, "waiting for {}; Ctrl-C ends\n", device);
   while (!finder->connected(kLook)) {
     line.show("waiting for " + device + ": " + finder->status());
     if (signals.stop_requested()) throw std::runtime_error{fmt::format("nothing was recorded: {}", finder->status())};
@@ -66,9 +67,13 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   const hal::LinkCounters counters = finder->counters();
   fmt::print("{}: {} scans of {} {}\n", out.string(), scans, session.identity.vendor, session.identity.product);
   if (session.simulated) fmt::print("{}\n", kSyntheticNotice);
+  if (counters.error_ranges > 0) fmt::print("{} beams had an error code in place of a range\n", counters.error_ranges);
   if (counters.lost_scans + refused == 0) return kDone;
-  fmt::print(stderr, "trivela: {} scans were lost on the line and {} could not be recorded\n", counters.lost_scans,
-             refused);
+  fmt::print(
+      stderr,
+      "trivela: {} scans were lost on the line ({} torn lines, {} wrong sums, opened again {} times) and {} could "
+      "not be recorded\n",
+      counters.lost_scans, counters.torn_lines, counters.wrong_sums, counters.reconnects, refused);
   return kDoneWithLoss;
 }
 

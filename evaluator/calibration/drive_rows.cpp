@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStill_radps = 0.3;   // turning slower than this the ball's track in the handler is straight
 constexpr double kNearFloor_m = 0.12;  // lower than this over the floor before the line, the ball has touched it
-constexpr double kAirborne_s = 0.25;   // after the order every kick is higher
+constexpr double kAirborne_s = 0.19;   // after the release every kick is higher
 constexpr double kFlight_s = 2.0;
 constexpr double kLeastReach_m = 0.5;  // of the goal line in front of the ball
 
@@ -111,12 +111,13 @@ SightingsByRobot all_sightings(const log::Reader& reader) {
 }
 
 /// Was the ball seen near the floor on its way to the goal line?
-bool touched_floor(const std::vector<BallSighting>& sightings, const DriveKick& kick, double ball_radius_m) {
+bool touched_floor(const std::vector<BallSighting>& sightings, const DriveKick& kick,
+                   const kicking::RobotModel& model) {
   for (const BallSighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
-    if (t_s < kAirborne_s) continue;
+    if (t_s < model.delay_s + kAirborne_s) continue;
     if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) return false;
-    if (sighting.ball_m.z() < ball_radius_m + kNearFloor_m) return true;
+    if (sighting.ball_m.z() < model.ball.radius_m + kNearFloor_m) return true;
   }
   return false;
 }
@@ -125,14 +126,14 @@ bool touched_floor(const std::vector<BallSighting>& sightings, const DriveKick& 
 /// fitted to every sighting before the goal line. It is the kicker's own: the robot's motion adds nothing to it. None:
 /// fewer than ten sightings.
 std::optional<double> launch_v_z_mps(const std::vector<BallSighting>& sightings, const DriveKick& kick,
-                                     double ball_radius_m) {
-  constexpr double kLeft_s = 0.12;  // after the order
+                                     const kicking::RobotModel& model) {
+  constexpr double kLeft_s = 0.06;  // after the release: four standard deviations of its instant
   constexpr double kFewest = 10.0;
   constexpr double g = kicking::kGravity_mps2;
   double n = 0.0, t = 0.0, z = 0.0, tt = 0.0, tz = 0.0;
   for (const BallSighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
-    if (t_s < kLeft_s) continue;
+    if (t_s < model.delay_s + kLeft_s) continue;
     if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;
     const double straight_m = sighting.ball_m.z() + 0.5 * g * t_s * t_s;  // without gravity a line
     n += 1.0;
@@ -144,7 +145,7 @@ std::optional<double> launch_v_z_mps(const std::vector<BallSighting>& sightings,
   if (n < kFewest) return std::nullopt;
   const double slope_mps = (n * tz - t * z) / (n * tt - t * t), middle_s = t / n;
   const double v_z_mps = slope_mps - g * middle_s, z_m = z / n - 0.5 * g * middle_s * middle_s;
-  const double squared = v_z_mps * v_z_mps + 2.0 * g * (z_m - ball_radius_m);
+  const double squared = v_z_mps * v_z_mps + 2.0 * g * (z_m - model.ball.radius_m);
   return squared > 0.0 ? std::optional{std::sqrt(squared)} : std::nullopt;
 }
 
@@ -186,13 +187,12 @@ DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const
   const auto row_of = [&](const DriveKick& kick) -> std::optional<kicking::TransferRow> {
     const double distance_m = kick.crossing_in_robot().y() - model.ball_offset_m;
     const auto seen = sightings.find(kick.robot);
-    const bool bounced = seen != sightings.end() && touched_floor(seen->second, kick, model.ball.radius_m);
+    const bool bounced = seen != sightings.end() && touched_floor(seen->second, kick, model);
     if (distance_m < kLeastReach_m || bounced || *kick.z_cross_m < model.ball.radius_m + kNearFloor_m) {
       return std::nullopt;
     }
     const double exit_angle_rad = model.exit_angle_at(kick.power);
-    const auto v_z_mps =
-        seen == sightings.end() ? std::nullopt : launch_v_z_mps(seen->second, kick, model.ball.radius_m);
+    const auto v_z_mps = seen == sightings.end() ? std::nullopt : launch_v_z_mps(seen->second, kick, model);
     return kicking::TransferRow{
         .vy_mps = kick.twist.vy_mps,
         .v0_mps = v_z_mps ? *v_z_mps / std::sin(exit_angle_rad) : model.table.speed_for(kick.power),

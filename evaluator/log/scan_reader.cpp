@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -72,7 +73,22 @@ struct ScanReader::Impl {
           found = true;
         });
     if (!found) throw std::runtime_error(fmt::format("the scan record {} holds no session", file.path()));
+    check(session.geometry);
     refresh();
+  }
+
+  [[noreturn]] void damaged(const std::string& how) const {
+    throw std::runtime_error(fmt::format("the scan record {} is damaged: {}", file.path(), how));
+  }
+
+  void check(const kicking::lob::ScanGeometry& g) const {
+    constexpr std::size_t kMostBeams = 10'000;
+    if (g.beams == 0 || g.beams > kMostBeams) damaged(fmt::format("{} beams", g.beams));
+    const auto within = [](double value, double most) { return value > 0.0 && value <= most; };
+    if (!within(g.step_rad, 1.0) || !within(g.beam_period_s, 1.0) || !within(g.scan_period_s, 10.0) ||
+        !within(g.max_range_m, 1000.0) || !std::isfinite(g.first_angle_rad) || !std::isfinite(g.min_range_m)) {
+      damaged("its geometry is impossible");
+    }
   }
 
   void refresh() {
@@ -81,7 +97,10 @@ struct ScanReader::Impl {
                [&](std::span<const Value> row) {
                  Cells cells(row);
                  const std::int64_t seq = cells.integer();
-                 places.push_back({seq, cells.integer()});
+                 const std::int64_t t_ns = cells.integer();
+                 if (!places.empty() && t_ns <= places.back().t_ns)
+                   damaged(fmt::format("scan {} is not later than the one before", seq));
+                 places.push_back({seq, t_ns});
                });
   }
 

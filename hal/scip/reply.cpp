@@ -1,5 +1,7 @@
 #include "hal/scip/reply.hpp"
 
+#include <algorithm>
+
 #include "hal/scip/codec.hpp"
 
 namespace trivela::hal::scip {
@@ -67,6 +69,8 @@ Damage read_scan(std::string_view text, Reply& reply) {
 }  // namespace
 
 Damage read_reply(std::string_view text, Reply& reply) {
+  const auto printable = [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); };
+  if (!std::ranges::all_of(text, printable)) return Damage::kTorn;  // whatever its sum says
   const auto echo = next_line(text);
   const auto status = next_line(text);
   if (!echo || !status || echo->size() < 2) return Damage::kTorn;

@@ -1,5 +1,6 @@
 #include "hal/scip/scan_intake.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,8 @@ std::optional<kicking::lob::Scan> ScanIntake::take(const Reply& reply, std::int6
     if (periods > 1) counters.lost_scans += static_cast<std::uint64_t>(periods - 1);
   }
   ++counters.scans;
+  counters.error_ranges += static_cast<std::uint64_t>(std::ranges::count_if(
+      *ranges, [](std::uint32_t range) { return range > 0 && range < kicking::lob::kFirstRange_mm; }));
   complaint_.clear();
   return kicking::lob::Scan{instant.t_ns, std::move(*ranges)};
 }

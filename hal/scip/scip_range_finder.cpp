@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -176,6 +177,10 @@ void ScipRangeFinder::take_scan(const Reply& reply, Clock::time_point arrival) {
   if (!scan) {
     if (!intake_->complaint().empty()) status_ = fmt::format("{}: {}", line_->name(), intake_->complaint());
     return;
+  }
+  if (!scan_came_ && last_t_ns_ > 0) {
+    const double gap_s = static_cast<double>(scan->t_ns - last_t_ns_) * 1e-9;
+    counters_.lost_scans += static_cast<std::uint64_t>(std::max(0L, std::lround(gap_s / geometry_.scan_period_s) - 1));
   }
   last_t_ns_ = scan->t_ns = std::max(scan->t_ns, last_t_ns_ + 1);
   scans_.push_back(*std::move(scan));

@@ -9,9 +9,11 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr double kAtMark_m = 0.2;   // beyond the noise of self-localisation
-constexpr double kFewCycles = 3.0;  // past the place of the kick, within which the order must go out
-constexpr double kTooLate_m = 0.5;  // past it without an order: it starts over
+constexpr double kAtMark_m = 0.2;         // beyond the noise of self-localisation
+constexpr double kFewCycles = 3.0;        // past the place of the kick, within which the order must go out
+constexpr double kTooLate_m = 0.5;        // past it without an order: it starts over
+constexpr double kAside_m = 0.5;          // off the way at the kick: somebody pushed the robot
+const double kAstray_rad = radians(8.0);  // off the heading at the kick: the same
 
 /// Drives to the start mark and stands there, facing +y of F: velocity in R.
 Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, const Eigen::Vector2d& mark_m) {
@@ -38,6 +40,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   const bool standing = velocity_mps == 0.0;
   bool& passing = memory.drive.passing;
   if (!passing) {
+    memory.settling_since_t_ns.reset();
     const Eigen::Vector2d mark = standing ? kick_place : kick_place - config.test_drive.run_up_m * ahead;
     const Eigen::Vector2d velocity = towards_mark(config, input.pose, mark);
     judgement.drive.vx_mps = velocity.x();
@@ -58,7 +61,11 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   } else {
     judgement.reason = Reason::kNotAligned;
   }
+  const Eigen::Vector2d off = position - kick_place;
+  const bool on_its_way = std::abs(wrap_angle(input.pose.heading_rad)) <= kAstray_rad &&
+                          std::abs(along.x() * off.y() - along.y() * off.x()) <= kAside_m;
   if (judgement.reason == Reason::kFire && !shot.reachable) judgement.reason = Reason::kOutOfRange;
+  if (judgement.reason == Reason::kFire && !on_its_way) judgement.reason = Reason::kNotAligned;
   if (passed_m > kTooLate_m) passing = false;
   return judgement;
 }

@@ -69,7 +69,7 @@ struct TestDriveMemory {
   double low_rad = 0.0;     ///< turn drive: the allowed error, as an angle, is between these
   std::optional<double> high_rad;
   double late_sum_m = 0.0;  ///< turn drive: of this step's balls, beyond the target in the sense of turning
-  Twist command{};           ///< of the order: it goes on until the ball has left
+  Twist command{};          ///< of the order: it goes on until the ball has left
   std::optional<std::uint32_t> awaited_possession;  ///< turn drive: its kick has not been seen yet
 };
 
@@ -107,7 +107,8 @@ struct Judgement {
 /// Fire or hold? A pure function of its arguments but for the policy's own memory, which it brings up to date; nothing
 /// allocates. A policy that is not in charge is judged by the same function with a memory of its own. It never fires
 /// when the game stands, the ball is not held, the kicker is not ready, the state is older than max_state_age_s or not
-/// finite, no set-point reaches the target height, or an order of this possession is pending.
+/// finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the laser), or an order of
+/// this possession is pending.
 Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                 const PolicyInput& input, PolicyMemory& memory);
 

@@ -15,6 +15,9 @@ Judgement judge_standing_drive(const PolicyConfig& config, const RobotModel& rob
   }
   judgement.power = powers[memory.drive.level];
   judgement.reason = settle(config, input, memory);
+  const Eigen::Vector2d target = target_on_line(config, goal);
+  const double astray_rad = wrap_angle(bearing({input.pose.x_m, input.pose.y_m}, target) - input.pose.heading_rad);
+  if (judgement.reason == Reason::kFire && std::abs(astray_rad) > radians(30.0)) judgement.reason = Reason::kNotAligned;
   return judgement;
 }
 

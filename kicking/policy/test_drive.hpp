@@ -10,7 +10,8 @@ namespace trivela::kicking {
 // own table.
 
 /// For the laser (paper, section 2.1): stands where it was placed, waits until it is at rest for settle_s and kicks
-/// with the next of `powers`, whatever the table says of it.
+/// with the next of `powers`, whatever the table says of it; but not while it faces away from the goal by more than 30
+/// degrees.
 Judgement judge_standing_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                                const PolicyInput& input, PolicyMemory& memory);
 

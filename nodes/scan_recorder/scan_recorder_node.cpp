@@ -56,10 +56,23 @@ std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanos
   }
   if (!connected_) {
     connected_ = scanner_->connected(timeout);
-    if (!connected_) return std::nullopt;
+    if (!connected_) {
+      if (!std::exchange(waiting_, true)) context_.logger->warn("waiting: {}", scanner_->status());
+      return std::nullopt;
+    }
+    up_ = true;
     context_.logger->info("{}: {}", scanner_->identity().product, scanner_->status());
   }
-  return scanner_->read(timeout);
+  auto scan = scanner_->read(timeout);
+  if (scanner_->up() != up_ && !scanner_->ended()) {
+    up_ = scanner_->up();
+    if (up_) {
+      context_.logger->info("{}", scanner_->status());
+    } else {
+      context_.logger->warn("{}", scanner_->status());
+    }
+  }
+  return scan;
 }
 
 /// Throws std::runtime_error where the record cannot be made.

@@ -35,6 +35,8 @@ class ScanRecorderNode {
   bus::Node node_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   bool connected_ = false;
+  bool waiting_ = false;  ///< said so
+  bool up_ = false;
   std::mutex mutex_;  // of log_ and early_
   std::optional<evaluator::log::ScanWriter> log_;
   std::vector<evaluator::log::TestedSetPoint> early_;  // kicks before the first scan

@@ -128,7 +128,34 @@ TEST_F(CalibrateVerb, TableJsonHasTheAgreedKeys) {
   EXPECT_NEAR(point["exit_angle_deg"].get<double>(), 36.897417, 1e-6);
   EXPECT_EQ(point["exit_speed_sd_mps"], 0.0);
   EXPECT_NEAR(result["exit_angle_deg"].get<double>(), 36.752246, 1e-6);
+  EXPECT_EQ(result["exit_angle_sds_deg"].size(), 2u);
   EXPECT_TRUE(result["warnings"].empty());
+}
+
+TEST_F(CalibrateVerb, TableOfCommasMayHaveCommentsAnywhere) {
+  write("lobs.csv",
+        "  # an evening\npower,height_m,distance_m # of the centre\n15,0.65,3.5 # first\n   \n25,1.25,6.66\n");
+  const Result result = run("table lobs.csv --robot seven --json");
+  ASSERT_EQ(result.exit_code, kDone) << result.err;
+  EXPECT_EQ(json::parse(result.out)["setpoints"].size(), 2u);
+  write("wrong.csv", "# one\npower,height_m,distance_m\n15,0.65,3.5\n25,x,6.66\n");
+  EXPECT_THAT(run("table wrong.csv --robot eight").err, HasSubstr("wrong.csv:4: column height_m: 'x'"));
+}
+
+TEST_F(CalibrateVerb, ATrueTableDoesNotReplaceACalibratedOne) {
+  write("speeds.csv", "power,exit_speed_mps,exit_angle_deg\n10,5,40\n20,7,40\n");
+  ASSERT_EQ(run("table speeds.csv --robot seven").exit_code, kDone);
+  EXPECT_NE(run("table speeds.csv --robot seven --kind true").exit_code, kDone);
+  EXPECT_NO_THROW(config::load_robot("seven.toml"));
+}
+
+TEST_F(CalibrateVerb, ANewRobotHasNoKicksOfTheOneItStartsFrom) {
+  write("speeds.csv", "power,exit_speed_mps,exit_angle_deg\n10,5,40\n20,7,40\n");
+  write("t1.csv", "vx_mps,d_m,b_m\n0.5,6,0.5\n1,6,1\n2,6,1.8\n");
+  ASSERT_EQ(run("table speeds.csv --robot seven").exit_code, kDone);
+  ASSERT_EQ(run("deflection t1.csv --robot seven --out seven.toml").exit_code, kDone);
+  ASSERT_EQ(run("table speeds.csv --robot eight --base seven").exit_code, kDone);
+  EXPECT_FALSE(config::load_robot("eight.toml").calibration->deflection);
 }
 
 TEST_F(CalibrateVerb, TableGoesToTheRobotsFolderWhereThereIsOne) {

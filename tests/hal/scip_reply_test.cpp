@@ -126,6 +126,15 @@ TEST(ScipReply, AWrongSumIsAWrongSumAndAShortBlockIsTorn) {
   EXPECT_EQ(parser.take_damages().torn, 1U);
 }
 
+TEST(ScipReply, BytesThatAreNoTextAreTornWhateverTheirSum) {
+  const std::string product = "PROD:UTM\xff\xfe";
+  int sum = 0;
+  for (const char c : product) sum += static_cast<unsigned char>(c);
+  ReplyParser parser;
+  EXPECT_TRUE(parser.feed("VV\n00P\n" + product + ";" + static_cast<char>((sum & 0x3f) + 0x30) + "\n\n").empty());
+  EXPECT_EQ(parser.take_damages().torn, 1U);
+}
+
 TEST(ScipReply, ALostEmptyLineDoesNotCostTheNextScan) {
   std::string bad = tests::recorded_scan();
   bad.pop_back();

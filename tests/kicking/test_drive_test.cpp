@@ -153,6 +153,25 @@ TEST(PassDrive, StartsOverWhenTheKickerWasNotReadyAtThePlaceOfTheKick) {
   EXPECT_LT(judge(PolicyName::kLateralDrive, config, {}, {}, input, memory).drive.vx_mps, 0.0) << "back to the mark";
 }
 
+TEST(PassDrive, DoesNotKickWhereSomebodyPushedIt) {
+  const auto reason = [](const Pose& at, double vx_mps) {
+    PolicyMemory memory;
+    EXPECT_EQ(judge(PolicyName::kLateralDrive, {}, {}, {}, ready_at({-1.6, 3.0, 0.0}), memory).drive.vx_mps, 0.5);
+    return judge(PolicyName::kLateralDrive, {}, {}, {}, ready_at(at, {vx_mps, 0.0, 0.0}), memory).reason;
+  };
+  EXPECT_EQ(reason({0.001, 3.0, 0.0}, 0.5), Reason::kFire);
+  EXPECT_EQ(reason({0.001, 3.0, radians(30.0)}, 0.5), Reason::kNotAligned) << "turned";
+  EXPECT_EQ(reason({0.001, 3.0, radians(-30.0)}, 0.5), Reason::kNotAligned);
+  EXPECT_EQ(reason({0.001, 2.0, 0.0}, 0.5), Reason::kNotAligned) << "a metre aside";
+}
+
+TEST(StandingDrive, DoesNotKickAwayFromTheGoal) {
+  PolicyConfig config;
+  Drill drill{PolicyName::kStandingDrive, config};
+  EXPECT_FALSE(drill.possession({0.0, -4.0, radians(90.0)}, 3.0).fired);
+  EXPECT_TRUE(drill.possession({0.0, -4.0, radians(10.0)}, 3.0).fired);
+}
+
 /// Plays a turn drive to its end; `cross` says where the ball of a kick crosses. The allowed error of each turn rate's
 /// last step, as an angle.
 std::vector<double> bisected(const PolicyConfig& config, auto&& cross) {

@@ -15,6 +15,13 @@ TEST(SameSite, AddressesAndOwnNamesNameThisMachine) {
   }
 }
 
+TEST(SameSite, CapitalsAndTheShortNameAreTheSameMachine) {
+  EXPECT_TRUE(names_this_machine("robot-pc:8080", "Robot-PC"));
+  EXPECT_TRUE(names_this_machine("ROBOT.lan", "robot.lan"));
+  EXPECT_TRUE(names_this_machine("robot", "robot.lan"));
+  EXPECT_FALSE(names_this_machine("lan", "robot.lan"));
+}
+
 TEST(SameSite, OtherNamesMayBeAnybodys) {
   for (const char* const host : {"", "evil.example", "evil.example:80", "localhost.evil.example",
                                  "127.0.0.1.evil.example", "robot.example", "roboter"}) {
