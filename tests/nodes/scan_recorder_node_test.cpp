@@ -33,6 +33,7 @@ class ScanRecorderNodeTest : public NodeTest {
     said.step_rad = 0.01;
     said.beam_period_s = 1e-5;
     said.scan_period_s = 0.025;
+    said.max_range_m = 30.0;
     said.range_mm[0] = static_cast<std::uint16_t>(1000 + said_scans);
     scans(said);
   }
