@@ -57,7 +57,7 @@ std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanos
   if (!connected_) {
     connected_ = scanner_->connected(timeout);
     if (!connected_) {
-      if (!std::exchange(waiting_, true)) context_.logger->warn("waiting: {}", scanner_->status());
+      if (!std::exchange(waiting_, true)) context_.logger->info("waiting: {}", scanner_->status());
       return std::nullopt;
     }
     up_ = true;
