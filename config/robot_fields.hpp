@@ -15,6 +15,16 @@ void fields(V& v, Transfer& t) {
 }
 
 template <class V>
+void fields(V& v, KickSpreads& s) {
+  v("speed_sd_ratio", s.speed_sd_ratio, config::Range{0.0, 0.5});
+  v("exit_angle_sd_deg", config::Degrees{s.exit_angle_sd_rad}, config::Range{0.0, 20.0});
+  v("direction_sd_deg", config::Degrees{s.direction_sd_rad}, config::Range{0.0, 20.0});
+  v("delay_sd_s", s.delay_sd_s, config::Range{0.0, 0.1});
+  v("table_sd_ratio", s.table_sd_ratio, config::Range{0.0, 0.5});
+  v("transfer_sd_ratio", s.transfer_sd_ratio, config::Range{0.0, 1.0});
+}
+
+template <class V>
 void fields(V& v, RobotModel& m) {
   v("exit_angle_deg", config::Degrees{m.exit_angle_rad}, config::Range{5.0, 80.0});
   v("delay_s", m.delay_s, config::Range{0.0, 0.5});
@@ -25,6 +35,7 @@ void fields(V& v, RobotModel& m) {
   v("ball_radius_m", m.ball.radius_m, config::Range{0.02, 0.25});
   v("transfer_paper", m.transfer_paper);
   v("transfer_exact", m.transfer_exact);
+  v("spreads", m.spreads);
 }
 
 }  // namespace trivela::kicking

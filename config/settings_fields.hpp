@@ -14,7 +14,10 @@ struct Names<kicking::PolicyName> {
        {"standing_drive", kicking::PolicyName::kStandingDrive},
        {"lateral_drive", kicking::PolicyName::kLateralDrive},
        {"turn_drive", kicking::PolicyName::kTurnDrive},
-       {"straight_drive", kicking::PolicyName::kStraightDrive}}};
+       {"straight_drive", kicking::PolicyName::kStraightDrive},
+       {"predictive", kicking::PolicyName::kPredictive},
+       {"learned", kicking::PolicyName::kLearned},
+       {"oracle", kicking::PolicyName::kOracle}}};
 };
 template <>
 struct Names<kicking::HeightLaw> {

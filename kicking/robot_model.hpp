@@ -10,6 +10,16 @@
 
 namespace trivela::kicking {
 
+/// How much this robot's kicks differ from what its model says: standard deviations.
+struct KickSpreads {
+  double speed_sd_ratio = 0.03;             ///< exit speed, from kick to kick (assumed)
+  double exit_angle_sd_rad = radians(0.5);  ///< elevation (assumed)
+  double direction_sd_rad = radians(2.0);   ///< sideways (assumed)
+  double delay_sd_s = 0.015;                ///< CAMBADA release 1.0: 50 ms mean, 80 ms max
+  double table_sd_ratio = 0.01;             ///< of the calibrated exit speed itself (assumed)
+  double transfer_sd_ratio = 0.1;           ///< of the calibrated transfer (assumed)
+};
+
 /// What a decision knows of its robot. The defaults are robot 1 of CAMBADA (release 1.0, config/kicker.map; laser
 /// calibration).
 struct RobotModel {
@@ -37,6 +47,7 @@ struct RobotModel {
   /// about 0.11 s.
   double beta_slope_s = 0.12;
   Ball ball{};
+  KickSpreads spreads{};
 
   /// Elevation of a kick of this power [rad].
   double exit_angle_at(double power) const { return exit_angles ? exit_angles->angle_for(power) : exit_angle_rad; }

@@ -24,7 +24,7 @@ CREATE TABLE session_policies (            -- the policy in charge, by half
   session_id INTEGER NOT NULL,             -- sessions.session_id
   half INTEGER NOT NULL,                   -- 1, 2
   policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
-    'straight_drive')), -- in charge of the kicks
+    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge of the kicks
   PRIMARY KEY (session_id, half)
 ) STRICT, WITHOUT ROWID;
 
@@ -157,11 +157,11 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
   policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
-    'straight_drive')), -- in charge
+    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: kick now
   reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
     'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
-    'drive_finished')), -- why it fires or holds
+    'drive_finished', 'unlikely', 'waiting')), -- why it fires or holds
   x_m REAL NOT NULL,                       -- robot pose in F, m
   y_m REAL NOT NULL,                       -- robot pose in F, m
   heading_rad REAL NOT NULL,               -- robot pose in F, rad
@@ -184,6 +184,9 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   predicted_x_cross_m REAL,                -- where the ball would cross the goal line, in F, m
   predicted_z_cross_m REAL,                -- height of that crossing, m
   predicted_t_flight_s REAL,               -- time of that flight, s
+  p_on_target REAL,                        -- predicted probability that this kick is on target
+  fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
+  assignment_probability REAL NOT NULL,    -- with which the policy was put in charge; 1: not at random
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
   shadow_count INTEGER NOT NULL,           -- rows in shadow_decisions
@@ -197,17 +200,19 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   robot_id INTEGER NOT NULL,               -- robot
   seq INTEGER NOT NULL,                    -- kick_decisions.seq
   shadow_index INTEGER NOT NULL,           -- place among the decision's shadows, from 0
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving')), -- not in charge
+  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'predictive', 'learned')), -- not in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: it would kick now
   reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
     'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
-    'drive_finished')), -- why it fires or holds
+    'drive_finished', 'unlikely', 'waiting')), -- why it fires or holds
   power REAL,                              -- set-point of the robot's own table
   v_kick_mps REAL,                         -- exit speed asked of the kicker, m/s
   aligned INTEGER NOT NULL CHECK (aligned IN (0, 1)), -- 1: the two segments meet
   offset_right_m REAL,                     -- where S1 meets the target line, m
   left_m REAL,                             -- reach of S2 to the left of the target, m
   right_m REAL,                            -- reach of S2 to the right of the target, m
+  p_on_target REAL,                        -- predicted probability that its kick is on target
+  fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
   PRIMARY KEY (session_id, robot_id, seq, shadow_index)
 ) STRICT, WITHOUT ROWID;
 

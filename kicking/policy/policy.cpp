@@ -25,13 +25,16 @@ Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
   return Reason::kFire;
 }
 
-bool is_drive(PolicyName policy) { return policy != PolicyName::kStopped && policy != PolicyName::kMoving; }
+bool is_drive(PolicyName policy) {
+  return policy >= PolicyName::kStandingDrive && policy <= PolicyName::kStraightDrive;
+}
 
 using Rule = Judgement (*)(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, PolicyMemory&);
 
 /// In the order of PolicyName.
 constexpr std::array<Rule, kPolicyCount> kRules{judge_stopped,       judge_moving,     judge_standing_drive,
-                                                judge_lateral_drive, judge_turn_drive, judge_straight_drive};
+                                                judge_lateral_drive, judge_turn_drive, judge_straight_drive,
+                                                judge_moving,        judge_moving,     judge_moving};
 
 bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PolicyMemory& memory) {
   return memory.fired_t_ns && 1e-9 * static_cast<double>(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
@@ -53,6 +56,12 @@ const char* name(PolicyName policy) {
       return "turn_drive";
     case PolicyName::kStraightDrive:
       return "straight_drive";
+    case PolicyName::kPredictive:
+      return "predictive";
+    case PolicyName::kLearned:
+      return "learned";
+    case PolicyName::kOracle:
+      return "oracle";
   }
   assert(false);
   return "unknown";
@@ -84,6 +93,10 @@ const char* name(Reason reason) {
       return "stale_state";
     case Reason::kDriveFinished:
       return "drive_finished";
+    case Reason::kUnlikely:
+      return "unlikely";
+    case Reason::kWaiting:
+      return "waiting";
   }
   assert(false);
   return "unknown";

@@ -13,10 +13,23 @@ namespace trivela::kicking {
 
 /// kStopped: drive, brake, turn, settle, kick: "a two-step behaviour", the method before the paper.
 /// kMoving: the paper's: alignment is evaluated in parallel with the motion.
-/// The others calibrate a robot (kicking/policy/test_drive.hpp). In the order of the wire's Policy.
-enum class PolicyName { kStopped, kMoving, kStandingDrive, kLateralDrive, kTurnDrive, kStraightDrive };
+/// The drives calibrate a robot (kicking/policy/test_drive.hpp).
+/// kPredictive: fires where the probability of a ball on target, weighed against losing the ball, is highest; kLearned:
+/// the same with that probability corrected by a model trained on logs; kOracle: the same on the simulator's true
+/// state. In the order of the wire's Policy.
+enum class PolicyName {
+  kStopped,
+  kMoving,
+  kStandingDrive,
+  kLateralDrive,
+  kTurnDrive,
+  kStraightDrive,
+  kPredictive,
+  kLearned,
+  kOracle
+};
 
-inline constexpr std::size_t kPolicyCount = 6;
+inline constexpr std::size_t kPolicyCount = 9;
 
 /// Why a policy fires or holds, in the order of the wire's DecisionReason.
 enum class Reason {
@@ -31,10 +44,13 @@ enum class Reason {
   kNotAligned,
   kOutOfRange,
   kStaleState,
-  kDriveFinished
+  kDriveFinished,
+  kUnlikely,
+  kWaiting
 };
 
-/// "stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive".
+/// "stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive", "predictive", "learned",
+/// "oracle".
 const char* name(PolicyName policy);
 /// "fire", "not_playing", ...
 const char* name(Reason reason);
@@ -101,6 +117,8 @@ struct Judgement {
   double left_m = 0.0;
   double right_m = 0.0;
   std::optional<Crossing> predicted;  ///< of an order that goes out now
+  std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
+  double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
   Twist drive{};                      ///< command until the next cycle, in R
 };
 

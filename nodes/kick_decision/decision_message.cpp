@@ -10,10 +10,12 @@ namespace {
 static_assert(int{msg::POLICY_STOPPED} == int(kicking::PolicyName::kStopped));
 static_assert(int{msg::POLICY_MOVING} == int(kicking::PolicyName::kMoving));
 static_assert(int{msg::POLICY_STRAIGHT_DRIVE} == int(kicking::PolicyName::kStraightDrive));
-static_assert(int{msg::POLICY_STRAIGHT_DRIVE} + 1 == int(kicking::kPolicyCount));
+static_assert(int{msg::POLICY_ORACLE} == int(kicking::PolicyName::kOracle));
+static_assert(int{msg::POLICY_ORACLE} + 1 == int(kicking::kPolicyCount));
 static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
 static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
+static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,6 +69,9 @@ msg::KickDecision decision_message(const msg::WorldState& world, const msg::Kick
   out.predicted_x_cross_m = judgement.predicted ? judgement.predicted->x_m : kNone;
   out.predicted_z_cross_m = judgement.predicted ? judgement.predicted->z_m : kNone;
   out.predicted_t_flight_s = judgement.predicted ? judgement.predicted->t_flight_s : kNone;
+  out.p_on_target = judgement.p_on_target.value_or(kNone);
+  out.fire_after_s = judgement.fire_after_s;
+  out.assignment_probability = 1.0;
   out.opponent_distance_m = world.opponent_distance_m;
   out.charge = kicker != nullptr ? kicker->charge : 0.0;
   return out;
@@ -83,6 +88,8 @@ msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::Ju
   out.offset_right_m = judgement.offset_right_m.value_or(kNone);
   out.left_m = judgement.left_m;
   out.right_m = judgement.right_m;
+  out.p_on_target = judgement.p_on_target.value_or(kNone);
+  out.fire_after_s = judgement.fire_after_s;
   return out;
 }
 
