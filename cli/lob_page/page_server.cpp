@@ -72,6 +72,7 @@ struct PageServer::Impl {
   std::string name = own_name();
   std::atomic<int> viewers = 0;
   httplib::Server server{};
+  std::atomic<bool> ended = false;
   std::thread thread{};
 
   void follow(Response& response) {
@@ -171,7 +172,10 @@ struct PageServer::Impl {
       throw std::runtime_error{fmt::format("cannot listen on {}:{}: {}", host, wanted_port,
                                            reason != 0 ? std::strerror(reason) : "the address is not this machine's")};
     }
-    thread = std::thread([this] { server.listen_after_bind(); });
+    thread = std::thread([this] {
+      server.listen_after_bind();
+      ended = true;
+    });
   }
 };
 
@@ -183,7 +187,8 @@ PageServer::PageServer(Scene& scene, Broadcast& broadcast, const ListenAddress& 
 
 PageServer::~PageServer() {
   impl_->broadcast.close();
-  while (!impl_->server.is_running()) std::this_thread::yield();  // stop() is lost on a server that has not begun
+  // stop() is lost on a server that has not begun
+  while (!impl_->server.is_running() && !impl_->ended) std::this_thread::yield();
   impl_->server.stop();
   impl_->thread.join();
 }

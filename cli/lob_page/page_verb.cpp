@@ -73,14 +73,16 @@ int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
   SignalInbox signals;  // before all threads, which must not take them
   lob_page::Broadcast broadcast;
   const auto scene = open_scene(flags, mount, config, broadcast);
-  const lob_page::PageServer server(*scene, broadcast, address);
-  fmt::print("{}\n", server.url());
-  std::fflush(stdout);
-  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  while (!signals.stop_requested()) {
-    scene->check();
-    poll(&inbox, 1, kCheck_ms);
-  }
+  {
+    const lob_page::PageServer server(*scene, broadcast, address);
+    fmt::print("{}\n", server.url());
+    std::fflush(stdout);
+    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+    while (!signals.stop_requested()) {
+      scene->check();
+      poll(&inbox, 1, kCheck_ms);
+    }
+  }  // the server ends first: a verdict that was answered is in the record
   scene->finish();
   return kDone;
 }
