@@ -40,6 +40,29 @@ std::optional<kicking::AngleTable> angles_of(const TableColumns& columns, const 
   return kicking::AngleTable{points};
 }
 
+/// The columns as a height table. Throws Error naming the file.
+kicking::DistanceTable height_table_of(const DistanceColumns& columns, const std::string& file) {
+  if (columns.distances_m.size() != columns.powers.size()) {
+    throw Error{fmt::format("{}: height_table.distances_m has {} entries, height_table.powers {}", file,
+                            columns.distances_m.size(), columns.powers.size())};
+  }
+  kicking::DistanceTable table;
+  for (std::size_t i = 0; i < columns.powers.size(); ++i)
+    table.points.push_back({columns.distances_m[i], columns.powers[i]});
+  return table;
+}
+
+void read_height_table(const DistanceColumns& columns, const std::string& file, Robot& robot) {
+  robot.height_table = height_table_of(columns, file);
+  const kicking::PolicyConfig policy{};
+  try {
+    robot.model =
+        kicking::with_distance_table(robot.model, *robot.height_table, policy.height_law, policy.target_height_m);
+  } catch (const std::invalid_argument& error) {
+    throw Error{fmt::format("{}: height_table: {}", file, error.what())};
+  }
+}
+
 template <class Table>
 void write_table(const Table& table, TableColumns& columns) {
   columns.kind = Table::kKind;
@@ -56,12 +79,21 @@ Robot load_robot_of_any_table(const std::filesystem::path& path) {
   const TomlSource source = parse_file(path);
   read_into(source, file);
   Robot& robot = file.robot;
-  if (file.table.kind == kicking::TableKind::kTrue) {
-    robot.true_table = table_of<kicking::TrueTable>(file.table, source.file);
-  } else {
-    robot.model.table = table_of<kicking::EffectiveTable>(file.table, source.file);
+  if (file.table.has_value() == file.height_table.has_value()) {
+    throw Error{fmt::format("{}: a robot needs one table: [table] (exit speeds) or [height_table] (distances){}",
+                            source.file, file.table ? ", not both" : "")};
   }
-  robot.model.exit_angles = angles_of(file.table, source.file);
+  if (file.height_table) {
+    read_height_table(*file.height_table, source.file, robot);
+    return robot;
+  }
+  const TableColumns& table = *file.table;
+  if (table.kind == kicking::TableKind::kTrue) {
+    robot.true_table = table_of<kicking::TrueTable>(table, source.file);
+  } else {
+    robot.model.table = table_of<kicking::EffectiveTable>(table, source.file);
+  }
+  robot.model.exit_angles = angles_of(table, source.file);
   return robot;
 }
 
@@ -75,14 +107,23 @@ Robot load_robot(const std::filesystem::path& path) {
 }
 
 std::string to_toml_text(const Robot& robot) {
-  RobotFile file{robot, {}};
+  RobotFile file{robot, {}, {}};
+  if (robot.height_table) {
+    auto& columns = file.height_table.emplace();
+    for (const kicking::DistancePoint& point : robot.height_table->points) {
+      columns.distances_m.push_back(point.distance_m);
+      columns.powers.push_back(point.power);
+    }
+    return to_toml(file);
+  }
+  TableColumns& table = file.table.emplace();
   if (robot.true_table) {
-    write_table(*robot.true_table, file.table);
+    write_table(*robot.true_table, table);
   } else {
-    write_table(robot.model.table, file.table);
+    write_table(robot.model.table, table);
   }
   if (robot.model.exit_angles) {
-    auto& angles_deg = file.table.exit_angles_deg.emplace();
+    auto& angles_deg = table.exit_angles_deg.emplace();
     for (const kicking::AnglePoint& point : robot.model.exit_angles->points())
       angles_deg.push_back(std::round(kicking::degrees(point.exit_angle_rad) * 1e9) / 1e9);  // rad holds no more
   }

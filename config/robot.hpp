@@ -7,6 +7,7 @@
 
 #include "config/calibration.hpp"
 #include "config/field_types.hpp"
+#include "kicking/calibration/distance_table.hpp"
 #include "kicking/robot_model.hpp"
 
 namespace trivela::config {
@@ -26,13 +27,16 @@ struct Robot {
   std::string source = "CAMBADA release 1.0 (2015), config/kicker.map, robot 1";
   kicking::RobotModel model{};
   WheelBase base{};
-  std::optional<kicking::TrueTable> true_table{};  ///< in place of model.table; load_robot() refuses such a file
-  std::optional<Calibration> calibration{};        ///< where measured figures come from
+  std::optional<kicking::TrueTable> true_table{};        ///< in place of model.table; load_robot() refuses such a file
+  std::optional<kicking::DistanceTable> height_table{};  ///< what model.table was made from, where the file has it
+  std::optional<Calibration> calibration{};              ///< where measured figures come from
 };
 
 /// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be
-/// whole: kind, powers and exit speeds, and may have an exit angle for each power. Throws Error: also for a table of
-/// kind "true", which the drag-free laws of the policies must not be given, and for set-points that do not rise.
+/// whole: kind, powers and exit speeds, and may have an exit angle for each power. In place of [table] a file may have
+/// [height_table], powers over distances: model.table is then kicking::effective_table() by the exact height law for
+/// the target height of 0.70 m. Throws Error: also for a table of kind "true", which the drag-free laws of the policies
+/// must not be given, and for set-points that do not rise.
 Robot load_robot(const std::filesystem::path& path);
 
 /// The same for the tools that calibrate: a table of kind "true" comes back as true_table.

@@ -56,10 +56,23 @@ struct TableColumns {
   std::optional<std::vector<double>> exit_angles_deg;
 };
 
+/// [height_table] as the file has it.
+struct DistanceColumns {
+  std::vector<double> distances_m;
+  std::vector<double> powers;
+};
+
 struct RobotFile {
   Robot robot;
-  TableColumns table;
+  std::optional<TableColumns> table;
+  std::optional<DistanceColumns> height_table;
 };
+
+template <class V>
+void fields(V& v, DistanceColumns& t) {
+  v("distances_m", t.distances_m, Range{0.5, 30.0});
+  v("powers", t.powers, Range{0.0, 1e6});
+}
 
 template <class V>
 void fields(V& v, TableColumns& t) {
@@ -81,6 +94,7 @@ void fields(V& v, RobotFile& f) {
   v("name", f.robot.name);
   v("source", f.robot.source);
   v("table", f.table);
+  v("height_table", f.height_table);
   v("kicker", f.robot.model);
   v("base", f.robot.base);
   v("calibration", f.robot.calibration);

@@ -28,6 +28,7 @@ enum class Role : std::uint32_t {
   kLaserNoise,
   kLaserDropout,
   kLaserMixed,
+  kHandTable,
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

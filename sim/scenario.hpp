@@ -139,6 +139,19 @@ struct Laser {
   double wall_ahead_m = 12.0;                       ///< upright wall before the scanner; assumption
 };
 
+/// How the old height table was made by hand, for arms that play with it (sim/hand_table.hpp). No number of it was
+/// published: the paper says how the table was made, not how well.
+struct HandTable {
+  std::vector<double> distances_m{3, 4, 5, 6, 7, 8, 9};  ///< ball to goal line; assumption
+  double target_height_m = 0.70;                         ///< CAMBADA release 1.0 kicker.map
+  double kicks_per_distance = 3.0;                       ///< whose mean is judged; assumption
+  double eye_height_sd_m = 0.15;                         ///< of a height judged by eye; assumption: a ball's radius up
+                                                         ///< to its diameter
+  double day_sd_ratio = 0.04;  ///< kicker speed, day of the table against the match; assumption ("differences within
+                               ///< the same robot over time", paper, section 2)
+  bool one_for_all = false;    ///< robot 1's table serves everybody; paper: "configured individually for each robot"
+};
+
 struct Scenario {
   double cycle_s = 0.02;     ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
   double substep_s = 0.001;  ///< longest step of the physics
@@ -152,6 +165,7 @@ struct Scenario {
   Vision vision;
   FlightCamera flight_camera;
   Laser laser;
+  HandTable hand_table;
 };
 
 }  // namespace trivela::sim

@@ -149,6 +149,16 @@ void fields(V& v, Laser& l) {
 }
 
 template <class V>
+void fields(V& v, HandTable& h) {
+  v("distances_m", h.distances_m, Range{1.7, 20.0});
+  v("target_height_m", h.target_height_m, Range{0.11, 2.0});
+  v("kicks_per_distance", h.kicks_per_distance, Range{1.0, 100.0});
+  v("eye_height_sd_m", h.eye_height_sd_m, Range{0.0, 2.0});
+  v("day_sd_ratio", h.day_sd_ratio, Range{0.0, 0.15});
+  v("one_for_all", h.one_for_all);
+}
+
+template <class V>
 void fields(V& v, Scenario& s) {
   v("cycle_s", s.cycle_s, Range{0.001, 0.5});
   v("substep_s", s.substep_s, Range{0.00001, 0.01});
@@ -162,6 +172,7 @@ void fields(V& v, Scenario& s) {
   v("vision", s.vision);
   v("flight_camera", s.flight_camera);
   v("laser", s.laser);
+  v("hand_table", s.hand_table);
 }
 
 /// What is wrong with a scenario: the dotted key and a sentence.

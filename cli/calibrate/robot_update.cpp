@@ -114,6 +114,7 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
     robot_.true_table.reset();
     robot_.model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
   }
+  robot_.height_table.reset();
   config::TableOrigin table{origin(kicks, files), {}, {}, error(fit.exit_speed_sd_mps), fit.isotonic};
   std::vector<kicking::AnglePoint> angles;
   for (const kicking::TrialMean& point : fit.set_points) {

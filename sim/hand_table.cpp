@@ -1,0 +1,90 @@
+#include "sim/hand_table.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "kicking/ballistics/drag.hpp"
+#include "sim/flight.hpp"
+#include "sim/kicker_table.hpp"
+#include "sim/random.hpp"
+
+namespace trivela::sim {
+namespace {
+
+constexpr int kDegree = 2;
+constexpr double kLeastRise = 0.1;  // of the power from one distance to the next; less is not rising
+
+/// Power at which the ball passes `height_m` over the launch at `distance_m`, fractional; none: out of reach.
+/// The exit elevation hardly depends on the power: a few rounds are enough.
+std::optional<double> power_through(const Kicker& kicker, const Ball& ball, double distance_m, double height_m,
+                                    double speed_ratio) {
+  double power = 0.5 * (kicker.powers.front() + kicker.powers.back());
+  for (int i = 0; i < 3; ++i) {
+    const auto speed_mps = kicking::crossing_speed_with_drag(
+        {distance_m, height_m}, exit_at(kicker, power).elevation_rad, drag_per_m(ball), ball.gravity_mps2);
+    if (!speed_mps) return std::nullopt;
+    const double at_table_mps = *speed_mps / (kicker.speed_scale_ratio * speed_ratio);
+    const auto& speeds = kicker.exit_speeds_mps;
+    if (at_table_mps > speeds.back()) return std::nullopt;
+    const auto above = std::ranges::upper_bound(speeds, std::max(at_table_mps, speeds.front()));
+    const auto high = std::clamp<std::size_t>(static_cast<std::size_t>(above - speeds.begin()), 1, speeds.size() - 1);
+    const double part = std::max(0.0, at_table_mps - speeds[high - 1]) / (speeds[high] - speeds[high - 1]);
+    power = std::lerp(kicker.powers[high - 1], kicker.powers[high], part);
+  }
+  return power;
+}
+
+/// The polynomial of least squares through the points, at their distances.
+std::vector<double> smoothed(const std::vector<kicking::DistancePoint>& points) {
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index columns = std::min<Eigen::Index>(kDegree + 1, rows);
+  Eigen::MatrixXd design(rows, columns);
+  Eigen::VectorXd powers(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto& point = points[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < columns; ++j) design(i, j) = std::pow(point.distance_m, static_cast<double>(j));
+    powers(i) = point.power;
+  }
+  const Eigen::VectorXd fitted = design * design.colPivHouseholderQr().solve(powers);
+  return {fitted.begin(), fitted.end()};
+}
+
+}  // namespace
+
+kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& kicker, std::uint64_t seed,
+                                       std::uint32_t match, std::uint32_t robot) {
+  const HandTable& hand = scenario.hand_table;
+  const Draws draws{seed, match};
+  const double day_ratio = 1.0 + hand.day_sd_ratio * draws.normal(Role::kHandTable, robot, 0);
+  const double launch_to_target_m = hand.target_height_m - scenario.ball.radius_m;
+  std::vector<kicking::DistancePoint> noted;
+  for (std::size_t i = 0; i < hand.distances_m.size(); ++i) {
+    const auto [eye, scatter] = draws.normals(Role::kHandTable, robot, 1 + static_cast<std::uint32_t>(i));
+    const double mean_ratio = 1.0 + kicker.speed_sd_ratio * scatter / std::sqrt(hand.kicks_per_distance);
+    // A ball taken for higher than it flies is sent lower.
+    const double height_m = launch_to_target_m - hand.eye_height_sd_m * eye;
+    const auto power =
+        power_through(kicker, scenario.ball, hand.distances_m[i], height_m, day_ratio * std::max(0.5, mean_ratio));
+    if (power) noted.push_back({hand.distances_m[i], std::round(*power)});
+  }
+  if (noted.size() < 2) {
+    throw std::runtime_error{fmt::format("hand_table: {} of {} distances are within the kicker's reach, need 2",
+                                         noted.size(), hand.distances_m.size())};
+  }
+  const std::vector<double> powers = smoothed(noted);
+  kicking::DistanceTable table;
+  for (std::size_t i = 0; i < noted.size(); ++i) {
+    const double power = std::clamp(powers[i], kicker.powers.front(), kicker.powers.back());
+    if (!table.points.empty() && power < table.points.back().power + kLeastRise) continue;
+    table.points.push_back({noted[i].distance_m, power});
+  }
+  if (table.points.size() < 2) throw std::runtime_error{"hand_table: the powers found do not rise with the distance"};
+  return table;
+}
+
+}  // namespace trivela::sim
