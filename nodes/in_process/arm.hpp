@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "kicking/policy/policy.hpp"
+#include "nodes/kick_decision/assignment.hpp"
+
+namespace trivela::nodes {
+
+/// One way to play: what the robots decide by and what they know of themselves. The same opportunities can be played
+/// with any number of arms.
+struct Arm {
+  std::string name;
+  kicking::PolicyName policy = kicking::PolicyName::kMoving;  ///< in charge, where `random` is empty
+  std::string table = "new";                                  ///< height tables: "new", or "old": hand-made ones
+  config::Settings settings{};
+  std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
+  std::vector<PolicyChance> random;                    ///< drawn for each possession anew
+};
+
+}  // namespace trivela::nodes
