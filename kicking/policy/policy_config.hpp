@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "kicking/alignment/alignment.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/policy/learned_model.hpp"
 #include "kicking/policy/test_drive_config.hpp"
 
 namespace trivela::kicking {
@@ -65,6 +68,9 @@ struct PolicyConfig {
   /// quarters).
   double max_turn_rate_radps = 2.5;
   double max_turn_acceleration_radps2 = 4.0;
+
+  /// Of policy kLearned, which is not played without one.
+  std::optional<LearnedModel> learned{};
 
   TestDriveConfig test_drive{};
 };
