@@ -1,13 +1,10 @@
 #include "evaluator/stats/interval.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
 namespace trivela::evaluator::stats {
 namespace {
-
-double z_of(double confidence) { return boost::math::quantile(boost::math::normal(), 0.5 * (1.0 + confidence)); }
 
 double square(double x) { return x * x; }
 
@@ -25,14 +22,16 @@ std::optional<double> efficiency(Counts counts) {
 
 Interval wilson(Counts counts, double confidence) {
   if (counts.n == 0) return {0.0, 1.0};
-  const double k = static_cast<double>(counts.inside);
-  const double n = static_cast<double>(counts.n);
+  return wilson_of(*efficiency(counts), static_cast<double>(counts.n), confidence);
+}
+
+Interval wilson_of(double p, double n, double confidence) {
   const double z = z_of(confidence);
-  const double centre = k + 0.5 * z * z;
-  const double half_width = z * std::sqrt(k * (n - k) / n + 0.25 * z * z);
+  const double centre = n * p + 0.5 * z * z;
+  const double half_width = z * std::sqrt(n * p * (1.0 - p) + 0.25 * z * z);
   // Exact ends where rounding would miss them: the interval holds its estimate.
-  return {counts.inside == 0 ? 0.0 : std::min((centre - half_width) / (n + z * z), k / n),
-          counts.inside == counts.n ? 1.0 : std::max((centre + half_width) / (n + z * z), k / n)};
+  return {p == 0.0 ? 0.0 : std::min((centre - half_width) / (n + z * z), p),
+          p == 1.0 ? 1.0 : std::max((centre + half_width) / (n + z * z), p)};
 }
 
 Interval newcombe(Counts older, Counts newer, double confidence) {
@@ -44,6 +43,16 @@ Interval newcombe(Counts older, Counts newer, double confidence) {
   const double difference = *p2 - *p1;
   return {difference - std::sqrt(square(*p2 - w2.lo) + square(w1.hi - *p1)),
           difference + std::sqrt(square(w2.hi - *p2) + square(*p1 - w1.lo))};
+}
+
+Interval agresti_caffo(Counts older, Counts newer, double confidence) {
+  if (older.n == 0 || newer.n == 0) return {-1.0, 1.0};
+  const double n1 = static_cast<double>(older.n) + 2.0;
+  const double n2 = static_cast<double>(newer.n) + 2.0;
+  const double p1 = (static_cast<double>(older.inside) + 1.0) / n1;
+  const double p2 = (static_cast<double>(newer.inside) + 1.0) / n2;
+  const double half_width = z_of(confidence) * std::sqrt(p1 * (1.0 - p1) / n1 + p2 * (1.0 - p2) / n2);
+  return {std::max(p2 - p1 - half_width, -1.0), std::min(p2 - p1 + half_width, 1.0)};
 }
 
 std::optional<double> relative_gain(Counts older, Counts newer) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "evaluator/stats/counts.hpp"
+
+namespace trivela::evaluator::stats {
+
+inline constexpr double kSmallestEffect = 0.05;  ///< smallest difference of interest, where nobody names another
+
+/// What an interval of newer - older says against 0 and the smallest effect of interest.
+enum class Verdict {
+  kBetter,               ///< all of it above the smallest effect
+  kBetterMaybeTooSmall,  ///< above 0, but perhaps below the smallest effect
+  kEquivalent,           ///< within the smallest effect on either side, whether or not it holds 0
+  kWorse,                ///< below 0, and perhaps by more than the smallest effect
+  kNotEnoughData,        ///< it holds 0 and differences of interest
+};
+
+Verdict verdict(Interval interval, double smallest_effect = kSmallestEffect);
+
+}  // namespace trivela::evaluator::stats
