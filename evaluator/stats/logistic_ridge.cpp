@@ -1,0 +1,75 @@
+#include "evaluator/stats/logistic_ridge.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace trivela::evaluator::stats {
+namespace {
+
+constexpr int kSteps = 50;
+constexpr double kConverged = 1e-10;  // largest change of a coefficient
+
+double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+
+double logit_of_share(const Eigen::VectorXd& y) {
+  const double k = y.sum() + 0.5, n = static_cast<double>(y.size()) + 1.0;
+  return std::log(k / (n - k));
+}
+
+}  // namespace
+
+double LogisticFit::probability(const Eigen::VectorXd& x) const {
+  return logistic(intercept + weights.dot(((x - means).array() / scales.array()).matrix()));
+}
+
+LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge) {
+  const Eigen::Index n = x.rows(), m = x.cols();
+  LogisticFit fit{.intercept = logit_of_share(y),
+                  .weights = Eigen::VectorXd::Zero(m),
+                  .means = Eigen::VectorXd::Zero(m),
+                  .scales = Eigen::VectorXd::Ones(m)};
+  if (n == 0) return fit;
+  fit.means = x.colwise().mean();
+  const Eigen::MatrixXd centred = x.rowwise() - fit.means.transpose();
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const double sd = std::sqrt(centred.col(i).squaredNorm() / static_cast<double>(n));
+    if (sd > 1e-9) fit.scales[i] = sd;
+  }
+  if (y.minCoeff() == y.maxCoeff()) return fit;  // one result alone: no slope, and no end to the intercept
+  Eigen::MatrixXd design(n, m + 1);
+  design.col(0).setOnes();
+  design.rightCols(m) = centred.array().rowwise() / fit.scales.transpose().array();
+  Eigen::VectorXd penalty = Eigen::VectorXd::Constant(m + 1, ridge);
+  penalty[0] = 1e-9;
+  Eigen::VectorXd beta = Eigen::VectorXd::Zero(m + 1);
+  beta[0] = fit.intercept;
+  const auto loss = [&](const Eigen::VectorXd& b) {
+    const Eigen::ArrayXd eta = design * b;
+    // ln(1 + e^eta) without overflow.
+    const double likelihood = (eta.max(0.0) + (-eta.abs()).exp().log1p() - y.array() * eta).sum();
+    return likelihood + 0.5 * (penalty.array() * b.array().square()).sum();
+  };
+  double current = loss(beta);
+  for (int step = 0; step < kSteps; ++step) {
+    const Eigen::ArrayXd p = (design * beta).unaryExpr(&logistic).array();
+    const Eigen::VectorXd gradient =
+        design.transpose() * (y.array() - p).matrix() - (penalty.array() * beta.array()).matrix();
+    Eigen::MatrixXd hessian = design.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * design;
+    hessian.diagonal() += penalty;
+    Eigen::VectorXd change = hessian.ldlt().solve(gradient);
+    // Halved until the loss falls: a full step may overshoot where the results are nearly separated.
+    double next = loss(beta + change);
+    for (int half = 0; half < 30 && !(next <= current); ++half) {
+      change *= 0.5;
+      next = loss(beta + change);
+    }
+    beta += change;
+    current = next;
+    if (change.cwiseAbs().maxCoeff() < kConverged) break;
+  }
+  fit.intercept = beta[0];
+  fit.weights = beta.tail(m);
+  return fit;
+}
+
+}  // namespace trivela::evaluator::stats
