@@ -1,7 +1,13 @@
 #include "config/settings.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
 #include "config/toml_text.hpp"
@@ -13,22 +19,62 @@ void make_relative_to(const std::filesystem::path& folder, std::string& file) {
   if (!file.empty() && std::filesystem::path{file}.is_relative()) file = (folder / file).string();
 }
 
+bool names_learned(const std::vector<kicking::PolicyName>& policies) {
+  return std::ranges::find(policies, kicking::PolicyName::kLearned) != policies.end();
+}
+
+/// Brings policy.learned in line with kick_decision.learned_model.
+void read_learned_model(Settings& settings, const std::string& source) {
+  const KickDecision& k = settings.kick_decision;
+  settings.policy.learned.reset();
+  if (!k.learned_model.empty()) settings.policy.learned = load_learned_model(k.learned_model).model;
+  const bool wanted = names_learned(k.policy_by_half) || names_learned(k.policy_by_robot) || names_learned(k.random);
+  if (wanted && !settings.policy.learned) {
+    throw Error{fmt::format(
+        "{}: policy \"learned\" needs kick_decision.learned_model, a file that `trivela learn` has written", source)};
+  }
+}
+
 }  // namespace
 
 Settings load_settings(const std::filesystem::path& path) {
   Settings settings;
   const TomlSource source = parse_file(path);
   read_into(source, settings);
-  if (settings.kick_decision.policy_by_half.empty()) {
-    throw Error{fmt::format("{}: kick_decision.policy_by_half is empty: name at least one policy", source.file)};
-  }
+  check_policies(settings.kick_decision, source.file);
   settings.policy.cycle_s = settings.run.cycle_s;
   const std::filesystem::path folder = path.parent_path();
   make_relative_to(folder, settings.run.robot);
   make_relative_to(folder, settings.run.scenario);
   make_relative_to(folder, settings.domain.dds_file);
   make_relative_to(folder, settings.hal.replay_log);
+  make_relative_to(folder, settings.kick_decision.learned_model);
+  read_learned_model(settings, source.file);
   return settings;
+}
+
+void check_policies(const KickDecision& settings, const std::string& source) {
+  if (settings.policy_by_half.empty()) {
+    throw Error{fmt::format("{}: kick_decision.policy_by_half is empty: name at least one policy", source)};
+  }
+  const auto& random = settings.random;
+  for (std::size_t i = 0; i < random.size(); ++i) {
+    if (std::find(random.begin(), random.begin() + static_cast<std::ptrdiff_t>(i), random[i]) !=
+        random.begin() + static_cast<std::ptrdiff_t>(i)) {
+      throw Error{fmt::format("{}: kick_decision.random names \"{}\" twice", source, kicking::name(random[i]))};
+    }
+  }
+  const auto& probabilities = settings.random_probabilities;
+  if (probabilities.empty()) return;
+  if (probabilities.size() != settings.random.size()) {
+    throw Error{fmt::format("{}: kick_decision.random_probabilities has {} entries, kick_decision.random {}", source,
+                            probabilities.size(), settings.random.size())};
+  }
+  const double sum = std::accumulate(probabilities.begin(), probabilities.end(), 0.0);
+  if (std::abs(sum - 1.0) > 1e-9) {
+    throw Error{fmt::format("{}: kick_decision.random_probabilities = [{}] sum up to {}, not 1", source,
+                            fmt::join(probabilities, ", "), sum)};
+  }
 }
 
 void override_setting(Settings& settings, const std::string& line) { read_into(parse_text(line, "--set"), settings); }

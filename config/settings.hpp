@@ -61,9 +61,14 @@ struct WorldState {
   double possession_debounce_s = 0.04;
 };
 
-/// The policy in charge of each half; the last one goes on for all that follow.
+/// Who is in charge: `random`, where it names policies, before `policy_by_robot`, where that does, before the halves.
 struct KickDecision {
-  std::vector<kicking::PolicyName> policy_by_half = {kicking::PolicyName::kMoving};
+  std::vector<kicking::PolicyName> policy_by_half = {kicking::PolicyName::kMoving};  ///< the last one goes on
+  std::vector<kicking::PolicyName> policy_by_robot;  ///< robot n's at n - 1; the rest of the team: by half
+  std::vector<kicking::PolicyName> random;           ///< one of these is drawn for each possession
+  std::vector<double> random_probabilities;          ///< of those, their sum 1; empty: alike
+  std::uint64_t assignment_seed = 1;                 ///< of the draw
+  std::string learned_model;       ///< file of `trivela learn`, read into policy.learned; policy "learned" needs one
   bool shadows = true;             ///< judge with the other policies as well
   double order_validity_s = 0.05;  ///< an order older than this is refused
 };
@@ -72,7 +77,7 @@ struct KickDecision {
 struct KickerDriver {
   double min_interval_s = 0.5;        ///< between two kicks
   double min_charge_ratio = 0.9;      ///< of the full capacitor energy
-  double future_tolerance_s = 0.005;  ///< an order from further ahead is refused
+  double future_tolerance_s = 0.025;  ///< an order from further ahead is refused; a cycle and what clocks differ by
   double link_timeout_s = 0.1;        ///< no device sample for longer: fault
 };
 
@@ -130,6 +135,9 @@ struct Settings {
 
 /// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.
 Settings load_settings(const std::filesystem::path& path);
+
+/// Throws Error naming key and value where the policies in charge make no sense together.
+void check_policies(const KickDecision& settings, const std::string& source);
 
 /// One line of TOML such as `run.robot_id = 2` on top. Throws Error naming it.
 void override_setting(Settings& settings, const std::string& line);

@@ -166,6 +166,11 @@ void fields(V& v, WorldState& w) {
 template <class V>
 void fields(V& v, KickDecision& k) {
   v("policy_by_half", k.policy_by_half);
+  v("policy_by_robot", k.policy_by_robot);
+  v("random", k.random);
+  v("random_probabilities", k.random_probabilities, Range{0.0, 1.0});
+  v("assignment_seed", k.assignment_seed, Range{0, 9e15});
+  v("learned_model", k.learned_model);
   v("shadows", k.shadows);
   v("order_validity_s", k.order_validity_s, Range{0.001, 1.0});
 }

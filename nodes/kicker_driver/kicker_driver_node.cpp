@@ -1,23 +1,12 @@
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 
-#include <algorithm>
-
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
-namespace {
-
-static_assert(int{msg::FAULT_NONE} == int(hal::KickerFault::kNone));
-static_assert(int{msg::FAULT_LINK} == int(hal::KickerFault::kLink));
-
-PowerRange power_range(const kicking::EffectiveTable& table) { return {table.front().power, table.back().power}; }
-
-}  // namespace
-
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
-      gate_(context.settings.kicker_driver, power_range(context.robot.model.table)),
+      desk_(context.settings.kicker_driver, context.robot.model, context.robot_id()),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
@@ -59,52 +48,25 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
   sampled_ = std::chrono::steady_clock::now();
-  gate_.device(sample);
-  gate_.playing(referee && referee->playing);
-  msg::KickerStatus out{};
-  out.robot_id = context_.robot_id();
-  out.seq = ++statuses_;
-  out.t_ns = sample.t_ns;
-  out.charge = sample.charge;
-  out.armed = gate_.armed();
-  out.ready = gate_.ready(sample.t_ns);
-  out.fault = static_cast<msg::KickerFault>(sample.fault);
-  out.last_kick_id = gate_.last_kick_id();
-  out.last_accepted = gate_.last_accepted();
-  out.orders_handled = gate_.handled();
-  out.orders_refused = gate_.refused();
-  status_out_.write(out);
+  status_out_.write(desk_.status(sample, referee && referee->playing));
   report_done(sample.t_ns);
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order) {
   const std::lock_guard lock{mutex_};
-  const std::int64_t now = now_t_ns();
-  const msg::Refusal refusal = gate_.judge(order, now);
-  msg::KickReceipt receipt{};
-  receipt.robot_id = context_.robot_id();
-  receipt.seq = ++receipts_;
-  receipt.t_ns = now;
-  receipt.kick_id = order.kick_id;
-  receipt.accepted = refusal == msg::REFUSAL_NONE;
-  receipt.refusal = refusal;
-  receipt.order_t_ns = order.t_ns;
+  const msg::KickReceipt receipt = desk_.answer(order, now_t_ns());
   if (receipt.accepted) {
-    receipt.power = order.power;
-    receipt.fired_t_ns = std::max(now, order.fire_t_ns);
-    receipt.release_t_ns = receipt.fired_t_ns + static_cast<std::int64_t>(context_.robot.model.delay_s * 1e9);
-    kicker_->fire(order.kick_id, order.power, receipt.fired_t_ns);
+    kicker_->fire(receipt.kick_id, receipt.power, receipt.fired_t_ns);
     context_.logger->info("kick {} fired with power {:.2f}", order.kick_id, order.power);
   } else {
-    context_.logger->warn("kick {} refused: {}", order.kick_id, bus::label(refusal));
+    context_.logger->warn("kick {} refused: {}", order.kick_id, bus::label(receipt.refusal));
   }
   receipt_out_.write(receipt);
   report_done(sample_t_ns_);
 }
 
 void KickerDriverNode::report_done(std::int64_t t_ns) {
-  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, gate_.handled(),
-            gate_.handled() - gate_.refused());
+  step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, desk_.handled(), desk_.fires());
 }
 
 }  // namespace trivela::nodes

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "hal/kicker.hpp"
-#include "nodes/kicker_driver/order_gate.hpp"
+#include "nodes/kicker_driver/order_desk.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
 
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
-/// OrderGate lets the order pass. Leaving, by whichever way, makes the device safe.
+/// the OrderDesk accepts the order. Leaving, by whichever way, makes the device safe.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
@@ -27,7 +27,7 @@ class KickerDriverNode {
   NodeContext& context_;
   std::mutex mutex_;  // device thread and order reaction
   std::unique_ptr<hal::Kicker> kicker_;
-  OrderGate gate_;
+  OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   std::chrono::steady_clock::time_point sampled_{};
   bus::Node node_;
@@ -36,8 +36,6 @@ class KickerDriverNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
   FirstCycle first_;
-  std::uint64_t statuses_ = 0;
-  std::uint64_t receipts_ = 0;
 };
 
 }  // namespace trivela::nodes

@@ -1,40 +1,9 @@
 #include "nodes/odometry/odometry_node.hpp"
 
-#include <limits>
-
+#include "nodes/odometry/odometry_message.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-msg::Odometry message(const hal::WheelSample& sample, const OdometryEstimate& estimate) {
-  const auto wheel = [&](int i) {
-    return i < sample.wheel_count ? sample.wheel_radps[static_cast<std::size_t>(i)] : kNone;
-  };
-  msg::Odometry out{};
-  out.t_ns = sample.t_ns;
-  out.wheel_0_radps = wheel(0);
-  out.wheel_1_radps = wheel(1);
-  out.wheel_2_radps = wheel(2);
-  out.wheel_3_radps = wheel(3);
-  out.gyro_radps = sample.gyro_radps.value_or(kNone);
-  out.vx_mps = estimate.twist.vx_mps;
-  out.vy_mps = estimate.twist.vy_mps;
-  out.omega_radps = estimate.twist.omega_radps;
-  out.x_m = estimate.pose.x_m;
-  out.y_m = estimate.pose.y_m;
-  out.heading_rad = kicking::wrap_angle(estimate.pose.heading_rad);
-  out.var_v_m2ps2 = estimate.var_v_m2ps2;
-  out.var_omega_rad2ps2 = estimate.var_omega_rad2ps2;
-  out.var_position_m2 = estimate.var_position_m2;
-  out.var_heading_rad2 = estimate.var_heading_rad2;
-  return out;
-}
-
-}  // namespace
-
 OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels)
     : context_(context),
       wheels_(std::move(wheels)),
@@ -74,7 +43,7 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);
     return;
   }
-  msg::Odometry out = message(sample, *estimate);
+  msg::Odometry out = odometry_message(sample, *estimate);
   out.robot_id = context_.robot_id();
   out.seq = ++seq_;
   odometry_out_.write(out);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/shot_observer/shot_tracker.hpp"
+#include "nodes/shot_observer/observer.hpp"
 
 namespace trivela::nodes {
 
@@ -18,16 +18,15 @@ class ShotObserverNode {
  private:
   void on_receipt(const msg::KickReceipt& receipt);
   void on_frame(const msg::FlightFrame& frame);
-  void publish(const std::vector<TrackedShot>& settled);
+  void publish(std::vector<msg::KickOutcome> settled);
 
   NodeContext& context_;
-  std::mutex mutex_;  // the two reactions share the tracker
-  ShotTracker tracker_;
+  std::mutex mutex_;  // the two reactions share the observer
+  Observer observer_;
   bus::Node node_;
   bus::Output<msg::KickOutcome> outcome_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
-  std::optional<std::int64_t> stopped_t_ns_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;
 };

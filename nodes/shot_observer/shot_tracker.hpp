@@ -31,6 +31,9 @@ class ShotTracker {
   /// One frame; nullopt where the ball was not seen.
   std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
 
+  /// A shot is open: frames and the referee's word count for it.
+  bool follows() const { return open_.has_value(); }
+
   /// The referee stopped the game at `t_ns`: what was seen until then settles an open shot.
   std::vector<TrackedShot> stopped(std::int64_t t_ns);
 

@@ -1,0 +1,229 @@
+#include "nodes/in_process/play_match.hpp"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "nodes/in_process/robot_chain.hpp"
+#include "nodes/shot_observer/observer.hpp"
+#include "nodes/simulator/sim_messages.hpp"
+#include "sim/match.hpp"
+#include "sim/random.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+constexpr double kEndless_min = 1e6;  // a half ends by its possessions
+
+/// The arm's settings as the nodes of a match with that seed would be given them.
+config::Settings settings_of(const Arm& arm, std::uint64_t seed, const PlayOptions& options) {
+  config::Settings settings = arm.settings;
+  config::KickDecision& decision = settings.kick_decision;
+  decision.policy_by_half = {arm.policy};
+  decision.policy_by_robot.clear();
+  decision.random.clear();
+  decision.random_probabilities.clear();
+  for (const PolicyChance& chance : arm.random) {
+    decision.random.push_back(chance.policy);
+    decision.random_probabilities.push_back(chance.probability);
+  }
+  decision.assignment_seed = seed;
+  decision.shadows = options.shadows;
+  return settings;
+}
+
+std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>(seed % 0x7fff) + 1; }
+
+/// One match on its way.
+class Game {
+ public:
+  Game(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record)
+      : scenario_(scenario),
+        arm_(arm),
+        options_(options),
+        record_(record),
+        match_id_(match_id),
+        settings_(settings_of(arm, seed, options)),
+        session_(session_of(seed)),
+        match_(scenario, seed, 1, kEndless_min, possessions),
+        observer_(settings_.shot_observer, settings_.goal) {
+    played_.match_seed = seed;
+    played_.possessions.reserve(possessions);
+    kick_ids_.reserve(possessions);
+  }
+
+  PlayedMatch play() {
+    while (!match_.done()) cycle();
+    return std::move(played_);
+  }
+
+ private:
+  void cycle() {
+    const sim::Sensors sensors = match_.sense();
+    ++played_.cycles;
+    played_.end_t_ns = sensors.t_ns;
+    const msg::Referee referee = hear(sensors);
+    observe(sensors, referee);
+    sim::Commands commands;
+    RobotChain& chain = chain_of(robot_id_);
+    if (const CycleDecision* decision = chain.cycle(sensors, referee, outcome_)) {
+      const kicking::Twist& drive = decision->in_charge.judgement.drive;
+      commands.drive = drive;
+      note_assignment(referee, chain);
+      if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
+        record_->decisions.push_back(chain.record());
+      if (decision->order) commands.fire = send(*decision, chain);
+    }
+    settle(match_.step(commands));
+  }
+
+  /// The referee's word, as everybody hears it; a new possession begins with it.
+  msg::Referee hear(const sim::Sensors& sensors) {
+    msg::Referee word = referee_message(sensors.t_ns, sensors.referee);
+    word.robot_id = robot_id_ = 1;
+    word.seq = played_.cycles;
+    const bool anew = played_.possessions.empty() || word.possession_id != played_.possessions.back().possession_id;
+    if (anew) {
+      PlayedPossession next;
+      next.match_id = match_id_;
+      next.possession_id = word.possession_id;
+      next.robot_id = robot_id_;
+      played_.possessions.push_back(next);
+      kick_ids_.push_back(0);
+    }
+    if (word.playing) played_.possessions.back().played_s += scenario_.cycle_s;
+    if (record_ && (anew || word.playing != playing_)) record_->referee.push_back(word);
+    playing_ = word.playing;
+    return word;
+  }
+
+  void observe(const sim::Sensors& sensors, const msg::Referee& referee) {
+    for (const msg::KickOutcome& outcome : observer_.frame(flight_message(sensors.t_ns, sensors.flight), referee))
+      take(outcome);
+  }
+
+  void take(msg::KickOutcome outcome) {
+    outcome.robot_id = static_cast<std::uint8_t>(outcome.kick_id >> 40 & 0xff);
+    outcome.seq = ++outcomes_;
+    outcome_ = outcome;
+    if (record_) record_->outcomes.push_back(outcome);
+    if (PlayedPossession* of = possession_of(outcome.kick_id))
+      of->kick->observed = static_cast<kicking::Outcome>(outcome.outcome);
+  }
+
+  /// Gives the order to the driver and, where it accepts, to the device.
+  std::optional<sim::Fire> send(const CycleDecision& decision, const RobotChain& chain) {
+    const msg::KickReceipt& receipt = *chain.receipt();
+    if (record_) {
+      record_->orders.push_back(*decision.order);
+      record_->receipts.push_back(receipt);
+    }
+    if (!receipt.accepted) return std::nullopt;
+    for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
+    const kicking::Judgement& judgement = decision.in_charge.judgement;
+    const msg::WorldState& world = chain.world();
+    PlayedKick kick;
+    kick.distance_m = judgement.distance_m;
+    kick.vx_mps = world.vx_mps;
+    kick.vy_mps = world.vy_mps;
+    kick.omega_radps = world.omega_radps;
+    if (std::isfinite(world.opponent_distance_m)) kick.opponent_distance_m = world.opponent_distance_m;
+    kick.power = receipt.power;
+    kick.v_kick_mps = judgement.v_kick_mps.value_or(0.0);
+    kick.p_on_target = judgement.p_on_target;
+    kick.predicted = judgement.predicted;
+    played_.possessions.back().kick = kick;
+    kick_ids_.back() = receipt.kick_id;
+    return sim::Fire{receipt.fired_t_ns, receipt.kick_id, receipt.power};
+  }
+
+  void note_assignment(const msg::Referee& referee, const RobotChain& chain) {
+    if (assigned_ == referee.possession_id || !chain.world().possession) return;
+    assigned_ = referee.possession_id;
+    const PolicyChance chance = chain.decider().assignment().in_charge(referee.half, referee.possession_id);
+    PlayedPossession& current = played_.possessions.back();
+    current.policy = chance.policy;
+    current.assignment_probability = chance.probability;
+    if (record_)
+      record_->assignments.push_back(
+          {robot_id_, referee.half, referee.possession_id, chance.policy, chance.probability});
+  }
+
+  void settle(const sim::StepEvents& events) {
+    for (const sim::KickTruth& truth : events.kicks) {
+      if (PlayedPossession* of = possession_of(truth.kick_id)) of->kick->truth = truth.outcome;
+      if (!record_) continue;
+      record_->kick_truths.push_back(truth_message(truth));
+      record_->kick_truths.back().robot_id = robot_id_;
+      record_->kick_truths.back().seq = ++kick_truths_;
+    }
+    for (const sim::PossessionTruth& truth : events.possessions) {
+      PlayedPossession& current = played_.possessions.back();
+      const double offset = scenario_.robot.ball_offset_m;
+      current.ending = truth.ending;
+      current.start_distance_m =
+          std::hypot(truth.start.x_m - offset * std::sin(truth.start.heading_rad),
+                     scenario_.field.goal_line_y_m - truth.start.y_m - offset * std::cos(truth.start.heading_rad));
+      if (!record_) continue;
+      record_->possession_truths.push_back(possession_message(truth));
+      record_->possession_truths.back().robot_id = robot_id_;
+      record_->possession_truths.back().seq = ++possession_truths_;
+    }
+  }
+
+  RobotChain& chain_of(std::uint8_t robot_id) {
+    const std::size_t index = robot_id - 1u;
+    if (chains_.size() <= index) chains_.resize(index + 1);
+    if (!chains_[index]) {
+      const config::Robot& robot = arm_.robots[std::min(index, arm_.robots.size() - 1)];
+      chains_[index] = std::make_unique<RobotChain>(settings_, robot, robot_id, session_);
+    }
+    return *chains_[index];
+  }
+
+  /// Whose kick it is: of this possession, or of one before, where it was seen late.
+  PlayedPossession* possession_of(std::int64_t kick_id) {
+    for (std::size_t i = kick_ids_.size(); i-- > 0;) {
+      if (kick_ids_[i] == kick_id) return &played_.possessions[i];
+    }
+    return nullptr;
+  }
+
+  const sim::Scenario& scenario_;
+  const Arm& arm_;
+  PlayOptions options_;
+  MatchRecord* record_;
+  std::uint32_t match_id_;
+  config::Settings settings_;
+  std::uint32_t session_;
+  sim::Match match_;
+  Observer observer_;
+  std::vector<std::unique_ptr<RobotChain>> chains_;  // by robot, made when it first has the ball
+  PlayedMatch played_;
+  std::vector<std::int64_t> kick_ids_;  // by possession; 0: none
+  std::optional<msg::KickOutcome> outcome_;
+  std::uint8_t robot_id_ = 1;
+  bool playing_ = false;
+  std::uint32_t assigned_ = 0;
+  std::uint64_t outcomes_ = 0;
+  std::uint64_t kick_truths_ = 0;
+  std::uint64_t possession_truths_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
+  const auto words = sim::philox4x32({match_id, 0, 0, 0x4d415443},
+                                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  return (std::uint64_t{words[0]} << 32 | words[1]) >> 12;
+}
+
+PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+                       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+  if (possessions == 0) throw std::runtime_error{"a match of no possessions"};
+  if (arm.robots.empty()) throw std::runtime_error{"arm " + arm.name + " has no robot"};
+  return Game{scenario, arm, match_seed(seed, match_id), match_id, possessions, options, record}.play();
+}
+
+}  // namespace trivela::nodes

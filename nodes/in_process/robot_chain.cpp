@@ -1,0 +1,43 @@
+#include "nodes/in_process/robot_chain.hpp"
+
+#include "nodes/odometry/odometry_message.hpp"
+#include "nodes/simulator/sim_messages.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+hal::WheelSample wheel_sample(const sim::Sensors& sensors) {
+  return {sensors.t_ns, sensors.wheels.wheel_count, sensors.wheels.wheel_radps, sensors.wheels.gyro_radps};
+}
+
+hal::KickerSample kicker_sample(const sim::Sensors& sensors) {
+  return {sensors.t_ns, sensors.kicker.charge, sensors.kicker.armed, hal::KickerFault::kNone};
+}
+
+}  // namespace
+
+RobotChain::RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
+                       std::uint32_t session)
+    : robot_(robot),
+      robot_id_(robot_id),
+      odometry_(robot.base, settings.odometry),
+      model_(settings.world_state, robot.model.ball_offset_m),
+      decider_(settings, robot.model, robot_id, session),
+      desk_(settings.kicker_driver, robot.model, robot_id) {}
+
+const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
+                                       const std::optional<msg::KickOutcome>& outcome) {
+  receipt_.reset();
+  const hal::WheelSample wheels = wheel_sample(sensors);
+  const std::span<const double> speeds{wheels.wheel_radps.data(), static_cast<std::size_t>(wheels.wheel_count)};
+  const auto estimate = odometry_.update(wheels.t_ns, speeds, wheels.gyro_radps);
+  if (!estimate) return nullptr;
+  status_ = desk_.status(kicker_sample(sensors), referee.playing);
+  world_ = model_.update(odometry_message(wheels, *estimate), vision_message(sensors.t_ns, sensors.vision), referee);
+  world_.robot_id = robot_id_;
+  const CycleDecision& decision = decider_.decide(world_, &status_, outcome);
+  if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns);
+  return &decision;
+}
+
+}  // namespace trivela::nodes

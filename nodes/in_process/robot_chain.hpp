@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "nodes/kick_decision/decider.hpp"
+#include "nodes/kicker_driver/order_desk.hpp"
+#include "nodes/odometry/wheel_odometry.hpp"
+#include "nodes/world_state/world_model.hpp"
+#include "sim/sensors.hpp"
+
+namespace trivela::nodes {
+
+/// One robot's part of a lockstep cycle, without a bus: odometry, world model, decision, and the kicker's driver.
+class RobotChain {
+ public:
+  /// `session`: upper 15 bits of every kick_id. Both references must outlive the chain.
+  RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
+             std::uint32_t session);
+  RobotChain(const RobotChain&) = delete;
+  RobotChain& operator=(const RobotChain&) = delete;
+
+  /// Decides the cycle of `sensors`. nullptr: its wheel sample is not newer than the last one.
+  const CycleDecision* cycle(const sim::Sensors& sensors, const msg::Referee& referee,
+                             const std::optional<msg::KickOutcome>& outcome);
+
+  /// The driver's answer to the order of this cycle; none: it held.
+  const std::optional<msg::KickReceipt>& receipt() const { return receipt_; }
+
+  const msg::WorldState& world() const { return world_; }
+
+  /// The record of this cycle's decision.
+  msg::KickDecision record() const { return decider_.record(world_, &status_); }
+
+  const Decider& decider() const { return decider_; }
+  const config::Robot& robot() const { return robot_; }
+
+ private:
+  const config::Robot& robot_;
+  std::uint8_t robot_id_;
+  WheelOdometry odometry_;
+  WorldModel model_;
+  Decider decider_;
+  OrderDesk desk_;
+  msg::WorldState world_{};
+  msg::KickerStatus status_{};
+  std::optional<msg::KickReceipt> receipt_;
+};
+
+}  // namespace trivela::nodes

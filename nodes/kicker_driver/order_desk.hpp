@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "bus/messages.hpp"
+#include "config/settings.hpp"
+#include "hal/kicker.hpp"
+#include "kicking/robot_model.hpp"
+#include "nodes/kicker_driver/order_gate.hpp"
+
+namespace trivela::nodes {
+
+/// The kicker's driver without bus and device: samples and the referee's word in, statuses out; orders in, receipts
+/// out. Whoever owns it fires what it accepts.
+class OrderDesk {
+ public:
+  /// `delay_s`: from the energised coil to the ball's release, of this robot.
+  OrderDesk(const config::KickerDriver& settings, const kicking::RobotModel& model, std::uint8_t robot_id);
+
+  msg::KickerStatus status(const hal::KickerSample& sample, bool playing);
+
+  /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
+  /// now or the order's own instant if that lies ahead.
+  msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns);
+
+  std::uint32_t handled() const { return gate_.handled(); }
+
+  /// Kicks given to the device so far.
+  std::uint32_t fires() const { return gate_.handled() - gate_.refused(); }
+
+ private:
+  OrderGate gate_;
+  std::int64_t delay_ns_;
+  std::uint8_t robot_id_;
+  std::uint64_t statuses_ = 0;
+  std::uint64_t receipts_ = 0;
+};
+
+}  // namespace trivela::nodes
