@@ -28,7 +28,8 @@ void fly(BallMotion& m, double drag, double gravity, double dt) {
 void roll(BallMotion& m, const Ball& ball, double drag, double dt) {
   const double speed = std::hypot(m.velocity_mps.x, m.velocity_mps.y);
   if (speed <= 0.0) return;
-  const double deceleration = ball.rolling_deceleration_mps2 + drag * speed * speed;
+  const auto at = [&](double v) { return ball.rolling_deceleration_mps2 + drag * v * v; };
+  const double deceleration = at(std::max(0.0, speed - 0.5 * dt * at(speed)));  // of the middle of the step
   const double time = deceleration * dt > speed ? speed / deceleration : dt;
   const double next = std::max(0.0, speed - deceleration * time);
   m.position_m = plus(m.position_m, 0.5 * (speed + next) / speed * time, m.velocity_mps);
@@ -36,7 +37,7 @@ void roll(BallMotion& m, const Ball& ball, double drag, double dt) {
   if (time < dt) m.velocity_mps = {};
 }
 
-/// Time until z falls to `height` under a constant vertical acceleration, which holds for a step of milliseconds.
+/// Time until z falls to `height` under a constant vertical acceleration, which holds for a control cycle.
 double time_to_height(const BallMotion& m, double height, double drag, double gravity) {
   const double a = -acceleration(m.velocity_mps, drag, gravity).z;
   const double fall = std::max(0.0, m.position_m.z - height), v = m.velocity_mps.z;

@@ -15,7 +15,7 @@ struct BallMotion {
 /// k of the drag a = -k |v| v [1/m]: k = rho C_d pi r^2 / (2 m).
 double drag_per_m(const Ball& ball);
 
-/// Moves the ball for dt [s], a few milliseconds at most.
+/// Moves the ball for dt [s], a control cycle at most.
 ///   In the air:  dv/dt = -k |v| v - g e_z, Runge-Kutta of order 4.
 ///   Bounce:      at z = r, v_z -> -e v_z, horizontal v -> retention v; slower than roll_below_mps it rolls from there.
 ///   Rolling:     dv/dt = -(a_roll + k v^2) v / |v| until it rests.

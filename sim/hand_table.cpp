@@ -64,10 +64,10 @@ kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& k
   const double launch_to_target_m = hand.target_height_m - scenario.ball.radius_m;
   std::vector<kicking::DistancePoint> noted;
   for (std::size_t i = 0; i < hand.distances_m.size(); ++i) {
-    const auto [eye, scatter] = draws.normals(Role::kHandTable, robot, 1 + static_cast<std::uint32_t>(i));
-    const double mean_ratio = 1.0 + kicker.speed_sd_ratio * scatter / std::sqrt(hand.kicks_per_distance);
+    const auto noise = draws.normals(Role::kHandTable, robot, 1 + static_cast<std::uint32_t>(i));
+    const double mean_ratio = 1.0 + kicker.speed_sd_ratio * noise[1] / std::sqrt(hand.kicks_per_distance);
     // A ball taken for higher than it flies is sent lower.
-    const double height_m = launch_to_target_m - hand.eye_height_sd_m * eye;
+    const double height_m = launch_to_target_m - hand.eye_height_sd_m * noise[0];
     const auto power =
         power_through(kicker, scenario.ball, hand.distances_m[i], height_m, day_ratio * std::max(0.5, mean_ratio));
     if (power) noted.push_back({hand.distances_m[i], std::round(*power)});

@@ -8,6 +8,12 @@
 
 namespace trivela::sim {
 
+void KickerDevice::reset() {
+  charge_ = 1.0;
+  order_.reset();
+  stroke_.reset();
+}
+
 void KickerDevice::order(const Fire& fire) {
   if (order_ || stroke_ || !std::isfinite(fire.power)) return;
   order_ = fire;
@@ -27,8 +33,8 @@ void KickerDevice::energise_due(std::int64_t t_ns, bool live, const Draws& draws
   const double strength = charge_ >= needed ? 1.0 : std::sqrt(charge_ / needed);
   charge_ = std::max(0.0, charge_ - needed);
 
-  const auto [speed_noise, direction_noise] = draws.normals(Role::kKicker, attempt, 0);
-  const double delay_s = std::max(0.0, values_.delay_s + values_.delay_sd_s * draws.normal(Role::kKicker, attempt, 1));
+  const auto [speed_noise, direction_noise, delay_noise, spare] = draws.normals(Role::kKicker, attempt);
+  const double delay_s = std::max(0.0, values_.delay_s + values_.delay_sd_s * delay_noise);
   stroke_ = Stroke{.kick_id = order_->kick_id,
                    .release_t_ns = t_ns + std::llround(delay_s * 1e9),
                    .exit_speed_mps = std::max(0.0, exit.speed_mps * strength * values_.speed_scale_ratio *

@@ -27,6 +27,9 @@ class KickerDevice {
  public:
   explicit KickerDevice(const Kicker& values) : values_(values) {}
 
+  /// A full capacitor and no kick under way.
+  void reset();
+
   double charge() const { return charge_; }
   const std::optional<Stroke>& stroke() const { return stroke_; }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +19,8 @@ namespace trivela::sim {
 namespace {
 
 enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that ends a half
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
 
@@ -37,6 +41,9 @@ struct Match::State {
         halves(half_count),
         half_ns(nanoseconds(half_minutes * 60.0)),
         max_possessions(possession_limit),
+        cycle_ns(nanoseconds(values.cycle_s)),
+        substeps(static_cast<std::int64_t>(std::ceil(values.cycle_s / values.substep_s - 1e-9))),
+        time_limit_ns(nanoseconds(values.possession.time_limit_s)),
         world(scenario),
         sensors(scenario),
         laser(scenario.laser, scenario.ball.radius_m) {
@@ -67,6 +74,30 @@ struct Match::State {
     phase = Phase::kPlay;
     play_t_ns = world.t_ns();
     world.start_play(opportunity);
+    const double free_s = world.opponent().time_until_s(scenario.opponent.dispute_distance_m);
+    dispute_t_ns = free_s < 1e6 ? play_t_ns + std::llround(std::ceil(free_s * 1e9)) : kNever;
+  }
+
+  /// Plays one cycle, stopping at every instant at which the possession may end.
+  void play_cycle(StepEvents& events) {
+    const std::int64_t start = world.t_ns();
+    for (std::int64_t i = 1; i <= substeps; ++i) {
+      const std::int64_t until = start + cycle_ns * i / substeps;
+      while (world.t_ns() < until) {
+        world.advance_to(std::min(until, next_end_t_ns()));
+        watch(events);
+      }
+      sensors.remember(world);
+      laser.see(world.t_ns(), world.ball_m());
+    }
+    sensors.next_cycle();
+  }
+
+  /// When the dispute or the time limit is due, if that is ahead; never otherwise.
+  std::int64_t next_end_t_ns() const {
+    if (phase != Phase::kPlay || ending || world.shot()) return kNever;
+    const std::int64_t due = std::min(dispute_t_ns, play_t_ns + time_limit_ns);
+    return due > world.t_ns() ? due : kNever;
   }
 
   void close_half() {
@@ -86,7 +117,7 @@ struct Match::State {
     begin_possession();
   }
 
-  /// Looks at the world after a sub-step.
+  /// Looks at the world after it has moved.
   void watch(StepEvents& events) {
     if (phase != Phase::kPlay || ending) return;
     if (const auto& shot = world.shot()) {
@@ -105,13 +136,13 @@ struct Match::State {
       return end(PossessionEnd::kKicked, scenario.possession.after_crossing_s, events);
     }
     if (world.kicker().stroke() && world.kicker().stroke()->live) return;  // the ball leaves first
-    if (world.opponent().distance_m() <= scenario.opponent.dispute_distance_m) {
+    if (world.t_ns() >= dispute_t_ns) {
       return end(PossessionEnd::kDisputed, 0.0, events);
     }
     const Vec3 ball = world.ball_m();
     const bool carried_out =
         std::abs(ball.x) > scenario.field.side_line_x_m || std::abs(ball.y) > scenario.field.goal_line_y_m;
-    if (carried_out || world.t_ns() - play_t_ns >= nanoseconds(scenario.possession.time_limit_s)) {
+    if (carried_out || world.t_ns() - play_t_ns >= time_limit_ns) {
       end(PossessionEnd::kTimedOut, 0.0, events);
     }
   }
@@ -144,6 +175,9 @@ struct Match::State {
   int halves;
   std::int64_t half_ns;
   std::uint32_t max_possessions;
+  std::int64_t cycle_ns;
+  std::int64_t substeps;
+  std::int64_t time_limit_ns;
   World world;
   SensorSuite sensors;
   FieldLaser laser;
@@ -156,6 +190,7 @@ struct Match::State {
   std::int64_t stop_until_t_ns = 0;
   std::int64_t play_t_ns = 0;
   std::int64_t play_until_t_ns = 0;
+  std::int64_t dispute_t_ns = kNever;
   std::optional<PossessionEnd> ending;
 };
 
@@ -168,15 +203,28 @@ Match& Match::operator=(Match&&) noexcept = default;
 
 bool Match::done() const { return state_->phase == Phase::kDone; }
 
-Sensors Match::sense() const {
+Sensors Match::sense(const Looks& looks) const {
   const State& s = *state_;
-  return {.t_ns = s.world.t_ns(),
-          .wheels = s.sensors.wheels(s.world),
-          .kicker = {.charge = s.world.kicker().charge()},
-          .vision = s.sensors.vision(s.world),
-          .flight = s.sensors.flight(s.world),
-          .referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id},
-          .scans = s.laser.scans()};
+  Sensors out;
+  out.t_ns = s.world.t_ns();
+  if (looks.wheels) out.wheels = s.sensors.wheels(s.world);
+  out.kicker.charge = s.world.kicker().charge();
+  if (looks.vision) out.vision = s.sensors.vision(s.world);
+  if (looks.flight) out.flight = s.sensors.flight(s.world);
+  out.referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id};
+  out.scans = s.laser.scans();
+  return out;
+}
+
+TrueState Match::true_state() const {
+  const State& s = *state_;
+  return {.pose = s.world.body().pose(),
+          .twist = s.world.body().twist(),
+          .ball_held = !s.world.shot(),
+          .charge = s.world.kicker().charge(),
+          .opponent_distance_m = s.world.opponent().distance_m(),
+          .opponent_closing_mps = s.world.opponent().closing_mps(),
+          .dispute_t_ns = s.dispute_t_ns};
 }
 
 StepEvents Match::step(const Commands& commands) {
@@ -185,15 +233,7 @@ StepEvents Match::step(const Commands& commands) {
   StepEvents events;
   s.world.command(commands);
   s.laser.forget();
-  const std::int64_t start = s.world.t_ns(), cycle = nanoseconds(s.scenario.cycle_s);
-  const auto substeps = static_cast<std::int64_t>(std::ceil(s.scenario.cycle_s / s.scenario.substep_s - 1e-9));
-  for (std::int64_t i = 1; i <= substeps; ++i) {
-    s.world.advance_to(start + cycle * i / substeps);
-    s.sensors.remember(s.world);
-    s.laser.see(s.world.t_ns(), s.world.ball_m());
-    s.watch(events);
-  }
-  s.sensors.next_cycle();
+  s.play_cycle(events);
   s.referee();
   return events;
 }

@@ -38,8 +38,11 @@ class Match {
   /// True after the last step of the last half.
   bool done() const;
 
-  /// What the sensors and the referee say now.
-  Sensors sense() const;
+  /// What the sensors and the referee say now; samples that are not looked for are left at their defaults.
+  Sensors sense(const Looks& looks = {}) const;
+
+  /// The world as it is, without noise. For the oracle and for tests alone.
+  TrueState true_state() const;
 
   /// Plays one cycle: the base follows `commands.drive` from now on, a fire energises the coil at its instant, at once
   /// if that has passed. A drive set-point that is not finite is one of zero: the robot brakes. A fire is ignored if

@@ -18,4 +18,9 @@ void OpponentBody::close_in(const Vec3& ball_m, double dt_s) {
   position_ = {ball_m.x + distance_m_ * unit_x_, ball_m.y + distance_m_ * unit_y_};
 }
 
+double OpponentBody::time_until_s(double distance_m) const {
+  if (distance_m_ <= distance_m) return 0.0;
+  return closing_mps_ > 0.0 ? (distance_m_ - distance_m) / closing_mps_ : HUGE_VAL;
+}
+
 }  // namespace trivela::sim

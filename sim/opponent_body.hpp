@@ -15,6 +15,11 @@ class OpponentBody {
   /// Closes in for dt [s] on the ball, which is now at `ball_m`. Never passes through it.
   void close_in(const Vec3& ball_m, double dt_s);
 
+  /// How long until it is `distance_m` from the ball; without end if it never is.
+  double time_until_s(double distance_m) const;
+
+  double closing_mps() const { return closing_mps_; }
+
   /// From the ball when it was last held [m].
   double distance_m() const { return distance_m_; }
   const PlanPoint& position() const { return position_; }

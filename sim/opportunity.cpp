@@ -10,7 +10,7 @@ Opportunity draw_opportunity(const Scenario& scenario, const Draws& draws) {
   const Opponent& o = scenario.opponent;
   const double goal_distance = draws.uniform_in(p.goal_distance_min_m, p.goal_distance_max_m, Role::kStart, 0);
   const double ball_x = draws.uniform_in(-p.lateral_max_m, p.lateral_max_m, Role::kStart, 1);
-  const auto [aim, travel] = draws.normals(Role::kStart, 2);
+  const auto [aim, travel, spare, unused] = draws.normals(Role::kStart, 2);
   const double speed = draws.uniform_in(p.speed_min_mps, p.speed_max_mps, Role::kStart, 3);
 
   const double bearing = std::atan2(ball_x, goal_distance);  // of the goal centre from the ball

@@ -15,13 +15,11 @@ enum class Role : std::uint32_t {
   kOpponent,
   kKicker,
   kWheelSlip,
-  kWheelNoise,
+  kOdometryNoise,  // gyro, then the wheels
   kGyroBias,
-  kGyroNoise,
   kPoseSlow,
   kPoseNoise,
-  kBallNoise,
-  kOpponentNoise,
+  kSightNoise,  // ball and opponent
   kVisionDropout,
   kFlightNoise,
   kFlightDropout,
@@ -32,7 +30,8 @@ enum class Role : std::uint32_t {
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and
-/// however often they are asked for. `counter` is the cycle since the opportunity began, or the attempt.
+/// however often they are asked for. `counter` is the cycle since the opportunity began, or the attempt; `index` is
+/// below 65536.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::uint32_t opportunity) : seed_(seed), opportunity_(opportunity) {}
@@ -43,14 +42,20 @@ class Draws {
   /// Uniform in [low, high).
   double uniform_in(double low, double high, Role role, std::uint32_t counter, std::uint32_t index = 0) const;
 
-  /// Two independent standard normal numbers (Box-Muller).
-  std::array<double, 2> normals(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+  /// Four independent numbers, uniform in [0, 1), 32 bits.
+  std::array<double, 4> uniforms(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
+
+  /// Four independent standard normal numbers (ziggurat, 24 bits of magnitude).
+  std::array<double, 4> normals(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
 
   /// The first of normals().
   double normal(Role role, std::uint32_t counter, std::uint32_t index = 0) const;
 
  private:
   std::array<std::uint32_t, 4> block(Role role, std::uint32_t counter, std::uint32_t index) const;
+  double normal_of(std::uint32_t word, Role role, std::uint32_t counter, std::uint32_t index, std::uint32_t lane) const;
+  double rare_normal(std::uint32_t word, Role role, std::uint32_t counter, std::uint32_t index,
+                     std::uint32_t lane) const;
 
   std::uint64_t seed_;
   std::uint32_t opportunity_;

@@ -153,8 +153,8 @@ struct HandTable {
 };
 
 struct Scenario {
-  double cycle_s = 0.02;     ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
-  double substep_s = 0.001;  ///< longest step of the physics
+  double cycle_s = 0.02;    ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
+  double substep_s = 0.02;  ///< longest step of the physics; numerical choice
   Field field;
   Ball ball;
   Robot robot;

@@ -161,7 +161,7 @@ void fields(V& v, HandTable& h) {
 template <class V>
 void fields(V& v, Scenario& s) {
   v("cycle_s", s.cycle_s, Range{0.001, 0.5});
-  v("substep_s", s.substep_s, Range{0.00001, 0.01});
+  v("substep_s", s.substep_s, Range{0.00001, 0.02});
   v("field", s.field);
   v("ball", s.ball);
   v("robot", s.robot);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace trivela::sim {
 namespace {
@@ -10,117 +9,144 @@ namespace {
 std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
 
 /// A point of F as the robot at `pose` sees it.
-PlanPoint in_robot(const kicking::Pose& pose, double x_m, double y_m) {
-  const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
+PlanPoint in_robot(const kicking::Pose& pose, const PlanVector& axis, double x_m, double y_m) {
   const double dx = x_m - pose.x_m, dy = y_m - pose.y_m;
-  return {c * dx + s * dy, -s * dx + c * dy};
+  return {axis.c * dx + axis.s * dy, -axis.s * dx + axis.c * dy};
+}
+
+double length(const PlanPoint& point) { return std::sqrt(point.x_m * point.x_m + point.y_m * point.y_m); }
+
+/// As many snapshots as lie within the longest latency and a cycle.
+std::size_t snapshots(const Scenario& scenario) {
+  const double reach_s = std::max(scenario.vision.latency_s, scenario.flight_camera.latency_s) + scenario.cycle_s;
+  const double step_s = scenario.cycle_s / std::ceil(scenario.cycle_s / scenario.substep_s - 1e-9);
+  return static_cast<std::size_t>(std::ceil(reach_s / step_s)) + 2;
 }
 
 }  // namespace
 
+SensorSuite::SensorSuite(const Scenario& scenario)
+    : scenario_(scenario),
+      vision_latency_ns_(nanoseconds(scenario.vision.latency_s)),
+      flight_latency_ns_(nanoseconds(scenario.flight_camera.latency_s)),
+      slow_keep_(std::exp(-scenario.cycle_s / scenario.vision.slow_time_s)),
+      past_(snapshots(scenario)) {
+  const Robot& robot = scenario.robot;
+  for (const double angle : robot.wheel_angles_rad) {
+    wheels_.push_back({-std::sin(angle) / robot.wheel_radius_m, std::cos(angle) / robot.wheel_radius_m,
+                       robot.wheel_distance_m / robot.wheel_radius_m});
+  }
+}
+
 void SensorSuite::begin(const Draws& draws) {
   draws_ = draws;
   cycle_ = 0;
-  past_.clear();
+  kept_ = 0;
+  const Odometry& o = scenario_.odometry;
+  wheel_scale_ = draws.normals(Role::kWheelSlip, 0);
+  for (double& scale : wheel_scale_) scale = 1.0 + o.slip_sd_ratio * scale;
+  gyro_bias_radps_ = o.gyro_bias_sd_radps * draws.normal(Role::kGyroBias, 0);
   const Vision& v = scenario_.vision;
-  const auto [x, y] = draws.normals(Role::kPoseSlow, 0, 0);
-  slow_error_ = {v.position_slow_sd_m * x, v.position_slow_sd_m * y,
-                 v.heading_slow_sd_rad * draws.normal(Role::kPoseSlow, 0, 1)};
+  const auto [x, y, heading, spare] = draws.normals(Role::kPoseSlow, 0);
+  slow_error_ = {v.position_slow_sd_m * x, v.position_slow_sd_m * y, v.heading_slow_sd_rad * heading};
+  slow_cycle_ = 0;
 }
 
 void SensorSuite::remember(const World& world) {
-  past_.push_back({world.t_ns(), world.body().pose(), world.ball_m(), world.opponent().position()});
-  const double reach_s = std::max(scenario_.vision.latency_s, scenario_.flight_camera.latency_s) + scenario_.cycle_s;
-  while (past_.front().t_ns < world.t_ns() - nanoseconds(reach_s)) past_.pop_front();
+  newest_ = newest_ + 1 < past_.size() ? newest_ + 1 : 0;
+  kept_ = std::min(kept_ + 1, past_.size());
+  past_[newest_] = {world.t_ns(), world.body().pose(), world.body().axis(), world.ball_m(),
+                    world.opponent().position()};
 }
 
-void SensorSuite::next_cycle() {
-  ++cycle_;
+void SensorSuite::next_cycle() { ++cycle_; }
+
+const kicking::Pose& SensorSuite::slow_error() const {
   // First-order Gauss-Markov: e <- a e + sqrt(1 - a^2) sd n, a = exp(-T / tau).
   const Vision& v = scenario_.vision;
-  const double keep = std::exp(-scenario_.cycle_s / v.slow_time_s), fresh = std::sqrt(1.0 - keep * keep);
-  const auto [x, y] = draws_.normals(Role::kPoseSlow, cycle_, 0);
-  const double heading = draws_.normal(Role::kPoseSlow, cycle_, 1);
-  slow_error_ = {keep * slow_error_.x_m + fresh * v.position_slow_sd_m * x,
-                 keep * slow_error_.y_m + fresh * v.position_slow_sd_m * y,
-                 keep * slow_error_.heading_rad + fresh * v.heading_slow_sd_rad * heading};
+  const double fresh = std::sqrt(1.0 - slow_keep_ * slow_keep_);
+  while (slow_cycle_ < cycle_) {
+    const auto [x, y, heading, spare] = draws_.normals(Role::kPoseSlow, ++slow_cycle_);
+    slow_error_ = {slow_keep_ * slow_error_.x_m + fresh * v.position_slow_sd_m * x,
+                   slow_keep_ * slow_error_.y_m + fresh * v.position_slow_sd_m * y,
+                   slow_keep_ * slow_error_.heading_rad + fresh * v.heading_slow_sd_rad * heading};
+  }
+  return slow_error_;
 }
 
 std::optional<SensorSuite::Snapshot> SensorSuite::at(std::int64_t t_ns) const {
-  const auto after = std::lower_bound(past_.begin(), past_.end(), t_ns,
-                                      [](const Snapshot& snapshot, std::int64_t t) { return snapshot.t_ns < t; });
-  if (after == past_.end()) return std::nullopt;
-  if (after->t_ns == t_ns) return *after;
-  if (after == past_.begin()) return std::nullopt;
-  const Snapshot &a = *std::prev(after), &b = *after;
+  const Snapshot* after = nullptr;
+  for (std::size_t i = 0; i < kept_; ++i) {
+    const Snapshot& before = past_[newest_ >= i ? newest_ - i : newest_ + past_.size() - i];
+    if (before.t_ns == t_ns) return before;
+    if (before.t_ns < t_ns) return after ? std::optional{between(before, *after, t_ns)} : std::nullopt;
+    after = &before;
+  }
+  return std::nullopt;
+}
+
+SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns) {
   const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
-  const double turn = kicking::wrap_angle(b.pose.heading_rad - a.pose.heading_rad);
-  return Snapshot{
+  const double heading = a.pose.heading_rad + part * kicking::wrap_angle(b.pose.heading_rad - a.pose.heading_rad);
+  return {
       t_ns,
-      {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part),
-       a.pose.heading_rad + part * turn},
+      {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part), heading},
+      {std::cos(heading), std::sin(heading)},
       {std::lerp(a.ball.x, b.ball.x, part), std::lerp(a.ball.y, b.ball.y, part), std::lerp(a.ball.z, b.ball.z, part)},
       {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
 }
 
 WheelSample SensorSuite::wheels(const World& world) const {
-  const Robot& robot = scenario_.robot;
   const Odometry& noise = scenario_.odometry;
   const kicking::Twist twist = world.body().twist();
+  const auto [gyro, first, second, third] = draws_.normals(Role::kOdometryNoise, cycle_);
+  const double fourth = wheels_.size() > 3 ? draws_.normal(Role::kOdometryNoise, cycle_, 1) : 0.0;
+  const std::array<double, 4> white{first, second, third, fourth};
   WheelSample sample;
-  sample.wheel_count = static_cast<int>(robot.wheel_angles_rad.size());
-  for (std::size_t i = 0; i < robot.wheel_angles_rad.size(); ++i) {
-    const auto index = static_cast<std::uint32_t>(i);
-    const double angle = robot.wheel_angles_rad[i];
-    const double rim_mps =
-        -std::sin(angle) * twist.vx_mps + std::cos(angle) * twist.vy_mps + robot.wheel_distance_m * twist.omega_radps;
-    const double scale = 1.0 + noise.slip_sd_ratio * draws_.normal(Role::kWheelSlip, 0, index);
-    sample.wheel_radps[i] =
-        rim_mps / robot.wheel_radius_m * scale + noise.wheel_sd_radps * draws_.normal(Role::kWheelNoise, cycle_, index);
+  sample.wheel_count = static_cast<int>(wheels_.size());
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const auto& [vx, vy, omega] = wheels_[i];
+    const double turns_radps = vx * twist.vx_mps + vy * twist.vy_mps + omega * twist.omega_radps;
+    sample.wheel_radps[i] = turns_radps * wheel_scale_[i] + noise.wheel_sd_radps * white[i];
   }
-  sample.gyro_radps = twist.omega_radps + noise.gyro_bias_sd_radps * draws_.normal(Role::kGyroBias, 0) +
-                      noise.gyro_sd_radps * draws_.normal(Role::kGyroNoise, cycle_);
+  sample.gyro_radps = twist.omega_radps + gyro_bias_radps_ + noise.gyro_sd_radps * gyro;
   return sample;
 }
 
 VisionFrame SensorSuite::vision(const World& world) const {
   const Vision& v = scenario_.vision;
-  VisionFrame frame{.t_exposure_ns = world.t_ns() - nanoseconds(v.latency_s), .pose = {}, .ball = {}, .opponent = {}};
+  VisionFrame frame{.t_exposure_ns = world.t_ns() - vision_latency_ns_, .pose = {}, .ball = {}, .opponent = {}};
   const auto seen = at(frame.t_exposure_ns);
   if (!seen) return frame;
-  const auto kept = [&](std::uint32_t index) {
-    return draws_.uniform(Role::kVisionDropout, cycle_, index) >= v.dropout_ratio;
-  };
-  if (kept(0)) {
-    const auto [x, y] = draws_.normals(Role::kPoseNoise, cycle_, 0);
-    const double heading = draws_.normal(Role::kPoseNoise, cycle_, 1);
+  const auto [pose_luck, ball_luck, opponent_luck, spare] = draws_.uniforms(Role::kVisionDropout, cycle_);
+  if (pose_luck >= v.dropout_ratio) {
+    const auto [x, y, heading, unused] = draws_.normals(Role::kPoseNoise, cycle_);
+    const kicking::Pose& slow = slow_error();
     frame.pose = kicking::Pose{
-        seen->pose.x_m + slow_error_.x_m + v.position_white_sd_m * x,
-        seen->pose.y_m + slow_error_.y_m + v.position_white_sd_m * y,
-        kicking::wrap_angle(seen->pose.heading_rad + slow_error_.heading_rad + v.heading_white_sd_rad * heading)};
+        seen->pose.x_m + slow.x_m + v.position_white_sd_m * x, seen->pose.y_m + slow.y_m + v.position_white_sd_m * y,
+        kicking::wrap_angle(seen->pose.heading_rad + slow.heading_rad + v.heading_white_sd_rad * heading)};
   }
-  const PlanPoint ball = in_robot(seen->pose, seen->ball.x, seen->ball.y);
-  const double ball_distance = std::hypot(ball.x_m, ball.y_m);
-  if (kept(1) && ball_distance <= v.ball_range_m && seen->ball.z <= v.ball_height_max_m) {
-    const auto [x, y] = draws_.normals(Role::kBallNoise, cycle_);
+  const auto [ball_x, ball_y, opponent_x, opponent_y] = draws_.normals(Role::kSightNoise, cycle_);
+  const PlanPoint ball = in_robot(seen->pose, seen->axis, seen->ball.x, seen->ball.y);
+  const double ball_distance = length(ball);
+  if (ball_luck >= v.dropout_ratio && ball_distance <= v.ball_range_m && seen->ball.z <= v.ball_height_max_m) {
     const double sd = v.ball_sd_m + v.ball_sd_ratio * ball_distance;
-    frame.ball = PlanPoint{ball.x_m + sd * x, ball.y_m + sd * y};
+    frame.ball = PlanPoint{ball.x_m + sd * ball_x, ball.y_m + sd * ball_y};
   }
-  const PlanPoint opponent = in_robot(seen->pose, seen->opponent.x_m, seen->opponent.y_m);
-  if (kept(2) && std::hypot(opponent.x_m, opponent.y_m) <= v.opponent_range_m) {
-    const auto [x, y] = draws_.normals(Role::kOpponentNoise, cycle_);
-    frame.opponent = PlanPoint{opponent.x_m + v.opponent_sd_m * x, opponent.y_m + v.opponent_sd_m * y};
+  const PlanPoint opponent = in_robot(seen->pose, seen->axis, seen->opponent.x_m, seen->opponent.y_m);
+  if (opponent_luck >= v.dropout_ratio && length(opponent) <= v.opponent_range_m) {
+    frame.opponent =
+        PlanPoint{opponent.x_m + v.opponent_sd_m * opponent_x, opponent.y_m + v.opponent_sd_m * opponent_y};
   }
   return frame;
 }
 
 FlightFrame SensorSuite::flight(const World& world) const {
   const FlightCamera& c = scenario_.flight_camera;
-  FlightFrame frame{.t_exposure_ns = world.t_ns() - nanoseconds(c.latency_s), .ball = {}};
+  FlightFrame frame{.t_exposure_ns = world.t_ns() - flight_latency_ns_, .ball = {}};
   const auto seen = at(frame.t_exposure_ns);
   if (!seen || draws_.uniform(Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
-  const auto [x, y] = draws_.normals(Role::kFlightNoise, cycle_, 0);
-  const double z = draws_.normal(Role::kFlightNoise, cycle_, 1);
+  const auto [x, y, z, spare] = draws_.normals(Role::kFlightNoise, cycle_);
   frame.ball = FlightFrame::Point{seen->ball.x + c.position_sd_m * x, seen->ball.y + c.position_sd_m * y,
                                   seen->ball.z + c.position_sd_m * z};
   return frame;

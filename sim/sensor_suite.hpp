@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <deque>
+#include <optional>
+#include <vector>
 
 #include "sim/random.hpp"
 #include "sim/scenario.hpp"
@@ -14,7 +16,7 @@ namespace trivela::sim {
 class SensorSuite {
  public:
   /// `scenario` must outlive the suite.
-  explicit SensorSuite(const Scenario& scenario) : scenario_(scenario) {}
+  explicit SensorSuite(const Scenario& scenario);
 
   /// A new opportunity: new scale errors and slow errors; what the cameras saw before is gone, because the robot was
   /// carried elsewhere.
@@ -28,7 +30,7 @@ class SensorSuite {
 
   WheelSample wheels(const World& world) const;
 
-  /// Exposed `latency_s` ago. Before begin() nothing was seen.
+  /// Exposed `latency_s` ago. Before begin() nothing was seen. What is not asked for costs nothing and changes nothing.
   VisionFrame vision(const World& world) const;
   FlightFrame flight(const World& world) const;
 
@@ -36,18 +38,40 @@ class SensorSuite {
   struct Snapshot {
     std::int64_t t_ns;
     kicking::Pose pose;
+    PlanVector axis;
     Vec3 ball;
     PlanPoint opponent;
   };
 
+  /// One wheel of the base: what it turns at a unit of each velocity [1/m, 1/m, 1].
+  struct WheelRow {
+    double vx, vy, omega;
+  };
+
   /// The world at an instant, between the two snapshots around it.
   std::optional<Snapshot> at(std::int64_t t_ns) const;
+  static Snapshot between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns);
+
+  /// The camera's slow error of this cycle.
+  const kicking::Pose& slow_error() const;
 
   const Scenario& scenario_;
+  const std::int64_t vision_latency_ns_;
+  const std::int64_t flight_latency_ns_;
+  const double slow_keep_;  // of the slow error, from cycle to cycle
+  std::vector<WheelRow> wheels_;
+
   Draws draws_{0, 0};
   std::uint32_t cycle_ = 0;
-  std::deque<Snapshot> past_;
-  kicking::Pose slow_error_;
+  std::array<double, 4> wheel_scale_{};  // of this opportunity
+  double gyro_bias_radps_ = 0.0;
+
+  std::vector<Snapshot> past_;  // a ring
+  std::size_t newest_ = 0;
+  std::size_t kept_ = 0;
+
+  mutable kicking::Pose slow_error_;  // a function of draws_ and slow_cycle_, carried on when a frame is asked for
+  mutable std::uint32_t slow_cycle_ = 0;
 };
 
 }  // namespace trivela::sim

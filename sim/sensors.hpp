@@ -55,6 +55,13 @@ struct RefereeWord {
   std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
 };
 
+/// Which samples a caller wants. Those it leaves out cost nothing; the others are the same bits with or without them.
+struct Looks {
+  bool wheels = true;
+  bool vision = true;
+  bool flight = true;
+};
+
 /// Everything that the robot is told at t_ns.
 struct Sensors {
   std::int64_t t_ns = 0;

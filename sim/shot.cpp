@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/margin.hpp"
 
 namespace trivela::sim {
 namespace {
+
+constexpr std::int64_t kNear_ns = 1'000'000;  // step beside an opponent: a centimetre of the ball's way
+
+double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) * 1e-9; }
 
 kicking::Goal goal_of(const Field& field) {
   return {.y_m = field.goal_line_y_m,
@@ -33,42 +38,83 @@ Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_
       release_t_ns_(t_ns),
       t_ns_(t_ns),
       farthest_y_m_(released.position_m.y) {
-  if (released.position_m.y >= scenario.field.goal_line_y_m) meet_goal_plane(released.position_m, t_ns);
+  if (released.position_m.y >= scenario.field.goal_line_y_m) meet_goal_plane(t_ns);
 }
 
 void Shot::advance_to(std::int64_t t_ns, const PlanPoint& opponent) {
-  const Vec3 before = ball_.position_m;
-  sim::advance(ball_, scenario_.ball, static_cast<double>(t_ns - t_ns_) * 1e-9);
-  t_ns_ = t_ns;
+  while (!result_ && t_ns_ < t_ns && passes(opponent, seconds(t_ns - t_ns_))) {
+    step_to(std::min(t_ns_ + kNear_ns, t_ns), opponent);
+  }
+  if (t_ns_ < t_ns) step_to(t_ns, opponent);
+}
+
+void Shot::step_to(std::int64_t t_ns, const PlanPoint& opponent) {
+  const BallMotion before = ball_;
+  const double dt_s = seconds(t_ns - t_ns_);
+  sim::advance(ball_, scenario_.ball, dt_s);
+  const std::int64_t before_t_ns = std::exchange(t_ns_, t_ns);
   if (result_) return;
   farthest_y_m_ = std::max(farthest_y_m_, ball_.position_m.y);
-  if (ball_.position_m.y >= scenario_.field.goal_line_y_m) return meet_goal_plane(before, t_ns);
+  if (ball_.position_m.y >= scenario_.field.goal_line_y_m) {
+    const double until_s = time_to_goal_s(before, dt_s);
+    ball_ = before;
+    sim::advance(ball_, scenario_.ball, until_s);
+    meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
+    return sim::advance(ball_, scenario_.ball, dt_s - until_s);
+  }
   meet_opponent(opponent, t_ns);
-  const double age_s = static_cast<double>(t_ns - release_t_ns_) * 1e-9;
+  const double age_s = seconds(t_ns - release_t_ns_);
   if (!result_ && (at_rest(ball_) || age_s >= scenario_.possession.flight_limit_s)) settle_short(t_ns);
 }
 
-void Shot::meet_goal_plane(const Vec3& before, std::int64_t t_ns) {
+/// When, within the step from `before`, the ball reaches the plane of the goal: the secant from both ends, which a
+/// nearly straight way meets at once.
+double Shot::time_to_goal_s(const BallMotion& before, double dt_s) const {
+  const double line = scenario_.field.goal_line_y_m;
+  double low_s = 0.0, high_s = dt_s, low = before.position_m.y - line, high = ball_.position_m.y - line;
+  for (int i = 0; i < 8 && high - low > 0.0; ++i) {
+    const double middle_s = low_s - low * (high_s - low_s) / (high - low);
+    BallMotion middle = before;
+    sim::advance(middle, scenario_.ball, middle_s);
+    const double y = middle.position_m.y - line;
+    if (std::abs(y) < 1e-9) return middle_s;
+    (y < 0.0 ? low_s : high_s) = middle_s;
+    (y < 0.0 ? low : high) = y;
+  }
+  return high_s;
+}
+
+void Shot::meet_goal_plane(std::int64_t t_ns) {
   const kicking::Goal goal = goal_of(scenario_.field);
   const kicking::Ball ball = ball_of(scenario_.ball);
-  const Vec3& after = ball_.position_m;
-  const double part = after.y > before.y ? std::clamp((goal.y_m - before.y) / (after.y - before.y), 0.0, 1.0) : 0.0;
-  const Crossing crossing{std::lerp(before.x, after.x, part), std::lerp(before.z, after.z, part)};
+  const Crossing crossing{ball_.position_m.x, ball_.position_m.z};
   const auto outcome = kicking::classify(crossing.x_m, crossing.z_m, goal, ball);
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
   result_ = ShotResult{t_ns, outcome, crossing, margin};
   if (outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
     const double kept = scenario_.ball.frame_restitution_ratio;
     const Vec3& v = ball_.velocity_mps;
-    ball_.position_m = {crossing.x_m, goal.y_m, crossing.z_m};
     ball_.velocity_mps = {kept * v.x, -kept * std::abs(v.y), kept * v.z};
   }
+}
+
+/// The ball comes within reach of the opponent in the next dt_s: its way over the floor is straight.
+bool Shot::passes(const PlanPoint& opponent, double dt_s) const {
+  const Vec3 &p = ball_.position_m, &v = ball_.velocity_mps;
+  const double dx = opponent.x_m - p.x, dy = opponent.y_m - p.y;
+  const double ahead = v.x * dx + v.y * dy;  // times the speed
+  if (ahead <= 0.0) return false;
+  const double square = v.x * v.x + v.y * v.y, reach = scenario_.opponent.body_radius_m + scenario_.ball.radius_m;
+  const double aside = v.x * dy - v.y * dx;
+  if (aside * aside >= reach * reach * square) return false;
+  const double near = reach + std::sqrt(square) * dt_s;
+  return dx * dx + dy * dy < near * near;
 }
 
 void Shot::meet_opponent(const PlanPoint& opponent, std::int64_t t_ns) {
   const double dx = ball_.position_m.x - opponent.x_m, dy = ball_.position_m.y - opponent.y_m;
   const double reach = scenario_.opponent.body_radius_m + scenario_.ball.radius_m;
-  const double distance = std::hypot(dx, dy);
+  const double distance = std::sqrt(dx * dx + dy * dy);
   if (distance >= reach || ball_.position_m.z - scenario_.ball.radius_m >= scenario_.opponent.body_height_m) return;
   Vec3& v = ball_.velocity_mps;
   const double inward = distance > 0.0 ? -(v.x * dx + v.y * dy) / distance : 0.0;

@@ -27,7 +27,7 @@ class Shot {
   /// `scenario` must outlive the shot.
   Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns);
 
-  /// Moves the ball to t_ns while the opponent stands at `opponent`.
+  /// Moves the ball to t_ns, a control cycle ahead at most, while the opponent stands at `opponent`.
   void advance_to(std::int64_t t_ns, const PlanPoint& opponent);
 
   const BallMotion& ball() const { return ball_; }
@@ -38,7 +38,10 @@ class Shot {
   const std::optional<ShotResult>& result() const { return result_; }
 
  private:
-  void meet_goal_plane(const Vec3& before, std::int64_t t_ns);
+  void step_to(std::int64_t t_ns, const PlanPoint& opponent);
+  double time_to_goal_s(const BallMotion& before, double dt_s) const;
+  void meet_goal_plane(std::int64_t t_ns);
+  bool passes(const PlanPoint& opponent, double dt_s) const;
   void meet_opponent(const PlanPoint& opponent, std::int64_t t_ns);
   void settle_short(std::int64_t t_ns);
 

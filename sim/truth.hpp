@@ -50,6 +50,17 @@ struct PossessionTruth {
   kicking::Pose start;          ///< robot in F at that instant
 };
 
+/// The world as it is at an instant.
+struct TrueState {
+  kicking::Pose pose;
+  kicking::Twist twist;               ///< in R
+  bool ball_held = false;             ///< no ball has left in this possession
+  double charge = 1.0;                ///< capacitor energy, 0..1
+  double opponent_distance_m = 0.0;   ///< from the ball; of the nearest
+  double opponent_closing_mps = 0.0;  ///< its rate
+  std::int64_t dispute_t_ns = 0;      ///< when it takes the ball, if the ball stays
+};
+
 /// What was settled during one step.
 struct StepEvents {
   std::vector<KickTruth> kicks;

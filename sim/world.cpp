@@ -11,6 +11,7 @@ void World::place(const Opportunity& opportunity, const Draws& draws) {
   shot_.reset();
   draws_ = draws;
   attempts_ = 0;
+  kicker_.reset();
   body_.place(opportunity.start, {});
   opponent_.place(body_.ball_point_m(), opportunity.opponent_distance_m, opportunity.opponent_bearing_rad,
                   opportunity.opponent_closing_mps);

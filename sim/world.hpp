@@ -20,8 +20,9 @@ class World {
   /// `scenario` must outlive the world.
   explicit World(const Scenario& scenario);
 
-  /// A new opportunity: the robot stands at its start with the ball, the opponent at its distance. The capacitor keeps
-  /// its charge. `draws` supplies the kicker's noise.
+  /// A new opportunity: the robot stands at its start with the ball, the opponent at its distance. The capacitor is
+  /// full, and what the kicker was about to do is forgotten: the stop of a real match is long enough. `draws` supplies
+  /// the kicker's noise.
   void place(const Opportunity& opportunity, const Draws& draws);
 
   /// Play starts: the robot has the opportunity's velocity and the opponent comes.

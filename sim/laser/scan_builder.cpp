@@ -112,7 +112,7 @@ std::uint32_t ScanBuilder::answer(std::size_t i, double range_m) const {
   if (!(range_m >= laser_.geometry.min_range_m && range_m <= laser_.geometry.max_range_m)) return kNoAnswer_mm;
   const auto beam = static_cast<std::uint32_t>(i);
   if (draws_.uniform(Role::kLaserDropout, scan_index_, beam) < laser_.dropout_ratio) return kNoAnswer_mm;
-  const double noise = draws_.normals(Role::kLaserNoise, scan_index_, beam / 2)[beam % 2];
+  const double noise = draws_.normals(Role::kLaserNoise, scan_index_, beam / 4)[beam % 4];
   return static_cast<std::uint32_t>(std::max(0L, std::lround(1000.0 * (range_m + laser_.range_sd_m * noise))));
 }
 

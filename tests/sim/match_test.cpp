@@ -82,7 +82,7 @@ TEST(Match, AKickEndsThePossessionAndItsTruthNamesIt) {
     EXPECT_GT(kick.release_t_ns, possession.start_t_ns);
     EXPECT_LT(kick.release_t_ns - possession.start_t_ns, 150'000'000);
     EXPECT_GT(kick.t_ns, kick.release_t_ns);
-    EXPECT_LE(kick.t_ns - kick.release_t_ns, 3'001'000'000);
+    EXPECT_LE(kick.t_ns - kick.release_t_ns, 3'020'000'000);  // looked at once a cycle
     EXPECT_NE(kick.outcome, kicking::Outcome::kUnknown);
     EXPECT_EQ(kick.crossing.has_value(), kick.outcome != kicking::Outcome::kShort);
     EXPECT_TRUE(kick.margin_m);

@@ -46,11 +46,11 @@ TEST(Draws, HaveTheMomentsOfTheirDistributions) {
     ASSERT_LT(u, 1.0);
     uniform_sum += u;
     uniform_squares += u * u;
-    const auto [a, b] = draws.normals(Role::kStart, i, 1);
+    const auto [a, b, c, d] = draws.normals(Role::kStart, i, 1);
     normal_sum += a;
     normal_squares += a * a;
     fourth += a * a * a * a;
-    product += a * b;
+    product += (a * b + c * d) / std::sqrt(2.0);
     lag += a * previous;
     previous = a;
   }
@@ -62,6 +62,38 @@ TEST(Draws, HaveTheMomentsOfTheirDistributions) {
   EXPECT_NEAR(fourth / kCount, 3.0, 4 * sd * std::sqrt(96.0));
   EXPECT_NEAR(product / kCount, 0.0, 4 * sd);
   EXPECT_NEAR(lag / kCount, 0.0, 4 * sd);
+}
+
+TEST(Draws, NormalsFollowTheNormalDistributionIntoItsTails) {
+  // Counts in bins against erf, all four lanes alike: chi-squared over the bins, and the far tail by its count.
+  constexpr int kCount = 200000, kBins = 48;
+  const Draws draws{12, 1};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    std::array<int, kBins> counts{};
+    int beyond_3_5 = 0;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const double z = draws.normals(Role::kStart, i)[lane];
+      if (std::abs(z) > 3.5) ++beyond_3_5;
+      const int bin = static_cast<int>(std::floor((z + 3.0) * kBins / 6.0));
+      if (bin >= 0 && bin < kBins) ++counts[static_cast<std::size_t>(bin)];
+    }
+    double chi_squared = 0.0;
+    for (int i = 0; i < kBins; ++i) {
+      const auto below = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+      const double low = -3.0 + 6.0 * i / kBins;
+      const double expected = kCount * (below(low + 6.0 / kBins) - below(low));
+      chi_squared += std::pow(counts[static_cast<std::size_t>(i)] - expected, 2) / expected;
+    }
+    EXPECT_LT(chi_squared, 48 + 4 * std::sqrt(2 * 48.0)) << lane;
+    EXPECT_NEAR(beyond_3_5, kCount * 4.6526e-4, 4 * std::sqrt(kCount * 4.6526e-4)) << lane;  // 93 of 200,000
+  }
+}
+
+TEST(Draws, ANormalIsTheFirstOfFour) {
+  const Draws draws{12, 1};
+  for (std::uint32_t i = 0; i < 2000; ++i) {
+    ASSERT_EQ(draws.normal(Role::kStart, i, 3), draws.normals(Role::kStart, i, 3)[0]);
+  }
 }
 
 }  // namespace

@@ -59,8 +59,8 @@ TEST(Scenario, ListsEveryMemberWithItsUnit) {
   Counter seen;
   fields(seen, scenario);
   EXPECT_EQ(seen.bytes, sizeof(Scenario));  // nothing but doubles, flags and vectors: no member is left out
-  const std::set<std::string_view> units{"m",   "s",   "mps", "mps2",  "radps", "radps2",
-                                         "rad", "deg", "kg",  "kgpm3", "ratio", "ln"};
+  const std::set<std::string_view> units{"m",   "s",  "mps",   "mps2",  "radps", "radps2",   "rad",
+                                         "deg", "kg", "kgpm3", "ratio", "ln",    "distance", "all"};
   for (const auto& key : seen.keys) {
     if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s" || key == "enabled") continue;
     EXPECT_TRUE(units.contains(std::string_view{key}.substr(key.rfind('_') + 1))) << key;

@@ -1,0 +1,57 @@
+#include <benchmark/benchmark.h>
+
+#include "sim/match.hpp"
+
+// The world in process, without filters and policies. `--benchmark_repetitions=9` prints the median.
+namespace {
+
+using namespace trivela::sim;
+
+/// Turns and drives on; fires `after_s` into each possession.
+struct Driver {
+  double after_s;
+  std::uint32_t possession_id = 0;
+  std::int64_t since_ns = 0;
+  bool fired = false;
+
+  Commands operator()(const Sensors& s) {
+    Commands commands{.drive = {0.1, 1.0, 0.6}, .fire = {}};
+    if (!s.referee.playing || s.referee.possession_id != possession_id) {
+      possession_id = s.referee.possession_id;
+      since_ns = s.t_ns;
+      fired = false;
+    } else if (!fired && static_cast<double>(s.t_ns - since_ns) * 1e-9 >= after_s) {
+      commands.fire = Fire{s.t_ns, 1, 30.0};
+      fired = true;
+    }
+    return commands;
+  }
+};
+
+template <class Policy>
+void play(benchmark::State& state, Policy policy) {
+  std::int64_t cycles = 0, possessions = 0;
+  std::uint64_t seed = 0;
+  for (auto _ : state) {
+    Match match{Scenario{}, ++seed, 1, 600.0, 100};
+    while (!match.done()) {
+      const Sensors sensors = match.sense();
+      benchmark::DoNotOptimize(sensors);
+      possessions += static_cast<std::int64_t>(match.step(policy(sensors)).possessions.size());
+      ++cycles;
+    }
+  }
+  state.counters["possessions/s"] = benchmark::Counter(static_cast<double>(possessions), benchmark::Counter::kIsRate);
+  state.counters["cycles/s"] = benchmark::Counter(static_cast<double>(cycles), benchmark::Counter::kIsRate);
+  state.counters["cycles/possession"] = static_cast<double>(cycles) / static_cast<double>(possessions);
+}
+
+void match_at_rest(benchmark::State& state) {
+  play(state, [](const Sensors&) { return Commands{}; });
+}
+BENCHMARK(match_at_rest)->Unit(benchmark::kMillisecond);
+
+void match_driven(benchmark::State& state) { play(state, Driver{0.5}); }
+BENCHMARK(match_driven)->Unit(benchmark::kMillisecond);
+
+}  // namespace
