@@ -83,6 +83,29 @@ void fields(V& v, TestDriveConfig& t) {
 }
 
 template <class V>
+void fields(V& v, PredictiveConfig& p) {
+  using config::Degrees, config::Range;
+  v("threshold", p.threshold, Range{0.0, 1.0});
+  v("horizon_s", p.horizon_s, Range{0.0, 5.0});
+  v("step_s", p.step_s, Range{0.005, 0.5});
+  v("bounce_ratio", p.bounce_ratio, Range{0.0, 1.0});
+  v("position_sd_m", p.position_sd_m, Range{0.0, 5.0});
+  v("heading_sd_deg", Degrees{p.heading_sd_rad}, Range{0.0, 45.0});
+  v("speed_sd_mps", p.speed_sd_mps, Range{0.0, 5.0});
+  v("turn_rate_sd_radps", p.turn_rate_sd_radps, Range{0.0, 5.0});
+  v("twist_lag_s", p.twist_lag_s, Range{0.0, 0.5});
+  v("dispute_distance_m", p.dispute_distance_m, Range{0.0, 5.0});
+  v("closing_mps", p.closing_mps, Range{0.0, 10.0});
+  v("closing_sd_mps", p.closing_sd_mps, Range{0.0, 10.0});
+  v("closing_walk_mps2", p.closing_walk_mps2, Range{0.0, 10.0});
+  v("opponent_sd_m", p.opponent_sd_m, Range{0.001, 5.0});
+  v("opponent_lag_s", p.opponent_lag_s, Range{0.0, 1.0});
+  v("hazard_per_s", p.hazard_per_s, Range{0.0, 10.0});
+  v("opponent_radius_m", p.opponent_radius_m, Range{0.0, 2.0});
+  v("opponent_height_m", p.opponent_height_m, Range{0.0, 3.0});
+}
+
+template <class V>
 void fields(V& v, PolicyConfig& p) {
   using config::Degrees, config::Range;
   v("height_law", p.height_law);
@@ -106,6 +129,7 @@ void fields(V& v, PolicyConfig& p) {
   v("max_turn_rate_radps", p.max_turn_rate_radps, Range{0.0, 30.0});
   v("max_turn_acceleration_radps2", p.max_turn_acceleration_radps2, Range{0.0, 200.0});
   v("alignment", p.alignment);
+  v("predictive", p.predictive);
   v("test_drive", p.test_drive);
 }
 

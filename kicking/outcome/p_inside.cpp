@@ -4,15 +4,11 @@
 #include <numbers>
 
 namespace trivela::kicking {
-namespace {
 
-/// Phi(margin / sd); a step at zero if nothing spreads.
 double normal_below(double margin_m, double sd_m) {
   if (!(sd_m > 0.0)) return margin_m > 0.0 ? 1.0 : 0.0;
   return 0.5 * std::erfc(-margin_m / sd_m / std::numbers::sqrt2);
 }
-
-}  // namespace
 
 HeightSensitivity height_sensitivity(const KickAtLine& kick, double gravity_mps2) {
   const double d = kick.distance_m;

@@ -43,6 +43,10 @@ struct InsideProbability {
   double p_inside = 0.0;
 };
 
+/// Phi(margin / sd), the probability that a normal error of that standard deviation stays below the margin; a step at
+/// zero if nothing spreads.
+double normal_below(double margin_m, double sd_m);
+
 /// First-order propagation of the spread: P = Phi((z_clean - z) / sd_z) (Phi((x_clean - x) / sd_x) - Phi((-x_clean - x)
 /// / sd_x)). There is no lower limit, since a ball that bounces in counts. x_mean_m is where the kick is expected to
 /// cross, in F.

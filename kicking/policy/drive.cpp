@@ -12,12 +12,15 @@ double turn_rate_for(double heading_error_rad, double gain_hz, const PolicyConfi
 }
 
 Eigen::Vector2d dribble_towards(const Pose& robot, const Eigen::Vector2d& point_m, const PolicyConfig& config) {
-  const Eigen::Vector2d ahead = to_robot(robot, point_m);
-  const double distance = ahead.norm();
+  return dribble_towards(to_robot(robot, point_m), config);
+}
+
+Eigen::Vector2d dribble_towards(const Eigen::Vector2d& ahead_m, const PolicyConfig& config) {
+  const double distance = ahead_m.norm();
   const double room = distance - config.keep_off_m;
   if (!(room > 0.0)) return {0.0, 0.0};
   const double speed = std::min(config.dribble_mps, std::sqrt(2.0 * config.max_brake_mps2 * room));
-  const Eigen::Vector2d velocity = speed / distance * ahead;
+  const Eigen::Vector2d velocity = speed / distance * ahead_m;
   return {std::clamp(velocity.x(), -config.max_sideways_mps, config.max_sideways_mps),
           std::clamp(velocity.y(), -config.max_sideways_mps, config.max_forward_mps)};
 }

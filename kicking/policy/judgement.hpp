@@ -26,4 +26,9 @@ inline void set_alignment(Judgement& judgement, const Alignment& alignment) {
   judgement.right_m = alignment.right_m;
 }
 
+/// Does an order of this possession still have its time?
+inline bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PolicyMemory& memory) {
+  return memory.fired_t_ns && 1e-9 * static_cast<double>(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
+}
+
 }  // namespace trivela::kicking

@@ -6,6 +6,7 @@
 
 #include "kicking/policy/judgement.hpp"
 #include "kicking/policy/moving.hpp"
+#include "kicking/policy/predictive/predictive.hpp"
 #include "kicking/policy/stopped.hpp"
 #include "kicking/policy/test_drive.hpp"
 
@@ -29,16 +30,14 @@ bool is_drive(PolicyName policy) {
   return policy >= PolicyName::kStandingDrive && policy <= PolicyName::kStraightDrive;
 }
 
+bool is_predictive(PolicyName policy) { return policy >= PolicyName::kPredictive; }
+
 using Rule = Judgement (*)(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, PolicyMemory&);
 
 /// In the order of PolicyName.
 constexpr std::array<Rule, kPolicyCount> kRules{judge_stopped,       judge_moving,     judge_standing_drive,
                                                 judge_lateral_drive, judge_turn_drive, judge_straight_drive,
-                                                judge_moving,        judge_moving,     judge_moving};
-
-bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PolicyMemory& memory) {
-  return memory.fired_t_ns && 1e-9 * static_cast<double>(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
-}
+                                                judge_predictive,    judge_learned,    judge_predictive};
 
 }  // namespace
 
@@ -112,6 +111,7 @@ Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel&
     memory.drive.passing = false;
   }
 
+  if (is_predictive(policy)) watch_predictive(config, input, memory);
   const Reason hindered = hindrance(config, input);
   if (hindered != Reason::kFire) {
     memory.turning = false;

@@ -7,6 +7,8 @@
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/policy/policy_config.hpp"
+#include "kicking/policy/predictive/drive_plan.hpp"
+#include "kicking/policy/predictive/opponent_watch.hpp"
 #include "kicking/robot_model.hpp"
 
 namespace trivela::kicking {
@@ -71,9 +73,12 @@ struct PolicyInput {
   bool possession = false;
   std::uint32_t possession_id = 0;
   bool kicker_ready = false;
-  double state_age_s = 0.0;                   ///< of the older of world state and kicker status
-  std::optional<double> opponent_distance_m;  ///< for the record; neither policy looks at it
-  std::optional<SeenKick> last_kick;          ///< the latest one with an outcome; the turn drive alone looks at it
+  double state_age_s = 0.0;    ///< of the older of world state and kicker status
+  double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
+  double sd_heading_rad = 0.0;
+  std::optional<double> opponent_distance_m;   ///< nearest opponent to the ball; stopped and moving do not look at it
+  std::optional<double> opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
+  std::optional<SeenKick> last_kick;           ///< the latest one with an outcome; the turn drive alone looks at it
 };
 
 /// How far a test drive has come. It outlives the possession.
@@ -89,6 +94,15 @@ struct TestDriveMemory {
   std::optional<std::uint32_t> awaited_possession;  ///< turn drive: its kick has not been seen yet
 };
 
+/// What the predictive policy remembers of a possession.
+struct PredictiveMemory {
+  OpponentWatch opponent{};
+  DrivePlan plan{};              ///< that it drives by
+  std::optional<Twist> command;  ///< of the last cycle
+  std::optional<Twist> twist;    ///< of the robot in the last cycle
+  double speed_jump_mps = 0.0;   ///< by which the twist changed more than the base can
+};
+
 /// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress.
 struct PolicyMemory {
   std::optional<std::uint32_t> possession_id;
@@ -97,6 +111,7 @@ struct PolicyMemory {
   bool turning = false;                             ///< stopped: has come to rest, turns or settles
   std::optional<std::int64_t> settling_since_t_ns;  ///< stopped, standing drive
   TestDriveMemory drive;
+  PredictiveMemory predictive;
 };
 
 /// One decision with every number behind it.

@@ -5,6 +5,7 @@
 #include "kicking/alignment/alignment.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/policy/learned_model.hpp"
+#include "kicking/policy/predictive/predictive_config.hpp"
 #include "kicking/policy/test_drive_config.hpp"
 
 namespace trivela::kicking {
@@ -71,6 +72,8 @@ struct PolicyConfig {
 
   /// Of policy kLearned, which is not played without one.
   std::optional<LearnedModel> learned{};
+
+  PredictiveConfig predictive{};
 
   TestDriveConfig test_drive{};
 };

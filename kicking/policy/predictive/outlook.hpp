@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "kicking/policy/policy.hpp"
+#include "kicking/policy/predictive/drive_plan.hpp"
+#include "kicking/policy/predictive/opponent_watch.hpp"
+#include "kicking/policy/predictive/shot_chance.hpp"
+
+namespace trivela::kicking {
+
+/// A shot at one instant of a plan.
+struct Prospect {
+  double fire_after_s = 0.0;
+  ShotChance shot{};
+  ReleaseState release{};
+  double p_on_target = 0.0;  ///< nobody in the way, corrected by the learned model where there is one
+};
+
+/// What a plan promises: the best shot of this cycle and the best later one.
+struct Outlook {
+  DrivePlan plan{};
+  Prospect now{};                  ///< at the beginning of the cycle, or where schedule() put it
+  std::array<double, 3> values{};  ///< S P of a shot at the beginning, middle and end of the cycle
+  double value_now = 0.0;          ///< of firing within this cycle: S P, nothing below the threshold
+  double value_later = 0.0;        ///< of the best later instant, weighed with keeping the ball until then
+  double value() const { return value_now > value_later ? value_now : value_later; }
+};
+
+/// Looks ahead from one cycle.
+class Lookout {
+ public:
+  /// `learned`: corrects the probability; nullptr: the physical one stands.
+  Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+          const PredictiveMemory& memory, const LearnedModel* learned);
+
+  /// What the plan promises. Stops looking where nothing can be worth more than `enough` any more.
+  Outlook look(const DrivePlan& plan, double enough);
+
+  /// Puts the shot of this cycle at its best instant: the vertex of the parabola through the three values, where there
+  /// is one; the end of the cycle belongs to the next decision.
+  void schedule(Outlook& outlook);
+
+  /// The plan's drive command now.
+  Twist command(const DrivePlan& plan) const { return command_at(plan, start_); }
+
+ private:
+  Twist command_at(const DrivePlan& plan, const BaseMotion& base) const;
+  void drive_for(const DrivePlan& plan, BaseMotion& base, double time_s) const;
+  Prospect prospect(const BaseMotion& base, double fire_after_s);
+  double value(const Prospect& prospect, double survival) const;
+
+  const PolicyConfig& config_;
+  const RobotModel& robot_;
+  const Goal& goal_;
+  const PolicyInput& input_;
+  const LearnedModel* learned_;
+  BaseMotion start_;
+  ShotModel model_;
+  Survival survival_;
+  const OpponentWatch& opponent_;
+  ShotGuess guess_{};
+  double ball_speed_mps_;
+};
+
+}  // namespace trivela::kicking

@@ -1,0 +1,98 @@
+#include "kicking/policy/predictive/predictive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kicking/ballistics/crossing.hpp"
+#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/predictive/outlook.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+constexpr double kBetter = 2e-3;  // a plan must promise so much more than one before it
+
+/// How much faster the twist changed than the base can: the velocity filter still follows a jump.
+double speed_jump(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
+  if (!memory.twist) return 0.0;
+  const double change =
+      std::hypot(input.twist.vx_mps - memory.twist->vx_mps, input.twist.vy_mps - memory.twist->vy_mps);
+  const double turned =
+      config.max_turn_rate_radps * config.cycle_s * std::hypot(input.twist.vx_mps, input.twist.vy_mps);
+  const double possible = config.max_brake_mps2 * config.cycle_s + turned + 2.0 * config.predictive.speed_sd_mps;
+  return std::max(0.0, change - possible);
+}
+
+void describe_shot(Judgement& judgement, const Prospect& now, const RobotModel& robot, const Goal& goal) {
+  if (!(now.shot.exit.v_kick_mps > 0.0)) return;
+  const CrossingSpread& crossing = now.shot.crossing;
+  judgement.target_z_m = now.shot.aim_height_m;
+  judgement.v_kick_mps = now.shot.exit.v_kick_mps;
+  judgement.power = now.shot.power;
+  judgement.v0_mps =
+      crossing_speed({judgement.distance_m, now.shot.aim_height_m - robot.ball.radius_m}, now.shot.exit.exit_angle_rad);
+  judgement.p_on_target = now.p_on_target;
+  judgement.fire_after_s = now.fire_after_s;
+  if (!std::isfinite(crossing.x_m)) return;
+  judgement.predicted = Crossing{.x_m = crossing.x_m,
+                                 .z_m = crossing.z_m,
+                                 .t_flight_s = crossing.t_flight_s,
+                                 .release_m = now.release.ball_m,
+                                 .release_heading_rad = std::atan2(-now.release.forward.x(), now.release.forward.y())};
+  judgement.offset_right_m = crossing.x_m - judgement.target_x_m;
+  judgement.aligned = std::abs(crossing.x_m) < goal.clean_half_width_m(robot.ball);
+}
+
+Reason reason_of(const Outlook& best) {
+  if (best.now.shot.out_of_range && !(best.value_later > 0.0)) return Reason::kOutOfRange;
+  if (best.value_now > 0.0 && best.value_now >= best.value_later) return Reason::kFire;
+  return best.value_later > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
+}
+
+Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                   const PolicyInput& input, PolicyMemory& memory) {
+  PredictiveMemory& own = memory.predictive;
+  Lookout lookout(config, robot, goal, input, own, learned);
+  const bool pending = order_pending(config, input, memory);
+  Outlook best{};
+  if (pending) {
+    best.plan = own.plan;  // the kick was reckoned with this way of driving
+  } else {
+    for (const DrivePlan& plan : kDrivePlans) {
+      const Outlook outlook = lookout.look(plan, best.value());
+      if (&plan == &kDrivePlans.front() || outlook.value() > best.value() + kBetter) best = outlook;
+    }
+    own.plan = best.plan;
+    if (best.value_now > 0.0 && best.value_now >= best.value_later) lookout.schedule(best);
+  }
+  Judgement judgement = describe(config, goal, {});
+  judgement.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  judgement.left_m = judgement.right_m = goal.clean_half_width_m(robot.ball);
+  describe_shot(judgement, best.now, robot, goal);
+  judgement.drive = lookout.command(best.plan);
+  own.command = judgement.drive;
+  judgement.reason = pending ? Reason::kOrderPending : reason_of(best);
+  return judgement;
+}
+
+}  // namespace
+
+void watch_predictive(const PolicyConfig& config, const PolicyInput& input, PolicyMemory& memory) {
+  PredictiveMemory& own = memory.predictive;
+  own.opponent.update(config.predictive, input.t_ns, input.playing, input.opponent_distance_m,
+                      input.opponent_closing_mps);
+  own.speed_jump_mps = speed_jump(config, input, own);
+  own.twist = input.twist;
+}
+
+Judgement judge_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                           const PolicyInput& input, PolicyMemory& memory) {
+  return judge_by(nullptr, config, robot, goal, input, memory);
+}
+
+Judgement judge_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                        PolicyMemory& memory) {
+  return judge_by(config.learned ? &*config.learned : nullptr, config, robot, goal, input, memory);
+}
+
+}  // namespace trivela::kicking

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "kicking/outcome/crossing_spread.hpp"
+#include "kicking/policy/policy_config.hpp"
+#include "kicking/robot_model.hpp"
+
+namespace trivela::kicking {
+
+/// The best kick of a robot in one state of motion, and what it is worth.
+struct ShotChance {
+  double p = 0.0;  ///< on target, nobody in the way
+  double power = 0.0;
+  double aim_height_m = 0.0;  ///< over the goal line
+  KickExit exit{};            ///< that the power gives
+  CrossingSpread crossing{};
+  bool out_of_range = false;  ///< full power falls to the floor before the line
+};
+
+/// What is known of a shot before it is computed: of the last one, a few centimetres away.
+struct ShotGuess {
+  double sd_z_m = 0.2;
+  double exit_angle_rad = 0.0;
+};
+
+/// Aims a robot that is released in some state: direction and side are the state's, the height is the one that
+/// maximises P (best_height_m), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target.
+class ShotModel {
+ public:
+  ShotModel(const PredictiveConfig& config, const RobotModel& robot, const Goal& goal, const StateSpread& state)
+      : config_(config), robot_(robot), goal_(goal), state_(state) {}
+
+  /// The guess is improved.
+  ShotChance chance(const ReleaseState& release, ShotGuess& guess) const;
+
+  const StateSpread& state() const { return state_; }
+
+ private:
+  const PredictiveConfig& config_;
+  const RobotModel& robot_;
+  const Goal& goal_;
+  StateSpread state_;
+};
+
+/// Probability that an opponent at this distance from the ball, anywhere around it, is in a ball's way: it covers
+/// asin(R / r) / pi of the circle, R its radius and the ball's, unless the ball clears its height where they meet.
+double p_blocked(const PredictiveConfig& config, double distance_m, const ShotChance& shot, const Ball& ball,
+                 double gravity_mps2 = kGravity_mps2);
+
+}  // namespace trivela::kicking
