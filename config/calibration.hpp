@@ -55,6 +55,13 @@ struct DelayOrigin : FigureOrigin {
   double delay_sd_s = 0.0;  ///< from kick to kick
 };
 
+/// Of kicker.spreads.direction_sd_deg. The other spreads come from [calibration.table] (exit speed, exit angle and the
+/// table's own error), [calibration.delay] and [calibration.transfer], [calibration.deflection].
+struct DirectionOrigin : FigureOrigin {
+  double direction_sd_se_rad = 0.0;
+  double observer_sd_rad = 0.0;  ///< of the camera's tracks, taken out
+};
+
 /// Where a calibrated robot's figures come from; a figure without a section here was not measured.
 struct Calibration {
   std::string source;       ///< the tool that wrote the file last
@@ -66,6 +73,7 @@ struct Calibration {
   std::optional<RotationOrigin> rotation;
   std::optional<TransferOrigin> transfer;
   std::optional<DelayOrigin> delay;
+  std::optional<DirectionOrigin> direction;
 };
 
 }  // namespace trivela::config

@@ -64,6 +64,13 @@ void fields(V& v, DelayOrigin& o) {
 }
 
 template <class V>
+void fields(V& v, DirectionOrigin& o) {
+  fields_of_origin(v, o);
+  v("direction_sd_se_deg", Degrees{o.direction_sd_se_rad}, kErrors);
+  v("observer_sd_deg", Degrees{o.observer_sd_rad}, kErrors);
+}
+
+template <class V>
 void fields(V& v, Calibration& c) {
   v("source", c.source);
   v("date", c.date);
@@ -74,6 +81,7 @@ void fields(V& v, Calibration& c) {
   v("rotation", c.rotation);
   v("transfer", c.transfer);
   v("delay", c.delay);
+  v("direction", c.direction);
 }
 
 }  // namespace trivela::config

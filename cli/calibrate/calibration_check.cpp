@@ -114,6 +114,11 @@ std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Sc
   figures.push_back({"transfer_forward_ratio", model.transfer_exact.forward, world.kicker.transfer_forward_ratio});
   figures.push_back({"transfer_backward_ratio", model.transfer_exact.backward, world.kicker.transfer_backward_ratio});
   figures.push_back({"transfer_lateral_ratio", model.transfer_exact.lateral, world.kicker.transfer_lateral_ratio});
+  // What the robot must expect of its kicks, beside what the world draws.
+  const kicking::KickSpreads& spreads = model.spreads;
+  figures.push_back({"speed_sd_ratio", spreads.speed_sd_ratio, world.kicker.speed_sd_ratio});
+  figures.push_back({"direction_sd_deg", degrees(spreads.direction_sd_rad), degrees(world.kicker.direction_sd_rad)});
+  figures.push_back({"delay_sd_s", spreads.delay_sd_s, world.kicker.delay_sd_s});
   return figures;
 }
 

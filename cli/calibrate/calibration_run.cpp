@@ -181,6 +181,28 @@ DriveSummary CalibrationRun::delay() {
   return summary;
 }
 
+DriveSummary CalibrationRun::direction() {
+  DriveSummary summary;
+  summary.name = "direction";
+  std::vector<kicking::LaunchDirection> directions;
+  for (const auto& log : standing_logs_) {
+    summary.logs.push_back(log.string());
+    const Reader reader{log};
+    summary.kicks += reader.kicks().size();
+    const auto kicks = evaluator::launch_directions(reader, update_.robot().model);
+    directions.insert(directions.end(), kicks.rows.begin(), kicks.rows.end());
+    summary.left_out.insert(summary.left_out.end(), kicks.left_out.begin(), kicks.left_out.end());
+  }
+  const kicking::DirectionFit fit = kicking::fit_direction(directions);
+  summary.used = directions.size();
+  update_.set_direction(fit, directions.size(), names(summary.logs));
+  write();
+  summary.found =
+      fmt::format("sd {}; the camera's tracks have {:.2g} degrees",
+                  figure(degrees(fit.sd_rad.value), degrees(fit.sd_rad.se), "degrees"), degrees(fit.observer_sd_rad));
+  return summary;
+}
+
 DriveSummary CalibrationRun::lateral() {
   DriveSummary summary;
   summary.name = "lateral";
@@ -244,6 +266,7 @@ DriveSummary CalibrationRun::straight() {
     return direction ? figure(direction->exact.value, direction->exact.se, "") : std::string{"not measured"};
   };
   summary.found = fmt::format("transfer forward {}, backward {}", share(fit.forward), share(fit.backward));
+  summary.left_out.insert(summary.left_out.end(), fit.failed.begin(), fit.failed.end());
   if (!fit.standing_ratio) summary.left_out.push_back("no kick at rest: an error of the table is taken for transfer");
   return summary;
 }

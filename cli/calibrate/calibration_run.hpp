@@ -40,11 +40,12 @@ class CalibrationRun {
   CalibrationRun(DriveMatches& matches, const sim::Scenario& scenario, const config::Settings& settings,
                  const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update, std::filesystem::path file);
 
-  DriveSummary standing();  ///< laser: table and exit angle (paper, section 2)
-  DriveSummary delay();     ///< of the same kicks, by the flight camera
-  DriveSummary lateral();   ///< alpha (section 3.2)
-  DriveSummary turn();      ///< beta (section 3.3)
-  DriveSummary straight();  ///< transfer, forward and backward
+  DriveSummary standing();   ///< laser: table and exit angle (paper, section 2)
+  DriveSummary delay();      ///< of the same kicks, by the flight camera
+  DriveSummary direction();  ///< sideways scatter of the same kicks
+  DriveSummary lateral();    ///< alpha (section 3.2)
+  DriveSummary turn();       ///< beta (section 3.3)
+  DriveSummary straight();   ///< transfer, forward and backward
 
   const RobotUpdate& robot() const { return update_; }
 

@@ -41,6 +41,7 @@ std::vector<std::string> measured(const config::Calibration& c) {
   add("beta", c.rotation);
   add("transfer", c.transfer);
   add("delay", c.delay);
+  add("direction", c.direction);
   return names;
 }
 
@@ -52,6 +53,7 @@ std::vector<std::string> not_measured(const config::Calibration& c) {
   if (!c.rotation) names.emplace_back("beta");
   if (!c.transfer) names.emplace_back("transfer");
   if (!c.delay) names.emplace_back("delay");
+  if (!c.direction) names.emplace_back("sideways scatter");
   names.insert(names.end(), {"ball", "wheels"});
   return names;
 }
@@ -129,6 +131,15 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   changed("kicker.exit_angle_deg", degrees(robot_.model.exit_angle_rad), degrees(fit.exit_angle_rad.value),
           certainty(degrees(fit.exit_angle_rad.se), kicks));
   robot_.model.exit_angle_rad = figure_deg(fit.exit_angle_rad.value);
+  kicking::KickSpreads& spreads = robot_.model.spreads;
+  const auto spread = [&](const char* key, double& before, double after, double unit) {
+    if (!(after > 0.0)) return;  // single kicks, or one angle given for all: not measured
+    changed(fmt::format("kicker.spreads.{}", key), before / unit, after / unit, fmt::format("{} kicks", kicks));
+    before = figure(after / unit) * unit;
+  };
+  spread("speed_sd_ratio", spreads.speed_sd_ratio, fit.exit_speed_sd_ratio, 1.0);
+  spread("exit_angle_sd_deg", spreads.exit_angle_sd_rad, fit.exit_angle_sd_rad, kicking::radians(1.0));
+  spread("table_sd_ratio", spreads.table_sd_ratio, fit.exit_speed_se_ratio, 1.0);
   calibration().table = std::move(table);
   calibration().exit_angle = {origin(kicks, files), error_deg(fit.exit_angle_rad.se), error_deg(fit.angle_spread_rad)};
 }
@@ -149,6 +160,7 @@ void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::v
     deflection.lateral_ratio_se = error(fit.lateral->slope.se);
   }
   calibration().deflection = std::move(deflection);
+  set_transfer_spread();
 }
 
 void RobotUpdate::set_rotation(const kicking::RotationFit& fit, const std::vector<std::string>& files) {
@@ -193,12 +205,45 @@ void RobotUpdate::set_transfer(const kicking::TransferFit& fit, const std::vecto
   all_files.insert(all_files.end(), files.begin(), files.end());
   static_cast<config::FigureOrigin&>(transfer) = origin(kicks + (keeps_one ? transfer.kicks : 0), all_files);
   calibration().transfer = std::move(transfer);
+  set_transfer_spread();
+}
+
+void RobotUpdate::set_transfer_spread() {
+  const config::Calibration& c = calibration();
+  double squares = 0.0;
+  int known = 0;
+  const auto add = [&](const std::optional<double>& se) {
+    if (!se) return;
+    squares += *se * *se;
+    ++known;
+  };
+  if (c.deflection) add(c.deflection->lateral_ratio_se);
+  if (c.transfer) {
+    add(c.transfer->exact_forward_se_ratio);
+    add(c.transfer->exact_backward_se_ratio);
+  }
+  if (known == 0) return;
+  const double sd = std::sqrt(squares / known);
+  changed("kicker.spreads.transfer_sd_ratio", robot_.model.spreads.transfer_sd_ratio, sd,
+          fmt::format("from {} standard {}", known, known == 1 ? "error" : "errors"));
+  robot_.model.spreads.transfer_sd_ratio = figure(sd);
+}
+
+void RobotUpdate::set_direction(const kicking::DirectionFit& fit, std::size_t kicks,
+                                const std::vector<std::string>& files) {
+  double& direction_sd_rad = robot_.model.spreads.direction_sd_rad;
+  changed("kicker.spreads.direction_sd_deg", degrees(direction_sd_rad), degrees(fit.sd_rad.value),
+          certainty(degrees(fit.sd_rad.se), kicks));
+  direction_sd_rad = figure_deg(fit.sd_rad.value);
+  calibration().direction = {origin(kicks, files), error_deg(fit.sd_rad.se), error_deg(fit.observer_sd_rad)};
 }
 
 void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files) {
   const std::size_t kicks = fit.residual_s.size() - fit.rejected.size();
   changed("kicker.delay_s", robot_.model.delay_s, fit.mean_s.value, certainty(fit.mean_s.se, kicks));
   robot_.model.delay_s = figure(fit.mean_s.value);
+  changed("kicker.spreads.delay_sd_s", robot_.model.spreads.delay_sd_s, fit.sd_s, fmt::format("{} kicks", kicks));
+  robot_.model.spreads.delay_sd_s = figure(fit.sd_s);
   calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
 }
 

@@ -7,6 +7,7 @@
 #include "config/robot.hpp"
 #include "kicking/calibration/deflection_fit.hpp"
 #include "kicking/calibration/delay_fit.hpp"
+#include "kicking/calibration/direction_fit.hpp"
 #include "kicking/calibration/rotation_fit.hpp"
 #include "kicking/calibration/table_fit.hpp"
 #include "kicking/calibration/transfer_fit.hpp"
@@ -33,16 +34,21 @@ class RobotUpdate {
   // Each replaces the figures of one fit, rounded to five decimals of the file's unit (errors to three digits); `files`
   // are the records and tables that it was made from.
 
-  /// [table] and kicker.exit_angle_deg. @throws std::invalid_argument for a table that does not rise.
+  /// [table], kicker.exit_angle_deg and, where a set-point has several kicks, kicker.spreads of exit speed, exit angle
+  /// and table. @throws std::invalid_argument for a table that does not rise.
   void set_table(const kicking::TableFit& fit, const TableChoice& choice, const std::vector<std::string>& files);
   /// kicker.alpha_slope_deg_per_mps, and transfer_exact.lateral_ratio where the fit has it.
   void set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files);
   /// kicker.beta_slope_s.
   void set_rotation(const kicking::RotationFit& fit, const std::vector<std::string>& files);
-  /// transfer_exact and transfer_paper, forward and backward as far as the fit has them.
+  /// transfer_exact and transfer_paper, forward and backward as far as the fit has them, and
+  /// kicker.spreads.transfer_sd_ratio: root mean square of the standard errors of the exact law's.
   void set_transfer(const kicking::TransferFit& fit, const std::vector<std::string>& files);
-  /// kicker.delay_s.
+  /// kicker.delay_s and kicker.spreads.delay_sd_s.
   void set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files);
+
+  /// kicker.spreads.direction_sd_deg.
+  void set_direction(const kicking::DirectionFit& fit, std::size_t kicks, const std::vector<std::string>& files);
 
   const config::Robot& robot() const { return robot_; }
 
@@ -59,6 +65,7 @@ class RobotUpdate {
  private:
   config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files) const;
   config::Calibration& calibration();
+  void set_transfer_spread();
   void changed(const std::string& key, double before, double after, const std::string& certainty);
 
   config::Robot robot_;

@@ -155,6 +155,7 @@ int calibrate(const RunFlags& flags) {
   Report report{flags.json};
   report.add(run.standing());
   report.add(run.delay());
+  report.add(run.direction());
   report.add(run.lateral());
   report.add(run.turn());
   report.add(run.straight());
@@ -185,7 +186,8 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   auto* verb = calibrate_verb.add_subcommand("run", "all test drives, from an uncalibrated robot to its file");
   auto flags = std::make_shared<RunFlags>();
   verb->footer(
-      "Plays the drives through the real nodes: standing kicks over the laser (table, exit angle, delay), lateral\n"
+      "Plays the drives through the real nodes: standing kicks over the laser (table, exit angle, delay, spreads), "
+      "lateral\n"
       "passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,\n"
       "scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m\n"
       "sideways (medians).");

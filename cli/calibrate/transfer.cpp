@@ -91,6 +91,7 @@ FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, 
   add("backward", fit.backward);
   report.text = evaluator::text_table(lines) + "\n" + constants;
   report.warnings = kicks.left_out;
+  report.warnings.insert(report.warnings.end(), fit.failed.begin(), fit.failed.end());
   if (!fit.standing_ratio) {
     report.warnings.push_back("fewer than two kicks at rest: an error of the table is taken for transfer");
   }

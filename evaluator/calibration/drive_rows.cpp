@@ -149,6 +149,37 @@ std::optional<double> launch_v_z_mps(const std::vector<BallSighting>& sightings,
   return squared > 0.0 ? std::optional{std::sqrt(squared)} : std::nullopt;
 }
 
+/// Line x = a + b y through the sightings between release and goal line; the direction is -atan(b), its standard error
+/// from the line's own residuals. None: fewer than ten sightings or none beyond a metre.
+std::optional<kicking::LaunchDirection> launch_direction(const std::vector<BallSighting>& sightings,
+                                                         const DriveKick& kick, const kicking::RobotModel& model) {
+  constexpr double kLeft_s = 0.06;  // after the release: four standard deviations of its instant
+  constexpr std::size_t kFewest = 10;
+  constexpr double kLeastLength_m = 1.0;
+  constexpr double kCarriedBack_m = 0.3;  // somebody has put the ball back for the next kick
+  std::vector<Eigen::Vector2d> places;
+  for (const BallSighting& sighting : sightings) {
+    const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
+    if (t_s < model.delay_s + kLeft_s) continue;
+    if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;
+    if (!places.empty() && sighting.ball_m.y() < places.back().y() - kCarriedBack_m) break;
+    places.emplace_back(sighting.ball_m.head<2>());
+  }
+  if (places.size() < kFewest || places.back().y() - places.front().y() < kLeastLength_m) return std::nullopt;
+  const auto n = static_cast<double>(places.size());
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& place : places) mean += place / n;
+  double yy = 0.0, xy = 0.0, xx = 0.0;
+  for (const auto& place : places) {
+    const Eigen::Vector2d away = place - mean;
+    yy += away.y() * away.y();
+    xy += away.x() * away.y();
+    xx += away.x() * away.x();
+  }
+  const double slope = xy / yy, residual_square = std::max(0.0, xx - slope * xy) / (n - 2.0);
+  return kicking::LaunchDirection{-std::atan(slope), std::sqrt(residual_square / yy) / (1.0 + slope * slope)};
+}
+
 constexpr const char* kBackwards = "the robot pointed away from the goal line";
 
 }  // namespace
@@ -193,16 +224,34 @@ DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const
     }
     const double exit_angle_rad = model.exit_angle_at(kick.power);
     const auto v_z_mps = seen == sightings.end() ? std::nullopt : launch_v_z_mps(seen->second, kick, model);
-    return kicking::TransferRow{
-        .vy_mps = kick.twist.vy_mps,
-        .v0_mps = v_z_mps ? *v_z_mps / std::sin(exit_angle_rad) : model.table.speed_for(kick.power),
-        .exit_angle_rad = exit_angle_rad,
-        .distance_m = distance_m,
-        .z_cross_m = *kick.z_cross_m};
+    if (!v_z_mps) return std::nullopt;
+    return kicking::TransferRow{.vy_mps = kick.twist.vy_mps,
+                                .v0_mps = *v_z_mps / std::sin(exit_angle_rad),
+                                .exit_angle_rad = exit_angle_rad,
+                                .distance_m = distance_m,
+                                .z_cross_m = *kick.z_cross_m};
   };
   return rows_of<kicking::TransferRow>(
       reader, "straight_drive", row_of,
-      "the ball touched the floor before the goal line, or the robot pointed away from it");
+      "the ball touched the floor before the goal line or was seen fewer than ten times, or the robot pointed away");
+}
+
+DriveKicks<kicking::LaunchDirection> launch_directions(const log::Reader& reader, const kicking::RobotModel& model) {
+  const SightingsByRobot sightings = all_sightings(reader);
+  DriveKicks<kicking::LaunchDirection> result;
+  std::size_t unseen = 0;
+  for (const DriveKick& kick : all_kicks(reader)) {
+    if (kick.policy != "standing_drive") continue;
+    const auto seen = sightings.find(kick.robot);
+    const auto direction = seen == sightings.end() ? std::nullopt : launch_direction(seen->second, kick, model);
+    if (direction) {
+      result.rows.push_back(*direction);
+    } else {
+      ++unseen;
+    }
+  }
+  count_out(result.left_out, unseen, "the flight camera saw too little of the flight");
+  return result;
 }
 
 DriveKicks<double> release_delays(const log::Reader& reader) {

@@ -5,6 +5,7 @@
 
 #include "evaluator/log/reader.hpp"
 #include "kicking/calibration/deflection_fit.hpp"
+#include "kicking/calibration/direction_fit.hpp"
 #include "kicking/calibration/rotation_fit.hpp"
 #include "kicking/calibration/transfer_fit.hpp"
 #include "kicking/robot_model.hpp"
@@ -33,8 +34,13 @@ DriveKicks<kicking::RotationRow> turn_kicks(const log::Reader& reader, const kic
 
 /// Kicks of policy "straight_drive" whose ball crossed without touching the floor, as the flight camera saw it. V0 is
 /// that of each kick, from the vertical speed v_z that the camera saw: V0 = v_z / sin(theta), so that the kicker's
-/// scatter is not taken for transfer; where it saw too little, the table's.
+/// scatter is not taken for transfer; where it saw too little, the kick is left out.
 DriveKicks<kicking::TransferRow> straight_kicks(const log::Reader& reader, const kicking::RobotModel& model);
+
+/// Directions of the kicks of policy "standing_drive" over ground, counter-clockwise from +y of F: the slope of a line
+/// through the flight camera's sightings of the ball in flight, x over y. Neither the robot's localisation nor its
+/// filters are in it.
+DriveKicks<kicking::LaunchDirection> launch_directions(const log::Reader& reader, const kicking::RobotModel& model);
 
 /// Order to release [s] of every accepted kick of a robot that does not turn, by the flight camera alone: the instant
 /// at which the ball's track in flight meets its track in the handler.

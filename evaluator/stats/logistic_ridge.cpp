@@ -22,8 +22,10 @@ double LogisticFit::probability(const Eigen::VectorXd& x) const {
   return logistic(intercept + weights.dot(((x - means).array() / scales.array()).matrix()));
 }
 
-LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge) {
+LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge,
+                           const Eigen::VectorXd& offset) {
   const Eigen::Index n = x.rows(), m = x.cols();
+  const Eigen::VectorXd known = offset.size() == n ? offset : Eigen::VectorXd::Zero(n).eval();
   LogisticFit fit{.intercept = logit_of_share(y),
                   .weights = Eigen::VectorXd::Zero(m),
                   .means = Eigen::VectorXd::Zero(m),
@@ -42,16 +44,16 @@ LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, d
   Eigen::VectorXd penalty = Eigen::VectorXd::Constant(m + 1, ridge);
   penalty[0] = 1e-9;
   Eigen::VectorXd beta = Eigen::VectorXd::Zero(m + 1);
-  beta[0] = fit.intercept;
+  beta[0] = offset.size() == n ? 0.0 : fit.intercept;
   const auto loss = [&](const Eigen::VectorXd& b) {
-    const Eigen::ArrayXd eta = design * b;
+    const Eigen::ArrayXd eta = design * b + known;
     // ln(1 + e^eta) without overflow.
     const double likelihood = (eta.max(0.0) + (-eta.abs()).exp().log1p() - y.array() * eta).sum();
     return likelihood + 0.5 * (penalty.array() * b.array().square()).sum();
   };
   double current = loss(beta);
   for (int step = 0; step < kSteps; ++step) {
-    const Eigen::ArrayXd p = (design * beta).unaryExpr(&logistic).array();
+    const Eigen::ArrayXd p = (design * beta + known).unaryExpr(&logistic).array();
     const Eigen::VectorXd gradient =
         design.transpose() * (y.array() - p).matrix() - (penalty.array() * beta.array()).matrix();
     Eigen::MatrixXd hessian = design.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * design;

@@ -18,6 +18,9 @@ struct LogisticFit {
 /// 1992), by Newton's method on standardised columns. `x`: a row an observation; `y`: 0 or 1 each. Finite for every
 /// input with ridge > 0, also where one result never comes: the intercept is held at the logit of (k + 1/2) / (n + 1)
 /// or less far out. Without rows a probability of one half.
-LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge);
+/// `offset`: a known part of each row's logit, which the fit corrects and `probability` leaves out; empty: none. The
+/// penalty then pulls towards the offset itself.
+LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge,
+                           const Eigen::VectorXd& offset = {});
 
 }  // namespace trivela::evaluator::stats

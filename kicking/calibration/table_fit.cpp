@@ -91,14 +91,23 @@ void warn_of_trials(const TrialsByPower& by_power, TableFit& fit) {
   }
 }
 
-void pool_speed_sd(TableFit& fit) {
-  double squares = 0.0;
+void pool_spreads(TableFit& fit) {
+  double speeds = 0.0, ratios = 0.0, angles = 0.0, shares = 0.0;
   int freedom = 0;
   for (const TrialMean& point : fit.set_points) {
-    squares += (point.trials - 1) * point.exit_speed_mps.sd * point.exit_speed_mps.sd;
-    freedom += point.trials - 1;
+    const int own = point.trials - 1;
+    const double ratio = point.exit_speed_mps.sd / point.exit_speed_mps.mean;
+    speeds += own * point.exit_speed_mps.sd * point.exit_speed_mps.sd;
+    ratios += own * ratio * ratio;
+    angles += own * point.exit_angle_rad.sd * point.exit_angle_rad.sd;
+    shares += 1.0 / point.trials;
+    freedom += own;
   }
-  if (freedom > 0) fit.exit_speed_sd_mps = std::sqrt(squares / freedom);
+  if (freedom == 0) return;
+  fit.exit_speed_sd_mps = std::sqrt(speeds / freedom);
+  fit.exit_speed_sd_ratio = std::sqrt(ratios / freedom);
+  fit.exit_angle_sd_rad = std::sqrt(angles / freedom);
+  fit.exit_speed_se_ratio = fit.exit_speed_sd_ratio * std::sqrt(shares / static_cast<double>(fit.set_points.size()));
 }
 
 std::vector<std::size_t> not_rising(const std::vector<TrialMean>& points) {
@@ -148,7 +157,7 @@ TableFit fit_table(std::span<const Trial> trials, const TableOptions& options) {
   }
   fit_angle(by_power, options, fit);
   warn_of_trials(by_power, fit);
-  pool_speed_sd(fit);
+  pool_spreads(fit);
   fit.not_rising = kicking::not_rising(fit.set_points);
   if (options.isotonic && !fit.not_rising.empty()) {
     std::vector<WeightedSpeed> speeds;

@@ -44,6 +44,9 @@ struct TableFit {
   Estimate exit_angle_rad;              ///< mean over the trials that count, as in the paper
   double angle_spread_rad = 0.0;        ///< greatest less least mean angle of a set-point
   double exit_speed_sd_mps = 0.0;       ///< from kick to kick, pooled over the set-points; 0: no power has two trials
+  double exit_speed_sd_ratio = 0.0;     ///< the same of each set-point's own speed
+  double exit_speed_se_ratio = 0.0;     ///< of a set-point's mean, root mean square over the set-points
+  double exit_angle_sd_rad = 0.0;       ///< from kick to kick, pooled over the set-points, measurement included
   std::vector<std::size_t> not_rising;  ///< set-points not faster than an earlier one, before the isotonic fit
   bool isotonic = false;                ///< the isotonic fit changed the speeds
   std::vector<double> residual_mps;     ///< trial - speed of its set-point, in the order of the trials

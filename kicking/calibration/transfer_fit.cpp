@@ -181,15 +181,24 @@ std::optional<TransferDirection> direction(std::span<const TransferRow> rows, do
 TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m, double gravity_mps2) {
   check(rows, delay_s);
   const World world{delay_s, ball_radius_m, gravity_mps2};
-  TransferFit fit{standing_ratio(rows, world), {}, {}};
+  TransferFit fit{standing_ratio(rows, world), {}, {}, {}};
   const Estimate ratio = fit.standing_ratio.value_or(Estimate{1.0, 0.0});
-  const auto fit_directions = [&](double v0_ratio) {
+  const auto fit_directions = [&](double v0_ratio, std::vector<std::string>& failed) {
     const auto corrected = scaled(rows, v0_ratio);
-    return std::array{direction(corrected, 1.0, world), direction(corrected, -1.0, world)};
+    std::array<std::optional<TransferDirection>, 2> fits;
+    for (const std::size_t i : {0u, 1u}) {
+      try {
+        fits[i] = direction(corrected, i == 0 ? 1.0 : -1.0, world);
+      } catch (const std::invalid_argument& error) {
+        failed.push_back(std::string(i == 0 ? "forward: " : "backward: ") + error.what());
+      }
+    }
+    return fits;
   };
-  auto directions = fit_directions(ratio.value);
+  auto directions = fit_directions(ratio.value, fit.failed);
   if (ratio.se > 0.0) {
-    const auto moved = fit_directions(ratio.value + ratio.se);
+    std::vector<std::string> of_moved;
+    const auto moved = fit_directions(ratio.value + ratio.se, of_moved);
     for (std::size_t i = 0; i < directions.size(); ++i) {
       if (!directions[i] || !moved[i]) continue;
       for (const auto k : {&TransferDirection::exact, &TransferDirection::paper}) {
@@ -201,6 +210,7 @@ TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, doub
   fit.forward = std::move(directions[0]);
   fit.backward = std::move(directions[1]);
   if (!fit.forward && !fit.backward) {
+    if (!fit.failed.empty()) throw std::invalid_argument(fit.failed.front());
     throw std::invalid_argument("transfer: need at least 2 kicks forward or 2 kicks backward, faster than 0.05 m/s");
   }
   return fit;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kicking/calibration/least_squares.hpp"
@@ -28,13 +29,14 @@ struct TransferDirection {
   double rms_m = 0.0;
 };
 
-/// Forward and backward apart. None: no two kicks in that direction.
+/// Forward and backward apart. None: no two kicks in that direction, or none that a k explains.
 struct TransferFit {
   /// Speed that the heights of the kicks at rest need, over the row's V0: what every V0 is multiplied by. None: fewer
   /// than two such kicks, V0 is taken as it is.
   std::optional<Estimate> standing_ratio;
   std::optional<TransferDirection> forward;
   std::optional<TransferDirection> backward;
+  std::vector<std::string> failed;  ///< "backward: ..." of a direction that has kicks and no fit
 };
 
 /// Least squares in height of the exact law: from d - v tau with v_h = V0 cos(theta) + k v, T = d / v_h,
@@ -42,8 +44,9 @@ struct TransferFit {
 /// h) is the speed that a robot at rest needs for the height observed. Kicks slower than 0.05 m/s are the reference:
 /// they say what the V0 of the rows really were, so that an error of the table is not taken for transfer (at 1 m/s and
 /// 4 m one per cent of speed is worth 0.17 of k). Standard errors contain the reference's. `delay_s`: order to release.
-/// @throws std::invalid_argument where no direction has two kicks, for a value that is not finite or positive where it
-/// must be, and where no k explains the heights.
+/// A direction that fails leaves the other one standing.
+/// @throws std::invalid_argument where no direction has a fit, and for a value that is not finite or positive where it
+/// must be.
 TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m = Ball{}.radius_m,
                          double gravity_mps2 = kGravity_mps2);
 

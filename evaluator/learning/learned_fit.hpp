@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "evaluator/learning/predicted_kicks.hpp"
+#include "evaluator/stats/counts.hpp"
+
+namespace trivela::evaluator {
+
+/// How the training goes. Matches are drawn, never kicks: what a match has in common must not leak.
+struct LearnOptions {
+  double held_out_share = 0.3;  ///< of the matches
+  int folds = 5;                ///< of the cross-validation that chooses the ridge, among the other matches
+  std::vector<double> ridges{0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0};
+  std::uint64_t seed = 1;  ///< of the draw of matches
+};
+
+/// A tenth of the held-out kicks, by the learned probability.
+struct Decile {
+  std::int64_t kicks = 0;
+  double predictive = 0.0;  ///< mean of the physical probabilities
+  double learned = 0.0;     ///< mean of the learned ones
+  stats::Counts observed;
+  stats::Interval observed_ci;  ///< Wilson's, as if kicks were independent
+};
+
+/// Mean log loss - (y ln p + (1 - y) ln(1 - p)) on matches that the fit has not seen [nat].
+struct HeldOutLoss {
+  std::int64_t kicks = 0;
+  std::int64_t matches = 0;
+  double predictive = 0.0;
+  double learned = 0.0;
+  double difference = 0.0;  ///< learned - predictive, of the same kicks
+  stats::Interval ci;       ///< of the difference, 95 %, matches as clusters
+  std::vector<Decile> deciles;
+
+  /// Does the whole interval say that the learned probability is better?
+  bool better() const { return ci.hi < 0.0; }
+};
+
+/// A trained correction and how it did.
+struct LearnedFit {
+  kicking::LearnedModel model;
+  std::int64_t kicks = 0;  ///< of the training
+  std::int64_t matches = 0;
+  double ridge = 0.0;
+  HeldOutLoss held_out;
+};
+
+/// Trains LearnedModel: logistic regression with the logit of the physical probability as offset and a ridge penalty on
+/// the standardised features (stats::logistic_ridge), so that with few kicks the physics stands. The ridge is the one
+/// of least log loss in a cross-validation by match; the model is that of the training matches. The interval of the
+/// difference: mean of d = loss_learned - loss_predictive over kicks, variance G / (G - 1) sum_m (sum_i (d_i -
+/// mean))^2 / n^2 over the G held-out matches, Student's distribution with G - 1 degrees of freedom.
+/// @throws std::runtime_error saying what is missing: fewer than 10 matches, 5 held-out matches with kicks or 100
+/// training kicks, kicks of one outcome alone, or a feature that is not finite.
+LearnedFit fit_learned_model(std::span<const PredictedKick> kicks, const LearnOptions& options = {});
+
+/// The losses of a model on kicks that it has not seen. @throws std::runtime_error for fewer than 5 matches.
+HeldOutLoss held_out_loss(const kicking::LearnedModel& model, std::span<const PredictedKick> kicks);
+
+}  // namespace trivela::evaluator

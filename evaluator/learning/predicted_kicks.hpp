@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "kicking/policy/learned_model.hpp"
+
+namespace trivela::evaluator {
+
+/// A kick with the physical prediction for it, as the robot believed at the order, and what it saw of the flight.
+struct PredictedKick {
+  std::uint32_t match = 0;  ///< from 0; kicks of one match belong together
+  kicking::ShotFeatures shot;
+  bool on_target = false;  ///< observed
+};
+
+/// Which kicks of a log have a prediction that is theirs.
+enum class PredictionSource {
+  kInCharge,   ///< of the predictive policy itself
+  kAndShadows  ///< also kicks of other policies, with what its shadow gave its own kick of the same cycle
+};
+
+/// The predicted kicks of match logs. Matches are told apart by the number that they were played with, or by session
+/// where they have none; the same number in another file is another match.
+/// @throws std::runtime_error as log::Reader does, and for a log of a version that had no predictions.
+std::vector<PredictedKick> predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source);
+
+}  // namespace trivela::evaluator
