@@ -1,72 +1,119 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <memory>
-#include <optional>
-#include <string_view>
 
+#include "cli/compare_csv.hpp"
 #include "cli/counts_argument.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/report/log_kicks.hpp"
+#include "evaluator/report/policy_comparison.hpp"
 
 namespace trivela::cli {
 namespace {
 
-std::optional<std::int64_t> whole_number(std::string_view text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc::result_out_of_range) return text.starts_with('-') ? -1 : kMaxKicks + 1;
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 struct CompareArguments {
+  std::vector<std::string> logs;
+  std::string csv;
   std::vector<std::string> counts;
+  std::string by;
+  std::string stratify;
+  std::string baseline;
+  std::string design;
+  std::string outcome = "observed";
+  double smallest_effect_points = 100.0 * evaluator::stats::kSmallestEffect;
   bool json = false;
 };
 
+evaluator::KickBook read_csv(const CompareArguments& arguments) {
+  const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify};
+  if (arguments.csv == "-") return read_kicks(std::cin, "standard input", options);
+  std::ifstream file(arguments.csv);
+  if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
+  return read_kicks(file, arguments.csv, options);
+}
+
+void check(const CompareArguments& arguments) {
+  const int sources =
+      (arguments.logs.empty() ? 0 : 1) + (arguments.csv.empty() ? 0 : 1) + (arguments.counts.empty() ? 0 : 1);
+  if (sources == 0) throw UsageError("compare needs match logs, --csv KICKS.csv or --counts");
+  if (sources > 1) throw UsageError("compare takes match logs, --csv or --counts, one of the three");
+  if (arguments.smallest_effect_points <= 0.0 || arguments.smallest_effect_points >= 100.0) {
+    throw UsageError(fmt::format("--smallest-effect {}: write percentage points between 0 and 100",
+                                 arguments.smallest_effect_points));
+  }
+  if (arguments.counts.empty()) return;
+  for (const auto& [flag, given] :
+       {std::pair{"--by", &arguments.by}, std::pair{"--stratify", &arguments.stratify},
+        std::pair{"--baseline", &arguments.baseline}, std::pair{"--design", &arguments.design}}) {
+    if (!given->empty()) throw UsageError(fmt::format("--counts has no rows, so {} says nothing", flag));
+  }
+}
+
+evaluator::PolicyComparison compared(const CompareArguments& arguments) {
+  const bool of_csv = !arguments.csv.empty();
+  std::string by = arguments.by.empty() ? "policy" : arguments.by;
+  evaluator::KickBook book =
+      of_csv ? read_csv(arguments)
+             : evaluator::read_log_kicks(
+                   {arguments.logs.begin(), arguments.logs.end()},
+                   {.by = arguments.by, .stratify = arguments.stratify, .truth = arguments.outcome == "truth"}, by);
+  if (!arguments.baseline.empty() && !evaluator::put_first(book, arguments.baseline)) {
+    throw UsageError(
+        fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by, fmt::join(book.groups, ", ")));
+  }
+  if (!arguments.design.empty()) {
+    book.design = *evaluator::design_of(arguments.design);
+    book.design_reason = "as --design says";
+  }
+  return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+}
+
 }  // namespace
 
-evaluator::NamedCounts parse_counts(const std::string& argument) {
-  const auto fail = [&](const std::string& why) -> UsageError {
-    return UsageError(fmt::format("--counts '{}': {}", argument, why));
-  };
-  const std::size_t equals = argument.rfind('=');
-  const std::size_t slash = argument.find('/', equals == std::string::npos ? 0 : equals);
-  if (equals == 0 || equals == std::string::npos || slash == std::string::npos) {
-    throw fail("write NAME=INSIDE/KICKS, such as old=34/65");
-  }
-  const auto inside = whole_number(std::string_view(argument).substr(equals + 1, slash - equals - 1));
-  const auto n = whole_number(std::string_view(argument).substr(slash + 1));
-  if (!inside || !n) throw fail("INSIDE and KICKS must be whole numbers");
-  if (*inside < 0 || *n < 0) throw fail("a count cannot be negative");
-  if (*inside > kMaxKicks || *n > kMaxKicks) throw fail(fmt::format("more than {} kicks", kMaxKicks));
-  if (*n == 0) throw fail("without a kick there is nothing to compare");
-  if (*inside > *n) throw fail(fmt::format("{} inside of only {} kicks", *inside, *n));
-  return {argument.substr(0, equals), {*inside, *n}};
-}
-
-std::pair<evaluator::NamedCounts, evaluator::NamedCounts> parse_two_counts(const std::vector<std::string>& arguments) {
-  if (arguments.size() != 2) {
-    throw UsageError(fmt::format("--counts needs two counts, the older and the newer, but there {} {}",
-                                 arguments.size() == 1 ? "is" : "are", arguments.size()));
-  }
-  auto older = parse_counts(arguments[0]);
-  auto newer = parse_counts(arguments[1]);
-  if (older.name == newer.name) throw UsageError(fmt::format("--counts: both are called '{}'", older.name));
-  return {std::move(older), std::move(newer)};
-}
-
 void add_compare(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("compare", "Compare the efficiency of two policies from their counts");
+  auto* const verb =
+      app.add_subcommand("compare", "Compare policies, height tables, robots or arms: how much, how sure, why");
   const auto arguments = std::make_shared<CompareArguments>();
-  verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132")
-      ->required();
+  verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; their sessions are taken together")
+      ->type_name("DB");
+  verb->add_option("--csv", arguments->csv,
+                   "A table of kicks instead: columns policy, on_target (1, 0, empty: unknown), and if known match, "
+                   "minutes, distance_m, kicked, opportunity and any others")
+      ->type_name("FILE|-");
+  verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132");
+  verb->add_option(
+      "--by", arguments->by,
+      "What is compared: policy, table, robot or arm; of a CSV any column (policy; arm where a log has several)");
+  verb->add_option(
+      "--stratify", arguments->stratify,
+      "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm of "
+      "a log, any column of a CSV");
+  verb->add_option("--baseline", arguments->baseline, "The group that the others are compared with (the first)");
+  verb->add_option("--design", arguments->design, "How the groups came about, where the data do not say it")
+      ->check(CLI::IsMember({"before_after", "alternating", "randomised", "paired"}));
+  verb->add_option("--outcome", arguments->outcome, "observed: as the robots saw it; truth: the simulator's (observed)")
+      ->check(CLI::IsMember({"observed", "truth"}));
+  verb->add_option("--smallest-effect", arguments->smallest_effect_points,
+                   "Smallest difference of interest, in percentage points (5)");
   verb->add_flag("--json", arguments->json, "JSON instead of text");
-  verb->footer("Example, the paper's Table 2: trivela compare --counts old=34/65 new=100/132");
+  verb->footer(
+      "Examples: trivela compare ab.db --outcome truth\n"
+      "          trivela compare --csv kicks.csv --stratify distance\n"
+      "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
   verb->callback([arguments, &exit_code] {
-    const auto [older, newer] = parse_two_counts(arguments->counts);
-    const auto comparison = evaluator::compare(older, newer);
-    fmt::print("{}", arguments->json ? evaluator::to_json(comparison) : evaluator::to_text(comparison));
+    check(*arguments);
+    if (!arguments->counts.empty()) {
+      const auto [older, newer] = parse_two_counts(arguments->counts);
+      const auto comparison = evaluator::compare(older, newer, 0.01 * arguments->smallest_effect_points);
+      fmt::print("{}", arguments->json ? evaluator::to_json(comparison) : evaluator::to_text(comparison));
+    } else {
+      const auto comparison = compared(*arguments);
+      fmt::print("{}", arguments->json ? evaluator::to_json(comparison) : evaluator::to_text(comparison));
+    }
     exit_code = kDone;
   });
 }

@@ -85,14 +85,7 @@ void check_header(const RowVerb& verb, const std::vector<std::string>& header, c
 
 std::vector<Value> compute_record(const RowVerb& verb, const std::vector<std::string>& header,
                                   const CsvRecord& record) {
-  if (record.cells.size() < header.size()) {
-    throw CellError(header[record.cells.size()], "",
-                    fmt::format("is missing: {} cells under {} columns", record.cells.size(), header.size()));
-  }
-  if (record.cells.size() > header.size()) {
-    throw CellError(fmt::format("{}", header.size() + 1), record.cells[header.size()],
-                    fmt::format("is too much: {} cells under {} columns", record.cells.size(), header.size()));
-  }
+  check_width(header, record);
   return verb.compute(Row(header, record.cells));
 }
 
@@ -101,6 +94,23 @@ std::vector<Value> compute_record(const RowVerb& verb, const std::vector<std::st
 CellError::CellError(std::string_view column_name, const std::string& text, const std::string& reason)
     : std::runtime_error(text.empty() ? fmt::format("column {}: {}", column_name, reason)
                                       : fmt::format("column {}: '{}' {}", column_name, text, reason)) {}
+
+std::vector<std::string> trimmed(const std::vector<std::string>& cells) {
+  std::vector<std::string> result;
+  std::ranges::transform(cells, std::back_inserter(result), [](const std::string& cell) { return trimmed(cell); });
+  return result;
+}
+
+void check_width(const std::vector<std::string>& header, const CsvRecord& record) {
+  if (record.cells.size() < header.size()) {
+    throw CellError(header[record.cells.size()], "",
+                    fmt::format("is missing: {} cells under {} columns", record.cells.size(), header.size()));
+  }
+  if (record.cells.size() > header.size()) {
+    throw CellError(fmt::format("{}", header.size() + 1), record.cells[header.size()],
+                    fmt::format("is too much: {} cells under {} columns", record.cells.size(), header.size()));
+  }
+}
 
 bool Row::has(std::string_view column) const {
   return std::find(header_.begin(), header_.end(), column) != header_.end();
@@ -152,8 +162,7 @@ ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file
   CsvReader reader(in);
   const auto head = reader.next();
   if (!head) throw std::runtime_error(file + ": no header line");
-  std::vector<std::string> header;
-  std::transform(head->cells.begin(), head->cells.end(), std::back_inserter(header), trimmed);
+  const std::vector<std::string> header = trimmed(head->cells);
   check_header(verb, header, file);
   const auto results =
       verb.results([&](std::string_view column) { return std::count(header.begin(), header.end(), column) > 0; });

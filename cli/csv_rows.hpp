@@ -62,6 +62,12 @@ class Row {
   const std::vector<std::string>& cells_;
 };
 
+/// Each cell without blanks around it.
+std::vector<std::string> trimmed(const std::vector<std::string>& cells);
+
+/// A record must have as many cells as the header. @throws CellError
+void check_width(const std::vector<std::string>& header, const CsvRecord& record);
+
 /// A verb that works row by row: its input columns, the result columns for what the header has, the computation.
 struct RowVerb {
   std::vector<Column> inputs;

@@ -1,9 +1,11 @@
 #include "evaluator/report/comparison.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/exact.hpp"
+#include "evaluator/stats/sample_size.hpp"
 
 namespace trivela::evaluator {
 
@@ -11,22 +13,58 @@ bool Comparison::is_table2() const {
   return older.counts.inside == 34 && older.counts.n == 65 && newer.counts.inside == 100 && newer.counts.n == 132;
 }
 
-Comparison compare(const NamedCounts& older, const NamedCounts& newer) {
+const char* label(stats::Verdict verdict) {
+  switch (verdict) {
+    case stats::Verdict::kBetter:
+      return "better";
+    case stats::Verdict::kBetterMaybeTooSmall:
+      return "better, maybe too small";
+    case stats::Verdict::kEquivalent:
+      return "equivalent";
+    case stats::Verdict::kWorse:
+      return "worse";
+    case stats::Verdict::kNotEnoughData:
+      return "not enough data";
+  }
+  return "";
+}
+
+Comparison compare(const NamedCounts& older, const NamedCounts& newer, double smallest_effect) {
   assert(older.counts.n > 0 && newer.counts.n > 0);
   const auto& k1 = older.counts;
   const auto& k2 = newer.counts;
-  return {.older = older,
-          .newer = newer,
-          .difference = *stats::efficiency(k2) - *stats::efficiency(k1),
-          .newcombe95 = stats::newcombe(k1, k2),
-          .relative_gain = stats::relative_gain(k1, k2),
-          .risk_ratio = stats::risk_ratio(k1, k2),
-          .odds_ratio = stats::odds_ratio(k1, k2),
-          .fisher_one_sided_p = stats::fisher_one_sided(k1, k2),
-          .fisher_two_sided_p = stats::fisher_two_sided(k1, k2),
-          .boschloo_one_sided_p = stats::boschloo_one_sided(k1, k2),
-          .boschloo_two_sided_p = stats::boschloo_two_sided_doubled(k1, k2),
-          .p_new_better = stats::p_new_better(k1, k2)};
+  const double p1 = *stats::efficiency(k1), p2 = *stats::efficiency(k2);
+  Comparison result;
+  result.older = older;
+  result.newer = newer;
+  result.difference = p2 - p1;
+  result.newcombe95 = stats::newcombe(k1, k2);
+  result.relative_gain = stats::relative_gain(k1, k2);
+  result.risk_ratio = stats::risk_ratio(k1, k2);
+  result.odds_ratio = stats::odds_ratio(k1, k2);
+  result.fisher_one_sided_p = stats::fisher_one_sided(k1, k2);
+  result.fisher_two_sided_p = stats::fisher_two_sided(k1, k2);
+  result.boschloo_one_sided_p = stats::boschloo_one_sided(k1, k2);
+  result.boschloo_two_sided_p = stats::boschloo_two_sided_doubled(k1, k2);
+  result.p_new_better = stats::p_new_better(k1, k2);
+  result.posterior = stats::posterior_difference(k1, k2);
+  result.smallest_effect = smallest_effect;
+  result.p_gain_above_smallest = stats::p_new_better(k1, k2, smallest_effect);
+  result.expected_loss_of_newer = stats::expected_loss_of_newer(k1, k2);
+  if (std::min({k1.inside, k1.n - k1.inside, k2.inside, k2.n - k2.inside}) < 10) {
+    result.agresti_caffo95 = stats::agresti_caffo(k1, k2);
+  }
+  result.fragility = stats::fragility(k1, k2);
+  if (result.risk_ratio) {
+    const stats::Interval& ci = result.risk_ratio->ci;
+    result.e_value = stats::e_value(result.risk_ratio->value);
+    result.e_value_ci = ci.lo > 1.0 ? stats::e_value(ci.lo) : ci.hi < 1.0 ? stats::e_value(ci.hi) : 1.0;
+  }
+  result.verdict = stats::verdict(result.newcombe95, smallest_effect);
+  const double other = p1 + smallest_effect <= 1.0 ? p1 + smallest_effect : p1 - smallest_effect;
+  result.needed_for_smallest = stats::kicks_per_policy(p1, other).value_or(0.0);
+  result.needed_for_seen = stats::kicks_per_policy(p1, p2);
+  return result;
 }
 
 std::vector<std::string> notes(const Comparison& comparison) {

@@ -1,4 +1,5 @@
 #include "evaluator/report/comparison.hpp"
+#include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::evaluator {
@@ -19,7 +20,7 @@ void add_ratio(Json& json, const std::string& key, const std::optional<stats::Ra
 
 }  // namespace
 
-std::string to_json(const Comparison& c) {
+Json counts_json(const Comparison& c) {
   Json json = {{"old", group_json(c.older)},
                {"new", group_json(c.newer)},
                {"difference", c.difference},
@@ -35,8 +36,22 @@ std::string to_json(const Comparison& c) {
                                   {"boschloo", "twice the smaller one-sided p, at most 1"}};
   json["p_new_better"] = c.p_new_better;
   json["prior"] = "uniform, Beta(1, 1), for both";
+  json["posterior_median"] = c.posterior.median;
+  json["posterior_ci95"] = json_of(c.posterior.central);
+  json["smallest_effect"] = c.smallest_effect;
+  json["p_gain_above_smallest"] = c.p_gain_above_smallest;
+  json["expected_loss_of_new"] = c.expected_loss_of_newer;
+  json["agresti_caffo95"] = c.agresti_caffo95 ? json_of(*c.agresti_caffo95) : Json();
+  json["fragility"] = c.fragility ? Json{{"old", c.fragility->older}, {"new", c.fragility->newer}} : Json();
+  json["e_value"] = json_of(c.e_value);
+  json["e_value_ci"] = json_of(c.e_value_ci);
+  json["verdict"] = label(c.verdict);
+  json["needed_kicks_for_smallest"] = c.needed_for_smallest;
+  json["needed_kicks_for_seen"] = json_of(c.needed_for_seen);
   json["notes"] = notes(c);
-  return json.dump(2) + "\n";
+  return json;
 }
+
+std::string to_json(const Comparison& c) { return counts_json(c).dump(2) + "\n"; }
 
 }  // namespace trivela::evaluator

@@ -16,6 +16,10 @@ double t_of(double confidence, double df) {
 
 double two_sided_p(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
+double student_p(double t, double df) {
+  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::students_t(df), std::abs(t)));
+}
+
 double chi_square_p(double statistic, double df) {
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(df), std::max(statistic, 0.0)));
 }

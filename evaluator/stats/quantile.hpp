@@ -13,6 +13,9 @@ double t_of(double confidence, double df);
 /// 2 (1 - Phi(|z|)).
 double two_sided_p(double z);
 
+/// The same of Student's distribution.
+double student_p(double t, double df);
+
 /// P(X > statistic) of the chi-square distribution with `df` > 0 degrees of freedom.
 double chi_square_p(double statistic, double df);
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <istream>
+#include <string>
+
+#include "evaluator/report/kick_book.hpp"
+
+namespace trivela::cli {
+
+/// What to make of a table of kicks.
+struct CsvComparison {
+  std::string by = "policy";  ///< column with the groups
+  std::string stratify;       ///< column with the situations; "distance" for bins of distance_m; empty: none
+};
+
+/// Reads a table of kicks, or of opportunities: columns `policy` (or the one of `by`) and `on_target` (1, 0; empty:
+/// unknown), and if wanted `kicked` (0: an opportunity without a kick), `match`, `opportunity`, `minutes` (of play of
+/// that group in that match, the same in each of its rows), `distance_m`. Throws std::runtime_error naming file, line,
+/// column and value.
+evaluator::KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparison& options);
+
+}  // namespace trivela::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "evaluator/report/comparison.hpp"
+#include "evaluator/report/json_values.hpp"
+
+namespace trivela::evaluator {
+
+/// The numbers of a comparison of counts, a line each, indented by two blanks.
+std::string counts_lines(const Comparison& comparison);
+
+/// The same as JSON; the keys are those of to_json().
+Json counts_json(const Comparison& comparison);
+
+/// A line with a name in a column of its own.
+std::string named_line(const std::string& name, const std::string& value);
+
+/// "0.00118"; tiny ones "below 1e-280".
+std::string p_value(double p);
+
+/// "+23.4 percentage points".
+std::string points(double difference);
+
+/// "+9.3 to +37.0".
+std::string points(stats::Interval interval);
+
+/// "- " and the sentence, broken before 110 columns; further lines are indented.
+std::string bullet(const std::string& sentence);
+
+/// Breaks a sentence before `width` columns; further lines begin with `indent`.
+std::string wrapped(const std::string& sentence, const std::string& indent, std::size_t width = 110);
+
+}  // namespace trivela::evaluator

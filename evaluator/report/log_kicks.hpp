@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "evaluator/report/kick_book.hpp"
+#include "evaluator/report/log_opportunities.hpp"
+
+namespace trivela::evaluator {
+
+/// How to read logs for a comparison.
+struct LogKicks {
+  std::string by;  ///< "policy", "table", "robot" or "arm"; empty: arm where the logs have several, else policy
+  std::string
+      stratify;        ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
+  bool truth = false;  ///< outcomes by the simulator's truth; otherwise as observed
+};
+
+/// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value
+/// where a log cannot be read, or has not what is asked for.
+KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
+
+}  // namespace trivela::evaluator

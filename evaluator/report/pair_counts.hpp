@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "evaluator/report/kick_book.hpp"
+#include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/paired.hpp"
+
+namespace trivela::evaluator {
+
+/// Adds an ending that is not kUnknown: a trial, and a success if it was inside.
+inline void add(stats::Counts& sum, Ending ending) {
+  sum.inside += ending == Ending::kInside ? 1 : 0;
+  sum.n += 1;
+}
+inline void add(stats::Counts& sum, stats::Counts counts) {
+  sum.inside += counts.inside;
+  sum.n += counts.n;
+}
+
+/// Counts of two groups by match and stratum, of opportunities or of kicks; unknown outcomes are left out.
+std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t older, std::uint32_t newer,
+                                         bool of_opportunities);
+
+/// Opportunities that two groups both had.
+struct PairedOpportunities {
+  stats::PairedCounts counts;
+  std::vector<stats::MatchCounts> cells;  ///< the same by match
+  std::int64_t unpaired = 0;              ///< without a partner, or with an unknown outcome on either side
+};
+PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t older, std::uint32_t newer);
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,250 @@
+#include "evaluator/report/policy_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "evaluator/report/pair_counts.hpp"
+#include "evaluator/stats/exact.hpp"
+#include "evaluator/stats/robustness.hpp"
+#include "evaluator/stats/sample_ratio.hpp"
+#include "evaluator/stats/sample_size.hpp"
+#include "evaluator/stats/several_tests.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+double square(double x) { return x * x; }
+
+double p_of(const stats::Clustered& clustered) {
+  if (clustered.standard_error == 0.0) return clustered.value == 0.0 ? 1.0 : 0.0;
+  return stats::student_p(clustered.value / clustered.standard_error, clustered.df);
+}
+
+GroupResult group_result(const KickBook& book, std::uint32_t group) {
+  GroupResult result;
+  result.name = book.groups[group];
+  std::vector<stats::Counts> kicks(book.matches), opportunities(book.matches);
+  for (const Opportunity& o : book.opportunities) {
+    if (o.group != group) continue;
+    result.opportunities += book.has_opportunities ? 1 : 0;
+    result.inside += o.ending == Ending::kInside ? 1 : 0;
+    result.outside += o.ending == Ending::kOutside ? 1 : 0;
+    result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
+    if (!book.has_matches || o.ending == Ending::kUnknown) continue;
+    add(opportunities[o.match], o.ending);
+    if (o.ending != Ending::kNoKick) add(kicks[o.match], o.ending);
+  }
+  result.matches = static_cast<std::size_t>(std::ranges::count_if(opportunities, [](auto& c) { return c.n > 0; }));
+  const auto by_match = stats::clustered_wilson(kicks);
+  result.efficiency_ci = by_match.value_or(stats::wilson(result.efficiency()));
+  result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(stats::wilson(result.per_opportunity()));
+  result.by_match = by_match.has_value();
+  for (const auto& [key, minutes] : book.minutes) {
+    if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
+  }
+  if (result.unknown > 0) {
+    result.efficiency_bounds = {*stats::efficiency({result.inside, result.kicks()}),
+                                *stats::efficiency({result.inside + result.unknown, result.kicks()})};
+  }
+  return result;
+}
+
+// The crude difference: over all strata together.
+std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_matches) {
+  Effect result;
+  for (stats::MatchCounts& cell : cells) {
+    add(result.older, cell.older);
+    add(result.newer, cell.newer);
+    cell.stratum = 0;
+  }
+  if (result.older.n == 0 || result.newer.n == 0) return std::nullopt;
+  result.difference = *stats::efficiency(result.newer) - *stats::efficiency(result.older);
+  result.independent = stats::newcombe(result.older, result.newer);
+  if (has_matches) result.clustered = stats::clustered_difference(cells);
+  return result;
+}
+
+Stratified stratified(const KickBook& book, const std::vector<stats::MatchCounts>& cells, bool of_opportunities) {
+  Stratified result;
+  result.column = book.stratified_by;
+  result.of_opportunities = of_opportunities;
+  std::vector<stats::Stratum> all(book.strata.size() + 1);
+  std::vector<stats::MatchCounts> known;
+  stats::Stratum crude;
+  for (const stats::MatchCounts& cell : cells) {
+    add(all[cell.stratum].older, cell.older);
+    add(all[cell.stratum].newer, cell.newer);
+    add(crude.older, cell.older);
+    add(crude.newer, cell.newer);
+    if (cell.stratum < book.strata.size()) known.push_back(cell);
+  }
+  const double crude_sign =
+      crude.older.n > 0 && crude.newer.n > 0 ? *stats::efficiency(crude.newer) - *stats::efficiency(crude.older) : 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool both = all[i].older.n > 0 && all[i].newer.n > 0;
+    if (i == book.strata.size() || !both) result.left_out += all[i].older.n + all[i].newer.n;
+    if (i == book.strata.size() || all[i].older.n + all[i].newer.n == 0) continue;
+    const double sign = both ? *stats::efficiency(all[i].newer) - *stats::efficiency(all[i].older) : 0.0;
+    result.strata.push_back({book.strata[i], all[i], sign * crude_sign < 0.0});
+  }
+  all.pop_back();
+  result.odds_ratio = stats::mantel_haenszel_odds_ratio(all);
+  result.cmh = stats::cochran_mantel_haenszel(all);
+  result.cmh_corrected = stats::cochran_mantel_haenszel(all, true);
+  result.risk_difference = stats::mantel_haenszel_risk_difference(all);
+  result.standardised = stats::standardised(all);
+  if (book.has_matches) result.clustered = stats::clustered_difference(known);
+  result.homogeneity = stats::breslow_day(all);
+  result.simpson = result.standardised && crude_sign * result.standardised->difference.value < 0.0;
+  return result;
+}
+
+// Kicks of each policy for a difference of this size, by the ratio of the variance seen to that of independent kicks.
+std::optional<double> needed(const Effect& effect, double standard_error, double difference) {
+  const double p1 = *stats::efficiency(effect.older), p2 = *stats::efficiency(effect.newer);
+  const double independent =
+      p1 * (1.0 - p1) / static_cast<double>(effect.older.n) + p2 * (1.0 - p2) / static_cast<double>(effect.newer.n);
+  const double other = p1 + difference <= 1.0 && p1 + difference >= 0.0 ? p1 + difference : p1 - difference;
+  const auto kicks = stats::kicks_per_policy(p1, std::clamp(other, 0.0, 1.0));
+  if (!kicks) return std::nullopt;
+  return *kicks * (independent > 0.0 && standard_error > 0.0 ? square(standard_error) / independent : 1.0);
+}
+
+Headline headline(const PairResult& pair, double smallest_effect) {
+  Headline result;
+  result.of_opportunities = pair.per_opportunity.has_value();
+  const Effect& crude = result.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
+  result.adjusted = pair.stratified && pair.stratified->standardised && !pair.pairs &&
+                    pair.stratified->of_opportunities == result.of_opportunities;
+  const auto& clustered = result.adjusted ? pair.stratified->clustered : crude.clustered;
+  result.by_match = clustered.has_value();
+  double standard_error = 0.0;
+  if (clustered) {
+    result.difference = clustered->value;
+    result.ci = clustered->ci;
+    standard_error = clustered->standard_error;
+    result.p = p_of(*clustered);
+    result.method = pair.pairs        ? "paired, clustered by match"
+                    : result.adjusted ? "standardised, clustered by match"
+                                      : "clustered by match";
+    result.p_method = "Student's t of the difference over matches";
+  } else if (result.adjusted) {
+    result.difference = pair.stratified->standardised->difference.value;
+    result.ci = pair.stratified->standardised->difference.ci;
+    result.p = pair.stratified->cmh ? pair.stratified->cmh->p : 1.0;
+    result.method = "standardised, MOVER of Wilson intervals";
+    result.p_method = "Cochran-Mantel-Haenszel";
+  } else {
+    result.difference = crude.difference;
+    result.ci = crude.independent;
+    if (pair.pairs) {
+      result.p = pair.mcnemar_p;
+      result.method = "Newcombe's for pairs";
+      result.p_method = "McNemar, exact";
+    } else {
+      const auto boschloo = stats::boschloo_two_sided_doubled(crude.older, crude.newer);
+      result.p = boschloo ? *boschloo : stats::fisher_two_sided(crude.older, crude.newer);
+      result.method = "Newcombe's";
+      result.p_method = boschloo ? "Boschloo, twice the smaller one-sided p" : "Fisher";
+    }
+  }
+  if (!clustered) standard_error = 0.5 * (result.ci.hi - result.ci.lo) / stats::z_of(stats::kConfidence);
+  result.p_holm = result.p;
+  result.verdict = stats::verdict(result.ci, smallest_effect);
+  result.needed_for_smallest = needed(crude, standard_error, smallest_effect).value_or(0.0);
+  result.needed_for_seen = needed(crude, standard_error, result.difference);
+  return result;
+}
+
+std::optional<stats::RateRatio> rate(const GroupResult& older, const GroupResult& newer, bool inside_only) {
+  if (!older.minutes || !newer.minutes || *older.minutes <= 0.0 || *newer.minutes <= 0.0) return std::nullopt;
+  const auto events = [&](const GroupResult& group) { return inside_only ? group.inside : group.kicks(); };
+  return stats::rate_ratio({events(older), *older.minutes}, {events(newer), *newer.minutes});
+}
+
+PairResult pair_result(const KickBook& book, const GroupResult& older, const GroupResult& newer, std::uint32_t place,
+                       double smallest_effect) {
+  PairResult pair;
+  pair.older = older.name;
+  pair.newer = newer.name;
+  pair.design = book.design;
+  if (book.design == Design::kPaired) {
+    const auto played = paired_opportunities(book, 0, place);
+    if (played.counts.n() > 0) {
+      pair.pairs = played.counts;
+      pair.unpaired = played.unpaired;
+      pair.mcnemar_p = stats::mcnemar_two_sided(played.counts);
+      pair.per_opportunity = effect(played.cells, book.has_matches);
+      pair.per_opportunity->independent = stats::paired_newcombe(played.counts);
+    } else {
+      pair.design = Design::kBeforeAfter;
+    }
+  }
+  const auto kicks = cells_of(book, 0, place, false);
+  pair.efficiency = effect(kicks, book.has_matches);
+  if (book.has_opportunities && !pair.pairs) {
+    pair.per_opportunity = effect(cells_of(book, 0, place, true), book.has_matches);
+  }
+  if (pair.efficiency)
+    pair.kicks = compare({older.name, older.efficiency()}, {newer.name, newer.efficiency()}, smallest_effect);
+  if (!book.strata.empty()) {
+    const bool of_opportunities = book.has_opportunities && !book.strata_of_kicks;
+    pair.stratified = stratified(book, of_opportunities ? cells_of(book, 0, place, true) : kicks, of_opportunities);
+  }
+  pair.on_target_rate = rate(older, newer, true);
+  pair.kick_rate = rate(older, newer, false);
+  pair.unknown = older.unknown + newer.unknown;
+  if (!pair.efficiency && !pair.per_opportunity) {
+    const GroupResult& empty = older.efficiency().n == 0 ? older : newer;
+    pair.why_none = fmt::format("{} has no kick whose outcome is known, so there is nothing to compare", empty.name);
+    return pair;
+  }
+  const auto known = [&](const GroupResult& g) { return pair.per_opportunity ? g.per_opportunity() : g.efficiency(); };
+  pair.bounds = stats::difference_bounds(known(older), older.unknown, known(newer), newer.unknown);
+  pair.headline = headline(pair, smallest_effect);
+  return pair;
+}
+
+}  // namespace
+
+PolicyComparison compare_policies(KickBook book, const std::string& by, double smallest_effect) {
+  PolicyComparison result;
+  result.by = by;
+  result.smallest_effect = smallest_effect;
+  std::int64_t kicks = 0;
+  for (std::uint32_t group = 0; group < book.groups.size(); ++group) {
+    result.groups.push_back(group_result(book, group));
+    kicks += result.groups.back().kicks();
+  }
+  if (book.opportunities.empty()) throw std::runtime_error("there are no kicks, so there is nothing to compare");
+  if (book.groups.size() < 2) {
+    throw std::runtime_error(fmt::format("the only {} is '{}': a comparison needs two", by, book.groups.front()));
+  }
+  if (kicks == 0) {
+    throw std::runtime_error(fmt::format("there are {} opportunities but no kick, so there is nothing to compare",
+                                         book.opportunities.size()));
+  }
+  std::vector<double> p_values;
+  for (std::uint32_t place = 1; place < book.groups.size(); ++place) {
+    result.pairs.push_back(pair_result(book, result.groups[0], result.groups[place], place, smallest_effect));
+    if (result.pairs.back().headline) p_values.push_back(result.pairs.back().headline->p);
+  }
+  const auto adjusted = stats::holm(p_values);
+  std::size_t next = 0;
+  for (PairResult& pair : result.pairs) {
+    if (pair.headline) pair.headline->p_holm = adjusted[next++];
+  }
+  if (book.planned_shares.size() == book.groups.size()) {
+    std::vector<std::int64_t> counts(book.groups.size());
+    for (const Opportunity& o : book.opportunities) ++counts[o.group];
+    result.sample_ratio_p = stats::sample_ratio_p(counts, book.planned_shares);
+  }
+  book.opportunities.clear();
+  result.book = std::move(book);
+  return result;
+}
+
+}  // namespace trivela::evaluator

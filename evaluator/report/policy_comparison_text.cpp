@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "evaluator/report/comparison_lines.hpp"
+#include "evaluator/report/policy_comparison.hpp"
+#include "evaluator/report/text_table.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using Table = std::vector<std::vector<std::string>>;
+
+std::string number(std::int64_t n) { return std::to_string(n); }
+
+std::string interval(stats::Interval ci) { return fmt::format("{} to {}", percent(ci.lo), percent(ci.hi)); }
+
+std::string share(stats::Counts counts) {
+  const auto p = stats::efficiency(counts);
+  return p ? percent(*p) : "-";
+}
+
+std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n > 0 ? interval(ci) : "-"; }
+
+std::string groups_table(const PolicyComparison& c) {
+  Table table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};
+  for (const GroupResult& g : c.groups) {
+    table.push_back({g.name, number(g.inside), number(g.outside), number(g.unknown), share(g.efficiency()),
+                     share_ci(g.efficiency(), g.efficiency_ci),
+                     g.matches > 0 ? number(static_cast<std::int64_t>(g.matches)) : "-"});
+  }
+  std::string text = "\nEfficiency\n" + text_table(table);
+  text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
+                                    : "  95 %: Wilson's, kicks taken as independent\n";
+  return text;
+}
+
+std::string volume_table(const PolicyComparison& c) {
+  bool minutes = false;
+  for (const GroupResult& g : c.groups) minutes = minutes || g.minutes;
+  if (!c.book.has_opportunities && !minutes) {
+    return "\nVolume\n  neither opportunities nor minutes of play are known: how often each kicked cannot be said\n";
+  }
+  Table table = {{c.by, "opportunities", "kicks", "kicks an opp.", "on target an opp.", "95 %", "minutes",
+                  "kicks a min.", "on target a min."}};
+  for (const GroupResult& g : c.groups) {
+    const auto per_minute = [&](std::int64_t n) {
+      return g.minutes && *g.minutes > 0.0 ? fmt::format("{:.3f}", static_cast<double>(n) / *g.minutes) : "-";
+    };
+    table.push_back({g.name, g.opportunities > 0 ? number(g.opportunities) : "-", number(g.kicks()),
+                     g.opportunities > 0
+                         ? fmt::format("{:.3f}", static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities))
+                         : "-",
+                     share(g.per_opportunity()), share_ci(g.per_opportunity(), g.per_opportunity_ci),
+                     g.minutes ? fmt::format("{:.1f}", *g.minutes) : "-", per_minute(g.kicks()), per_minute(g.inside)});
+  }
+  return "\nVolume\n" + text_table(table);
+}
+
+std::string effect_lines(const std::string& name, const Effect& effect, const char* independent) {
+  std::string text = named_line(
+      name, fmt::format("{}, 95 % {} ({})", points(effect.difference), points(effect.independent), independent));
+  if (effect.clustered) {
+    text += named_line("", fmt::format("95 % {} (clustered by match: {} and {} matches, design effect {:.2f})",
+                                       points(effect.clustered->ci), effect.clustered->older_matches,
+                                       effect.clustered->newer_matches, effect.clustered->design_effect));
+  }
+  return text;
+}
+
+std::string rate_line(const std::string& name, const std::optional<stats::RateRatio>& ratio) {
+  if (!ratio) return "";
+  return named_line(name, fmt::format("{:.3f} times, 95 % {:.3f} to {:.3f}, p {} (Poisson, exact)", ratio->value,
+                                      ratio->ci.lo, ratio->ci.hi, p_value(ratio->p)));
+}
+
+std::string strata_text(const PairResult& pair, const Stratified& s) {
+  Table table = {{s.column, pair.older, "", pair.newer, "", "difference"}};
+  for (const StratumResult& row : s.strata) {
+    const stats::Counts older = row.counts.older, newer = row.counts.newer;
+    const bool both = older.n > 0 && newer.n > 0;
+    table.push_back({row.name, fmt::format("{} of {}", older.inside, older.n), share(older),
+                     fmt::format("{} of {}", newer.inside, newer.n), share(newer),
+                     both ? fmt::format("{:+.1f}{}", 100.0 * (*stats::efficiency(newer) - *stats::efficiency(older)),
+                                        row.reversed ? " (other sign)" : "")
+                          : "-"});
+  }
+  std::string text =
+      fmt::format("\nBy {} ({})\n", s.column, s.of_opportunities ? "inside of opportunities" : "inside of kicks") +
+      text_table(table);
+  if (s.left_out > 0) {
+    text += fmt::format("  {} {} left out below: of situations that one side alone had, or unknown\n", s.left_out,
+                        s.of_opportunities ? "opportunities" : "kicks");
+  }
+  if (s.standardised) {
+    text += named_line("standardised",
+                       fmt::format("{} {}, {} {}: {}, 95 % {} (MOVER)", pair.older, percent(s.standardised->older),
+                                   pair.newer, percent(s.standardised->newer), points(s.standardised->difference.value),
+                                   points(s.standardised->difference.ci)));
+  }
+  if (s.clustered) text += named_line("", fmt::format("95 % {} (clustered by match)", points(s.clustered->ci)));
+  if (s.odds_ratio) {
+    text += named_line("common odds ratio",
+                       fmt::format("{:.3f}, 95 % {:.3f} to {:.3f} (Mantel-Haenszel; Robins, Breslow, Greenland)",
+                                   s.odds_ratio->value, s.odds_ratio->ci.lo, s.odds_ratio->ci.hi));
+  }
+  if (s.cmh && s.cmh_corrected) {
+    text += named_line("no difference at all", fmt::format("p {} (Cochran-Mantel-Haenszel; {} with Yates' correction)",
+                                                           p_value(s.cmh->p), p_value(s.cmh_corrected->p)));
+  }
+  if (s.risk_difference) {
+    text +=
+        named_line("common difference", fmt::format("{}, 95 % {} (Mantel-Haenszel; Sato)",
+                                                    points(s.risk_difference->value), points(s.risk_difference->ci)));
+  }
+  if (s.homogeneity) {
+    text += named_line(
+        "same odds ratio",
+        fmt::format("p {} (Breslow-Day){}", p_value(s.homogeneity->p),
+                    s.homogeneity->p < 0.05 ? ": the policies differ more in some situations than in others" : ""));
+  }
+  if (s.simpson) {
+    text +=
+        bullet(fmt::format("Simpson's paradox: over all kicks one is better, on the same mix of {} the other; the mix "
+                           "of situations makes the crude numbers.",
+                           s.column));
+  }
+  return text;
+}
+
+std::string pairs_lines(const PairResult& pair) {
+  if (!pair.pairs) return "";
+  const auto& p = *pair.pairs;
+  std::string text = named_line(
+      "same opportunities", fmt::format("{}: on target both {}, {} alone {}, {} alone {}, neither {}", p.n(), p.both,
+                                        pair.newer, p.newer_only, pair.older, p.older_only, p.neither));
+  text += named_line("McNemar p", p_value(pair.mcnemar_p) + " (exact, two-sided)");
+  if (pair.unpaired > 0)
+    text += named_line("without partner", fmt::format("{} opportunities, left out", pair.unpaired));
+  return text;
+}
+
+std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
+  std::string text = fmt::format("\n{} against {}\n", pair.newer, pair.older);
+  if (!pair.headline) return text + bullet(pair.why_none + ".");
+  if (pair.per_opportunity) {
+    text += effect_lines("on target an opp.", *pair.per_opportunity, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+  }
+  text += pairs_lines(pair);
+  if (pair.efficiency) text += effect_lines("efficiency", *pair.efficiency, "Newcombe, kicks independent");
+  text += rate_line("on target a minute", pair.on_target_rate);
+  text += rate_line("kicks a minute", pair.kick_rate);
+  if (pair.stratified) text += strata_text(pair, *pair.stratified);
+  if (pair.kicks) {
+    text += fmt::format("\n{} against {}: efficiency, every kick taken as independent\n", pair.newer, pair.older);
+    text += counts_lines(*pair.kicks);
+    if (pair.design == Design::kBeforeAfter && pair.kicks->e_value && pair.kicks->e_value_ci) {
+      text += named_line(
+          "E-value",
+          fmt::format("{:.2f} ({:.2f} for the interval): so strongly would something unrecorded have to go with both",
+                      *pair.kicks->e_value, *pair.kicks->e_value_ci));
+    }
+  }
+  if (pair.unknown > 0) {
+    text +=
+        bullet(fmt::format("{} outcomes are unknown. If all of them went against {}, the crude difference would be "
+                           "{:+.1f} points, if all for it {:+.1f}.",
+                           pair.unknown, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+  }
+  if (!pair.headline->by_match) {
+    text += bullet(c.book.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
+                                        "one match are, and the intervals take kicks as independent."
+                                      : "Which kick belongs to which match is not known: the intervals take kicks as "
+                                        "independent, so the truth is less certain.");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const PolicyComparison& c) {
+  std::string text;
+  if (c.book.simulated)
+    text += "SIMULATED: the numbers describe the simulation's assumptions, not robots on a field.\n";
+  for (const PairResult& pair : c.pairs) {
+    text += wrapped(verdict_sentence(pair, c), "  ") + "\n";
+    const std::string more = needed_sentence(pair, c);
+    if (!more.empty()) text += "  " + wrapped(more, "  ", 108) + "\n";
+    if (c.pairs.size() > 1 && pair.headline) {
+      text += fmt::format("  p {} after Holm's adjustment for {} comparisons\n", p_value(pair.headline->p_holm),
+                          c.pairs.size());
+    }
+  }
+  text += "\nDesign: " + wrapped(design_sentence(c.pairs.front(), c), "  ", 100) + ".\n";
+  text += fmt::format("Outcomes: {}.\n",
+                      c.book.outcome == "truth" ? "the simulator's truth" : "as the robots observed them");
+  if (c.sample_ratio_p) {
+    text += fmt::format("Shares as planned: p {}{}\n", p_value(*c.sample_ratio_p),
+                        *c.sample_ratio_p < 0.001
+                            ? ". The assignment did not go as planned: trust nothing below before that is explained."
+                            : "");
+  }
+  text += groups_table(c) + volume_table(c);
+  for (const PairResult& pair : c.pairs) text += pair_text(pair, c);
+  if (!c.book.remarks.empty()) text += "\nData\n";
+  for (const std::string& remark : c.book.remarks) text += bullet(remark);
+  text += "\n  inside: between the posts and below the bar, saves included; it is not goals scored\n";
+  return text;
+}
+
+}  // namespace trivela::evaluator
