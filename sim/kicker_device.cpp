@@ -8,7 +8,8 @@
 
 namespace trivela::sim {
 
-void KickerDevice::reset() {
+void KickerDevice::reset(double speed_scale_ratio) {
+  values_.speed_scale_ratio = speed_scale_ratio;
   charge_ = 1.0;
   order_.reset();
   stroke_.reset();

@@ -27,8 +27,8 @@ class KickerDevice {
  public:
   explicit KickerDevice(const Kicker& values) : values_(values) {}
 
-  /// A full capacitor and no kick under way.
-  void reset();
+  /// A full capacitor, no kick under way, and the table's speeds times `speed_scale_ratio`.
+  void reset(double speed_scale_ratio);
 
   double charge() const { return charge_; }
   const std::optional<Stroke>& stroke() const { return stroke_; }

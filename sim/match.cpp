@@ -13,6 +13,7 @@
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
 #include "sim/sensor_suite.hpp"
+#include "sim/team.hpp"
 #include "sim/world.hpp"
 
 namespace trivela::sim {
@@ -23,6 +24,11 @@ enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
+
+/// The first nanosecond that lies `wait_s` or more after `start_t_ns`.
+std::int64_t instant_after(std::int64_t start_t_ns, double wait_s) {
+  return wait_s < 1e6 ? start_t_ns + static_cast<std::int64_t>(std::ceil(wait_s * 1e9)) : kNever;
+}
 
 const Scenario& playable(const Scenario& scenario) {
   if (const auto problem = first_problem(scenario)) {
@@ -51,6 +57,8 @@ struct Match::State {
     if (!(half_minutes > 0.0 && half_minutes <= 1e6)) {
       throw std::runtime_error{fmt::format("half_minutes: {} is outside 0..1e6", half_minutes)};
     }
+    for (std::uint32_t robot = 1; robot <= static_cast<std::uint32_t>(scenario.team.robots); ++robot)
+      kickers.push_back(match_kicker(scenario, robot, seed));
     begin_possession();
   }
 
@@ -62,7 +70,7 @@ struct Match::State {
     ending.reset();
     const Draws draws{seed, possession_id};
     opportunity = draw_opportunity(scenario, draws);
-    world.place(opportunity, draws);
+    world.place(opportunity, kickers[opportunity.robot - 1u].speed_scale_ratio, draws);
     sensors.begin(draws);
     laser.begin(draws);
     sensors.remember(world);
@@ -74,9 +82,12 @@ struct Match::State {
     phase = Phase::kPlay;
     play_t_ns = world.t_ns();
     world.start_play(opportunity);
-    const double free_s = world.opponent().time_until_s(scenario.opponent.dispute_distance_m);
-    dispute_t_ns = free_s < 1e6 ? play_t_ns + std::llround(std::ceil(free_s * 1e9)) : kNever;
+    const double free_s = challenger().time_until_s(scenario.opponent.dispute_distance_m);
+    dispute_t_ns = instant_after(play_t_ns, free_s);
+    whistle_t_ns = instant_after(play_t_ns, opportunity.whistle_s);
   }
+
+  const OpponentBody& challenger() const { return world.opponents().first_at(scenario.opponent.dispute_distance_m); }
 
   /// Plays one cycle, stopping at every instant at which the possession may end.
   void play_cycle(StepEvents& events) {
@@ -93,10 +104,10 @@ struct Match::State {
     sensors.next_cycle();
   }
 
-  /// When the dispute or the time limit is due, if that is ahead; never otherwise.
+  /// When the dispute, the whistle or the time limit is due, if that is ahead; never otherwise.
   std::int64_t next_end_t_ns() const {
     if (phase != Phase::kPlay || ending || world.shot()) return kNever;
-    const std::int64_t due = std::min(dispute_t_ns, play_t_ns + time_limit_ns);
+    const std::int64_t due = std::min({dispute_t_ns, whistle_t_ns, play_t_ns + time_limit_ns});
     return due > world.t_ns() ? due : kNever;
   }
 
@@ -129,6 +140,7 @@ struct Match::State {
                               .possession_id = possession_id,
                               .outcome = result.outcome,
                               .crossing = result.crossing,
+                              .saved = result.saved,
                               .release_t_ns = shot->release_t_ns(),
                               .release_position_m = shot->released().position_m,
                               .release_velocity_mps = shot->released().velocity_mps,
@@ -136,9 +148,8 @@ struct Match::State {
       return end(PossessionEnd::kKicked, scenario.possession.after_crossing_s, events);
     }
     if (world.kicker().stroke() && world.kicker().stroke()->live) return;  // the ball leaves first
-    if (world.t_ns() >= dispute_t_ns) {
-      return end(PossessionEnd::kDisputed, 0.0, events);
-    }
+    if (world.t_ns() >= dispute_t_ns) return end(PossessionEnd::kDisputed, 0.0, events);
+    if (world.t_ns() >= whistle_t_ns) return end(PossessionEnd::kStopped, 0.0, events);
     const Vec3 ball = world.ball_m();
     const bool carried_out =
         std::abs(ball.x) > scenario.field.side_line_x_m || std::abs(ball.y) > scenario.field.goal_line_y_m;
@@ -155,6 +166,7 @@ struct Match::State {
                                   .half = half,
                                   .possession_id = possession_id,
                                   .ending = how,
+                                  .robot = opportunity.robot,
                                   .start_t_ns = play_t_ns,
                                   .start = opportunity.start});
   }
@@ -181,6 +193,7 @@ struct Match::State {
   World world;
   SensorSuite sensors;
   FieldLaser laser;
+  std::vector<Kicker> kickers;  // by robot
 
   Phase phase = Phase::kStop;
   int half = 1;
@@ -191,6 +204,7 @@ struct Match::State {
   std::int64_t play_t_ns = 0;
   std::int64_t play_until_t_ns = 0;
   std::int64_t dispute_t_ns = kNever;
+  std::int64_t whistle_t_ns = kNever;
   std::optional<PossessionEnd> ending;
 };
 
@@ -207,6 +221,7 @@ Sensors Match::sense(const Looks& looks) const {
   const State& s = *state_;
   Sensors out;
   out.t_ns = s.world.t_ns();
+  out.carrier = s.opportunity.robot;
   if (looks.wheels) out.wheels = s.sensors.wheels(s.world);
   out.kicker.charge = s.world.kicker().charge();
   if (looks.vision) out.vision = s.sensors.vision(s.world);
@@ -216,14 +231,16 @@ Sensors Match::sense(const Looks& looks) const {
   return out;
 }
 
+Kicker Match::true_kicker(std::uint32_t robot) const { return state_->kickers.at(robot - 1); }
+
 TrueState Match::true_state() const {
   const State& s = *state_;
   return {.pose = s.world.body().pose(),
           .twist = s.world.body().twist(),
           .ball_held = !s.world.shot(),
           .charge = s.world.kicker().charge(),
-          .opponent_distance_m = s.world.opponent().distance_m(),
-          .opponent_closing_mps = s.world.opponent().closing_mps(),
+          .opponent_distance_m = s.challenger().distance_m(),
+          .opponent_closing_mps = s.challenger().closing_mps(),
           .dispute_t_ns = s.dispute_t_ns};
 }
 

@@ -10,12 +10,14 @@
 
 namespace trivela::sim {
 
-/// A match of one robot against the opponents, half after half, one possession of the ball after another.
+/// A match against the opponents, half after half, one possession of the ball after another, each gained by one of our
+/// robots.
 ///
 /// A possession: the referee stops the game for `possession.stop_s`, the robot stands at the drawn pose with the ball
 /// in its handler; then play starts and the robot has the drawn velocity at once (it gained the ball on the run). It
 /// ends with a kick (when the ball crossed, was blocked, came to rest or flew for `flight_limit_s`), with a dispute
-/// (the opponent is at the ball) or with the time limit, which a ball carried over a field line counts as. A coil
+/// (an opponent is at the ball), with the referee's whistle or with the time limit, which a ball carried over a field
+/// line counts as. A coil
 /// energised before the end of a possession wins: its ball leaves first.
 ///
 /// Possession n of a half depends on (seed, n) alone, so that every half and every policy meets the same poses,
@@ -40,6 +42,9 @@ class Match {
 
   /// What the sensors and the referee say now; samples that are not looked for are left at their defaults.
   Sensors sense(const Looks& looks = {}) const;
+
+  /// The kicker of one of our robots, counted from 1, as it is in this match. For the oracle and for tests alone.
+  Kicker true_kicker(std::uint32_t robot) const;
 
   /// The world as it is, without noise. For the oracle and for tests alone.
   TrueState true_state() const;

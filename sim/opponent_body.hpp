@@ -1,16 +1,18 @@
 #pragma once
 
+#include <span>
+
+#include "sim/opportunity.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
 
 namespace trivela::sim {
 
-/// The nearest opponent. While the robot has the ball it keeps up with it and its distance falls at a constant rate:
+/// An opponent. While the robot has the ball it keeps up with it and its distance falls at a constant rate:
 /// p = ball + distance(t) (-sin bearing, cos bearing). Once the ball is gone it stands.
 class OpponentBody {
  public:
-  /// `bearing_rad`: from the ball, counter-clockwise from +y of F.
-  void place(const Vec3& ball_m, double distance_m, double bearing_rad, double closing_mps);
+  void place(const Vec3& ball_m, const OpponentStart& start);
 
   /// Closes in for dt [s] on the ball, which is now at `ball_m`. Never passes through it.
   void close_in(const Vec3& ball_m, double dt_s);
@@ -30,6 +32,25 @@ class OpponentBody {
   double unit_x_ = 0.0;
   double unit_y_ = 1.0;
   PlanPoint position_;
+};
+
+/// All of them.
+class Opponents {
+ public:
+  void place(const Vec3& ball_m, const Opportunity& opportunity);
+  void close_in(const Vec3& ball_m, double dt_s);
+
+  /// Whoever is `distance_m` from the ball first.
+  const OpponentBody& first_at(double distance_m) const;
+
+  /// The one nearest to the ball.
+  const OpponentBody& nearest() const;
+
+  std::span<const OpponentBody> all() const { return {bodies_.data(), count_}; }
+
+ private:
+  std::array<OpponentBody, kMostOpponents> bodies_;
+  std::size_t count_ = 1;
 };
 
 }  // namespace trivela::sim

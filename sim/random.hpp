@@ -27,6 +27,8 @@ enum class Role : std::uint32_t {
   kLaserDropout,
   kLaserMixed,
   kHandTable,
+  kReferee,
+  kTeam,
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

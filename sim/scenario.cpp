@@ -40,6 +40,18 @@ std::optional<Problem> ordered(const char* key, double low, double high) {
   return Problem{key, fmt::format("the minimum {} is above the maximum {}", low, high)};
 }
 
+std::optional<Problem> whole(const char* key, double count) {
+  if (count == std::floor(count)) return std::nullopt;
+  return Problem{key, fmt::format("{} is no whole number", count)};
+}
+
+std::optional<Problem> team_problem(const Team& team) {
+  if (auto problem = whole("team.robots", team.robots)) return problem;
+  const auto& ratios = team.speed_scale_ratios;
+  if (ratios.empty() || ratios.size() == static_cast<std::size_t>(team.robots)) return std::nullopt;
+  return Problem{"team.speed_scale_ratios", fmt::format("{} values for {} robots", ratios.size(), team.robots)};
+}
+
 std::optional<Problem> table_problem(const Kicker& k) {
   if (k.powers.size() < 2) return Problem{"kicker.powers", "fewer than two set-points"};
   for (std::size_t i = 1; i < k.powers.size(); ++i) {
@@ -69,6 +81,8 @@ std::optional<Problem> first_problem(const Scenario& scenario) {
     return problem;
   if (auto problem = ordered("possession.speed_min_mps", p.speed_min_mps, p.speed_max_mps)) return problem;
   if (auto problem = ordered("opponent.closing_min_mps", o.closing_min_mps, o.closing_max_mps)) return problem;
+  if (auto problem = whole("opponent.count", o.count)) return problem;
+  if (auto problem = team_problem(scenario.team)) return problem;
   const std::size_t wheels = scenario.robot.wheel_angles_rad.size();
   if (wheels != 3 && wheels != 4) {
     return Problem{"robot.wheel_angles_rad", fmt::format("{} wheels where 3 or 4 are known", wheels)};

@@ -52,6 +52,8 @@ struct Kicker {
   std::vector<double> exit_elevations_rad{0.63417893, 0.63026363, 0.62666896, 0.62356544,
                                           0.62107594, 0.61953496, 0.61838909, 0.61807589};
   double speed_scale_ratio = 1.0;  ///< this robot's speed against the table; 1: as calibrated
+  double drift_sd_ratio = 0.01;    ///< of the speed within the day: one factor a match and robot; assumption
+                                   ///< ("differences within the same robot over time", paper, section 2)
   double delay_s =
       0.060;  ///< coil energised to ball released; assumption, CAMBADA release 1.0 says 50 ms mean, 80 ms max
   double delay_sd_s = 0.015;                       ///< assumption: the spread between those
@@ -75,20 +77,42 @@ struct Possession {
   double speed_max_mps = 2.0;                           ///< assumption
   double travel_direction_sd_rad = 0.7853981633974483;  ///< 45 degrees, velocity against heading; assumption
   double time_limit_s = 8.0;                            ///< the possession ends without a kick; assumption
-  double stop_s = 1.0;                                  ///< the referee's stop before each possession; assumption
-  double flight_limit_s = 3.0;                          ///< a ball that has not crossed by then is short; assumption
+  double stop_s = 0.4;  ///< the referee's stop before each possession; assumption: as short as the filters allow
+  double flight_limit_s = 3.0;    ///< a ball that has not crossed by then is short; assumption
   double after_crossing_s = 0.2;  ///< play goes on so that cameras see the ball behind the line; assumption
 };
 
-/// The nearest opponent: it keeps up with the ball and closes at a constant rate.
+/// Opponents: each keeps up with the ball and closes at its own constant rate.
 struct Opponent {
-  double distance_median_m = 1.5;   ///< log-normal; published MSL log of 2016, n = 19: median 1.50 m
+  double count = 1.0;               ///< 1 to 5
+  double distance_median_m = 1.5;   ///< the nearest one, log-normal; published MSL log of 2016, n = 19: median 1.50 m
   double distance_sigma_ln = 0.55;  ///< the same log: quartiles 1.24 and 2.01 m
+  double further_median_m = 4.0;    ///< every further one, log-normal, not nearer than the nearest; assumption
   double closing_min_mps = 0.8;     ///< assumption
   double closing_max_mps = 2.0;     ///< assumption
   double dispute_distance_m = 0.5;  ///< opponent centre to ball centre; assumption
   double body_radius_m = 0.26;      ///< rules: 52 x 52 x 80 cm
   double body_height_m = 0.8;       ///< rules: 52 x 52 x 80 cm
+};
+
+/// The opponents' keeper. Off where shots between posts and bar are counted, as Table 2 of the paper does.
+struct Keeper {
+  bool enabled = false;
+  double reaction_s = 0.25;    ///< from the release until it moves; assumption
+  double speed_mps = 2.0;      ///< sideways, at once; assumption
+  double half_width_m = 0.26;  ///< rules: 52 cm wide
+  double height_m = 0.8;       ///< rules: 80 cm high
+};
+
+/// The referee.
+struct Referee {
+  double stops_per_min = 0.5;  ///< whistles in a minute of carrying the ball; assumption
+};
+
+/// Our robots. One of them, drawn for each possession, gains the ball.
+struct Team {
+  double robots = 1.0;                     ///< 1 to 5
+  std::vector<double> speed_scale_ratios;  ///< of each robot's kicker, times kicker.speed_scale_ratio; empty: all 1
 };
 
 /// Noise of wheels and gyro.
@@ -161,6 +185,9 @@ struct Scenario {
   Kicker kicker;
   Possession possession;
   Opponent opponent;
+  Keeper keeper;
+  Referee referee;
+  Team team;
   Odometry odometry;
   Vision vision;
   FlightCamera flight_camera;

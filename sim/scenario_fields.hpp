@@ -64,6 +64,7 @@ void fields(V& v, Kicker& k) {
   v("exit_speeds_mps", k.exit_speeds_mps, Range{0.1, 40.0});
   v("exit_elevations_rad", k.exit_elevations_rad, Range{0.0, 1.5});
   v("speed_scale_ratio", k.speed_scale_ratio, Range{0.1, 3.0});
+  v("drift_sd_ratio", k.drift_sd_ratio, Range{0.0, 0.15});
   v("delay_s", k.delay_s, Range{0.0, 1.0});
   v("delay_sd_s", k.delay_sd_s, Range{0.0, 0.5});
   v("speed_sd_ratio", k.speed_sd_ratio, Range{0.0, 0.3});
@@ -92,13 +93,35 @@ void fields(V& v, Possession& p) {
 
 template <class V>
 void fields(V& v, Opponent& o) {
+  v("count", o.count, Range{1.0, 5.0});
   v("distance_median_m", o.distance_median_m, Range{0.1, 100.0});
   v("distance_sigma_ln", o.distance_sigma_ln, Range{0.0, 3.0});
+  v("further_median_m", o.further_median_m, Range{0.1, 100.0});
   v("closing_min_mps", o.closing_min_mps, Range{0.0, 10.0});
   v("closing_max_mps", o.closing_max_mps, Range{0.0, 10.0});
   v("dispute_distance_m", o.dispute_distance_m, Range{0.0, 5.0});
   v("body_radius_m", o.body_radius_m, Range{0.0, 1.0});
   v("body_height_m", o.body_height_m, Range{0.0, 2.0});
+}
+
+template <class V>
+void fields(V& v, Keeper& k) {
+  v("enabled", k.enabled);
+  v("reaction_s", k.reaction_s, Range{0.0, 5.0});
+  v("speed_mps", k.speed_mps, Range{0.0, 10.0});
+  v("half_width_m", k.half_width_m, Range{0.0, 1.0});
+  v("height_m", k.height_m, Range{0.0, 2.0});
+}
+
+template <class V>
+void fields(V& v, Referee& r) {
+  v("stops_per_min", r.stops_per_min, Range{0.0, 60.0});
+}
+
+template <class V>
+void fields(V& v, Team& t) {
+  v("robots", t.robots, Range{1.0, 5.0});
+  v("speed_scale_ratios", t.speed_scale_ratios, Range{0.5, 1.5});
 }
 
 template <class V>
@@ -168,6 +191,9 @@ void fields(V& v, Scenario& s) {
   v("kicker", s.kicker);
   v("possession", s.possession);
   v("opponent", s.opponent);
+  v("keeper", s.keeper);
+  v("referee", s.referee);
+  v("team", s.team);
   v("odometry", s.odometry);
   v("vision", s.vision);
   v("flight_camera", s.flight_camera);
@@ -182,7 +208,8 @@ struct Problem {
 };
 
 /// The first rule that `scenario` breaks: a value outside its range, a minimum above its maximum, tables of unequal
-/// length, powers that do not rise, a base of other than 3 or 4 wheels. None: the scenario can be played.
+/// length, powers that do not rise, a base of other than 3 or 4 wheels, a count that is not whole. None: the scenario
+/// can be played.
 std::optional<Problem> first_problem(const Scenario& scenario);
 
 }  // namespace trivela::sim

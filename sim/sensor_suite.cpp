@@ -56,7 +56,7 @@ void SensorSuite::remember(const World& world) {
   newest_ = newest_ + 1 < past_.size() ? newest_ + 1 : 0;
   kept_ = std::min(kept_ + 1, past_.size());
   past_[newest_] = {world.t_ns(), world.body().pose(), world.body().axis(), world.ball_m(),
-                    world.opponent().position()};
+                    world.opponents().nearest().position()};
 }
 
 void SensorSuite::next_cycle() { ++cycle_; }

@@ -62,9 +62,10 @@ struct Looks {
   bool flight = true;
 };
 
-/// Everything that the robot is told at t_ns.
+/// Everything that the robot in possession is told at t_ns.
 struct Sensors {
   std::int64_t t_ns = 0;
+  std::uint8_t carrier = 1;  ///< which of our robots has this possession; the samples are its own
   WheelSample wheels;
   KickerSample kicker;
   VisionFrame vision;

@@ -41,14 +41,16 @@ Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_
   if (released.position_m.y >= scenario.field.goal_line_y_m) meet_goal_plane(t_ns);
 }
 
-void Shot::advance_to(std::int64_t t_ns, const PlanPoint& opponent) {
-  while (!result_ && t_ns_ < t_ns && passes(opponent, seconds(t_ns - t_ns_))) {
-    step_to(std::min(t_ns_ + kNear_ns, t_ns), opponent);
-  }
-  if (t_ns_ < t_ns) step_to(t_ns, opponent);
+void Shot::advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
+  const auto somebody_near = [&] {
+    return std::ranges::any_of(
+        opponents, [&](const OpponentBody& body) { return passes(body.position(), seconds(t_ns - t_ns_)); });
+  };
+  while (!result_ && t_ns_ < t_ns && somebody_near()) step_to(std::min(t_ns_ + kNear_ns, t_ns), opponents);
+  if (t_ns_ < t_ns) step_to(t_ns, opponents);
 }
 
-void Shot::step_to(std::int64_t t_ns, const PlanPoint& opponent) {
+void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   const BallMotion before = ball_;
   const double dt_s = seconds(t_ns - t_ns_);
   sim::advance(ball_, scenario_.ball, dt_s);
@@ -62,7 +64,9 @@ void Shot::step_to(std::int64_t t_ns, const PlanPoint& opponent) {
     meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
     return sim::advance(ball_, scenario_.ball, dt_s - until_s);
   }
-  meet_opponent(opponent, t_ns);
+  for (const OpponentBody& body : opponents) {
+    if (!result_) meet_opponent(body.position(), t_ns);
+  }
   const double age_s = seconds(t_ns - release_t_ns_);
   if (!result_ && (at_rest(ball_) || age_s >= scenario_.possession.flight_limit_s)) settle_short(t_ns);
 }
@@ -90,12 +94,20 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   const Crossing crossing{ball_.position_m.x, ball_.position_m.z};
   const auto outcome = kicking::classify(crossing.x_m, crossing.z_m, goal, ball);
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
-  result_ = ShotResult{t_ns, outcome, crossing, margin};
-  if (outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
-    const double kept = scenario_.ball.frame_restitution_ratio;
+  const bool saved = outcome == kicking::Outcome::kOnTarget && keeper_has(crossing, seconds(t_ns - release_t_ns_));
+  result_ = ShotResult{t_ns, outcome, crossing, margin, saved};
+  if (saved || outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
+    const double kept = saved ? scenario_.ball.body_restitution_ratio : scenario_.ball.frame_restitution_ratio;
     const Vec3& v = ball_.velocity_mps;
     ball_.velocity_mps = {kept * v.x, -kept * std::abs(v.y), kept * v.z};
   }
+}
+
+bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
+  const Keeper& keeper = scenario_.keeper;
+  if (!keeper.enabled || crossing.z_m - scenario_.ball.radius_m >= keeper.height_m) return false;
+  const double moved_m = keeper.speed_mps * std::max(0.0, flown_s - keeper.reaction_s);
+  return std::abs(crossing.x_m) <= moved_m + keeper.half_width_m + scenario_.ball.radius_m;
 }
 
 /// The ball comes within reach of the opponent in the next dt_s: its way over the floor is straight.
@@ -122,11 +134,12 @@ void Shot::meet_opponent(const PlanPoint& opponent, std::int64_t t_ns) {
   const double push = (1.0 + scenario_.ball.body_restitution_ratio) * inward / distance;
   v.x += push * dx;
   v.y += push * dy;
-  result_ = ShotResult{t_ns, kicking::Outcome::kBlocked, std::nullopt, std::nullopt};
+  result_ = ShotResult{t_ns, kicking::Outcome::kBlocked, std::nullopt, std::nullopt, false};
 }
 
 void Shot::settle_short(std::int64_t t_ns) {
-  result_ = ShotResult{t_ns, kicking::Outcome::kShort, std::nullopt, scenario_.field.goal_line_y_m - farthest_y_m_};
+  result_ =
+      ShotResult{t_ns, kicking::Outcome::kShort, std::nullopt, scenario_.field.goal_line_y_m - farthest_y_m_, false};
 }
 
 }  // namespace trivela::sim

@@ -30,6 +30,7 @@ struct KickTruth {
   std::uint32_t possession_id = 0;
   kicking::Outcome outcome{};
   std::optional<Crossing> crossing;
+  bool saved = false;  ///< on target, but the keeper had it
   std::int64_t release_t_ns = 0;
   Vec3 release_position_m;    ///< ball centre
   Vec3 release_velocity_mps;  ///< over ground
@@ -38,7 +39,8 @@ struct KickTruth {
   std::optional<double> margin_m;
 };
 
-enum class PossessionEnd { kKicked, kDisputed, kTimedOut };
+/// kStopped: the referee whistled.
+enum class PossessionEnd { kKicked, kDisputed, kTimedOut, kStopped };
 
 /// How a possession ended.
 struct PossessionTruth {
@@ -46,6 +48,7 @@ struct PossessionTruth {
   int half = 1;
   std::uint32_t possession_id = 0;
   PossessionEnd ending = PossessionEnd::kTimedOut;
+  std::uint8_t robot = 1;       ///< which of ours
   std::int64_t start_t_ns = 0;  ///< play started
   kicking::Pose start;          ///< robot in F at that instant
 };
@@ -56,9 +59,9 @@ struct TrueState {
   kicking::Twist twist;               ///< in R
   bool ball_held = false;             ///< no ball has left in this possession
   double charge = 1.0;                ///< capacitor energy, 0..1
-  double opponent_distance_m = 0.0;   ///< from the ball; of the nearest
+  double opponent_distance_m = 0.0;   ///< from the ball; of whoever is there first
   double opponent_closing_mps = 0.0;  ///< its rate
-  std::int64_t dispute_t_ns = 0;      ///< when it takes the ball, if the ball stays
+  std::int64_t dispute_t_ns = 0;      ///< when an opponent is at the ball, if it stays
 };
 
 /// What was settled during one step.

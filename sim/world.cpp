@@ -6,15 +6,14 @@ namespace trivela::sim {
 
 World::World(const Scenario& scenario) : scenario_(scenario), body_(scenario.robot), kicker_(scenario.kicker) {}
 
-void World::place(const Opportunity& opportunity, const Draws& draws) {
+void World::place(const Opportunity& opportunity, double speed_scale_ratio, const Draws& draws) {
   playing_ = false;
   shot_.reset();
   draws_ = draws;
   attempts_ = 0;
-  kicker_.reset();
+  kicker_.reset(speed_scale_ratio);
   body_.place(opportunity.start, {});
-  opponent_.place(body_.ball_point_m(), opportunity.opponent_distance_m, opportunity.opponent_bearing_rad,
-                  opportunity.opponent_closing_mps);
+  opponents_.place(body_.ball_point_m(), opportunity);
 }
 
 void World::start_play(const Opportunity& opportunity) {
@@ -61,9 +60,9 @@ void World::move(std::int64_t t_ns) {
   body_.advance(dt_s);
   kicker_.recharge(dt_s);
   if (shot_) {
-    shot_->advance_to(t_ns, opponent_.position());
+    shot_->advance_to(t_ns, opponents_.all());
   } else {
-    opponent_.close_in(body_.ball_point_m(), playing_ ? dt_s : 0.0);
+    opponents_.close_in(body_.ball_point_m(), playing_ ? dt_s : 0.0);
   }
 }
 

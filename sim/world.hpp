@@ -14,21 +14,21 @@
 
 namespace trivela::sim {
 
-/// Robot, kicker, ball and opponent: the physics, without a referee.
+/// Robot, kicker, ball and opponents: the physics, without a referee.
 class World {
  public:
   /// `scenario` must outlive the world.
   explicit World(const Scenario& scenario);
 
-  /// A new opportunity: the robot stands at its start with the ball, the opponent at its distance. The capacitor is
-  /// full, and what the kicker was about to do is forgotten: the stop of a real match is long enough. `draws` supplies
-  /// the kicker's noise.
-  void place(const Opportunity& opportunity, const Draws& draws);
+  /// A new opportunity: its robot stands at its start with the ball, the opponents at theirs. Its kicker has the
+  /// table's speeds times `speed_scale_ratio`, its capacitor is full, and what it was about to do is forgotten: the
+  /// stop of a real match is long enough. `draws` supplies the kicker's noise.
+  void place(const Opportunity& opportunity, double speed_scale_ratio, const Draws& draws);
 
-  /// Play starts: the robot has the opportunity's velocity and the opponent comes.
+  /// Play starts: the robot has the opportunity's velocity and the opponents come.
   void start_play(const Opportunity& opportunity);
 
-  /// The referee stops the game: the robot brakes, the opponent stands, no kick counts.
+  /// The referee stops the game: the robot brakes, the opponents stand, no kick counts.
   void stop_play();
 
   /// Takes the robot's commands; the base obeys while the game is on.
@@ -40,7 +40,7 @@ class World {
   std::int64_t t_ns() const { return t_ns_; }
   const RobotBody& body() const { return body_; }
   const KickerDevice& kicker() const { return kicker_; }
-  const OpponentBody& opponent() const { return opponent_; }
+  const Opponents& opponents() const { return opponents_; }
 
   /// The flight of this opportunity's kick and its id; none while the robot holds the ball.
   const std::optional<Shot>& shot() const { return shot_; }
@@ -58,7 +58,7 @@ class World {
   bool playing_ = false;
   RobotBody body_;
   KickerDevice kicker_;
-  OpponentBody opponent_;
+  Opponents opponents_;
   Draws draws_{0, 0};
   std::uint32_t attempts_ = 0;
   std::optional<Shot> shot_;

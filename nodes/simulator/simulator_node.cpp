@@ -18,6 +18,11 @@ sim::Scenario scenario_of(const config::Settings& settings) {
     throw std::runtime_error{fmt::format("{}: cycle_s = {} differs from run.cycle_s = {}", settings.run.scenario,
                                          scenario.cycle_s, settings.run.cycle_s)};
   }
+  if (scenario.team.robots > 1.0) {
+    throw std::runtime_error{
+        fmt::format("{}: team.robots = {}, but one set of nodes is one robot: trivela simulate plays teams",
+                    settings.run.scenario, scenario.team.robots)};
+  }
   const config::ScanRecorder& scans = settings.scan_recorder;
   if (scans.enabled && scans.device == "sim" && !scenario.laser.enabled) {
     throw std::runtime_error{

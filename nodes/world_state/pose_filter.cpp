@@ -7,6 +7,12 @@ namespace trivela::nodes {
 
 using kicking::Pose;
 
+namespace {
+
+constexpr double kTurned_rad = 0.2;  // far beyond the noise of a frame and the drift between two
+
+}  // namespace
+
 void PoseFilter::predict(std::int64_t t_ns, const Pose& odometry, double var_position_m2, double var_heading_rad2) {
   if (!history_.empty()) {
     pose_ = compose(pose_, relative(history_.latest(), odometry));
@@ -25,15 +31,17 @@ std::optional<Pose> PoseFilter::pose_at(std::int64_t t_ns) const {
 }
 
 /// Far frames that do not agree with each other are wild ones: each starts the count anew.
-void PoseFilter::count_far_frames(const Eigen::Vector2d& innovation_m) {
-  const bool far = innovation_m.norm() > settings_.relocalise_distance_m;
-  const bool agrees = (innovation_m - far_innovation_m_).norm() <= settings_.relocalise_distance_m;
+void PoseFilter::count_far_frames(const Eigen::Vector2d& innovation_m, double innovation_rad) {
+  const bool far = innovation_m.norm() > settings_.relocalise_distance_m || std::abs(innovation_rad) > kTurned_rad;
+  const bool agrees = (innovation_m - far_innovation_m_).norm() <= settings_.relocalise_distance_m &&
+                      std::abs(kicking::wrap_angle(innovation_rad - far_innovation_rad_)) <= kTurned_rad;
   if (!far) {
     far_frames_ = 0;
   } else {
     far_frames_ = agrees ? far_frames_ + 1 : 1;
   }
   far_innovation_m_ = innovation_m;
+  far_innovation_rad_ = innovation_rad;
 }
 
 void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
@@ -45,7 +53,8 @@ void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
   const Pose then = compose(pose_, relative(history_.latest(), *odometry_then));
   const double dx_m = seen.x_m - then.x_m;
   const double dy_m = seen.y_m - then.y_m;
-  count_far_frames({dx_m, dy_m});
+  const double turn_rad = kicking::wrap_angle(seen.heading_rad - then.heading_rad);
+  count_far_frames({dx_m, dy_m}, turn_rad);
   if (!localised_ || far_frames_ >= settings_.relocalise_frames) {
     localised_ = true;
     far_frames_ = 0;
@@ -57,8 +66,7 @@ void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
   if (far_frames_ > 0) return;
   const double gain = var_position_m2_ / (var_position_m2_ + var_seen_m2);
   const double gain_heading = var_heading_rad2_ / (var_heading_rad2_ + var_seen_rad2);
-  const Pose corrected{then.x_m + gain * dx_m, then.y_m + gain * dy_m,
-                       then.heading_rad + gain_heading * kicking::wrap_angle(seen.heading_rad - then.heading_rad)};
+  const Pose corrected{then.x_m + gain * dx_m, then.y_m + gain * dy_m, then.heading_rad + gain_heading * turn_rad};
   var_position_m2_ *= 1.0 - gain;
   var_heading_rad2_ *= 1.0 - gain_heading;
   pose_ = compose(corrected, driven_since);

@@ -17,8 +17,8 @@ namespace trivela::nodes {
 ///     pose(t_e) += K (seen - pose(t_e)),   K = P / (P + R)
 ///
 /// is then carried to now along the odometry driven since. P grows with odometry's variance. A run of
-/// `relocalise_frames` innovations beyond `relocalise_distance_m` that agree within it means that somebody moved the
-/// robot: the pose is set.
+/// `relocalise_frames` innovations beyond `relocalise_distance_m` or 0.2 rad that agree within these means that
+/// somebody moved the robot: the pose is set.
 class PoseFilter {
  public:
   explicit PoseFilter(const config::WorldState& settings) : settings_(settings), history_(settings.history_s) {}
@@ -38,7 +38,7 @@ class PoseFilter {
   std::optional<kicking::Pose> pose_at(std::int64_t t_ns) const;
 
  private:
-  void count_far_frames(const Eigen::Vector2d& innovation_m);
+  void count_far_frames(const Eigen::Vector2d& innovation_m, double innovation_rad);
 
   config::WorldState settings_;
   PoseHistory history_;
@@ -50,6 +50,7 @@ class PoseFilter {
   double last_var_heading_rad2_ = 0.0;
   std::uint32_t far_frames_ = 0;
   Eigen::Vector2d far_innovation_m_ = Eigen::Vector2d::Zero();  // of the last frame
+  double far_innovation_rad_ = 0.0;
 };
 
 }  // namespace trivela::nodes

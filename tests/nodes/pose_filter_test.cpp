@@ -154,6 +154,21 @@ TEST(PoseFilter, AKidnappedRobotIsPlacedAnewAfterThatManyFramesAndNotBefore) {
   EXPECT_NEAR(drive.filter.sd_position_m(), drive.settings.pose_sd_m, 1e-12);
 }
 
+TEST(PoseFilter, ARobotTurnedOnTheSpotIsPlacedAnewToo) {
+  Drive drive;
+  drive.predict();
+  drive.filter.correct(drive.t_ns, drive.truth);
+  drive.stand(10, drive.truth);
+  Pose turned = drive.truth;
+  turned.heading_rad += 0.5;
+  drive.stand(static_cast<int>(drive.settings.relocalise_frames), turned);
+  EXPECT_NEAR(drive.filter.pose()->heading_rad, turned.heading_rad, 1e-12);
+  Pose slightly = turned;
+  slightly.heading_rad += 0.1;  // drift, which is filtered
+  drive.stand(static_cast<int>(drive.settings.relocalise_frames), slightly);
+  EXPECT_LT(drive.filter.pose()->heading_rad, turned.heading_rad + 0.099);
+}
+
 TEST(PoseFilter, AGoodFrameInBetweenEndsTheRunOfWildOnes) {
   Drive drive;
   drive.predict();

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "sim/opportunity.hpp"
+#include "sim/team.hpp"
 #include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {
@@ -21,7 +24,7 @@ TEST(Match, EachPossessionBeginsWithAStopInWhichTheRobotStands) {
       played = false;
     }
     if (s.referee.playing && !played) {
-      EXPECT_EQ(s.t_ns - stopped_since, 1'000'000'000);
+      EXPECT_EQ(s.t_ns - stopped_since, 400'000'000);
     }
     if (!s.referee.playing && !played) {
       EXPECT_LT(std::abs(s.wheels.gyro_radps), 0.2);
@@ -91,7 +94,7 @@ TEST(Match, AKickEndsThePossessionAndItsTruthNamesIt) {
 
 TEST(Match, TheBallLeavesAtTheRobotsPointAtTheInstantOfRelease) {
   Scenario s = alone();
-  s.kicker.delay_sd_s = s.kicker.speed_sd_ratio = s.kicker.direction_sd_rad = 0.0;
+  s.kicker.delay_sd_s = s.kicker.speed_sd_ratio = s.kicker.direction_sd_rad = s.kicker.drift_sd_ratio = 0.0;
   s.kicker.delay_s = 0.0333;
   Match match{s, 7, 1, 0.5};
   Sensors sensors = match.sense();
@@ -171,6 +174,78 @@ TEST(Match, SurvivesCommandsThatAreNoNumbers) {
   for (const auto& s : record.sensors) {
     for (const double w : s.wheels.wheel_radps) ASSERT_TRUE(std::isfinite(w));
     ASSERT_TRUE(std::isfinite(s.kicker.charge));
+  }
+}
+
+TEST(Match, TheRefereeStopsAPossessionButNoBallInTheAir) {
+  Scenario s = alone();
+  s.referee.stops_per_min = 60.0;
+  const Record carried = play(s, 5, 1, 1.0, idle);
+  int stopped = 0;
+  for (const auto& p : carried.possessions) stopped += p.ending == PossessionEnd::kStopped;
+  EXPECT_GT(stopped, static_cast<int>(carried.possessions.size()) * 9 / 10);
+  for (const auto& p : carried.possessions) {
+    if (p.ending != PossessionEnd::kStopped) continue;
+    EXPECT_EQ(p.t_ns - p.start_t_ns,
+              static_cast<std::int64_t>(std::ceil(draw_opportunity(s, Draws{5, p.possession_id}).whistle_s * 1e9)));
+  }
+  for (const auto& p : play(s, 5, 1, 1.0, fire_at_once(30)).possessions) {
+    if (draw_opportunity(s, Draws{5, p.possession_id}).whistle_s > 0.02) {
+      EXPECT_EQ(p.ending, PossessionEnd::kKicked);
+    }
+  }
+}
+
+TEST(Match, EachPossessionBelongsToOneRobotOfTheTeamWithItsOwnKicker) {
+  Scenario s = alone();
+  s.kicker.speed_sd_ratio = s.kicker.delay_sd_s = s.kicker.direction_sd_rad = s.kicker.drift_sd_ratio = 0.0;
+  s.team.robots = 3;
+  s.team.speed_scale_ratios = {1.0, 0.9, 1.1};
+  s.referee.stops_per_min = 0.0;
+  Match match{s, 8, 1, 0.6};
+  Policy policy = fire_at_once(25);
+  std::set<int> kicked;
+  while (!match.done()) {
+    const Sensors sensors = match.sense();
+    const auto events = match.step(policy(sensors));
+    for (const auto& p : events.possessions) EXPECT_EQ(p.robot, sensors.carrier);
+    for (const auto& k : events.kicks) {
+      const double ratio = s.team.speed_scale_ratios[sensors.carrier - 1U];
+      EXPECT_NEAR(k.release_velocity_mps.z, ratio * 8.721521 * std::sin(0.62666896), 1e-9);
+      kicked.insert(sensors.carrier);
+    }
+  }
+  EXPECT_EQ(kicked.size(), 3U);
+}
+
+TEST(Match, AKickerDriftsOnceAMatchAndByItsSpread) {
+  Scenario s;
+  s.kicker.drift_sd_ratio = 0.03;
+  s.team.robots = 2;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    const double first = match_kicker(s, 1, seed).speed_scale_ratio,
+                 second = match_kicker(s, 2, seed).speed_scale_ratio;
+    EXPECT_NE(first, second);
+    EXPECT_EQ((Match{s, seed, 1, 1.0}.true_kicker(2).speed_scale_ratio), second);
+    for (const double ratio : {first, second}) {
+      sum += (ratio - 1.0) / 1000;
+      squares += (ratio - 1.0) * (ratio - 1.0) / 1000;
+    }
+  }
+  EXPECT_NEAR(sum, 0.0, 4 * 0.03 / std::sqrt(1000.0));
+  EXPECT_NEAR(std::sqrt(squares), 0.03, 4 * 0.03 / std::sqrt(2000.0));
+  EXPECT_EQ(team_kicker(s, 2).speed_scale_ratio, 1.0);
+}
+
+TEST(Match, AFullCapacitorAwaitsEachPossession) {
+  const Record record = play(alone(), 7, 1, 0.3, fire_at_once(50));
+  std::uint32_t id = 0;
+  for (const auto& s : record.sensors) {
+    if (s.referee.possession_id != id) {
+      EXPECT_EQ(s.kicker.charge, 1.0);
+    }
+    id = s.referee.possession_id;
   }
 }
 

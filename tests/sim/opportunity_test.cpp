@@ -27,13 +27,13 @@ TEST(Opportunity, FollowsTheScenariosDistributions) {
     const double speed = std::hypot(o.velocity.vx_mps, o.velocity.vy_mps);
     ASSERT_GE(speed, 0.3);
     ASSERT_LE(speed, 2.0);
-    ASSERT_GE(o.opponent_closing_mps, 0.8);
-    ASSERT_LE(o.opponent_closing_mps, 2.0);
+    ASSERT_GE(o.opponents[0].closing_mps, 0.8);
+    ASSERT_LE(o.opponents[0].closing_mps, 2.0);
     const double error = kicking::wrap_angle(h - std::atan2(ball_x, 9.0 - ball_y));
     aim += error;
     aim2 += error * error;
-    bearing += o.opponent_bearing_rad;
-    opponents.push_back(o.opponent_distance_m);
+    bearing += o.opponents[0].bearing_rad;
+    opponents.push_back(o.opponents[0].distance_m);
   }
   std::sort(opponents.begin(), opponents.end());
   EXPECT_NEAR(opponents[kCount / 2], 1.5, 0.06);
@@ -56,7 +56,7 @@ TEST(Opportunity, WithoutAimErrorFacesTheGoalCentre) {
 
 TEST(OpponentBody, ClosesInOnAMovingBallAndStopsAtIt) {
   OpponentBody body;
-  body.place({1.0, 2.0, 0.11}, 2.0, -M_PI / 2, 1.5);
+  body.place({1.0, 2.0, 0.11}, {2.0, -M_PI / 2, 1.5});
   EXPECT_NEAR(body.position().x_m, 3.0, 1e-12);
   EXPECT_NEAR(body.position().y_m, 2.0, 1e-12);
   body.close_in({1.0, 3.0, 0.11}, 1.0);
@@ -65,6 +65,59 @@ TEST(OpponentBody, ClosesInOnAMovingBallAndStopsAtIt) {
   EXPECT_NEAR(body.position().y_m, 3.0, 1e-12);
   body.close_in({1.0, 3.0, 0.11}, 1.0);
   EXPECT_EQ(body.distance_m(), 0.0);
+}
+
+TEST(Opportunity, FurtherOpponentsAreNotNearerThanTheNearest) {
+  Scenario s;
+  s.opponent.count = 5;
+  double farther = 0.0;
+  for (std::uint32_t i = 1; i <= 500; ++i) {
+    const Opportunity one = draw_opportunity({}, Draws{1, i}), five = draw_opportunity(s, Draws{1, i});
+    ASSERT_EQ(five.opponent_count, 5U);
+    EXPECT_EQ(five.opponents[0].distance_m, one.opponents[0].distance_m);  // more of them shift nothing
+    EXPECT_EQ(five.start.x_m, one.start.x_m);
+    for (std::size_t j = 1; j < 5; ++j) {
+      EXPECT_GE(five.opponents[j].distance_m, five.opponents[0].distance_m);
+      EXPECT_NE(five.opponents[j].bearing_rad, five.opponents[0].bearing_rad);
+      farther += five.opponents[j].distance_m / 2000.0;
+    }
+  }
+  EXPECT_GT(farther, 4.0);
+}
+
+TEST(Opportunity, EveryRobotOfTheTeamGainsTheBallAlikeOften) {
+  Scenario s;
+  s.team.robots = 5;
+  std::array<int, 6> gained{};
+  for (std::uint32_t i = 1; i <= 2000; ++i) ++gained.at(draw_opportunity(s, Draws{1, i}).robot);
+  EXPECT_EQ(gained[0], 0);
+  for (std::size_t robot = 1; robot <= 5; ++robot) EXPECT_NEAR(gained[robot], 400, 72);  // four sd
+  EXPECT_EQ(draw_opportunity({}, Draws{1, 1}).robot, 1);
+}
+
+TEST(Opportunity, TheRefereeWhistlesAtItsRate) {
+  Scenario s;
+  s.referee.stops_per_min = 30.0;
+  double sum = 0.0;
+  for (std::uint32_t i = 1; i <= 4000; ++i) sum += draw_opportunity(s, Draws{1, i}).whistle_s;
+  EXPECT_NEAR(sum / 4000, 2.0, 0.13);
+  s.referee.stops_per_min = 0.0;
+  EXPECT_TRUE(std::isinf(draw_opportunity(s, Draws{1, 1}).whistle_s));
+}
+
+TEST(Opponents, TheFirstOneThereDisputes) {
+  Opportunity o;
+  o.opponent_count = 2;
+  o.opponents[0] = {1.0, 0.0, 0.5};
+  o.opponents[1] = {2.0, M_PI, 2.0};
+  Opponents opponents;
+  opponents.place({0.0, 0.0, 0.11}, o);
+  EXPECT_EQ(&opponents.nearest(), &opponents.all()[0]);
+  EXPECT_EQ(&opponents.first_at(0.5), &opponents.all()[1]);
+  EXPECT_NEAR(opponents.first_at(0.5).time_until_s(0.5), 0.75, 1e-12);
+  opponents.close_in({0.0, 0.0, 0.11}, 0.75);
+  EXPECT_EQ(&opponents.nearest(), &opponents.all()[1]);
+  EXPECT_NEAR(opponents.nearest().position().y_m, -0.5, 1e-12);
 }
 
 }  // namespace

@@ -42,9 +42,10 @@ inline Policy fire_at_once(double power) {
   };
 }
 
-/// Nobody disturbs.
+/// Nobody disturbs, the referee neither.
 inline Scenario alone() {
   Scenario s;
+  s.referee.stops_per_min = 0.0;
   s.opponent.distance_median_m = 50.0;
   s.opponent.distance_sigma_ln = 0.0;
   return s;

@@ -29,6 +29,10 @@ TEST(Scenario, NamesTheKeyAndTheValueThatIsImpossible) {
   EXPECT_EQ(key_of([](Scenario& s) { s.kicker.exit_elevations_rad.clear(); }), "kicker.exit_elevations_rad");
   EXPECT_EQ(key_of([](Scenario& s) { s.possession.speed_min_mps = 3.0; }), "possession.speed_min_mps");
   EXPECT_EQ(key_of([](Scenario& s) { s.robot.wheel_angles_rad.resize(5); }), "robot.wheel_angles_rad");
+  EXPECT_EQ(key_of([](Scenario& s) { s.opponent.count = 2.5; }), "opponent.count");
+  EXPECT_EQ(key_of([](Scenario& s) { s.opponent.count = 6.0; }), "opponent.count");
+  EXPECT_EQ(key_of([](Scenario& s) { s.team.robots = 0.0; }), "team.robots");
+  EXPECT_EQ(key_of([](Scenario& s) { s.team.speed_scale_ratios = {1.0, 1.0}; }), "team.speed_scale_ratios");
   EXPECT_NE(first_problem([] {
               Scenario s;
               s.ball.mass_kg = -1.5;
@@ -62,7 +66,9 @@ TEST(Scenario, ListsEveryMemberWithItsUnit) {
   const std::set<std::string_view> units{"m",   "s",  "mps",   "mps2",  "radps", "radps2",   "rad",
                                          "deg", "kg", "kgpm3", "ratio", "ln",    "distance", "all"};
   for (const auto& key : seen.keys) {
-    if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s" || key == "enabled") continue;
+    if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s" || key == "enabled" || key == "count" ||
+        key == "stops_per_min" || key == "robots" || key == "speed_scale_ratios")
+      continue;
     EXPECT_TRUE(units.contains(std::string_view{key}.substr(key.rfind('_') + 1))) << key;
   }
 }

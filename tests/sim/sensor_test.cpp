@@ -12,7 +12,7 @@ const Draws kDraws{5, 1};
 Opportunity standing(double x, double y, double heading) {
   Opportunity o;
   o.start = {x, y, heading};
-  o.opponent_distance_m = 2.0;
+  o.opponents[0].distance_m = 2.0;
   return o;
 }
 
@@ -40,7 +40,7 @@ TEST(Wheels, TurnByTheOmniBasesEquation) {
   World world{s};
   SensorSuite suite{s};
   Opportunity o = standing(0, 0, 0.7);
-  world.place(o, kDraws);
+  world.place(o, 1.0, kDraws);
   suite.begin(kDraws);
   o.velocity = {0.3, 1.2, 0.9};
   world.start_play(o);
@@ -59,7 +59,7 @@ TEST(Vision, ShowsTheWorldOfOneLatencyAgo) {
   SensorSuite suite{s};
   Opportunity o = standing(1.0, 2.0, 0.0);
   o.velocity = {0.0, 1.0, 0.0};
-  world.place(o, kDraws);
+  world.place(o, 1.0, kDraws);
   suite.begin(kDraws);
   suite.remember(world);
   EXPECT_FALSE(suite.vision(world).pose);  // exposed before the robot was there
@@ -87,7 +87,7 @@ TEST(Vision, LatencyMayLieBetweenSteps) {
   SensorSuite suite{s};
   Opportunity o = standing(1.0, 2.0, 0.0);
   o.velocity = {0.0, 1.0, 0.0};
-  world.place(o, kDraws);
+  world.place(o, 1.0, kDraws);
   suite.begin(kDraws);
   suite.remember(world);
   world.start_play(o);
@@ -103,7 +103,7 @@ TEST(Vision, HasTheNoiseThatTheScenarioNames) {
   int seen = 0, missed = 0, runs = 0;
   for (std::uint32_t opportunity = 1; opportunity <= 400; ++opportunity) {
     const Draws draws{9, opportunity};
-    world.place(standing(1.0, 2.0, 0.4), draws);
+    world.place(standing(1.0, 2.0, 0.4), 1.0, draws);
     suite.begin(draws);
     suite.remember(world);
     double first = std::nan("");
@@ -144,7 +144,7 @@ TEST(Wheels, HaveTheNoiseThatTheScenarioNames) {
   int count = 0;
   for (std::uint32_t opportunity = 1; opportunity <= 1000; ++opportunity, ++count) {
     const Draws draws{9, opportunity};
-    world.place(standing(0, 0, 0), draws);
+    world.place(standing(0, 0, 0), 1.0, draws);
     suite.begin(draws);
     const WheelSample sample = suite.wheels(world);
     white2 += sample.wheel_radps[1] * sample.wheel_radps[1];
@@ -159,7 +159,7 @@ TEST(Vision, DoesNotSeeABallHighAbove) {
   World world{s};
   SensorSuite suite{s};
   const Opportunity o = standing(0.0, 0.0, 0.0);
-  world.place(o, kDraws);
+  world.place(o, 1.0, kDraws);
   suite.begin(kDraws);
   world.start_play(o);
   world.command({.drive = {}, .fire = Fire{.t_ns = 0, .kick_id = 1, .power = 30}});

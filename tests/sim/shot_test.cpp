@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "sim/margin.hpp"
@@ -11,14 +12,21 @@ namespace {
 
 using kicking::Outcome;
 
-constexpr PlanPoint kFarAway{50.0, 50.0};
+/// An opponent that stands there.
+std::array<OpponentBody, 1> at(const PlanPoint& place) {
+  OpponentBody body;
+  body.place({place.x_m, place.y_m, 0.11}, {0.0, 0.0, 0.0});
+  return {body};
+}
+
+constexpr PlanPoint kNobody{50.0, 50.0};
+const auto kFarAway = at(kNobody);
 
 /// A shot without drag from (x, 3) that crosses the goal line 6 m on after one second, at the height z.
-Shot fly(const Scenario& scenario, double x_cross, double z_cross, double x_start = 0.0,
-         PlanPoint opponent = kFarAway) {
+Shot fly(const Scenario& scenario, double x_cross, double z_cross, double x_start = 0.0, PlanPoint opponent = kNobody) {
   const double vz = z_cross - 0.11 + 0.5 * scenario.ball.gravity_mps2;
   Shot shot{scenario, {{x_start, 3.0, 0.11}, {x_cross - x_start, 6.0, vz}}, 0};
-  for (std::int64_t t = 1; t <= 4000; ++t) shot.advance_to(t * 1'000'000, opponent);
+  for (std::int64_t t = 1; t <= 4000; ++t) shot.advance_to(t * 1'000'000, at(opponent));
   return shot;
 }
 
@@ -106,6 +114,37 @@ TEST(Shot, IsBlockedByABodyInItsWayAndPassesOverOne) {
   EXPECT_LT(blocked.ball().position_m.y, 3.7);
   EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.1, 6.0}).result()->outcome, Outcome::kOnTarget);   // 1.2 m high there
   EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.38, 3.7}).result()->outcome, Outcome::kOnTarget);  // passes beside it
+}
+
+TEST(Shot, AnyOfTheOpponentsBlocks) {
+  const Scenario scenario = airless();
+  for (std::size_t blocker = 0; blocker < 3; ++blocker) {
+    std::array<OpponentBody, 3> bodies{at(kNobody)[0], at(kNobody)[0], at(kNobody)[0]};
+    bodies[blocker] = at({0.1, 3.7})[0];
+    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.0, 6.0, 5.3}}, 0};
+    for (std::int64_t t = 1; t <= 60; ++t) shot.advance_to(t * 20'000'000, bodies);
+    ASSERT_TRUE(shot.result());
+    EXPECT_EQ(shot.result()->outcome, Outcome::kBlocked);
+  }
+}
+
+TEST(Shot, AKeeperHasWhatItReachesInTime) {
+  Scenario scenario = airless();
+  EXPECT_FALSE(fly(scenario, 0.0, 0.5).result()->saved);  // none
+  scenario.keeper.enabled = true;
+  scenario.keeper.reaction_s = 0.8;
+  scenario.keeper.speed_mps = 1.0;  // 0.2 m in the second that the shot takes, plus 0.26 m and the ball's 0.11 m
+  for (const double side : {-1.0, 1.0}) {
+    const Shot saved = fly(scenario, side * 0.56, 0.5);
+    EXPECT_EQ(saved.result()->outcome, Outcome::kOnTarget);  // Table 2 counts it
+    EXPECT_TRUE(saved.result()->saved);
+    EXPECT_LT(saved.ball().position_m.y, 9.0);
+    EXPECT_FALSE(fly(scenario, side * 0.58, 0.5).result()->saved);
+    EXPECT_FALSE(fly(scenario, side * 1.1, 0.5).result()->saved);  // post
+  }
+  scenario.keeper.height_m = 0.4;
+  EXPECT_FALSE(fly(scenario, 0.0, 0.52).result()->saved);
+  EXPECT_TRUE(fly(scenario, 0.0, 0.5).result()->saved);
 }
 
 TEST(Shot, FromBehindTheLineIsJudgedWhereItStarts) {

@@ -97,8 +97,10 @@ TEST(Substep, KicksAndPossessionsComeOutAsWithFineSteps) {
 
 /// A released ball, stepped to its end.
 Shot flown(const Scenario& scenario, const BallMotion& released, std::int64_t step_ns, const PlanPoint& opponent) {
+  OpponentBody body;
+  body.place({opponent.x_m, opponent.y_m, 0.11}, {0.0, 0.0, 0.0});
   Shot shot{scenario, released, 0};
-  for (std::int64_t t_ns = step_ns; !shot.result(); t_ns += step_ns) shot.advance_to(t_ns, opponent);
+  for (std::int64_t t_ns = step_ns; !shot.result(); t_ns += step_ns) shot.advance_to(t_ns, {&body, 1});
   return shot;
 }
 
