@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "kicking/constants.hpp"
@@ -14,6 +15,16 @@ struct LineAhead {
   double carried_mps = 0.0;
 };
 
+/// An angle over the floor with its sine and cosine.
+struct Elevation {
+  Elevation() = default;
+  explicit Elevation(double angle) : angle_rad(angle), sine(std::sin(angle)), cosine(std::cos(angle)) {}
+
+  double angle_rad = 0.0;
+  double sine = 0.0;
+  double cosine = 1.0;
+};
+
 struct DirectedKick {
   double v_kick_mps = 0.0;
   double t_flight_s = 0.0;
@@ -23,7 +34,7 @@ struct DirectedKick {
 /// without drag. With a = toward_ratio, T the time of flight and V the speed: V c a + u = D / T and V s T - g T^2 / 2 =
 /// h. Eliminating V, g T^2 / 2 + (tan(theta) u / a) T - (tan(theta) D / a - h) = 0, the positive root. None if the kick
 /// points away from the line (a <= 0), the height is above its straight line or the speed would not be positive.
-std::optional<DirectedKick> directed_kick(const LineAhead& line, double height_m, double exit_angle_rad,
+std::optional<DirectedKick> directed_kick(const LineAhead& line, double height_m, const Elevation& exit_angle,
                                           double gravity_mps2 = kGravity_mps2);
 
 }  // namespace trivela::kicking

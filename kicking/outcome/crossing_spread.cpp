@@ -28,7 +28,7 @@ struct Sum {
 
 CrossingSpread crossing_spread(const ReleaseState& release, const KickExit& kick, const RobotModel& robot,
                                const StateSpread& state, double goal_y_m, double gravity_mps2) {
-  const double c = std::cos(kick.exit_angle_rad), s = std::sin(kick.exit_angle_rad);
+  const double c = kick.exit_angle.cosine, s = kick.exit_angle.sine;
   const double r = robot.ball_offset_m, v = kick.v_kick_mps;
   const Eigen::Vector2d f = release.forward, right = release.right();
   const Eigen::Vector2d carried = release.carried_mps(robot.transfer_exact, r);
@@ -47,7 +47,9 @@ CrossingSpread crossing_spread(const ReleaseState& release, const KickExit& kick
   const Transfer& k = robot.transfer_exact;
   const double tau = robot.delay_s;
   Sum sum{t, w.x() / w.y(), (gravity_mps2 * t - v * s) / w.y()};
-  const double dv = v * std::hypot(spread.speed_sd_ratio, spread.table_sd_ratio);
+  const double speed_var =
+      spread.speed_sd_ratio * spread.speed_sd_ratio + spread.table_sd_ratio * spread.table_sd_ratio;
+  const double dv = v * std::sqrt(speed_var);
   sum.add(t * c * dv * f, s * dv);
   sum.add(-t * v * s * spread.exit_angle_sd_rad * f, v * c * spread.exit_angle_sd_rad);
   sum.add(t * v * c * spread.direction_sd_rad * right);
@@ -76,10 +78,13 @@ double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Go
   return std::max(0.0, between * (below - (1.0 - bounce_ratio) * floor));
 }
 
-double best_height_m(double sd_z_m, double bounce_ratio, const Goal& goal, const Ball& ball) {
-  const double top = goal.clean_height_m(ball), low = ball.radius_m;
-  const double lower = sd_z_m * sd_z_m * -std::log1p(-bounce_ratio) / (top - low);
-  return std::max(low, 0.5 * (top + low) - lower);
+BestHeight::BestHeight(double bounce_ratio, const Goal& goal, const Ball& ball)
+    : least_m_(ball.radius_m),
+      middle_m_(0.5 * (goal.clean_height_m(ball) + ball.radius_m)),
+      lower_per_m_(-std::log1p(-bounce_ratio) / (goal.clean_height_m(ball) - ball.radius_m)) {}
+
+double BestHeight::operator()(double sd_z_m) const {
+  return std::max(least_m_, middle_m_ - sd_z_m * sd_z_m * lower_per_m_);
 }
 
 }  // namespace trivela::kicking

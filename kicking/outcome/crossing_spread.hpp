@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "kicking/ballistics/directed_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/robot_model.hpp"
@@ -38,7 +39,7 @@ struct ReleaseState {
 /// A kick of a robot in that state.
 struct KickExit {
   double v_kick_mps = 0.0;
-  double exit_angle_rad = 0.0;
+  Elevation exit_angle{};
 };
 
 /// Where the ball crosses the goal line: mean and standard deviations.
@@ -76,6 +77,15 @@ double p_on_target(const CrossingSpread& crossing, double bounce_ratio, const Go
 ///     z = (z_clean + r) / 2 - sd_z^2 ln(1 / (1 - bounce_ratio)) / (z_clean - r),
 ///
 /// but not below the ball's radius.
-double best_height_m(double sd_z_m, double bounce_ratio, const Goal& goal, const Ball& ball = {});
+class BestHeight {
+ public:
+  BestHeight(double bounce_ratio, const Goal& goal, const Ball& ball = {});
+  double operator()(double sd_z_m) const;
+
+ private:
+  double least_m_;
+  double middle_m_;
+  double lower_per_m_;
+};
 
 }  // namespace trivela::kicking

@@ -4,10 +4,17 @@
 #include <numbers>
 
 namespace trivela::kicking {
+namespace {
+
+constexpr double kCertain = 6.5;  // standard deviations: 4e-11 beyond them
+
+}  // namespace
 
 double normal_below(double margin_m, double sd_m) {
   if (!(sd_m > 0.0)) return margin_m > 0.0 ? 1.0 : 0.0;
-  return 0.5 * std::erfc(-margin_m / sd_m / std::numbers::sqrt2);
+  const double sds = margin_m / sd_m;
+  if (std::abs(sds) > kCertain) return sds > 0.0 ? 1.0 : 0.0;
+  return 0.5 * std::erfc(-sds / std::numbers::sqrt2);
 }
 
 HeightSensitivity height_sensitivity(const KickAtLine& kick, double gravity_mps2) {

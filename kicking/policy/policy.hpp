@@ -97,10 +97,10 @@ struct TestDriveMemory {
 /// What the predictive policy remembers of a possession.
 struct PredictiveMemory {
   OpponentWatch opponent{};
-  DrivePlan plan{};              ///< that it drives by
-  std::optional<Twist> command;  ///< of the last cycle
-  std::optional<Twist> twist;    ///< of the robot in the last cycle
-  double speed_jump_mps = 0.0;   ///< by which the twist changed more than the base can
+  DrivePlan plan = DrivePlan::kOnto;  ///< that it drives by
+  std::optional<Twist> command;       ///< of the last cycle
+  std::optional<Twist> twist;         ///< of the robot in the last cycle
+  double speed_jump_mps = 0.0;        ///< by which the twist changed more than the base can
 };
 
 /// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress.

@@ -55,6 +55,32 @@ BENCHMARK_CAPTURE(moving_kick_decision, physical, HeightLaw::kExact, MotionLaw::
 void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, PolicyName::kStopped, {}); }
 BENCHMARK(stopped_kick_decision);
 
+/// Opponents from near to far, watched for a while: what a cycle of play looks like.
+void predictive_kick_decision(benchmark::State& state) {
+  auto inputs = situations();
+  std::array<PolicyMemory, 64> watched;
+  const PolicyConfig config;
+  const RobotModel robot;
+  const Goal goal;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (int cycle = 10; cycle > 0; --cycle) {
+      PolicyInput before = inputs[i];
+      before.t_ns -= 20'000'000 * cycle;
+      before.opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8) + 0.026 * cycle;
+      before.kicker_ready = false;
+      judge(PolicyName::kPredictive, config, robot, goal, before, watched[i]);
+    }
+    inputs[i].opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8);
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    PolicyMemory memory = watched[i];
+    benchmark::DoNotOptimize(judge(PolicyName::kPredictive, config, robot, goal, inputs[i], memory));
+    i = (i + 1) % inputs.size();
+  }
+}
+BENCHMARK(predictive_kick_decision);
+
 void solve_moving_kick(benchmark::State& state) {
   FlightPoint point{5.73, 0.59};
   for (auto _ : state) {

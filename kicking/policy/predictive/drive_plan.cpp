@@ -9,33 +9,38 @@ namespace trivela::kicking {
 namespace {
 
 /// `ahead`: the target in R.
-double turn_rate(const DrivePlan& plan, const BaseMotion& base, const PolicyConfig& config,
-                 const Eigen::Vector2d& ahead, double alpha_rad) {
+double turn_rate(DrivePlan plan, const BaseMotion& base, const PolicyConfig& config, const Eigen::Vector2d& ahead,
+                 double alpha_rad) {
+  const double side = -ahead.x() + alpha_rad * ahead.y();  // has the error's sign, alpha being small
+  const double full_beyond_rad =
+      config.max_turn_rate_radps * config.max_turn_rate_radps / (1.5 * config.max_turn_acceleration_radps2);
+  const bool full = plan == DrivePlan::kThrough || (ahead.y() < 0.0 && full_beyond_rad < 1.4);
+  const bool other_way = side * base.omega_radps < 0.0 && ahead.y() < 0.0;
+  if (full && !other_way) return std::copysign(config.max_turn_rate_radps, side);
+
   double error = std::atan2(-ahead.x(), ahead.y()) + alpha_rad;
   // Turning on the long way saves braking and coming back.
   const double saved = base.omega_radps * base.omega_radps / config.max_turn_acceleration_radps2;
-  if (error * base.omega_radps < 0.0 && 2.0 * std::numbers::pi - std::abs(error) < std::abs(error) + saved) {
+  if (other_way && 2.0 * std::numbers::pi - std::abs(error) < std::abs(error) + saved) {
     error -= std::copysign(2.0 * std::numbers::pi, error);
   }
-  if (plan.turn == DrivePlan::Turn::kThrough) return std::copysign(config.max_turn_rate_radps, error);
+  if (plan == DrivePlan::kThrough) return std::copysign(config.max_turn_rate_radps, error);
   return turn_rate_for(error, config.moving_turn_gain_hz, config);
 }
 
 }  // namespace
 
-Twist command_of(const DrivePlan& plan, const BaseMotion& base, const PolicyConfig& config,
-                 const Eigen::Vector2d& target_m, double lateral_transfer, double ball_speed_mps) {
+Twist command_of(DrivePlan plan, const BaseMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
+                 double lateral_transfer, double ball_speed_mps) {
   const Eigen::Vector2d line = target_m - base.position_m;
   const Eigen::Vector2d right(base.forward.y(), -base.forward.x());
   const Eigen::Vector2d ahead(line.dot(right), line.dot(base.forward));
   const double alpha = lateral_transfer * base.velocity_mps.dot(right) / ball_speed_mps;
   Twist command;
   command.omega_radps = turn_rate(plan, base, config, ahead, alpha);
-  if (plan.dribble) {
-    const Eigen::Vector2d velocity = dribble_towards(ahead, config);
-    command.vx_mps = velocity.x();
-    command.vy_mps = velocity.y();
-  }
+  const Eigen::Vector2d velocity = dribble_towards(ahead, config);
+  command.vx_mps = velocity.x();
+  command.vy_mps = velocity.y();
   return command;
 }
 

@@ -8,6 +8,7 @@
 namespace trivela::kicking {
 namespace {
 
+constexpr double kBetter = 2e-3;           // a plan must promise so much more than the one before it
 constexpr double kLastShare = 1.0 - 1e-3;  // of a cycle: its end is the next decision's beginning
 
 BaseMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
@@ -35,18 +36,17 @@ Lookout::Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal
       model_(config.predictive, robot, goal, spread_of(config.predictive, input, memory)),
       survival_(config.predictive, memory.opponent),
       opponent_(memory.opponent) {
-  guess_.exit_angle_rad = robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power));
-  ball_speed_mps_ =
-      std::cos(guess_.exit_angle_rad) * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
+  guess_.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
+  ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
 }
 
-Twist Lookout::command_at(const DrivePlan& plan, const BaseMotion& base) const {
+Twist Lookout::command_at(DrivePlan plan, const BaseMotion& base) const {
   return command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral,
                     ball_speed_mps_);
 }
 
 /// Cycle by cycle, as the policy itself will steer.
-void Lookout::drive_for(const DrivePlan& plan, BaseMotion& base, double time_s) const {
+void Lookout::drive_for(DrivePlan plan, BaseMotion& base, double time_s) const {
   while (time_s > 1e-6) {
     const double step_s = std::min(time_s, config_.cycle_s);
     base.step(command_at(plan, base), config_, step_s);
@@ -82,6 +82,58 @@ double Lookout::value(const Prospect& prospect, double survival) const {
   return prospect.p_on_target >= config_.predictive.threshold ? survival * prospect.p_on_target : 0.0;
 }
 
+/// The plans part where their commands do.
+void Lookout::go_on(Ways& ways, double time_s) const {
+  std::array<Twist, kDrivePlans.size()> commands;
+  for (std::size_t i = 0; i < kDrivePlans.size(); ++i) {
+    commands[i] = command_at(kDrivePlans[i], ways.bases[std::min(i, ways.count - 1)]);
+    if (i < ways.count || commands[i].omega_radps == commands[0].omega_radps) continue;
+    ways.bases[i] = ways.bases[0];
+    ways.outlooks[i] = ways.outlooks[0];
+    ways.outlooks[i].plan = kDrivePlans[i];
+    ways.count = i + 1;
+  }
+  for (std::size_t i = 0; i < ways.count; ++i) ways.bases[i].step(commands[i], config_, time_s);
+}
+
+void Lookout::look_at_this_cycle(Ways& ways) {
+  for (double left_s = robot_.delay_s; left_s > 1e-6; left_s -= config_.cycle_s)
+    go_on(ways, std::min(left_s, config_.cycle_s));
+  const double half_s = 0.5 * config_.cycle_s;
+  for (std::size_t instant = 0; instant < 3; ++instant) {
+    const double fire_after_s = static_cast<double>(instant) * half_s;
+    if (instant > 0) go_on(ways, half_s);
+    for (std::size_t i = 0; i < ways.count; ++i) {
+      const Prospect shot = prospect(ways.bases[i], fire_after_s);
+      ways.outlooks[i].values[instant] = value(shot, survival_(fire_after_s));
+      if (instant == 0) ways.outlooks[i].now = shot;
+    }
+  }
+  for (Outlook& outlook : ways.outlooks) {
+    outlook.value_now = std::max({outlook.values[0], outlook.values[1], outlook.values[2]});
+    outlook.value_later = outlook.values[2];
+  }
+}
+
+/// Until nothing can be worth more than the best any more.
+void Lookout::look_ahead(Ways& ways) {
+  const PredictiveConfig& settings = config_.predictive;
+  double best = std::max(ways.outlooks[0].value(), ways.outlooks[ways.count - 1].value());
+  for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= settings.horizon_s;
+       fire_after_s += settings.step_s) {
+    const double survival = survival_(fire_after_s);
+    if (survival <= best) return;
+    go_on(ways, settings.step_s);
+    for (std::size_t i = 0; i < ways.count; ++i) {
+      double& later = ways.outlooks[i].value_later;
+      later = std::max(later, value(prospect(ways.bases[i], fire_after_s), survival));
+      best = std::max(best, later);
+    }
+  }
+}
+
+/// The vertex of the parabola through the three values, where there is one; the end of the cycle belongs to the next
+/// decision.
 void Lookout::schedule(Outlook& outlook) {
   const auto [first, middle, last] = outlook.values;
   const double bend = first - 2.0 * middle + last;
@@ -94,30 +146,17 @@ void Lookout::schedule(Outlook& outlook) {
   outlook.value_now = value(outlook.now, survival_(fire_after_s));
 }
 
-Outlook Lookout::look(const DrivePlan& plan, double enough) {
-  const PredictiveConfig& settings = config_.predictive;
-  Outlook outlook;
-  outlook.plan = plan;
-  BaseMotion base = start_;
-  drive_for(plan, base, robot_.delay_s);
-  outlook.now = prospect(base, 0.0);
-  outlook.values[0] = value(outlook.now, 1.0);
-  double fire_after_s = 0.0;
-  for (std::size_t i = 1; i < outlook.values.size(); ++i) {
-    fire_after_s += 0.5 * config_.cycle_s;
-    base.step(command_at(plan, base), config_, 0.5 * config_.cycle_s);
-    outlook.values[i] = value(prospect(base, fire_after_s), survival_(fire_after_s));
+Outlook Lookout::best() {
+  Ways ways{{start_, start_}};
+  look_at_this_cycle(ways);
+  look_ahead(ways);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ways.count; ++i) {
+    if (ways.outlooks[i].value() > ways.outlooks[best].value() + kBetter) best = i;
   }
-  outlook.value_now = *std::max_element(outlook.values.begin(), outlook.values.end());
-  outlook.value_later = outlook.values.back();
-  while (fire_after_s < settings.horizon_s) {
-    base.step(command_at(plan, base), config_, settings.step_s);
-    fire_after_s += settings.step_s;
-    const double survival = survival_(fire_after_s);
-    if (survival <= std::max({enough, outlook.value_now, outlook.value_later})) break;
-    outlook.value_later = std::max(outlook.value_later, value(prospect(base, fire_after_s), survival));
-  }
-  return outlook;
+  Outlook& chosen = ways.outlooks[best];
+  if (chosen.value_now > 0.0 && chosen.value_now >= chosen.value_later) schedule(chosen);
+  return chosen;
 }
 
 }  // namespace trivela::kicking

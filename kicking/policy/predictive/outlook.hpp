@@ -20,7 +20,7 @@ struct Prospect {
 
 /// What a plan promises: the best shot of this cycle and the best later one.
 struct Outlook {
-  DrivePlan plan{};
+  DrivePlan plan = DrivePlan::kOnto;
   Prospect now{};                  ///< at the beginning of the cycle, or where schedule() put it
   std::array<double, 3> values{};  ///< S P of a shot at the beginning, middle and end of the cycle
   double value_now = 0.0;          ///< of firing within this cycle: S P, nothing below the threshold
@@ -35,21 +35,28 @@ class Lookout {
   Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
           const PredictiveMemory& memory, const LearnedModel* learned);
 
-  /// What the plan promises. Stops looking where nothing can be worth more than `enough` any more.
-  Outlook look(const DrivePlan& plan, double enough);
-
-  /// Puts the shot of this cycle at its best instant: the vertex of the parabola through the three values, where there
-  /// is one; the end of the cycle belongs to the next decision.
-  void schedule(Outlook& outlook);
+  /// The plan that promises most, with its shot of this cycle at its best instant, where it is to be fired now.
+  Outlook best();
 
   /// The plan's drive command now.
-  Twist command(const DrivePlan& plan) const { return command_at(plan, start_); }
+  Twist command(DrivePlan plan) const { return command_at(plan, start_); }
 
  private:
-  Twist command_at(const DrivePlan& plan, const BaseMotion& base) const;
-  void drive_for(const DrivePlan& plan, BaseMotion& base, double time_s) const;
+  /// The ways of both plans, one as long as they do not part.
+  struct Ways {
+    std::array<BaseMotion, kDrivePlans.size()> bases;
+    std::array<Outlook, kDrivePlans.size()> outlooks{};
+    std::size_t count = 1;
+  };
+
+  Twist command_at(DrivePlan plan, const BaseMotion& base) const;
+  void drive_for(DrivePlan plan, BaseMotion& base, double time_s) const;
+  void go_on(Ways& ways, double time_s) const;
   Prospect prospect(const BaseMotion& base, double fire_after_s);
   double value(const Prospect& prospect, double survival) const;
+  void look_at_this_cycle(Ways& ways);
+  void look_ahead(Ways& ways);
+  void schedule(Outlook& outlook);
 
   const PolicyConfig& config_;
   const RobotModel& robot_;

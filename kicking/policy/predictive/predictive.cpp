@@ -10,8 +10,6 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr double kBetter = 2e-3;  // a plan must promise so much more than one before it
-
 /// How much faster the twist changed than the base can: the velocity filter still follows a jump.
 double speed_jump(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
   if (!memory.twist) return 0.0;
@@ -29,8 +27,8 @@ void describe_shot(Judgement& judgement, const Prospect& now, const RobotModel& 
   judgement.target_z_m = now.shot.aim_height_m;
   judgement.v_kick_mps = now.shot.exit.v_kick_mps;
   judgement.power = now.shot.power;
-  judgement.v0_mps =
-      crossing_speed({judgement.distance_m, now.shot.aim_height_m - robot.ball.radius_m}, now.shot.exit.exit_angle_rad);
+  judgement.v0_mps = crossing_speed({judgement.distance_m, now.shot.aim_height_m - robot.ball.radius_m},
+                                    now.shot.exit.exit_angle.angle_rad);
   judgement.p_on_target = now.p_on_target;
   judgement.fire_after_s = now.fire_after_s;
   if (!std::isfinite(crossing.x_m)) return;
@@ -58,12 +56,8 @@ Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, cons
   if (pending) {
     best.plan = own.plan;  // the kick was reckoned with this way of driving
   } else {
-    for (const DrivePlan& plan : kDrivePlans) {
-      const Outlook outlook = lookout.look(plan, best.value());
-      if (&plan == &kDrivePlans.front() || outlook.value() > best.value() + kBetter) best = outlook;
-    }
+    best = lookout.best();
     own.plan = best.plan;
-    if (best.value_now > 0.0 && best.value_now >= best.value_later) lookout.schedule(best);
   }
   Judgement judgement = describe(config, goal, {});
   judgement.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();

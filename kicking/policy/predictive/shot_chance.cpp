@@ -18,25 +18,19 @@ ShotChance ShotModel::chance(const ReleaseState& release, ShotGuess& guess) cons
   const Eigen::Vector2d carried = release.carried_mps(robot_.transfer_exact, robot_.ball_offset_m);
   const LineAhead line{goal_.y_m - release.ball_m.y(), release.forward.y(), carried.y()};
   if (!(line.distance_m > 0.0 && line.toward_ratio > 0.0)) return out;
-  out.aim_height_m = best_height_m(guess.sd_z_m, config_.bounce_ratio, goal_, robot_.ball);
-  PowerReading reading;
-  for (int i = 0; i < 2; ++i) {  // angles differ by a degree over the powers: two rounds are within 1e-4 rad
-    const auto kick = directed_kick(line, out.aim_height_m - robot_.ball.radius_m, guess.exit_angle_rad);
-    if (!kick) {
-      reading = {robot_.table.front().power, PowerRange::kBelow};
-      break;
-    }
-    const double x_m = release.ball_m.x() +
-                       (line.distance_m / kick->t_flight_s - carried.y()) / line.toward_ratio * release.forward.x() *
-                           kick->t_flight_s +
-                       carried.x() * kick->t_flight_s;
+  out.aim_height_m = best_height_(guess.sd_z_m);
+  const auto kick = directed_kick(line, out.aim_height_m - robot_.ball.radius_m, guess.exit_angle);
+  PowerReading reading{robot_.table.front().power, PowerRange::kBelow};  // too near for the height
+  if (kick) {
+    const double x_m = release.ball_m.x() + kick->t_flight_s * carried.x() +
+                       (line.distance_m - kick->t_flight_s * carried.y()) / line.toward_ratio * release.forward.x();
     if (std::abs(x_m) > goal_.half_width_m + kHopeless_m) return out;
     reading = robot_.table.power_for(kick->v_kick_mps);
-    if (!robot_.exit_angles) break;
-    guess.exit_angle_rad = robot_.exit_angle_at(reading.power);
   }
   out.power = reading.power;
-  out.exit = {robot_.table.speed_for(out.power), robot_.exit_angle_at(out.power)};
+  // Angles of one table differ by a degree: that of this power serves the next instant's aim.
+  if (robot_.exit_angles) guess.exit_angle = Elevation(robot_.exit_angle_at(out.power));
+  out.exit = {robot_.table.speed_for(out.power), guess.exit_angle};
   out.crossing = crossing_spread(release, out.exit, robot_, state_, goal_.y_m);
   if (!std::isfinite(out.crossing.x_m)) return out;
   guess.sd_z_m = out.crossing.sd_z_m;
@@ -49,8 +43,8 @@ double p_blocked(const PredictiveConfig& config, double distance_m, const ShotCh
                  double gravity_mps2) {
   const double reach_m = config.opponent_radius_m + ball.radius_m;
   if (!(distance_m > 0.0 && shot.exit.v_kick_mps > 0.0)) return 0.0;
-  const double v_h = shot.exit.v_kick_mps * std::cos(shot.exit.exit_angle_rad);
-  const double v_z = shot.exit.v_kick_mps * std::sin(shot.exit.exit_angle_rad);
+  const double v_h = shot.exit.v_kick_mps * shot.exit.exit_angle.cosine;
+  const double v_z = shot.exit.v_kick_mps * shot.exit.exit_angle.sine;
   const auto clears = [&](double way_m) {
     const double t = std::max(0.0, way_m) / v_h;
     return v_z * t - 0.5 * gravity_mps2 * t * t >= config.opponent_height_m;

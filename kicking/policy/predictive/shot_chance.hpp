@@ -19,26 +19,29 @@ struct ShotChance {
 /// What is known of a shot before it is computed: of the last one, a few centimetres away.
 struct ShotGuess {
   double sd_z_m = 0.2;
-  double exit_angle_rad = 0.0;
+  Elevation exit_angle{};
 };
 
 /// Aims a robot that is released in some state: direction and side are the state's, the height is the one that
-/// maximises P (best_height_m), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target.
+/// maximises P (BestHeight), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target.
 class ShotModel {
  public:
   ShotModel(const PredictiveConfig& config, const RobotModel& robot, const Goal& goal, const StateSpread& state)
-      : config_(config), robot_(robot), goal_(goal), state_(state) {}
+      : config_(config),
+        robot_(robot),
+        goal_(goal),
+        state_(state),
+        best_height_(config.bounce_ratio, goal, robot.ball) {}
 
   /// The guess is improved.
   ShotChance chance(const ReleaseState& release, ShotGuess& guess) const;
-
-  const StateSpread& state() const { return state_; }
 
  private:
   const PredictiveConfig& config_;
   const RobotModel& robot_;
   const Goal& goal_;
   StateSpread state_;
+  BestHeight best_height_;
 };
 
 /// Probability that an opponent at this distance from the ball, anywhere around it, is in a ball's way: it covers
