@@ -13,15 +13,18 @@
 namespace trivela::kicking {
 namespace {
 
-bool finite(const Pose& pose, const Twist& twist) {
+bool finite(const PolicyInput& input) {
+  const Pose& pose = input.pose;
+  const Twist& twist = input.twist;
   // A sum is finite only if every term is.
-  return std::isfinite(pose.x_m + pose.y_m + pose.heading_rad + twist.vx_mps + twist.vy_mps + twist.omega_radps);
+  return std::isfinite(pose.x_m + pose.y_m + pose.heading_rad + twist.vx_mps + twist.vy_mps + twist.omega_radps +
+                       input.sd_position_m + input.sd_heading_rad);
 }
 
 /// Why nothing may be decided in this cycle; kFire: something may.
 Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
   if (!input.playing) return Reason::kNotPlaying;
-  if (!(input.state_age_s <= config.max_state_age_s) || !finite(input.pose, input.twist)) return Reason::kStaleState;
+  if (!(input.state_age_s <= config.max_state_age_s) || !finite(input)) return Reason::kStaleState;
   if (!input.possession) return Reason::kNoBall;
   return Reason::kFire;
 }

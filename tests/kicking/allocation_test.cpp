@@ -33,10 +33,12 @@ TEST(Allocation, IsCounted) {
 void expect_decisions_without_allocation(const RobotModel& robot) {
   PolicyMemory memory;
   PolicyConfig config;
+  config.learned.emplace();
   double sum = 0.0;
   const std::size_t before = allocations;
-  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kStandingDrive,
-                                  PolicyName::kLateralDrive, PolicyName::kTurnDrive, PolicyName::kStraightDrive}) {
+  for (const PolicyName policy :
+       {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kStandingDrive, PolicyName::kLateralDrive,
+        PolicyName::kTurnDrive, PolicyName::kStraightDrive, PolicyName::kPredictive, PolicyName::kLearned}) {
     for (const HeightLaw height : {HeightLaw::kPaper, HeightLaw::kExtendedRange, HeightLaw::kExact}) {
       for (const MotionLaw motion : {MotionLaw::kPaper, MotionLaw::kExact}) {
         for (const AlphaLaw alpha : {AlphaLaw::kPaperLine, AlphaLaw::kPhysical}) {
@@ -46,6 +48,7 @@ void expect_decisions_without_allocation(const RobotModel& robot) {
           for (int i = 0; i < 50; ++i) {
             PolicyInput input = tests::ready_at({0.5, 3, 0.05 * i - 1.0}, {0.2, 1.0, 0.5});
             input.t_ns = 20'000'000 * i;
+            input.opponent_distance_m = 2.0 - 0.02 * i;
             input.possession_id = static_cast<std::uint32_t>(i / 10);
             input.last_kick = SeenKick{i, input.possession_id - 1, 0.1};
             const Judgement judgement = judge(policy, config, robot, {}, input, memory);
