@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
   int exit_code = cli::kDone;
   cli::add_match(app, exit_code);
   cli::add_replay(app, exit_code);
+  cli::add_simulate(app, exit_code);
   cli::add_scan(app, exit_code);
   cli::add_lob(app, exit_code);
   cli::add_calibrate(app, exit_code);

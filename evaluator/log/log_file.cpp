@@ -61,6 +61,8 @@ Value value_of(const SQLite::Column& column) {
 LogFile::LogFile(const fs::path& path, const LogKind& kind)
     : kind_(kind), path_(path.string()), has_wal_(fs::exists(path_ + "-wal")), database_(open(path, kind)) {}
 
+int LogFile::version() const { return database_->execAndGet("PRAGMA user_version").getInt(); }
+
 void LogFile::query(std::string_view sql, const RowFunction& fn) const {
   try {
     SQLite::Statement statement(*database_, std::string(sql));

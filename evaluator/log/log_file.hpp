@@ -28,6 +28,9 @@ class LogFile {
   /// The sentence on a session without an end.
   std::string not_closed() const;
 
+  /// Of the file's schema.
+  int version() const;
+
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
 

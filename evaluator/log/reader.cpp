@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/log_file.hpp"
+#include "evaluator/log/version_1.sql.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -37,7 +38,9 @@ struct Reader::Impl {
   LogFile file;
 };
 
-Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {}
+Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {
+  if (impl_->file.version() == 1) impl_->file.database().exec(kVersion1Sql);
+}
 Reader::~Reader() = default;
 
 void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
@@ -65,8 +68,10 @@ void Reader::for_each_row(std::string_view table, const std::vector<std::string>
 std::vector<RecordedSession> Reader::sessions() const {
   std::vector<RecordedSession> sessions;
   query(
-      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config_toml, "
-      "config_sha256, seed, software_version, scenario, simulated, idl FROM sessions ORDER BY started_t_ns, session_id",
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config.text, "
+      "config_sha256, seed, software_version, scenario, simulated, idl.text, arm, kicker_table, match_id "
+      "FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
+      "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 ORDER BY started_t_ns, session_id",
       [&](std::span<const Value> row) {
         RecordedSession session;
         session.session_id = *integer_of(row[0]);
@@ -83,6 +88,9 @@ std::vector<RecordedSession> Reader::sessions() const {
         session.scenario = text_of(row[11]);
         session.simulated = *integer_of(row[12]) != 0;
         session.idl = text_of(row[13]);
+        if (!text_of(row[14]).empty()) session.arm = text_of(row[14]);
+        if (!text_of(row[15]).empty()) session.kicker_table = text_of(row[15]);
+        session.match_id = integer_of(row[16]);
         sessions.push_back(std::move(session));
       });
   for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {

@@ -7,30 +7,49 @@
 
 namespace trivela::evaluator::log {
 
-void create_log(SQLite::Database& database, const Session& session) {
-  const std::int64_t session_id = session_id_of(session.uuid);
-  SQLite::Transaction transaction(database);
+namespace {
+
+/// Key of a text that the log holds from now on.
+std::string store(SQLite::Database& database, const std::string& text) {
+  const std::string key = sha256(text);
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
+  insert.bind(1, key);
+  insert.bindNoCopy(2, text);
+  insert.exec();
+  return key;
+}
+
+}  // namespace
+
+void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
   database.exec(kSchemaSql);
+}
 
+void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns) {
+  const std::int64_t session_id = session_id_of(session.uuid);
   SQLite::Statement insert(database,
-                           "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, clock, realtime_offset_ns, "
-                           "config_toml, config_sha256, seed, software_version, scenario, simulated, idl) "
-                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
+                           "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
+                           "idl_sha256, arm, kicker_table, match_id) "
+                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, session_id);
   insert.bind(2, session.uuid);
   if (session.robot_id) insert.bind(3, *session.robot_id);
   insert.bind(4, session.started_t_ns);
-  insert.bind(5, session.simulated_clock ? "simulated" : "steady");
-  insert.bind(6, session.realtime_offset_ns);
-  insert.bind(7, session.config_toml);
-  insert.bind(8, sha256(session.config_toml));
+  if (closed_t_ns) insert.bind(5, *closed_t_ns);
+  insert.bind(6, session.simulated_clock ? "simulated" : "steady");
+  insert.bind(7, session.realtime_offset_ns);
+  insert.bind(8, store(database, session.config_toml));
   if (session.seed) insert.bind(9, *session.seed);
   insert.bind(10, session.software_version);
   insert.bind(11, session.scenario);
   insert.bind(12, session.simulated ? 1 : 0);
-  insert.bind(13, session.idl);
+  insert.bind(13, store(database, session.idl));
+  if (session.arm) insert.bind(14, *session.arm);
+  if (session.kicker_table) insert.bind(15, *session.kicker_table);
+  if (session.match_id) insert.bind(16, *session.match_id);
   insert.exec();
 
   for (const HalfPolicy& half : session.policies) {
@@ -40,6 +59,12 @@ void create_log(SQLite::Database& database, const Session& session) {
     policy.bind(3, half.policy);
     policy.exec();
   }
+}
+
+void create_log(SQLite::Database& database, const Session& session) {
+  SQLite::Transaction transaction(database);
+  create_tables(database);
+  insert_session(database, session);
   transaction.commit();
 }
 

@@ -18,7 +18,7 @@ struct LogKind {
   int application_id = 0;    ///< shown by file(1)
   int version = 1;           ///< PRAGMA user_version
 };
-inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 1};     ///< "KICK"
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 2};     ///< "KICK"
 inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 1};  ///< "SCAN"
 
 struct Column {
@@ -26,8 +26,15 @@ struct Column {
   bool not_null = false;
 };
 
-/// Creates the tables and the session's rows of a match log in one transaction; `uuid` must be set. Throws
-/// SQLite::Exception.
+/// Creates the tables of a match log. Throws SQLite::Exception.
+void create_tables(SQLite::Database& database);
+
+/// Inserts a session's rows, its texts where they are not there yet; `uuid` must be set. `closed_t_ns`: end of the
+/// recording, none: it goes on. Throws SQLite::Exception.
+void insert_session(SQLite::Database& database, const Session& session,
+                    std::optional<std::int64_t> closed_t_ns = std::nullopt);
+
+/// Both in one transaction.
 void create_log(SQLite::Database& database, const Session& session);
 
 /// Names of the tables, without views.

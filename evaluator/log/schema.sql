@@ -1,23 +1,39 @@
--- Schema of a match log, version 1. One file holds one session or several merged ones.
+-- Schema of a match log, version 2. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix.
 
+CREATE TABLE texts (                       -- long texts, each stored once
+  sha256 TEXT NOT NULL PRIMARY KEY,        -- of text, lower case hexadecimal
+  text TEXT NOT NULL                       -- configuration, or definition of the messages
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE sessions (                    -- one recording
   session_id INTEGER NOT NULL PRIMARY KEY, -- first 63 bits of the uuid, key of every other table
-  uuid TEXT NOT NULL UNIQUE,               -- version 4
+  uuid TEXT NOT NULL UNIQUE,               -- version 4; of `trivela simulate`, version 8: made of the arguments
   robot_id INTEGER,                        -- robot that recorded; NULL: several
   started_t_ns INTEGER NOT NULL,           -- start of the recording
   closed_t_ns INTEGER,                     -- end of the recording; NULL: it was never finalised
   clock TEXT NOT NULL CHECK (clock IN ('steady', 'simulated')), -- clock of every t_ns
   realtime_offset_ns INTEGER NOT NULL,     -- UTC since 1970 minus this clock
-  config_toml TEXT NOT NULL,               -- whole configuration as it was used
-  config_sha256 TEXT NOT NULL,             -- of config_toml, lower case hexadecimal
-  seed INTEGER,                            -- of the simulation; NULL: no simulation
+  config_sha256 TEXT NOT NULL,             -- texts.sha256 of the whole configuration as it was used
+  seed INTEGER,                            -- of the simulated match; NULL: no simulation
   software_version TEXT NOT NULL,          -- of the program that recorded
   scenario TEXT NOT NULL,                  -- name of the scenario or of the match
   simulated INTEGER NOT NULL CHECK (simulated IN (0, 1)), -- 1: a simulated match
-  idl TEXT NOT NULL                        -- text of the messages' definition
+  idl_sha256 TEXT NOT NULL,                -- texts.sha256 of the messages' definition
+  arm TEXT,                                -- of an experiment; NULL: none
+  kicker_table TEXT,                       -- height tables of that arm: 'new' or 'old'
+  match_id INTEGER                         -- of the experiment: where it is the same, possessions are the same situations
+) STRICT, WITHOUT ROWID;
+
+CREATE INDEX sessions_match ON sessions (match_id, arm);
+
+CREATE TABLE experiments (                 -- what `trivela simulate` was asked for; none in a recorded match
+  arguments_sha256 TEXT NOT NULL PRIMARY KEY, -- of arguments: a file goes on with the same ones alone
+  arguments TEXT NOT NULL,                 -- scenario, arms, seed and numbers, as text
+  matches INTEGER NOT NULL,                -- of each arm, when it is finished
+  matches_done INTEGER NOT NULL            -- so far; the file is whole where the two are equal
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE session_policies (            -- the policy in charge, by half
@@ -26,6 +42,17 @@ CREATE TABLE session_policies (            -- the policy in charge, by half
   policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
     'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge of the kicks
   PRIMARY KEY (session_id, half)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE assignments (                 -- the policy in charge, by possession
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  half INTEGER NOT NULL,                   -- 1, 2
+  possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
+  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
+    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge of the kicks
+  probability REAL NOT NULL,               -- with which it was put in charge; 1: not at random
+  PRIMARY KEY (session_id, robot_id, half, possession_id)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE odometry (                    -- wheel odometry with the samples it was made from
@@ -287,6 +314,7 @@ CREATE TABLE kick_truths (                 -- the simulator's truth of a kick; n
   release_vy_mps REAL NOT NULL,            -- simulator's truth: ball velocity at release, in F, m/s
   release_vz_mps REAL NOT NULL,            -- simulator's truth: ball velocity at release, upwards, m/s
   margin_m REAL,                           -- simulator's truth: crossing to the nearest edge of another outcome, m
+  saved INTEGER NOT NULL CHECK (saved IN (0, 1)), -- simulator's truth: on target, but the keeper had it
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -299,7 +327,7 @@ CREATE TABLE possession_truths (           -- the simulator's truth of how a bal
   t_ns INTEGER NOT NULL,                   -- simulator's truth: end of the possession
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half
-  ending TEXT NOT NULL CHECK (ending IN ('kicked', 'disputed', 'timed_out')), -- simulator's truth
+  ending TEXT NOT NULL CHECK (ending IN ('kicked', 'disputed', 'timed_out', 'stopped')), -- simulator's truth
   start_t_ns INTEGER NOT NULL,             -- simulator's truth: the possession began
   start_x_m REAL NOT NULL,                 -- simulator's truth: robot pose in F at the start, m
   start_y_m REAL NOT NULL,                 -- simulator's truth: robot pose in F at the start, m
@@ -320,7 +348,8 @@ CREATE TABLE losses (                      -- what the recording missed, by stre
   PRIMARY KEY (session_id, stream)
 ) STRICT, WITHOUT ROWID;
 
--- A kick is a decision that fired; an order may be sent twice, so the accepted receipt holds before a refused one.
+-- A kick is a decision that fired; an order may be sent twice, so the latest receipt that is no answer to a repetition
+-- holds: an accepted order whose instant lay ahead may have been withdrawn.
 -- INDEXED BY: without it the planner, misled by a short log, may walk through all decisions for each kick.
 CREATE VIEW kicks AS
 SELECT
@@ -330,7 +359,7 @@ SELECT
   r.accepted, r.refusal, r.fired_t_ns, r.release_t_ns,
   c.outcome, c.on_target, c.x_cross_m, c.z_cross_m, c.sd_cross_m, c.exit_speed_mps,
   t.outcome AS truth_outcome, t.x_cross_m AS truth_x_cross_m, t.z_cross_m AS truth_z_cross_m,
-  t.margin_m AS truth_margin_m
+  t.margin_m AS truth_margin_m, t.saved AS truth_saved
 FROM kick_decisions AS d
 LEFT JOIN kick_orders AS o ON o.session_id = d.session_id AND o.robot_id = d.robot_id AND o.seq = (
   SELECT max(seq) FROM kick_orders INDEXED BY kick_orders_kick
@@ -338,7 +367,7 @@ LEFT JOIN kick_orders AS o ON o.session_id = d.session_id AND o.robot_id = d.rob
 LEFT JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT seq FROM kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id
-  ORDER BY accepted DESC, seq DESC LIMIT 1)
+  ORDER BY refusal = 'double', seq DESC LIMIT 1)
 LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
   SELECT max(seq) FROM kick_outcomes INDEXED BY kick_outcomes_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)

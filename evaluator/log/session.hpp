@@ -23,10 +23,13 @@ struct Session {
   std::string config_toml;              ///< whole configuration as used; the writer adds its SHA-256
   std::optional<std::int64_t> seed;     ///< of the simulation
   std::string software_version;
-  std::string scenario;    ///< name of the scenario or of the match
-  bool simulated = false;  ///< a simulated match
-  std::string idl;         ///< text of the messages' definition
-  std::vector<HalfPolicy> policies;
+  std::string scenario;                       ///< name of the scenario or of the match
+  bool simulated = false;                     ///< a simulated match
+  std::string idl;                            ///< text of the messages' definition
+  std::vector<HalfPolicy> policies;           ///< none where it is drawn at random
+  std::optional<std::string> arm{};           ///< of an experiment
+  std::optional<std::string> kicker_table{};  ///< of the arm: "new" or "old"
+  std::optional<std::int64_t> match_id{};     ///< where it is the same, possessions are the same situations
 };
 
 }  // namespace trivela::evaluator::log

@@ -6,61 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <stdexcept>
 
+#include "evaluator/log/new_file.hpp"
+
 namespace trivela::evaluator::log {
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int kBusyTimeout_ms = 5000;
-constexpr int kFoldTimeout_ms = 200;  // a reader that stays must not hold up the end of a match
-
-fs::path beside(const fs::path& path, const char* suffix) {
-  fs::path other = path;
-  other += suffix;
-  return other;
-}
-
-// True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
-bool claim(const fs::path& path, const LogKind& kind) {
-  if (fs::exists(beside(path, "-wal"))) {
-    throw std::runtime_error(
-        fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
-  }
-  if (fs::exists(path)) {
-    if (fs::is_regular_file(path) && fs::file_size(path) == 0) return false;
-    throw std::runtime_error(
-        fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
-  }
-  std::FILE* const file = std::fopen(path.c_str(), "wx");
-  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the {} {}", kind.name, path.string()));
-  std::fclose(file);
-  return true;
-}
-
-std::unique_ptr<SQLite::Database> create(const fs::path& path, const NewLog& log) {
-  const bool made_here = claim(path, log.kind);
-  try {
-    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
-    database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
-    log.create(*database);
-    database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as what it is
-    return database;
-  } catch (const std::exception& error) {
-    if (made_here) {
-      for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
-    }
-    throw std::runtime_error(fmt::format("cannot create the {} {}: {}", log.kind.name, path.string(), error.what()));
-  }
-}
-
-}  // namespace
-
-SessionWriter::SessionWriter(const fs::path& path, const NewLog& log)
-    : kind_(log.kind), database_(create(path, log)), session_id_(log.session_id), latest_t_ns_(log.started_t_ns) {
+SessionWriter::SessionWriter(const std::filesystem::path& path, const NewLog& log)
+    : kind_(log.kind),
+      database_(new_file(path, log.kind, log.create)),
+      session_id_(log.session_id),
+      latest_t_ns_(log.started_t_ns) {
   for (const std::string& table : tables_of(*database_)) schema_[table] = *columns_of(*database_, table);
 }
 
@@ -194,12 +150,7 @@ void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t>
 
 bool SessionWriter::fold() {
   statements_.clear();
-  database_->setBusyTimeout(kFoldTimeout_ms);
-  database_->exec("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");
-  const int code = database_->tryExec("PRAGMA journal_mode = DELETE;");
-  if (code == SQLITE_OK) return true;
-  if ((code & 0xFF) == SQLITE_BUSY) return false;
-  throw SQLite::Exception(database_->getHandle(), code);
+  return log::fold(*database_);
 }
 
 }  // namespace trivela::evaluator::log

@@ -1,12 +1,17 @@
 #include "nodes/in_process/play_match.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
+#include "nodes/in_process/oracle.hpp"
 #include "nodes/in_process/robot_chain.hpp"
 #include "nodes/shot_observer/observer.hpp"
 #include "nodes/simulator/sim_messages.hpp"
+#include "sim/hand_table.hpp"
 #include "sim/match.hpp"
 #include "sim/random.hpp"
 
@@ -15,21 +20,15 @@ namespace {
 
 constexpr double kEndless_min = 1e6;  // a half ends by its possessions
 
-/// The arm's settings as the nodes of a match with that seed would be given them.
-config::Settings settings_of(const Arm& arm, std::uint64_t seed, const PlayOptions& options) {
-  config::Settings settings = arm.settings;
-  config::KickDecision& decision = settings.kick_decision;
-  decision.policy_by_half = {arm.policy};
-  decision.policy_by_robot.clear();
-  decision.random.clear();
-  decision.random_probabilities.clear();
-  for (const PolicyChance& chance : arm.random) {
-    decision.random.push_back(chance.policy);
-    decision.random_probabilities.push_back(chance.probability);
-  }
-  decision.assignment_seed = seed;
-  decision.shadows = options.shadows;
+config::Settings settings_of_match(const Arm& arm, std::uint64_t seed, const PlayOptions& options) {
+  config::Settings settings = settings_of(arm, options);
+  settings.kick_decision.assignment_seed = seed;
   return settings;
+}
+
+bool knows_the_truth(const PolicyAssignment& assignment) {
+  const auto candidates = assignment.candidates();
+  return std::find(candidates.begin(), candidates.end(), kicking::PolicyName::kOracle) != candidates.end();
 }
 
 std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>(seed % 0x7fff) + 1; }
@@ -43,12 +42,14 @@ class Game {
         arm_(arm),
         options_(options),
         record_(record),
+        seed_(seed),
         match_id_(match_id),
-        settings_(settings_of(arm, seed, options)),
-        session_(session_of(seed)),
-        match_(scenario, seed, 1, kEndless_min, possessions),
+        settings_(settings_of_match(arm, match_seed(seed, match_id), options)),
+        session_(session_of(match_seed(seed, match_id))),
+        oracle_(knows_the_truth(PolicyAssignment{settings_.kick_decision, 1})),
+        match_(scenario, match_seed(seed, match_id), 1, kEndless_min, possessions),
         observer_(settings_.shot_observer, settings_.goal) {
-    played_.match_seed = seed;
+    played_.match_seed = match_seed(seed, match_id);
     played_.possessions.reserve(possessions);
     kick_ids_.reserve(possessions);
   }
@@ -60,14 +61,17 @@ class Game {
 
  private:
   void cycle() {
-    const sim::Sensors sensors = match_.sense();
+    const bool follows = observer_.follows();
+    const sim::Sensors sensors = match_.sense({.flight = follows});
     ++played_.cycles;
     played_.end_t_ns = sensors.t_ns;
     const msg::Referee referee = hear(sensors);
-    observe(sensors, referee);
+    if (follows) observe(sensors, referee);
     sim::Commands commands;
     RobotChain& chain = chain_of(robot_id_);
-    if (const CycleDecision* decision = chain.cycle(sensors, referee, outcome_)) {
+    std::optional<sim::TrueState> truth;
+    if (oracle_) truth = match_.true_state();
+    if (const CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
       const kicking::Twist& drive = decision->in_charge.judgement.drive;
       commands.drive = drive;
       note_assignment(referee, chain);
@@ -176,10 +180,25 @@ class Game {
     const std::size_t index = robot_id - 1u;
     if (chains_.size() <= index) chains_.resize(index + 1);
     if (!chains_[index]) {
-      const config::Robot& robot = arm_.robots[std::min(index, arm_.robots.size() - 1)];
-      chains_[index] = std::make_unique<RobotChain>(settings_, robot, robot_id, session_);
+      chains_[index] = std::make_unique<RobotChain>(settings_, robot(robot_id), robot_id, session_, seat());
     }
     return *chains_[index];
+  }
+
+  /// What this robot knows of itself in this arm.
+  config::Robot robot(std::uint8_t robot_id) const {
+    config::Robot robot = arm_.robots[std::min<std::size_t>(robot_id, arm_.robots.size()) - 1];
+    if (arm_.table == kOldTable) {
+      const kicking::PolicyConfig& policy = settings_.policy;
+      const auto table = sim::draw_hand_table(scenario_, scenario_.kicker, seed_, match_id_, robot_id);
+      robot.model = kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m);
+    }
+    return robot;
+  }
+
+  std::optional<OracleSeat> seat() const {
+    if (!oracle_) return std::nullopt;
+    return OracleSeat{oracle_config(settings_.policy, scenario_), oracle_robot(scenario_, scenario_.kicker)};
   }
 
   /// Whose kick it is: of this possession, or of one before, where it was seen late.
@@ -194,9 +213,11 @@ class Game {
   const Arm& arm_;
   PlayOptions options_;
   MatchRecord* record_;
+  std::uint64_t seed_;
   std::uint32_t match_id_;
   config::Settings settings_;
   std::uint32_t session_;
+  bool oracle_;
   sim::Match match_;
   Observer observer_;
   std::vector<std::unique_ptr<RobotChain>> chains_;  // by robot, made when it first has the ball
@@ -219,11 +240,32 @@ std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
   return (std::uint64_t{words[0]} << 32 | words[1]) >> 12;
 }
 
+config::Settings settings_of(const Arm& arm, const PlayOptions& options) {
+  config::Settings settings = arm.settings;
+  config::KickDecision& decision = settings.kick_decision;
+  decision.policy_by_half = {arm.policy};
+  decision.policy_by_robot.clear();
+  decision.random.clear();
+  decision.random_probabilities.clear();
+  for (const PolicyChance& chance : arm.random) {
+    decision.random.push_back(chance.policy);
+    decision.random_probabilities.push_back(chance.probability);
+  }
+  decision.shadows = options.shadows;
+  return settings;
+}
+
 PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
   if (possessions == 0) throw std::runtime_error{"a match of no possessions"};
   if (arm.robots.empty()) throw std::runtime_error{"arm " + arm.name + " has no robot"};
-  return Game{scenario, arm, match_seed(seed, match_id), match_id, possessions, options, record}.play();
+  if (arm.table != kNewTable && arm.table != kOldTable)
+    throw std::runtime_error{"arm " + arm.name + ": table \"" + arm.table + "\" is neither new nor old"};
+  if (scenario.cycle_s != arm.settings.run.cycle_s) {
+    throw std::runtime_error{fmt::format("arm {}: run.cycle_s = {} differs from the scenario's cycle_s = {}", arm.name,
+                                         arm.settings.run.cycle_s, scenario.cycle_s)};
+  }
+  return Game{scenario, arm, seed, match_id, possessions, options, record}.play();
 }
 
 }  // namespace trivela::nodes

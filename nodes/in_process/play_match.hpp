@@ -18,13 +18,16 @@ struct PlayOptions {
   bool every_cycle = false;  ///< record every decision, not only those that fire
 };
 
+/// The arm's settings as its robots play by them, but for kick_decision.assignment_seed, which is the match's.
+config::Settings settings_of(const Arm& arm, const PlayOptions& options);
+
 /// Plays one half of `possessions` possessions in this process, without a bus: the world, and the nodes' own logic in
 /// the order of a lockstep cycle (docs/architecture.md). The same decisions as `trivela match` with the seed
 /// match_seed(seed, match_id), the arm's settings and simulator.max_possessions; but each robot of a team decides with
 /// a model and memories of its own, and the policy may be the oracle, which is told the world's true state.
 ///
 /// `record`: gets every message that a log of the match holds; nullptr: nothing is recorded. Throws std::runtime_error
-/// for a scenario that sim::first_problem() refuses, and for no possessions.
+/// for a scenario that sim::first_problem() refuses or whose cycle is not the settings', and for no possessions.
 PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint32_t possessions, const PlayOptions& options = {}, MatchRecord* record = nullptr);
 

@@ -1,5 +1,8 @@
 #include "nodes/in_process/robot_chain.hpp"
 
+#include <utility>
+
+#include "nodes/in_process/oracle.hpp"
 #include "nodes/odometry/odometry_message.hpp"
 #include "nodes/simulator/sim_messages.hpp"
 
@@ -17,16 +20,16 @@ hal::KickerSample kicker_sample(const sim::Sensors& sensors) {
 }  // namespace
 
 RobotChain::RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
-                       std::uint32_t session)
+                       std::uint32_t session, std::optional<OracleSeat> oracle)
     : robot_(robot),
       robot_id_(robot_id),
       odometry_(robot.base, settings.odometry),
       model_(settings.world_state, robot.model.ball_offset_m),
-      decider_(settings, robot.model, robot_id, session),
+      decider_(settings, robot_.model, robot_id, session, std::move(oracle)),
       desk_(settings.kicker_driver, robot.model, robot_id) {}
 
 const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
-                                       const std::optional<msg::KickOutcome>& outcome) {
+                                       const std::optional<msg::KickOutcome>& outcome, const sim::TrueState* truth) {
   receipt_.reset();
   const hal::WheelSample wheels = wheel_sample(sensors);
   const std::span<const double> speeds{wheels.wheel_radps.data(), static_cast<std::size_t>(wheels.wheel_count)};
@@ -35,7 +38,10 @@ const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::R
   status_ = desk_.status(kicker_sample(sensors), referee.playing);
   world_ = model_.update(odometry_message(wheels, *estimate), vision_message(sensors.t_ns, sensors.vision), referee);
   world_.robot_id = robot_id_;
-  const CycleDecision& decision = decider_.decide(world_, &status_, outcome);
+  std::optional<kicking::PolicyInput> told;
+  if (truth != nullptr)
+    told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
+  const CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns);
   return &decision;
 }

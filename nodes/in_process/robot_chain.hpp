@@ -10,21 +10,23 @@
 #include "nodes/odometry/wheel_odometry.hpp"
 #include "nodes/world_state/world_model.hpp"
 #include "sim/sensors.hpp"
+#include "sim/truth.hpp"
 
 namespace trivela::nodes {
 
 /// One robot's part of a lockstep cycle, without a bus: odometry, world model, decision, and the kicker's driver.
 class RobotChain {
  public:
-  /// `session`: upper 15 bits of every kick_id. Both references must outlive the chain.
-  RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
-             std::uint32_t session);
+  /// `session`: upper 15 bits of every kick_id. `oracle`: where that policy may be in charge.
+  RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id, std::uint32_t session,
+             std::optional<OracleSeat> oracle);
   RobotChain(const RobotChain&) = delete;
   RobotChain& operator=(const RobotChain&) = delete;
 
   /// Decides the cycle of `sensors`. nullptr: its wheel sample is not newer than the last one.
+  /// `truth`: of the same instant, where the oracle may be in charge.
   const CycleDecision* cycle(const sim::Sensors& sensors, const msg::Referee& referee,
-                             const std::optional<msg::KickOutcome>& outcome);
+                             const std::optional<msg::KickOutcome>& outcome, const sim::TrueState* truth);
 
   /// The driver's answer to the order of this cycle; none: it held.
   const std::optional<msg::KickReceipt>& receipt() const { return receipt_; }
@@ -38,7 +40,7 @@ class RobotChain {
   const config::Robot& robot() const { return robot_; }
 
  private:
-  const config::Robot& robot_;
+  config::Robot robot_;
   std::uint8_t robot_id_;
   WheelOdometry odometry_;
   WorldModel model_;

@@ -1,7 +1,8 @@
 #include "nodes/kick_decision/decider.hpp"
 
-#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "nodes/kick_decision/decision_message.hpp"
 
@@ -28,10 +29,11 @@ std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
 }  // namespace
 
 Decider::Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
-                 std::uint32_t session)
+                 std::uint32_t session, std::optional<OracleSeat> oracle)
     : model_(model),
       policy_(settings.policy),
       goal_(settings.goal),
+      oracle_(std::move(oracle)),
       assignment_(settings.kick_decision, robot_id),
       validity_ns_(static_cast<std::int64_t>(settings.kick_decision.order_validity_s * 1e9)),
       robot_id_(robot_id),
@@ -41,8 +43,12 @@ Decider::Decider(const config::Settings& settings, const kicking::RobotModel& mo
   if (settings.policy.learned) shadows_.push_back(PolicyName::kLearned);
 }
 
-kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput& input) {
-  return kicking::judge(policy, policy_, model_, goal_, input, memory_[static_cast<std::size_t>(policy)]);
+kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput& input,
+                                  const kicking::PolicyInput* truth) {
+  kicking::PolicyMemory& memory = memory_[static_cast<std::size_t>(policy)];
+  if (policy != PolicyName::kOracle) return kicking::judge(policy, policy_, model_, goal_, input, memory);
+  assert(oracle_ && truth != nullptr);
+  return kicking::judge(policy, oracle_->policy, oracle_->model, goal_, *truth, memory);
 }
 
 /// Possessions are numbered anew in each half; a policy that was not asked in between must not take one for another.
@@ -53,22 +59,24 @@ void Decider::begin_half(std::uint8_t half) {
 }
 
 const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
-                                     const std::optional<msg::KickOutcome>& outcome) {
+                                     const std::optional<msg::KickOutcome>& outcome,
+                                     const kicking::PolicyInput* truth) {
   begin_half(world.half);
   kicking::PolicyInput input = policy_input(world, kicker);
   input.last_kick = last_kick(outcome);
   const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
-  decision_.in_charge = {chosen.policy, judge(chosen.policy, input)};
+  decision_.in_charge = {chosen.policy, judge(chosen.policy, input, truth)};
   decision_.assignment_probability = chosen.probability;
   decision_.shadow_count = 0;
   for (const PolicyName policy : shadows_) {
     if (policy == chosen.policy) continue;
-    decision_.shadows[decision_.shadow_count++] = {policy, judge(policy, input)};
+    decision_.shadows[decision_.shadow_count++] = {policy, judge(policy, input, truth)};
   }
   decision_.order.reset();
-  if (!world.possession) return decision_;
+  const bool fire = decision_.in_charge.judgement.fire;
+  if (!world.possession && !fire) return decision_;  // the oracle alone may fire where the robot sees no ball
   ++decisions_;
-  if (decision_.in_charge.judgement.fire) decision_.order = order(world, decision_.in_charge.judgement);
+  if (fire) decision_.order = order(world, decision_.in_charge.judgement);
   return decision_;
 }
 

@@ -18,6 +18,12 @@ struct Judged {
   kicking::Judgement judgement;
 };
 
+/// What the oracle decides by in place of the robot's settings and model.
+struct OracleSeat {
+  kicking::PolicyConfig policy;
+  kicking::RobotModel model;
+};
+
 /// What was decided in a cycle.
 struct CycleDecision {
   Judged in_charge;
@@ -32,14 +38,16 @@ struct CycleDecision {
 class Decider {
  public:
   /// `session`: upper 15 bits of every kick_id. `model` must outlive the decider. Throws config::Error where the
-  /// policies in charge make no sense together.
+  /// policies in charge make no sense together. `oracle`: only where that policy may be in charge.
   Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
-          std::uint32_t session);
+          std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
 
   /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
-  /// was seen, if any. The reference holds until the next call.
+  /// was seen, if any. `truth`: what the oracle is told where it may be in charge. The reference holds until the next
+  /// call.
   const CycleDecision& decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
-                              const std::optional<msg::KickOutcome>& outcome);
+                              const std::optional<msg::KickOutcome>& outcome,
+                              const kicking::PolicyInput* truth = nullptr);
 
   /// The record of the last decide(), which was given these. Its seq counts the cycles with the ball.
   msg::KickDecision record(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
@@ -52,7 +60,8 @@ class Decider {
   const PolicyAssignment& assignment() const { return assignment_; }
 
  private:
-  kicking::Judgement judge(kicking::PolicyName policy, const kicking::PolicyInput& input);
+  kicking::Judgement judge(kicking::PolicyName policy, const kicking::PolicyInput& input,
+                           const kicking::PolicyInput* truth);
   void begin_half(std::uint8_t half);
   std::optional<kicking::SeenKick> last_kick(const std::optional<msg::KickOutcome>& outcome) const;
   msg::KickOrder order(const msg::WorldState& world, const kicking::Judgement& judgement);
@@ -60,6 +69,7 @@ class Decider {
   const kicking::RobotModel& model_;
   kicking::PolicyConfig policy_;
   kicking::Goal goal_;
+  std::optional<OracleSeat> oracle_;
   PolicyAssignment assignment_;
   std::vector<kicking::PolicyName> shadows_;
   std::int64_t validity_ns_;

@@ -34,6 +34,8 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
   in.possession_id = world.possession_id;
   in.kicker_ready = kicker != nullptr && kicker->ready;
   if (kicker != nullptr) in.state_age_s = std::abs(static_cast<double>(world.t_ns - kicker->t_ns)) * 1e-9;
+  in.sd_position_m = world.sd_position_m;
+  in.sd_heading_rad = world.sd_heading_rad;
   if (std::isfinite(world.opponent_distance_m)) in.opponent_distance_m = world.opponent_distance_m;
   return in;
 }

@@ -73,11 +73,17 @@ void RecorderNode::record_decisions() {
   std::vector<std::string> shadow_columns{"robot_id", "seq", "shadow_index"};
   for (const std::string& column : columns_of<msg::ShadowDecision>()) shadow_columns.push_back(column);
   const TableId shadows = log_.table("shadow_decisions", shadow_columns);
+  const TableId assignments = log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"});
   bus::ReaderOptions everything;
   everything.keep_all = true;
   node_.on<msg::KickDecision>(
-      [this, decisions, shadows, watch = SequenceWatch{}](const msg::KickDecision& decision,
-                                                          const bus::SampleInfo& info) mutable {
+      [this, decisions, shadows, assignments, watch = SequenceWatch{}](const msg::KickDecision& decision,
+                                                                       const bus::SampleInfo& info) mutable {
+        if (assigned_.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
+          log_.push(assignments,
+                    {std::int64_t{decision.robot_id}, std::int64_t{decision.half}, std::int64_t{decision.possession_id},
+                     std::string{bus::label(decision.policy)}, decision.assignment_probability});
+        }
         const std::int64_t seq = store("kick_decisions", decisions, watch, decision, info.writer);
         const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
         for (std::int64_t i = 0; i < count; ++i) {

@@ -2,7 +2,9 @@
 
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/cycle_watch.hpp"
@@ -33,6 +35,7 @@ class RecorderNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   CycleWatch cycles_;
+  std::set<std::tuple<int, int, std::uint32_t>> assigned_;  // robot, half, possession that a policy was noted for
 };
 
 /// What the log says about this session.

@@ -1,29 +1,17 @@
 #include <chrono>
 #include <filesystem>
+#include <optional>
 
 #include "config/scenario.hpp"
-#include "idl_text.hpp"
+#include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/recorder_node.hpp"
+#include "nodes/recorder/session_text.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 std::int64_t now_ns(auto clock_now) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
-}
-
-/// The settings without what differs from run to run and from machine to machine, so that equal set-ups have equal
-/// hashes; robot and scenario follow in full.
-config::Settings set_up(config::Settings settings) {
-  settings.domain.domain_id = config::Domain{}.domain_id;
-  settings.domain.tag = config::Domain{}.tag;
-  settings.recorder.log = config::Recorder{}.log;
-  settings.scan_recorder.file = config::ScanRecorder{}.file;
-  settings.run.robot = config::Run{}.robot;
-  settings.run.scenario = config::Run{}.scenario;
-  settings.run.log_level = config::Run{}.log_level;
-  settings.hal.replay_log = std::filesystem::path{settings.hal.replay_log}.filename().string();
-  return settings;
 }
 
 }  // namespace
@@ -37,21 +25,23 @@ evaluator::log::Session session_of(const NodeContext& context) {
   const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
   if (!simulated) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = realtime_ns - session.started_t_ns;
-  session.config_toml =
-      "### settings\n" + config::to_toml_text(set_up(settings)) + "\n### robot\n" + config::to_toml_text(context.robot);
+  std::optional<sim::Scenario> scenario;
   if (settings.hal.wheels == "replay") {
     session.scenario = "replay of " + std::filesystem::path{settings.hal.replay_log}.filename().string();
   } else if (simulated) {
     session.seed = settings.simulator.seed;
     session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
-    session.config_toml += "\n### scenario\n" + config::to_toml_text(config::load_scenario(settings.run.scenario));
+    scenario = config::load_scenario(settings.run.scenario);
   }
-  session.software_version = TRIVELA_VERSION;
-  session.idl = kIdlText;
+  session.config_toml = session_config(settings, {context.robot}, scenario ? &*scenario : nullptr);
+  session.software_version = software_version();
+  session.idl = idl_text();
+  const PolicyAssignment assignment{settings.kick_decision, context.robot_id()};
+  if (assignment.random()) return session;
   const auto& by_half = settings.kick_decision.policy_by_half;
   const std::size_t halves = simulated ? settings.simulator.halves : std::max<std::size_t>(by_half.size(), 2);
   for (std::size_t half = 1; half <= halves; ++half) {
-    const auto policy = by_half[std::min(half, by_half.size()) - 1];
+    const auto policy = assignment.in_charge(static_cast<std::uint8_t>(half), 0).policy;
     session.policies.push_back({static_cast<int>(half), kicking::name(policy)});
   }
   return session;

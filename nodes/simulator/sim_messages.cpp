@@ -8,7 +8,7 @@ namespace trivela::nodes {
 namespace {
 
 static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
-static_assert(int{msg::POSSESSION_TIMED_OUT} == int(sim::PossessionEnd::kTimedOut));
+static_assert(int{msg::POSSESSION_STOPPED} == int(sim::PossessionEnd::kStopped));
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -100,6 +100,7 @@ msg::KickTruth truth_message(const sim::KickTruth& truth) {
   out.release_vy_mps = truth.release_velocity_mps.y;
   out.release_vz_mps = truth.release_velocity_mps.z;
   out.margin_m = truth.margin_m.value_or(kNone);
+  out.saved = truth.saved;
   return out;
 }
 

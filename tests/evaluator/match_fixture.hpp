@@ -15,12 +15,14 @@ class MatchLog {
 
   MatchLog(const std::filesystem::path& path, const log::Session& session, log::WriterOptions options = {})
       : writer_(path, session, std::move(options)),
-        decisions_(writer_.table(
-            "kick_decisions",
-            {"robot_id",    "seq",        "t_ns",       "kick_id",    "half",        "possession_id", "policy",
-             "fire",        "reason",     "x_m",        "y_m",        "heading_rad", "vx_mps",        "vy_mps",
-             "omega_radps", "target_x_m", "target_y_m", "target_z_m", "distance_m",  "alpha_rad",     "beta_rad",
-             "aligned",     "left_m",     "right_m",    "charge",     "shadow_count"})),
+        decisions_(
+            writer_.table("kick_decisions", {"robot_id",   "seq",           "t_ns",         "kick_id",
+                                             "half",       "possession_id", "policy",       "fire",
+                                             "reason",     "x_m",           "y_m",          "heading_rad",
+                                             "vx_mps",     "vy_mps",        "omega_radps",  "target_x_m",
+                                             "target_y_m", "target_z_m",    "distance_m",   "alpha_rad",
+                                             "beta_rad",   "aligned",       "left_m",       "right_m",
+                                             "charge",     "shadow_count",  "fire_after_s", "assignment_probability"})),
         orders_(writer_.table("kick_orders",
                               {"robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"})),
         receipts_(writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
@@ -29,7 +31,7 @@ class MatchLog {
                                 {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
         truths_(writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                               "x_cross_m", "release_t_ns", "release_x_m", "release_y_m",
-                                              "release_vx_mps", "release_vy_mps", "release_vz_mps"})),
+                                              "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved"})),
         referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
 
   /// A decision that fires; returns its kick_id. Half 1 is played stopped, half 2 moving.
@@ -41,9 +43,9 @@ class MatchLog {
 
   void write_decision(Int kick_id, Int half) {
     const char* const policy = half == 1 ? "stopped" : "moving";
-    writer_.push(decisions_,
-                 {robot_id, ++seq_, t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0, 4.0, 0.0, 0.0,
-                  0.0,      0.0,    0.0,    9.0,     0.7,  5.0,     0.0,    0.0,    Int{1}, 0.3, 0.3, 1.0, Int{0}});
+    writer_.push(decisions_, {robot_id, ++seq_, t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0,
+                              4.0,      0.0,    0.0,    0.0,     0.0,  0.0,     9.0,    0.7,    5.0,    0.0,
+                              0.0,      Int{1}, 0.3,    0.3,     1.0,  Int{0},  0.0,    1.0});
   }
 
   void order(Int kick_id) { writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40}); }
@@ -58,8 +60,8 @@ class MatchLog {
   }
 
   void truth(Int kick_id, const std::string& label) {
-    writer_.push(truths_,
-                 {robot_id, ++seq_, t_ns(), kick_id, Int{1}, kick_id, label, 0.5, t_ns(), 0.0, 4.0, 0.0, 8.0, 3.0});
+    writer_.push(truths_, {robot_id, ++seq_, t_ns(), kick_id, Int{1}, kick_id, label, 0.5, t_ns(), 0.0, 4.0, 0.0, 8.0,
+                           3.0, Int{0}});
   }
 
   /// A kick from decision to outcome.

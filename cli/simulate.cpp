@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "cli/simulate/arms.hpp"
+#include "cli/simulate/experiment.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct SimulateFlags {
+  std::string arms;
+  std::uint32_t matches = 100;
+  std::uint32_t possessions = 60;
+  std::uint64_t seed = 1;
+  unsigned jobs = 1;
+  std::string out = "ab.db";
+  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+  bool shadows = false;
+  bool every_cycle = false;
+};
+
+int simulate(const SimulateFlags& flags) {
+  ExperimentPlan plan;
+  plan.scenario = config::load_scenario(flags.scenario);
+  plan.scenario_name = std::filesystem::path{flags.scenario}.stem().string();
+  plan.arms = arms_of(flags.arms, flags.base);
+  plan.seed = flags.seed;
+  plan.matches = flags.matches;
+  plan.possessions = flags.possessions;
+  plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
+  return run_experiment(plan, flags.jobs, flags.out);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("simulate", "play many matches in this process, the same ones with every arm");
+  verb->footer(
+      "Possession n of match m is the same situation with the same noise for every arm: what differs is what the arms\n"
+      "did. The log is a match log with a session for each match and arm. A run that was stopped, however it was, goes "
+      "on when\n"
+      "the same command is given again.");
+  auto flags = std::make_shared<SimulateFlags>();
+  verb->add_option("--arms", flags->arms,
+                   "policies, e.g. stopped,stopped@old,moving,predictive,oracle, or a file of arms (.toml)")
+      ->required();
+  verb->add_option("--matches", flags->matches, "matches of each arm")
+      ->check(CLI::Range(1u, 1u << 20))
+      ->capture_default_str();
+  verb->add_option("--possessions", flags->possessions, "opportunities of a match")
+      ->check(CLI::Range(1u, 100000u))
+      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same matches")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}))
+      ->capture_default_str();
+  verb->add_option("--jobs", flags->jobs, "threads; the rows do not depend on it")
+      ->check(CLI::Range(1u, 1024u))
+      ->capture_default_str();
+  verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
+  verb->add_option("--scenario", flags->scenario, "the world")->capture_default_str();
+  verb->add_option("--robot", flags->base.robots,
+                   "robot files, one for each of the team; default: the calibrated ones");
+  verb->add_option("--config", flags->base.config, "settings of the nodes")->capture_default_str();
+  verb->add_option("--set", flags->base.overrides, "one setting on top, e.g. --set policy.settle_s=0.5");
+  verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
+  verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");
+  verb->callback([flags, &exit_code] { exit_code = simulate(*flags); });
+}
+
+}  // namespace trivela::cli

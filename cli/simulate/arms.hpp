@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nodes/in_process/arm.hpp"
+
+namespace trivela::cli {
+
+/// What the arms of an experiment have in common, unless a file says otherwise.
+struct ArmBase {
+  std::string config;                  ///< settings of the nodes
+  std::vector<std::string> overrides;  ///< settings on top
+  std::vector<std::string> robots;     ///< robot files; empty: the calibrated ones
+};
+
+/// The arms that `text` names: policies such as "stopped,moving,predictive", each "@old" or "@new" where it plays with
+/// that height table, or a file of arms (ending in .toml). Throws UsageError and config::Error with the name that is
+/// none.
+std::vector<nodes::Arm> arms_of(const std::string& text, const ArmBase& base);
+
+/// An arm as text: all that its rows depend on.
+std::string describe(const nodes::Arm& arm);
+
+}  // namespace trivela::cli

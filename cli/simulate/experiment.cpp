@@ -1,0 +1,208 @@
+#include "cli/simulate/experiment.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/simulate/arms.hpp"
+#include "cli/simulate/match_queue.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+#include "evaluator/log/experiment_log.hpp"
+#include "evaluator/log/reader.hpp"
+#include "nodes/recorder/record_match.hpp"
+#include "nodes/recorder/session_text.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using evaluator::log::ExperimentLog;
+using evaluator::log::Session;
+
+/// One arm's match, played.
+struct Played {
+  nodes::MatchRecord record;
+  std::uint64_t seed = 0;
+  std::int64_t end_t_ns = 0;
+  double processor_s = 0.0;
+};
+
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<Played> play_all(const ExperimentPlan& plan, std::uint32_t match_id) {
+  std::vector<Played> played(plan.arms.size());
+  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+    const double before_s = processor_s();
+    const nodes::PlayedMatch match = nodes::play_match(plan.scenario, plan.arms[i], plan.seed, match_id,
+                                                       plan.possessions, plan.options, &played[i].record);
+    played[i].processor_s = processor_s() - before_s;
+    played[i].seed = match.match_seed;
+    played[i].end_t_ns = match.end_t_ns;
+  }
+  return played;
+}
+
+/// Sessions of an experiment's arms; what all matches share is made once.
+class Sessions {
+ public:
+  Sessions(const ExperimentPlan& plan, std::string arguments) : arguments_(std::move(arguments)) {
+    for (const nodes::Arm& arm : plan.arms) {
+      Session session;
+      if (arm.robots.size() == 1) session.robot_id = 1;
+      session.simulated = session.simulated_clock = true;
+      session.config_toml = nodes::session_config(nodes::settings_of(arm, plan.options), arm.robots, &plan.scenario);
+      session.software_version = nodes::software_version();
+      session.scenario = plan.scenario_name;
+      session.idl = nodes::idl_text();
+      if (arm.random.empty()) session.policies.push_back({1, kicking::name(arm.policy)});
+      session.arm = arm.name;
+      session.kicker_table = arm.table;
+      arms_.push_back(std::move(session));
+    }
+  }
+
+  const Session& of(std::uint32_t match_id, std::size_t arm, std::uint64_t match_seed) {
+    Session& session = arms_[arm];
+    session.uuid = evaluator::log::experiment_uuid(arguments_, match_id, static_cast<std::uint32_t>(arm));
+    session.match_id = match_id;
+    session.seed = static_cast<std::int64_t>(match_seed);
+    return session;
+  }
+
+ private:
+  std::string arguments_;
+  std::vector<Session> arms_;
+};
+
+/// Threads that play matches until none is left.
+class Workers {
+ public:
+  Workers(const ExperimentPlan& plan, MatchQueue<std::vector<Played>>& queue, unsigned jobs) : queue_(queue) {
+    for (unsigned i = 0; i < jobs; ++i) {
+      threads_.emplace_back([&plan, &queue] {
+        try {
+          while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id));
+        } catch (...) {
+          queue.fail(std::current_exception());
+        }
+      });
+    }
+  }
+  ~Workers() {
+    queue_.close();
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+ private:
+  MatchQueue<std::vector<Played>>& queue_;
+  std::vector<std::thread> threads_;
+};
+
+struct ArmSum {
+  std::int64_t opportunities = 0;
+  std::int64_t kicks = 0;
+  std::int64_t on_target = 0;
+};
+
+std::map<std::string, ArmSum> sums(const std::string& out) {
+  std::map<std::string, ArmSum> arms;
+  const evaluator::log::Reader reader{out};
+  const auto count = [&](const std::string& rows, std::int64_t ArmSum::*field) {
+    reader.query("SELECT arm, count(*) FROM sessions JOIN " + rows + " GROUP BY arm",
+                 [&](auto row) { arms[std::get<std::string>(row[0])].*field = std::get<std::int64_t>(row[1]); });
+  };
+  count("possession_truths USING (session_id)", &ArmSum::opportunities);
+  count("kick_receipts USING (session_id) WHERE accepted = 1", &ArmSum::kicks);
+  count("kick_outcomes USING (session_id) WHERE on_target = 1", &ArmSum::on_target);
+  return arms;
+}
+
+void print_arms(const ExperimentPlan& plan, const std::string& out, const std::vector<double>& processor_s,
+                std::int64_t matches) {
+  const auto arms = sums(out);
+  std::size_t width = 3;
+  for (const nodes::Arm& arm : plan.arms) width = std::max(width, arm.name.size());
+  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>26}\n", "arm", width, "opportunities", "kicks", "on target",
+             "on target/opportunity", "opportunities/s and core");
+  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+    const auto found = arms.find(plan.arms[i].name);
+    const ArmSum sum = found == arms.end() ? ArmSum{} : found->second;
+    const double played = static_cast<double>(matches) * plan.possessions;
+    fmt::print(
+        "{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>26}\n", plan.arms[i].name, width, sum.opportunities, sum.kicks,
+        sum.on_target,
+        sum.opportunities > 0 ? static_cast<double>(sum.on_target) / static_cast<double>(sum.opportunities) : 0.0,
+        processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
+  }
+}
+
+}  // namespace
+
+std::string ExperimentPlan::arguments() const {
+  std::string text = fmt::format("program = {}\nseed = {}\npossessions = {}\nshadows = {}\nevery_cycle = {}\n",
+                                 nodes::software_version(), seed, possessions, options.shadows, options.every_cycle);
+  text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
+  for (const nodes::Arm& arm : arms) text += "\n### arm\n" + describe(arm);
+  return text;
+}
+
+int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out) {
+  SignalInbox signals;  // before the threads, which must not be interrupted
+  const std::string arguments = plan.arguments();
+  ExperimentLog log{out, {arguments, plan.matches}};
+  nodes::MatchTables tables{log};
+  Sessions sessions{plan, arguments};
+  const auto first = static_cast<std::uint32_t>(log.matches_done());
+  if (first > 0) fmt::print("{} of {} matches are in {} already\n", first, plan.matches, out);
+  std::vector<double> processor_s(plan.arms.size());
+  const auto started = std::chrono::steady_clock::now();
+  bool interrupted = false;
+  {
+    MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
+    const Workers workers{plan, queue, jobs};
+    ProgressBar bar;
+    while (log.matches_done() < plan.matches && !(interrupted = signals.stop_requested())) {
+      const auto match_id = static_cast<std::uint32_t>(log.matches_done());
+      const auto played = queue.take(std::chrono::milliseconds{100});
+      if (!played) continue;
+      log.begin();
+      for (std::size_t i = 0; i < played->size(); ++i) {
+        const Played& one = (*played)[i];
+        const std::int64_t session_id = log.add_session(sessions.of(match_id, i, one.seed), one.end_t_ns);
+        tables.write(one.record, session_id);
+        processor_s[i] += one.processor_s;
+      }
+      log.commit();
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+      const double opportunities =
+          static_cast<double>(log.matches_done() - first) * plan.possessions * static_cast<double>(plan.arms.size());
+      bar.show(static_cast<double>(log.matches_done() - first), plan.matches - first,
+               fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
+    }
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+  const std::int64_t matches = log.matches_done() - first;
+  if (interrupted) {
+    fmt::print(stderr, "trivela: interrupted; {} of {} matches are in {}: the same command goes on from there\n",
+               log.matches_done(), plan.matches, out);
+    return kFailed;
+  }
+  log.finish();
+  print_arms(plan, out, processor_s, matches);
+  const double opportunities = static_cast<double>(matches) * plan.possessions * static_cast<double>(plan.arms.size());
+  fmt::print("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities, wall.count(), jobs,
+             jobs == 1 ? "" : "s", wall.count() > 0.0 ? opportunities / wall.count() : 0.0);
+  return kDone;
+}
+
+}  // namespace trivela::cli

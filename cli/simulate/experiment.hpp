@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nodes/in_process/play_match.hpp"
+
+namespace trivela::cli {
+
+/// What `trivela simulate` plays.
+struct ExperimentPlan {
+  sim::Scenario scenario;
+  std::string scenario_name;
+  std::vector<nodes::Arm> arms;
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 1;
+  std::uint32_t possessions = 60;
+  nodes::PlayOptions options;
+
+  /// Everything that the rows depend on, as text.
+  std::string arguments() const;
+};
+
+/// Plays what is missing in the log `out` with `jobs` threads, and prints what each arm did. The rows do not depend on
+/// `jobs`, nor on how often the run was stopped. Returns the exit code.
+int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out);
+
+}  // namespace trivela::cli

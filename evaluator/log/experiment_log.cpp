@@ -1,0 +1,172 @@
+#include "evaluator/log/experiment_log.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "evaluator/log/digest.hpp"
+#include "evaluator/log/new_file.hpp"
+#include "evaluator/log/schema.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBusyTimeout_ms = 5000;
+
+std::runtime_error against(const fs::path& path, const std::string& why) {
+  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
+}
+
+void note_experiment(SQLite::Database& database, const Experiment& experiment) {
+  SQLite::Statement insert(database, "INSERT INTO experiments VALUES (?, ?, ?, 0)");
+  insert.bind(1, sha256(experiment.arguments));
+  insert.bind(2, experiment.arguments);
+  insert.bind(3, experiment.matches);
+  insert.exec();
+}
+
+std::unique_ptr<SQLite::Database> make(const fs::path& path, const Experiment& experiment) {
+  return new_file(path, kMatchLog, [&](SQLite::Database& database) {
+    SQLite::Transaction transaction(database);
+    create_tables(database);
+    note_experiment(database, experiment);
+    transaction.commit();
+  });
+}
+
+/// The log of a run that was stopped.
+std::unique_ptr<SQLite::Database> reopen(const fs::path& path, const Experiment& experiment) {
+  try {
+    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
+    const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
+                      database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
+    if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
+    SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM experiments");
+    if (!known.executeStep()) throw against(path, "is a recorded match and no experiment; choose another file");
+    if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
+        known.getColumn(1).getInt64() != experiment.matches) {
+      throw against(path,
+                    "was begun with other arguments (table experiments says which); an experiment goes on with its own "
+                    "alone, choose another file");
+    }
+    database->exec("PRAGMA journal_mode = WAL; PRAGMA temp_store = MEMORY;");
+    return database;
+  } catch (const SQLite::Exception& error) {
+    throw against(path, fmt::format("is there already and is no log that can be gone on with: {}", error.what()));
+  }
+}
+
+std::unique_ptr<SQLite::Database> open(const fs::path& path, const Experiment& experiment) {
+  const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
+  auto database = there ? reopen(path, experiment) : make(path, experiment);
+  // A match that a power cut takes is played again: no commit waits for the disk.
+  database->exec("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536;");
+  return database;
+}
+
+}  // namespace
+
+std::string experiment_uuid(std::string_view arguments, std::uint32_t match_id, std::uint32_t arm) {
+  if (match_id >= (1u << 20) || arm >= 128) throw std::out_of_range("an experiment has 2^20 matches and 128 arms");
+  const std::string hash = sha256(arguments);
+  // The last bit before the variant is not part of session_id.
+  return fmt::format("{}-{:04x}-8{:03x}-8{}-{}", hash.substr(0, 8), match_id >> 4, (match_id & 15) << 8 | arm << 1,
+                     hash.substr(8, 3), hash.substr(11, 12));
+}
+
+struct ExperimentLog::Impl final : RowSink {
+  struct Table {
+    std::string name;
+    std::vector<std::string> columns;
+    std::unique_ptr<SQLite::Statement> insert;
+  };
+
+  Impl(const fs::path& file, const Experiment& asked) : path(file), database(open(file, asked)) {}
+
+  void integer(std::int64_t value) override { statement->bind(++cell, value); }
+  void number(double value) override {
+    ++cell;
+    if (!std::isnan(value)) statement->bind(cell, value);
+  }
+  void text(const char* value) override { statement->bindNoCopy(++cell, value); }
+
+  fs::path path;
+  std::unique_ptr<SQLite::Database> database;
+  std::vector<Table> tables;
+  std::optional<SQLite::Transaction> transaction;
+  SQLite::Statement* statement = nullptr;  // of the row under way
+  int cell = 0;
+};
+
+ExperimentLog::ExperimentLog(const fs::path& path, const Experiment& experiment)
+    : impl_(std::make_unique<Impl>(path, experiment)),
+      matches_done_(impl_->database->execAndGet("SELECT matches_done FROM experiments").getInt64()) {}
+
+ExperimentLog::~ExperimentLog() = default;
+
+std::size_t ExperimentLog::table(std::string_view name, const std::vector<std::string>& columns) {
+  const auto schema = columns_of(*impl_->database, name);
+  if (!schema) throw std::runtime_error(fmt::format("the match log has no table '{}'", name));
+  for (const std::string& column : columns) {
+    if (std::ranges::find(*schema, column, &Column::name) != schema->end()) continue;
+    throw std::runtime_error(fmt::format("table '{}' of the match log has no column '{}'", name, column));
+  }
+  std::string sql = fmt::format("INSERT INTO {} (session_id, {}) VALUES (?", name, fmt::join(columns, ", "));
+  for (std::size_t i = 0; i < columns.size(); ++i) sql += ", ?";
+  impl_->tables.push_back(
+      {std::string(name), columns, std::make_unique<SQLite::Statement>(*impl_->database, sql + ")")});
+  return impl_->tables.size() - 1;
+}
+
+void ExperimentLog::begin() {
+  impl_->transaction.emplace(*impl_->database, SQLite::TransactionBehavior::IMMEDIATE);
+  if (impl_->database->execAndGet("SELECT matches_done FROM experiments").getInt64() == matches_done_) return;
+  throw against(impl_->path, "another run writes to it");
+}
+
+std::int64_t ExperimentLog::add_session(const Session& session, std::int64_t closed_t_ns) {
+  insert_session(*impl_->database, session, closed_t_ns);
+  return session_id_of(session.uuid);
+}
+
+RowSink& ExperimentLog::row(std::size_t table, std::int64_t session_id) {
+  impl_->statement = impl_->tables[table].insert.get();
+  impl_->statement->clearBindings();
+  impl_->cell = 0;
+  impl_->integer(session_id);
+  return *impl_;
+}
+
+void ExperimentLog::end_row() {
+  try {
+    impl_->statement->exec();
+    impl_->statement->reset();
+  } catch (const SQLite::Exception& error) {
+    throw against(impl_->path, fmt::format("a row could not be written: {}", error.what()));
+  }
+}
+
+void ExperimentLog::commit() {
+  try {
+    impl_->database->exec("UPDATE experiments SET matches_done = matches_done + 1");
+    impl_->transaction->commit();
+  } catch (const SQLite::Exception& error) {
+    throw against(impl_->path, fmt::format("the match could not be written: {}", error.what()));
+  }
+  impl_->transaction.reset();
+  ++matches_done_;
+}
+
+void ExperimentLog::finish() {
+  impl_->tables.clear();
+  fold(*impl_->database);
+}
+
+}  // namespace trivela::evaluator::log

@@ -1,0 +1,68 @@
+#include "evaluator/log/new_file.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace trivela::evaluator::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBusyTimeout_ms = 5000;
+constexpr int kFoldTimeout_ms = 200;  // a reader that stays must not hold up the end of a match
+
+// True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
+bool claim(const fs::path& path, const LogKind& kind) {
+  if (fs::exists(beside(path, "-wal"))) {
+    throw std::runtime_error(
+        fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
+  }
+  if (fs::exists(path)) {
+    if (fs::is_regular_file(path) && fs::file_size(path) == 0) return false;
+    throw std::runtime_error(
+        fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
+  }
+  std::FILE* const file = std::fopen(path.c_str(), "wx");
+  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the {} {}", kind.name, path.string()));
+  std::fclose(file);
+  return true;
+}
+
+}  // namespace
+
+fs::path beside(const fs::path& path, const char* suffix) {
+  fs::path other = path;
+  other += suffix;
+  return other;
+}
+
+std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& kind,
+                                           const std::function<void(SQLite::Database&)>& create) {
+  const bool made_here = claim(path, kind);
+  try {
+    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
+    database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
+    create(*database);
+    database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as what it is
+    return database;
+  } catch (const std::exception& error) {
+    if (made_here) {
+      for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
+    }
+    throw std::runtime_error(fmt::format("cannot create the {} {}: {}", kind.name, path.string(), error.what()));
+  }
+}
+
+bool fold(SQLite::Database& database) {
+  database.setBusyTimeout(kFoldTimeout_ms);
+  database.exec("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");
+  const int code = database.tryExec("PRAGMA journal_mode = DELETE;");
+  if (code == SQLITE_OK) return true;
+  if ((code & 0xFF) == SQLITE_BUSY) return false;
+  throw SQLite::Exception(database.getHandle(), code);
+}
+
+}  // namespace trivela::evaluator::log

@@ -1,0 +1,29 @@
+-- A match log of version 1 as queries of version 2 know it: views of this connection that stand before its tables.
+-- What version 1 did not have is empty, NULL or what was true then.
+CREATE TEMP VIEW texts AS
+SELECT config_sha256 AS sha256, config_toml AS text FROM main.sessions GROUP BY config_sha256
+UNION ALL
+SELECT 'idl of session ' || session_id, idl FROM main.sessions;
+
+CREATE TEMP VIEW sessions AS
+SELECT s.*, 'idl of session ' || session_id AS idl_sha256, NULL AS arm, NULL AS kicker_table, NULL AS match_id
+FROM main.sessions AS s;
+
+CREATE TEMP VIEW experiments AS
+SELECT NULL AS arguments_sha256, NULL AS arguments, NULL AS matches, NULL AS matches_done WHERE 0;
+
+CREATE TEMP VIEW assignments AS
+SELECT NULL AS session_id, NULL AS robot_id, NULL AS half, NULL AS possession_id, NULL AS policy, NULL AS probability
+WHERE 0;
+
+CREATE TEMP VIEW kick_decisions AS
+SELECT d.*, NULL AS p_on_target, 0.0 AS fire_after_s, 1.0 AS assignment_probability FROM main.kick_decisions AS d;
+
+CREATE TEMP VIEW shadow_decisions AS
+SELECT d.*, NULL AS p_on_target, 0.0 AS fire_after_s FROM main.shadow_decisions AS d;
+
+CREATE TEMP VIEW kick_truths AS
+SELECT t.*, 0 AS saved FROM main.kick_truths AS t;
+
+CREATE TEMP VIEW kicks AS
+SELECT k.*, 0 AS truth_saved FROM main.kicks AS k;

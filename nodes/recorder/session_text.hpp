@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::nodes {
+
+/// The whole configuration of a session: "### settings" without what differs from run to run and from machine to
+/// machine, so that equal set-ups have equal hashes, "### robot", further ones as "### robot 2", ..., and "###
+/// scenario" where one is given.
+std::string session_config(const config::Settings& settings, const std::vector<config::Robot>& robots,
+                           const sim::Scenario* scenario);
+
+/// The definition of the messages.
+const char* idl_text();
+
+/// Of the program, with the commit that it was built from.
+const char* software_version();
+
+}  // namespace trivela::nodes
