@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   cli::add_calibrate(app, exit_code);
   cli::add_report(app, exit_code);
   cli::add_compare(app, exit_code);
+  cli::add_evaluate_policy(app, exit_code);
   cli::add_solve(app, exit_code);
   cli::add_align(app, exit_code);
   cli::add_predict(app, exit_code);

@@ -11,6 +11,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/compared_sessions.sql.hpp"
+#include "evaluator/metrics/first_decisions.sql.hpp"
 #include "evaluator/metrics/minutes_by_half.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
 
@@ -109,9 +110,19 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     o.policy = text_if_any(row[4]);
     o.probability = number_if_any(row[5]);
     const auto x_m = number_if_any(row[6]), y_m = number_if_any(row[7]);
+    o.start_x_m = x_m;
     if (x_m && y_m && goal_y_m) o.start_distance_m = std::hypot(*x_m, *goal_y_m - *y_m);
     places[{o.session, o.robot_id, o.half, o.possession_id}] = logged.rows.size();
     logged.rows.push_back(std::move(o));
+  });
+  reader.query(kFirstDecisionsSql, [&](Cells row) {
+    const auto session = sessions.find(integer(row[0]));
+    if (session == sessions.end()) return;
+    const auto place = places.find(
+        {session->second, static_cast<int>(integer(row[1])), static_cast<int>(integer(row[2])), integer(row[3])});
+    if (place == places.end()) return;
+    logged.rows[place->second].first = {number_if_any(row[5]).value_or(0.0), number_if_any(row[6]).value_or(0.0),
+                                        number_if_any(row[7])};
   });
   std::int64_t alone = 0;
   reader.query(kComparedKicksSql, [&](Cells row) {

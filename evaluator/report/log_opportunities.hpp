@@ -25,6 +25,13 @@ struct ComparedSession {
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
 };
 
+/// What the robot believed when it first had to decide in a possession.
+struct FirstDecision {
+  double distance_m = 0.0;  ///< ball to target
+  double x_m = 0.0;         ///< of the robot, to the right of the goal's middle
+  std::optional<double> opponent_distance_m;
+};
+
 /// An opportunity as a log has it; also a kick whose possession is not known.
 struct LoggedOpportunity {
   std::uint32_t session = 0;  ///< place in the sessions
@@ -34,7 +41,9 @@ struct LoggedOpportunity {
   std::string policy;
   std::optional<double> probability;       ///< with which the policy was put in charge
   std::optional<double> start_distance_m;  ///< robot to the middle of the goal at the start, by the simulator's truth
+  std::optional<double> start_x_m;         ///< to the right of the goal's middle at the start, by the same
   std::optional<double> distance_m;        ///< ball to target at the kick, as the robot believed; none: no kick
+  std::optional<FirstDecision> first;      ///< none: the log has not every cycle
   Ending ending = Ending::kNoKick;
   bool has_possession = true;  ///< false: a kick alone
 };

@@ -73,7 +73,8 @@ PolicyValue mean_of(std::span<const Trial> trials, const std::vector<double>& sc
   const double g = static_cast<double>(by_unit.size());
   if (g > 1.0) variance *= g / (g - 1.0);
   const double half_width = (by_match ? t_of(confidence, g - 1.0) : z_of(confidence)) * std::sqrt(variance);
-  return {value, {std::max(value - half_width, 0.0), std::min(value + half_width, 1.0)}};
+  return {value,
+          {std::max(value - half_width, std::min(value, 0.0)), std::min(value + half_width, std::max(value, 1.0))}};
 }
 
 }  // namespace
@@ -101,6 +102,13 @@ OffPolicy off_policy_value(std::span<const Trial> trials, double confidence) {
   }
   result.matches = matches.size();
   result.by_match = result.matches >= kFewestMatches;
+  const double n = static_cast<double>(trials.size());
+  double mean = 0.0, squares = 0.0;
+  for (const Trial& trial : trials) mean += weight(trial) / n;
+  for (const Trial& trial : trials) squares += (weight(trial) - mean) * (weight(trial) - mean);
+  result.mean_weight = mean;
+  result.mean_weight_p =
+      squares > 0.0 && n > 1.0 ? two_sided_p((mean - 1.0) / std::sqrt(squares / (n - 1.0) / n)) : 1.0;
   const std::vector<double> model = predictions(trials);
   const std::vector<double> ones(trials.size(), 1.0);
   std::vector<double> weights, weighted, robust;

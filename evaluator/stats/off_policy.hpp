@@ -28,7 +28,8 @@ struct Trial {
 /// Mean reward per opportunity that the policy would have.
 struct PolicyValue {
   double value = 0.0;
-  Interval ci;  ///< from matches with Student's distribution, from opportunities with the normal one where too few
+  Interval ci;  ///< within [0, 1] unless the value is not (inverse probability may leave it); from matches with
+                ///< Student's distribution, from opportunities with the normal one where too few
 };
 
 /// Weights w = by_target / probability.
@@ -43,6 +44,8 @@ struct OffPolicy {
   bool by_match = false;               ///< the intervals are from matches
   double effective_sample_size = 0.0;  ///< (sum w)^2 / sum(w^2) (Kish 1965)
   double largest_weight = 0.0;
+  double mean_weight = 1.0;    ///< 1 on average where the probabilities are those that were drawn with
+  double mean_weight_p = 1.0;  ///< two-sided that it is
 };
 
 inline constexpr double kFewestEffective = 20.0;  ///< effective trials below which no estimate is given

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include "evaluator/report/comparison_lines.hpp"
+#include "evaluator/report/json_values.hpp"
+#include "evaluator/report/policy_value.hpp"
+#include "evaluator/report/text_table.hpp"
+#include "evaluator/stats/sample_ratio.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+std::string interval(stats::Interval ci) { return fmt::format("{} to {}", percent(ci.lo), percent(ci.hi)); }
+
+std::vector<std::string> row(const std::string& name, const stats::PolicyValue& value) {
+  return {name, percent(value.value), interval(value.ci)};
+}
+
+Json value_json(const stats::PolicyValue& value) { return {{"value", value.value}, {"ci95", json_of(value.ci)}}; }
+
+}  // namespace
+
+std::string to_text(const PolicyValueReport& r) {
+  const stats::OffPolicy& v = r.value;
+  std::string text;
+  if (r.simulated) text += "SIMULATED: the numbers describe the simulation's assumptions, not robots on a field.\n";
+  text +=
+      wrapped(fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
+                          "as they were played it was {}.",
+                          r.policy, percent(v.doubly_robust.value), interval(v.doubly_robust.ci), percent(v.logged)),
+              "  ") +
+      "\n\nOn target an opportunity\n";
+  text += text_table({{"estimate", "value", "95 %"},
+                      row("inverse probability", v.ips),
+                      row("the same, normalised", v.snips),
+                      row("doubly robust", v.doubly_robust)});
+  text += "\nWhat it rests on\n";
+  text += named_line("drawn at random", fmt::format("{} opportunities of {} matches", v.trials, v.matches));
+  text += named_line("of them by the policy", fmt::format("{}", v.by_target));
+  text += named_line("effective", fmt::format("{:.1f} opportunities, largest weight {:.1f}", v.effective_sample_size,
+                                              v.largest_weight));
+  text += named_line("mean weight", fmt::format("{:.3f}, 1 where policies were drawn as the log says (p {})",
+                                                v.mean_weight, p_value(v.mean_weight_p)));
+  text += named_line("model of outcomes",
+                     r.from_decisions ? "distance, place and opponent as the robot believed at its first decision"
+                                      : "true distance and place at the start of the possession");
+  text += named_line("outcomes", r.outcome == "truth" ? "the simulator's truth" : "as the robots observed them");
+  if (r.not_drawn > 0) {
+    text += bullet(fmt::format("{} opportunities left out: the policy could not have been drawn there.", r.not_drawn));
+  }
+  if (r.unknown > 0) text += bullet(fmt::format("{} opportunities left out: their outcome is unknown.", r.unknown));
+  if (v.mean_weight_p < stats::kSampleRatioAlarm) {
+    text += bullet(
+        "The policies were not drawn with the probabilities of the log: trust nothing here before that is explained.");
+  }
+  if (!v.by_match) {
+    text += bullet(
+        "Fewer than five matches: the intervals take opportunities as independent, so the truth is less certain.");
+  }
+  for (const std::string& remark : r.remarks) text += bullet(remark);
+  return text;
+}
+
+std::string to_json(const PolicyValueReport& r) {
+  const stats::OffPolicy& v = r.value;
+  const Json json = {{"policy", r.policy},
+                     {"outcome", r.outcome},
+                     {"ips", value_json(v.ips)},
+                     {"snips", value_json(v.snips)},
+                     {"doubly_robust", value_json(v.doubly_robust)},
+                     {"logged", v.logged},
+                     {"trials", v.trials},
+                     {"by_policy", v.by_target},
+                     {"matches", v.matches},
+                     {"by_match", v.by_match},
+                     {"effective_sample_size", v.effective_sample_size},
+                     {"largest_weight", v.largest_weight},
+                     {"mean_weight", v.mean_weight},
+                     {"mean_weight_p", v.mean_weight_p},
+                     {"opportunities", r.opportunities},
+                     {"not_drawn", r.not_drawn},
+                     {"unknown", r.unknown},
+                     {"model", r.from_decisions ? "first decision" : "true start"},
+                     {"simulated", r.simulated},
+                     {"remarks", r.remarks}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "cli/factorial/play.hpp"
+#include "cli/factorial/report.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using kicking::PolicyName;
+using testing::HasSubstr;
+
+/// 20 matches of 40 opportunities, half of them with a kick, so many on target.
+ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
+  ArmTally matches;
+  for (std::int64_t i = 0; i < 20; ++i) matches.push_back({40, kicks, on_target + (i % 2 == 0 ? 1 : -1)});
+  return matches;
+}
+
+/// Efficiency 0.4, +0.1 for the new table, +0.2 for moving, +0.05 for both together; predictive 0.1 above moving.
+std::vector<PlayedCell> played() {
+  std::vector<PlayedCell> cells;
+  for (const Cell& cell : factorial_cells()) {
+    const bool anew = cell.table == "new", moves = cell.policy != PolicyName::kStopped;
+    const int on_target = 8 + (anew ? 2 : 0) + (moves ? 4 : 0) + (anew && moves ? 1 : 0) +
+                          (cell.policy == PolicyName::kPredictive ? 2 : 0);
+    cells.push_back({cell, matches_of(on_target)});
+  }
+  return cells;
+}
+
+TEST(Factorial, HasEveryCellOnce) {
+  const auto cells = factorial_cells();
+  ASSERT_EQ(cells.size(), 14u);
+  EXPECT_EQ(cells.front().name(), "old stopped paper");
+  EXPECT_EQ(cells.back().name(), "new predictive");
+  const nodes::Arm arm = arm_of({"old", PolicyName::kMoving, Law::kReleased}, {}, {});
+  EXPECT_EQ(arm.table, "old");
+  EXPECT_EQ(arm.settings.policy.height_law, kicking::HeightLaw::kExtendedRange);
+  EXPECT_EQ(arm.settings.policy.motion_law, kicking::MotionLaw::kPaper);
+}
+
+TEST(Factorial, EffectsAreThoseThatMadeTheCounts) {
+  const auto effects = effects_of(played());
+  const auto value = [&](const char* key) {
+    for (const NamedEffect& effect : effects) {
+      if (effect.key == key) return effect.efficiency.value;
+    }
+    return std::nan("");
+  };
+  EXPECT_NEAR(value("calibration"), 0.125, 1e-12);
+  EXPECT_NEAR(value("motion"), 0.225, 1e-12);
+  EXPECT_NEAR(value("calibration_x_motion"), 0.05, 1e-12);
+  EXPECT_NEAR(value("exact_law"), 0.0, 1e-12);
+  EXPECT_NEAR(value("prediction"), 0.1, 1e-12);
+}
+
+TEST(Factorial, CalibrationAndMotionAddUpToTheGain) {
+  for (const Measure measure : {Measure::kEfficiency, Measure::kPerOpportunity}) {
+    const Gain gain = gain_of(played(), measure);
+    EXPECT_NEAR(gain.gain.value, gain.calibration.value + gain.motion.value, 1e-12);
+  }
+  EXPECT_NEAR(gain_of(played(), Measure::kEfficiency).gain.value, 0.35, 1e-12);
+}
+
+TEST(Factorial, WhatMatchesHaveInCommonCancels) {
+  // Every arm varies alike from match to match: the difference does not vary at all.
+  const ArmTally a = matches_of(8), b = matches_of(10);
+  const std::vector<Term> terms{{&b, 1.0}, {&a, -1.0}};
+  const Effect effect = contrast(terms, Measure::kEfficiency);
+  EXPECT_NEAR(effect.value, 0.1, 1e-12);
+  EXPECT_NEAR(effect.ci.hi - effect.ci.lo, 0.0, 1e-12);
+  const std::vector<Term> one{{&a, 1.0}};
+  EXPECT_GT(contrast(one, Measure::kEfficiency).ci.hi, contrast(one, Measure::kEfficiency).value);
+}
+
+TEST(Factorial, SweepSaysWhereThePapersRatioIsMet) {
+  std::vector<SweepPoint> sweep;
+  for (const auto& [median_m, kicks] : {std::pair{1.0, 30}, {2.0, 22}, {3.0, 16}}) {
+    sweep.push_back({median_m, matches_of(5, 10), matches_of(kicks * 3 / 4, kicks)});
+  }
+  const SweepAnswer answer = answer_of(sweep);
+  ASSERT_TRUE(answer.ratio_at_m);
+  // By hand: 2.2 at 2 m, 1.6 at 3 m.
+  EXPECT_NEAR(*answer.ratio_at_m, 2.0 + (2.2 - kPaperKickRatio) / 0.6, 1e-9);
+  EXPECT_TRUE(answer.pair_reached);
+  sweep.resize(2);
+  EXPECT_FALSE(answer_of(sweep).ratio_at_m);
+}
+
+TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
+  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = played()};
+  EXPECT_THAT(to_text(report), HasSubstr("It says nothing about why the paper's tournaments differed"));
+  EXPECT_EQ(to_json(report)["cells"].size(), 14u);
+  EXPECT_THAT(to_csv(report), HasSubstr("cell,new,predictive,,"));
+  EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
+}
+
+TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
+  const std::vector<nodes::Arm> arms{arm_of({"old", PolicyName::kStopped, Law::kExact}, {}, {config::Robot{}}),
+                                     arm_of({"new", PolicyName::kMoving, Law::kExact}, {}, {config::Robot{}})};
+  const auto play = [&](unsigned jobs) {
+    return play_arms({}, arms, {.seed = 3, .matches = 3, .possessions = 4, .jobs = jobs}, [](auto, auto) {});
+  };
+  const auto one = play(1), two = play(2);
+  for (std::size_t arm = 0; arm < arms.size(); ++arm) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      EXPECT_EQ(one[arm][m].opportunities, 4);
+      EXPECT_EQ(one[arm][m].kicks, two[arm][m].kicks);
+      EXPECT_EQ(one[arm][m].on_target, two[arm][m].on_target);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trivela::cli

@@ -1,0 +1,260 @@
+#include "evaluator/report/policy_comparison.hpp"
+
+#include <gmock/gmock.h>
+
+#include "evaluator/report/log_kicks.hpp"
+#include "tests/evaluator/experiment_fixture.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/random_numbers.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const LoggedKick kIn{"on_target", "on_target", 4.0};
+const LoggedKick kOut{"over", "over", 5.0};
+
+class PolicyComparisonTest : public LogTest {
+ protected:
+  PolicyComparison compared(LogKicks options = {}, std::vector<std::string> files = {"match.db"}) const {
+    std::vector<std::filesystem::path> logs;
+    for (const std::string& file : files) logs.push_back(path(file));
+    std::string by;
+    KickBook book = read_log_kicks(logs, options, by);
+    return compare_policies(std::move(book), by);
+  }
+
+  std::string message_of(LogKicks options = {}) const {
+    try {
+      compared(std::move(options));
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  // Two arms on the same `matches` times 10 opportunities; the newer one kicks always and is on target in 7 of them,
+  // the older one kicks in 6 and is on target in 4 or 5.
+  void write_paired(std::uint32_t matches) {
+    TestExperiment experiment(path(), matches);
+    for (std::uint32_t match = 0; match < matches; ++match) {
+      experiment.begin();
+      experiment.session(match, 0, "slow", {{1, "stopped"}});
+      experiment.played(1, 10.0);
+      for (std::int64_t i = 1; i <= 10; ++i) {
+        experiment.possession(1, i, "stopped", 1.0,
+                              i <= 4 + match % 2 ? std::optional(kIn)
+                              : i <= 6           ? std::optional(kOut)
+                                                 : std::nullopt);
+      }
+      experiment.session(match, 1, "quick", {{1, "moving"}});
+      experiment.played(1, 10.0);
+      for (std::int64_t i = 1; i <= 10; ++i) experiment.possession(1, i, "moving", 1.0, i >= 4 ? kIn : kOut);
+      experiment.commit();
+    }
+    experiment.finish();
+  }
+};
+
+TEST_F(PolicyComparisonTest, ArmsOnTheSameOpportunitiesArePaired) {
+  write_paired(10);
+  const auto result = compared();
+  EXPECT_EQ(result.by, "arm");
+  ASSERT_EQ(result.pairs.size(), 1U);
+  const PairResult& pair = result.pairs[0];
+  EXPECT_EQ(pair.older, "slow");
+  EXPECT_EQ(pair.design, Design::kPaired);
+  ASSERT_TRUE(pair.pairs);
+  EXPECT_EQ(pair.pairs->n(), 100);
+  EXPECT_EQ(pair.pairs->newer_only, 5 * 6 + 5 * 5);
+  EXPECT_EQ(pair.pairs->older_only, 30);
+  EXPECT_EQ(pair.unpaired, 0);
+  EXPECT_NEAR(pair.headline->difference, 0.7 - 0.45, 1e-12);
+  EXPECT_TRUE(pair.headline->by_match);
+  EXPECT_TRUE(pair.headline->of_opportunities);
+  EXPECT_NEAR(*result.groups[0].minutes, 100.0, 1e-9);
+  EXPECT_NEAR(pair.kick_rate->value, 100.0 / 60.0, 1e-12);
+  EXPECT_EQ(result.groups[0].kicks(), 60);
+  EXPECT_EQ(result.groups[0].opportunities, 100);
+  const std::string text = to_text(result);
+  EXPECT_THAT(text, HasSubstr("quick is better than slow in shots on target an opportunity: +25.0 percentage points"));
+  EXPECT_THAT(text, HasSubstr("both had the same opportunities"));
+  EXPECT_THAT(text, HasSubstr("SIMULATED"));
+  EXPECT_THAT(text, HasSubstr("McNemar"));
+}
+
+TEST_F(PolicyComparisonTest, TheSameArmsByPolicyOrTableAreReadToo) {
+  write_paired(6);
+  EXPECT_EQ(compared({.by = "policy"}).groups[0].name, "stopped");
+  EXPECT_EQ(compared({.by = "policy"}).pairs[0].design, Design::kPaired);
+  EXPECT_THAT(message_of({.by = "table"}), HasSubstr("the only table is 'new'"));
+  EXPECT_THAT(message_of({.by = "robot"}), HasSubstr("the only robot is 'robot 1'"));
+  EXPECT_THAT(message_of({.by = "floor"}), HasSubstr("--by 'floor'"));
+  EXPECT_THAT(message_of({.stratify = "floor"}), HasSubstr("--stratify 'floor'"));
+}
+
+TEST_F(PolicyComparisonTest, FewMatchesGiveTheIntervalOfPairsAndSaySo) {
+  write_paired(3);
+  const auto result = compared();
+  EXPECT_FALSE(result.pairs[0].headline->by_match);
+  EXPECT_EQ(result.pairs[0].headline->method, "Newcombe's for pairs");
+  EXPECT_THAT(to_text(result), HasSubstr("Fewer than five matches"));
+}
+
+TEST_F(PolicyComparisonTest, DistanceStrataAreOfKicksAndStartDistancesOfOpportunities) {
+  write_paired(6);
+  const auto kicks = compared({.stratify = "distance"});
+  EXPECT_FALSE(kicks.pairs[0].stratified->of_opportunities);
+  EXPECT_FALSE(kicks.pairs[0].headline->adjusted);
+  const auto starts = compared({.stratify = "start_distance"});
+  EXPECT_TRUE(starts.pairs[0].stratified->of_opportunities);
+  EXPECT_EQ(starts.pairs[0].stratified->strata[0].name, "5 to 6 m") << "0.5 m beside and 5 m before the goal";
+}
+
+TEST_F(PolicyComparisonTest, TruthAndObservationAreChosen) {
+  TestExperiment experiment(path(), 1);
+  experiment.begin();
+  for (const std::uint32_t arm : {0U, 1U}) {
+    experiment.session(0, arm, arm == 0 ? "a" : "b", {{1, "moving"}});
+    experiment.possession(1, 1, "moving", 1.0, LoggedKick{"on_target", "post", 4.0});
+    experiment.possession(1, 2, "moving", 1.0, LoggedKick{"", "on_target", 4.0});
+    experiment.possession(1, 3, "moving", 1.0, LoggedKick{"unknown", "on_target", 4.0});
+  }
+  experiment.commit();
+  experiment.finish();
+  const auto observed = compared(), truth = compared({.truth = true});
+  EXPECT_EQ(observed.groups[0].inside, 1);
+  EXPECT_EQ(observed.groups[0].unknown, 2);
+  EXPECT_EQ(truth.groups[0].inside, 2);
+  EXPECT_EQ(truth.groups[0].unknown, 0);
+  EXPECT_EQ(observed.pairs[0].unpaired, 4) << "of unknown outcomes no pair can be made";
+  EXPECT_EQ(truth.pairs[0].pairs->n(), 3);
+}
+
+TEST_F(PolicyComparisonTest, PoliciesDrawnAtRandomAreRandomisedAndTheirSharesChecked) {
+  const auto write = [&](const char* file, double share) {
+    RandomNumbers random(11);
+    TestExperiment experiment(path(file), 8);
+    for (std::uint32_t match = 0; match < 8; ++match) {
+      experiment.begin();
+      experiment.session(match, 0, "", {}, false);
+      for (std::int64_t i = 1; i <= 60; ++i) {
+        const bool moving = random.happens(share);
+        experiment.possession(1, i, moving ? "moving" : "stopped", moving ? 0.75 : 0.25,
+                              random.happens(moving ? 0.8 : 0.3) ? kIn : kOut);
+      }
+      experiment.commit();
+    }
+    experiment.finish();
+  };
+  write("match.db", 0.75);
+  const auto result = compared();
+  EXPECT_EQ(result.pairs[0].design, Design::kRandomised);
+  EXPECT_GT(*result.sample_ratio_p, 0.001);
+  EXPECT_THAT(to_text(result), HasSubstr("because of the policy: it was drawn at random"));
+  EXPECT_FALSE(result.groups[0].minutes) << "the minutes of a half are nobody's alone";
+  write("odd.db", 0.5);
+  EXPECT_LT(*compared({}, {"odd.db"}).sample_ratio_p, 0.001);
+  EXPECT_THAT(to_text(compared({}, {"odd.db"})), HasSubstr("did not go as planned"));
+}
+
+TEST_F(PolicyComparisonTest, HalvesInTurnAreAlternatingAndAlwaysTheSameOrderIsNot) {
+  const auto write = [&](const char* file, bool in_turn) {
+    TestExperiment experiment(path(file), 6);
+    for (std::uint32_t match = 0; match < 6; ++match) {
+      experiment.begin();
+      const bool turned = in_turn && match % 2 == 1;
+      experiment.session(match, 0, "", {{1, turned ? "moving" : "stopped"}, {2, turned ? "stopped" : "moving"}}, false);
+      for (const std::int64_t half : {1, 2}) {
+        const char* const policy = (half == 1) == turned ? "moving" : "stopped";
+        for (std::int64_t i = 1; i <= 8; ++i) experiment.possession(half, i, policy, 1.0, i % 2 == 0 ? kIn : kOut);
+      }
+      experiment.commit();
+    }
+    experiment.finish();
+  };
+  write("turns.db", true);
+  write("order.db", false);
+  EXPECT_EQ(compared({}, {"turns.db"}).pairs[0].design, Design::kAlternating);
+  const auto ordered = compared({}, {"order.db"});
+  EXPECT_EQ(ordered.pairs[0].design, Design::kBeforeAfter);
+  EXPECT_THAT(to_text(ordered), HasSubstr("always in the same order of halves"));
+  EXPECT_THAT(to_text(ordered), Not(HasSubstr("because of")));
+}
+
+TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
+  {
+    auto real = session();
+    real.simulated = false;
+    real.seed.reset();
+    MatchLog match(path(), real, options());
+    write_table2(match);
+    const auto refused = match.decide(1);
+    match.order(refused);
+    match.receipt(refused, "stale");
+    match.close();
+  }
+  const auto result = compared();
+  EXPECT_EQ(result.groups[0].name, "stopped");
+  EXPECT_EQ(result.groups[0].inside, 34);
+  EXPECT_EQ(result.groups[0].outside, 31);
+  EXPECT_EQ(result.groups[1].kicks(), 132) << "a refused order is no kick";
+  EXPECT_EQ(result.groups[0].opportunities, 0);
+  EXPECT_NEAR(result.pairs[0].headline->ci.lo, 0.0931659315, 1e-9);
+  EXPECT_THAT(to_text(result), HasSubstr("moving differs from stopped"));
+  EXPECT_THAT(to_text(result), Not(HasSubstr("SIMULATED")));
+  EXPECT_THAT(message_of({.truth = true}), HasSubstr("none of these matches was simulated"));
+}
+
+TEST_F(PolicyComparisonTest, TheSameLogTwiceCountsOnce) {
+  write_paired(6);
+  std::filesystem::copy_file(path(), path("copy.db"));
+  const auto result = compared({}, {"match.db", "copy.db"});
+  EXPECT_EQ(result.groups[0].opportunities, 60);
+  EXPECT_THAT(to_text(result), HasSubstr("stand in an earlier log, too, and count once"));
+}
+
+TEST_F(PolicyComparisonTest, LogsWithoutKicksGiveASentence) {
+  {
+    MatchLog match(path(), session(), options());
+    match.close();
+  }
+  EXPECT_THAT(message_of(), HasSubstr("there are no kicks"));
+  TestExperiment experiment(path("idle.db"), 1);
+  experiment.begin();
+  experiment.session(0, 0, "a", {{1, "moving"}});
+  experiment.possession(1, 1, "moving", 1.0, std::nullopt);
+  experiment.session(0, 1, "b", {{1, "moving"}});
+  experiment.possession(1, 1, "moving", 1.0, std::nullopt);
+  experiment.commit();
+  experiment.finish();
+  try {
+    compared({}, {"idle.db"});
+    ADD_FAILURE() << "no kick";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("2 opportunities but no kick"));
+  }
+}
+
+TEST_F(PolicyComparisonTest, AnArmThatNeverKicksIsComparedByItsOpportunities) {
+  TestExperiment experiment(path(), 6);
+  for (std::uint32_t match = 0; match < 6; ++match) {
+    experiment.begin();
+    experiment.session(match, 0, "idle", {{1, "stopped"}});
+    for (std::int64_t i = 1; i <= 5; ++i) experiment.possession(1, i, "stopped", 1.0, std::nullopt);
+    experiment.session(match, 1, "busy", {{1, "moving"}});
+    for (std::int64_t i = 1; i <= 5; ++i) experiment.possession(1, i, "moving", 1.0, i < 4 ? kIn : kOut);
+    experiment.commit();
+  }
+  experiment.finish();
+  const auto result = compared();
+  EXPECT_FALSE(result.pairs[0].efficiency);
+  EXPECT_NEAR(result.pairs[0].headline->difference, 0.6, 1e-12);
+  EXPECT_THAT(to_text(result), HasSubstr("busy is better than idle"));
+  EXPECT_THAT(to_json(result), HasSubstr("\"efficiency\": null"));
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
