@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/launch/record_lockstep.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 struct MatchFlags {
   std::vector<std::string> halves;
+  std::string random;
   double minutes = 5.0;
   std::int64_t seed = 1;
   int domain = -1;
@@ -34,19 +36,38 @@ struct Between : CLI::Validator {
   }
 };
 
+std::string list(const std::vector<std::string>& policies) {
+  std::string text;
+  for (const std::string& policy : policies) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", policy);
+  return "[" + text + "]";
+}
+
+void refuse_oracle(const config::KickDecision& decision) {
+  for (const auto& policies : {decision.policy_by_half, decision.policy_by_robot, decision.random}) {
+    if (std::find(policies.begin(), policies.end(), kicking::PolicyName::kOracle) == policies.end()) continue;
+    throw UsageError{
+        "the policy oracle is told the simulator's true state, which is not on the bus: play it with "
+        "trivela simulate"};
+  }
+}
+
 /// Lines such as `kick_decision.policy_by_half = ["stopped", "moving"]`: the checks of the configuration are the flags'
 /// too.
 config::Settings settings_of(const MatchFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
-  std::string halves;
-  for (const std::string& half : flags.halves) halves += fmt::format("{}\"{}\"", halves.empty() ? "" : ", ", half);
-  std::vector<std::string> lines{fmt::format("kick_decision.policy_by_half = [{}]", halves),
-                                 fmt::format("simulator.halves = {}", flags.halves.size()),
-                                 fmt::format("simulator.half_minutes = {:.17e}", flags.minutes),
-                                 fmt::format("simulator.seed = {}", flags.seed),
-                                 fmt::format("run.log_level = \"{}\"", flags.log_level)};
+  std::vector<std::string> lines;
+  if (!flags.halves.empty()) lines.push_back(fmt::format("kick_decision.policy_by_half = {}", list(flags.halves)));
+  if (!flags.random.empty())
+    lines.push_back(fmt::format("kick_decision.random = {}", list(CLI::detail::split(flags.random, ','))));
+  for (std::string line :
+       {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
+        fmt::format("kick_decision.assignment_seed = {}", flags.seed),
+        fmt::format("simulator.half_minutes = {:.17e}", flags.minutes), fmt::format("simulator.seed = {}", flags.seed),
+        fmt::format("run.log_level = \"{}\"", flags.log_level)})
+    lines.push_back(std::move(line));
   for (const std::string& line : flags.overrides) lines.push_back(line);
   for (const std::string& line : lines) config::override_setting(settings, line);
+  refuse_oracle(settings.kick_decision);
   config::load_scenario(settings.run.scenario);
   config::load_robot(settings.run.robot);
   return settings;
@@ -57,11 +78,14 @@ config::Settings settings_of(const MatchFlags& flags) {
 void add_match(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("match", "play a simulated match with real node processes and record it");
   auto flags = std::make_shared<MatchFlags>();
-  verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
-      ->required()
-      ->expected(1)
-      ->check(CLI::IsMember({"stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive"}))
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  auto* half = verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
+                   ->expected(1)
+                   ->check(CLI::IsMember({"stopped", "moving", "predictive", "learned", "oracle", "standing_drive",
+                                          "lateral_drive", "turn_drive", "straight_drive"}))
+                   ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option("--random", flags->random,
+                   "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
+      ->excludes(half);
   verb->add_option("--minutes", flags->minutes, "length of a half")
       ->check(Between{0.01, 1000.0})
       ->capture_default_str();
@@ -77,6 +101,7 @@ void add_match(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
   verb->callback([flags, &exit_code] {
+    if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
     exit_code = record_lockstep("simulator", settings_of(*flags), flags->domain, flags->out);
   });
 }

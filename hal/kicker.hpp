@@ -32,6 +32,10 @@ class Kicker {
   /// fresh, in range and wanted is its caller's business. Ignored after make_safe().
   virtual void fire(std::int64_t kick_id, double power, std::int64_t t_ns) = 0;
 
+  /// The kick `kick_id` is not carried out, if its instant still lies ahead; one that was carried out, or never
+  /// ordered, changes nothing.
+  virtual void withdraw(std::int64_t kick_id) = 0;
+
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;
 

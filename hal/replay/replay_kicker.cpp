@@ -30,4 +30,8 @@ void ReplayKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
   if (!safe_) fires_.push_back({t_ns, kick_id, power});
 }
 
+void ReplayKicker::withdraw(std::int64_t kick_id) {
+  std::erase_if(fires_, [kick_id](const Fire& fire) { return fire.kick_id == kick_id; });
+}
+
 }  // namespace trivela::hal

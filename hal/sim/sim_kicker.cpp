@@ -46,4 +46,13 @@ void SimKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
   fires_.write(order);
 }
 
+void SimKicker::withdraw(std::int64_t kick_id) {
+  msg::SimFire word{};
+  word.robot_id = robot_id_;
+  word.seq = ++fire_seq_;
+  word.kick_id = kick_id;
+  word.withdrawn = true;
+  fires_.write(word);
+}
+
 }  // namespace trivela::hal

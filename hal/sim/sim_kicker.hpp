@@ -25,6 +25,7 @@ class SimKicker final : public Kicker {
   bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void withdraw(std::int64_t kick_id) override;
   void make_safe() noexcept override { safe_ = true; }
   bool ended() const override { return false; }
 

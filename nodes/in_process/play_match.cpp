@@ -14,6 +14,7 @@
 #include "sim/hand_table.hpp"
 #include "sim/match.hpp"
 #include "sim/random.hpp"
+#include "sim/team.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -30,6 +31,8 @@ bool knows_the_truth(const PolicyAssignment& assignment) {
   const auto candidates = assignment.candidates();
   return std::find(candidates.begin(), candidates.end(), kicking::PolicyName::kOracle) != candidates.end();
 }
+
+std::uint8_t robot_of(std::int64_t kick_id) { return static_cast<std::uint8_t>(kick_id >> 40 & 0xff); }
 
 std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>(seed % 0x7fff) + 1; }
 
@@ -85,7 +88,8 @@ class Game {
   /// The referee's word, as everybody hears it; a new possession begins with it.
   msg::Referee hear(const sim::Sensors& sensors) {
     msg::Referee word = referee_message(sensors.t_ns, sensors.referee);
-    word.robot_id = robot_id_ = 1;
+    robot_id_ = sensors.carrier;
+    word.robot_id = 1;  // the whole team hears him
     word.seq = played_.cycles;
     const bool anew = played_.possessions.empty() || word.possession_id != played_.possessions.back().possession_id;
     if (anew) {
@@ -108,7 +112,7 @@ class Game {
   }
 
   void take(msg::KickOutcome outcome) {
-    outcome.robot_id = static_cast<std::uint8_t>(outcome.kick_id >> 40 & 0xff);
+    outcome.robot_id = robot_of(outcome.kick_id);
     outcome.seq = ++outcomes_;
     outcome_ = outcome;
     if (record_) record_->outcomes.push_back(outcome);
@@ -159,7 +163,7 @@ class Game {
       if (PlayedPossession* of = possession_of(truth.kick_id)) of->kick->truth = truth.outcome;
       if (!record_) continue;
       record_->kick_truths.push_back(truth_message(truth));
-      record_->kick_truths.back().robot_id = robot_id_;
+      record_->kick_truths.back().robot_id = robot_of(truth.kick_id);
       record_->kick_truths.back().seq = ++kick_truths_;
     }
     for (const sim::PossessionTruth& truth : events.possessions) {
@@ -171,7 +175,7 @@ class Game {
                      scenario_.field.goal_line_y_m - truth.start.y_m - offset * std::cos(truth.start.heading_rad));
       if (!record_) continue;
       record_->possession_truths.push_back(possession_message(truth));
-      record_->possession_truths.back().robot_id = robot_id_;
+      record_->possession_truths.back().robot_id = truth.robot;
       record_->possession_truths.back().seq = ++possession_truths_;
     }
   }
@@ -180,7 +184,7 @@ class Game {
     const std::size_t index = robot_id - 1u;
     if (chains_.size() <= index) chains_.resize(index + 1);
     if (!chains_[index]) {
-      chains_[index] = std::make_unique<RobotChain>(settings_, robot(robot_id), robot_id, session_, seat());
+      chains_[index] = std::make_unique<RobotChain>(settings_, robot(robot_id), robot_id, session_, seat(robot_id));
     }
     return *chains_[index];
   }
@@ -190,15 +194,17 @@ class Game {
     config::Robot robot = arm_.robots[std::min<std::size_t>(robot_id, arm_.robots.size()) - 1];
     if (arm_.table == kOldTable) {
       const kicking::PolicyConfig& policy = settings_.policy;
-      const auto table = sim::draw_hand_table(scenario_, scenario_.kicker, seed_, match_id_, robot_id);
+      const std::uint32_t whose = scenario_.hand_table.one_for_all ? 1 : robot_id;
+      const auto table = sim::draw_hand_table(scenario_, sim::team_kicker(scenario_, whose), seed_, match_id_, whose);
       robot.model = kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m);
     }
     return robot;
   }
 
-  std::optional<OracleSeat> seat() const {
+  std::optional<OracleSeat> seat(std::uint8_t robot_id) const {
     if (!oracle_) return std::nullopt;
-    return OracleSeat{oracle_config(settings_.policy, scenario_), oracle_robot(scenario_, scenario_.kicker)};
+    return OracleSeat{oracle_config(settings_.policy, scenario_),
+                      oracle_robot(scenario_, match_.true_kicker(robot_id))};
   }
 
   /// Whose kick it is: of this possession, or of one before, where it was seen late.

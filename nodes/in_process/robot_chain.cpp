@@ -26,7 +26,7 @@ RobotChain::RobotChain(const config::Settings& settings, const config::Robot& ro
       odometry_(robot.base, settings.odometry),
       model_(settings.world_state, robot.model.ball_offset_m),
       decider_(settings, robot_.model, robot_id, session, std::move(oracle)),
-      desk_(settings.kicker_driver, robot.model, robot_id) {}
+      desk_(settings, robot.model, robot_id) {}
 
 const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
                                        const std::optional<msg::KickOutcome>& outcome, const sim::TrueState* truth) {

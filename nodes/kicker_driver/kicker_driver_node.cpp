@@ -6,7 +6,7 @@ namespace trivela::nodes {
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
-      desk_(context.settings.kicker_driver, context.robot.model, context.robot_id()),
+      desk_(context.settings, context.robot.model, context.robot_id()),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
@@ -20,7 +20,12 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         if (kicker_->ended()) context_.idle(timeout);
         return kicker_->read(timeout);
       },
-      [this](const hal::KickerSample& sample) { on_sample(sample); }, bus::writes<msg::KickerStatus, msg::StepDone>());
+      [this](const hal::KickerSample& sample) { on_sample(sample); },
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::SimFire, msg::StepDone>());
+  // In lockstep the word of a cycle comes with its sample, when no order's instant lies ahead.
+  if (!context_.settings.run.lockstep)
+    node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
+                           bus::writes<msg::KickReceipt, msg::SimFire>());
   bus::ReaderOptions orders;
   // In lockstep a cycle takes as long as it takes.
   if (!context_.settings.run.lockstep)
@@ -49,7 +54,24 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   sample_t_ns_ = sample.t_ns;
   sampled_ = std::chrono::steady_clock::now();
   status_out_.write(desk_.status(sample, referee && referee->playing));
+  withdraw();
   report_done(sample.t_ns);
+}
+
+void KickerDriverNode::on_referee(const msg::Referee& word) {
+  if (word.playing) return;
+  const std::lock_guard lock{mutex_};
+  desk_.stop();
+  withdraw();
+}
+
+/// Calls a kick off that the device has been told of but has not done yet.
+void KickerDriverNode::withdraw() {
+  const auto receipt = desk_.withdrawal(now_t_ns());
+  if (!receipt) return;
+  kicker_->withdraw(receipt->kick_id);
+  context_.logger->warn("kick {} called off: {}", receipt->kick_id, bus::label(receipt->refusal));
+  receipt_out_.write(*receipt);
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order) {

@@ -12,7 +12,9 @@
 namespace trivela::nodes {
 
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
-/// the OrderDesk accepts the order. Leaving, by whichever way, makes the device safe.
+/// the OrderDesk accepts the order. An order may be fired up to a cycle after it was judged: the device has it and
+/// waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the kick
+/// is called off and a second receipt says so. Leaving, by whichever way, makes the device safe.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
@@ -21,6 +23,8 @@ class KickerDriverNode {
  private:
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order);
+  void on_referee(const msg::Referee& word);
+  void withdraw();
   std::int64_t now_t_ns() const;
   void report_done(std::int64_t t_ns);
 

@@ -12,8 +12,8 @@ PowerRange power_range(const kicking::EffectiveTable& table) { return {table.fro
 
 }  // namespace
 
-OrderDesk::OrderDesk(const config::KickerDriver& settings, const kicking::RobotModel& model, std::uint8_t robot_id)
-    : gate_(settings, power_range(model.table)),
+OrderDesk::OrderDesk(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id)
+    : gate_(settings.kicker_driver, power_range(model.table), settings.run.cycle_s),
       delay_ns_(static_cast<std::int64_t>(model.delay_s * 1e9)),
       robot_id_(robot_id) {}
 
@@ -49,6 +49,19 @@ msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now
   receipt.power = order.power;
   receipt.fired_t_ns = std::max(now_t_ns, order.fire_t_ns);
   receipt.release_t_ns = receipt.fired_t_ns + delay_ns_;
+  return receipt;
+}
+
+std::optional<msg::KickReceipt> OrderDesk::withdrawal(std::int64_t now_t_ns) {
+  const auto withdrawn = gate_.withdraw(now_t_ns);
+  if (!withdrawn) return std::nullopt;
+  msg::KickReceipt receipt{};
+  receipt.robot_id = robot_id_;
+  receipt.seq = ++receipts_;
+  receipt.t_ns = now_t_ns;
+  receipt.kick_id = withdrawn->kick_id;
+  receipt.refusal = withdrawn->reason;
+  receipt.order_t_ns = withdrawn->order_t_ns;
   return receipt;
 }
 

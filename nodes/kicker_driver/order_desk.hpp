@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "bus/messages.hpp"
 #include "config/settings.hpp"
@@ -14,14 +15,20 @@ namespace trivela::nodes {
 /// out. Whoever owns it fires what it accepts.
 class OrderDesk {
  public:
-  /// `delay_s`: from the energised coil to the ball's release, of this robot.
-  OrderDesk(const config::KickerDriver& settings, const kicking::RobotModel& model, std::uint8_t robot_id);
+  OrderDesk(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id);
 
   msg::KickerStatus status(const hal::KickerSample& sample, bool playing);
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
   /// now or the order's own instant if that lies ahead.
   msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns);
+
+  /// The referee has stopped the game: known at once, not with the next sample.
+  void stop() { gate_.playing(false); }
+
+  /// A second receipt, which refuses an accepted order after all: its instant lies ahead, and by now the game stands or
+  /// the device is not well. The device is to be told. To be asked after every status() and stop().
+  std::optional<msg::KickReceipt> withdrawal(std::int64_t now_t_ns);
 
   std::uint32_t handled() const { return gate_.handled(); }
 

@@ -20,21 +20,34 @@ struct PowerRange {
 ///
 /// An order passes when, in this order, the device is sound (no fault, samples not older than link_timeout_s), the
 /// power is finite and inside the set-points, the kicker is armed (switch on, game playing), the order is neither older
-/// than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead, its kick_id is not
-/// among the last kRemembered answered and the last kick is at least min_interval_s ago, and the capacitor holds
-/// min_charge_ratio. The first condition that fails is the refusal.
+/// than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be fired
+/// before it was judged or more than a cycle after, its kick_id is not among the last kRemembered answered and the last
+/// kick is at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails is the
+/// refusal.
 class OrderGate {
  public:
   /// How many answered orders are known again.
   static constexpr std::size_t kRemembered = 64;
 
-  OrderGate(const config::KickerDriver& settings, PowerRange power) : settings_(settings), power_(power) {}
+  OrderGate(const config::KickerDriver& settings, PowerRange power, double cycle_s)
+      : settings_(settings), power_(power), cycle_s_(cycle_s) {}
 
   void device(const hal::KickerSample& sample) { sample_ = sample; }
   void playing(bool value) { playing_ = value; }
 
   /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
   msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns);
+
+  /// An accepted order that must not be fired after all.
+  struct Withdrawal {
+    std::int64_t kick_id;
+    std::int64_t order_t_ns;
+    msg::Refusal reason;
+  };
+
+  /// The accepted order whose instant lies ahead of `now_t_ns`, where by now the device is not sound or not armed. It
+  /// counts as refused from then on, and the next order as if it had not been.
+  std::optional<Withdrawal> withdraw(std::int64_t now_t_ns);
 
   /// Switch on, device heard of, game playing.
   bool armed() const { return sample_ && sample_->armed && playing_; }
@@ -56,9 +69,17 @@ class OrderGate {
 
   config::KickerDriver settings_;
   PowerRange power_;
+  double cycle_s_;
   std::optional<hal::KickerSample> sample_;
   bool playing_ = false;
   std::optional<std::int64_t> last_fire_t_ns_;
+  struct Accepted {
+    std::int64_t kick_id;
+    std::int64_t order_t_ns;
+    std::int64_t fire_t_ns;
+    std::optional<std::int64_t> fire_before_t_ns;  // last_fire_t_ns_ before it
+  };
+  std::optional<Accepted> accepted_;                  // the last one
   std::array<std::int64_t, kRemembered> answered_{};  // kick_ids, a ring; 0, which is no kick's, where none yet
   std::size_t oldest_ = 0;
   std::int64_t last_kick_id_ = 0;

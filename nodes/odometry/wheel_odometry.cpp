@@ -12,8 +12,7 @@ std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::sp
   if (last_t_ns_ && t_ns <= *last_t_ns_) return std::nullopt;
 
   kicking::Twist twist = kinematics_.twist(wheel_radps);
-  const Eigen::Vector3d variance = kinematics_.twist_variance(noise_.wheel_sd_radps);
-  double var_omega = variance.z();
+  double var_omega = variance_.z();
   if (gyro_radps && std::isfinite(*gyro_radps)) {
     const double var_gyro = noise_.gyro_sd_radps * noise_.gyro_sd_radps;
     twist.omega_radps = (twist.omega_radps * var_gyro + *gyro_radps * var_omega) / (var_gyro + var_omega);
@@ -23,7 +22,7 @@ std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::sp
                             0.5 * (estimate_.twist.vy_mps + twist.vy_mps),
                             0.5 * (estimate_.twist.omega_radps + twist.omega_radps)};
   estimate_.twist = twist;
-  estimate_.var_v_m2ps2 = std::max(variance.x(), variance.y());
+  estimate_.var_v_m2ps2 = std::max(variance_.x(), variance_.y());
   estimate_.var_omega_rad2ps2 = var_omega;
   if (last_t_ns_) {
     const double dt_s = static_cast<double>(t_ns - *last_t_ns_) * 1e-9;

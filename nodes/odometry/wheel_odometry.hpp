@@ -28,7 +28,8 @@ struct OdometryEstimate {
 /// noise over the cycle.
 class WheelOdometry {
  public:
-  WheelOdometry(const config::WheelBase& base, const config::Odometry& noise) : kinematics_(base), noise_(noise) {}
+  WheelOdometry(const config::WheelBase& base, const config::Odometry& noise)
+      : kinematics_(base), noise_(noise), variance_(kinematics_.twist_variance(noise.wheel_sd_radps)) {}
 
   /// Takes the samples of instant `t_ns`; the first one sets the clock and moves nothing. Samples that are not finite
   /// or not newer than the last one are ignored (nullopt).
@@ -40,6 +41,7 @@ class WheelOdometry {
  private:
   OmniKinematics kinematics_;
   config::Odometry noise_;
+  Eigen::Vector3d variance_;  // of a twist by wheels alone
   std::optional<std::int64_t> last_t_ns_;
   OdometryEstimate estimate_;
 };

@@ -6,6 +6,7 @@
 namespace trivela::nodes {
 namespace {
 
+constexpr std::size_t kUsualSightings = 256;
 constexpr double kJump_m = 1.0;        // between sightings: the ball was taken away
 constexpr double kFrameDepth_m = 0.4;  // a turn this close to the plane is the goal frame's work
 constexpr double kCameBack_m = 0.25;   // farther from its farthest point than noise and frame rate explain
@@ -20,6 +21,7 @@ std::vector<TrackedShot> ShotTracker::release(std::int64_t kick_id, std::int64_t
   std::vector<TrackedShot> settled;
   if (open_) settled.push_back(settle(FlightEnd::kLost, release_t_ns));
   open_ = Open{kick_id, release_t_ns, expected_speed_mps, release_t_ns, -HUGE_VAL, {}};
+  open_->sightings.reserve(kUsualSightings);
   for (const Sighting& sighting : history_) {
     if (!open_) break;
     if (sighting.t_ns < release_t_ns) continue;

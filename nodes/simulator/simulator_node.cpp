@@ -133,6 +133,10 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
+      if (fire.withdrawn) {
+        if (out.fire && out.fire->kick_id == fire.kick_id) out.fire.reset();
+        return;
+      }
       out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
       ++fires_;
     });

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "config/settings.hpp"
+#include "nodes/world_state/decay.hpp"
 
 namespace trivela::nodes {
 
@@ -17,7 +18,7 @@ class BallFilter {
  public:
   /// `handler_y_m`: resting place of the ball centre before the robot's centre.
   BallFilter(const config::WorldState& settings, double handler_y_m)
-      : settings_(settings), handler_{0.0, handler_y_m} {}
+      : settings_(settings), decay_(settings.ball_time_constant_s), handler_{0.0, handler_y_m} {}
 
   /// One frame; nullopt when the ball was not seen.
   void observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m);
@@ -34,6 +35,7 @@ class BallFilter {
   bool in_handler() const;
 
   config::WorldState settings_;
+  Decay decay_;
   Eigen::Vector2d handler_;
   std::optional<Eigen::Vector2d> position_m_;
   std::int64_t seen_t_ns_ = 0;

@@ -1,6 +1,6 @@
 #include "nodes/world_state/pose_history.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace trivela::nodes {
 
@@ -16,21 +16,33 @@ Pose compose(const Pose& from, const Pose& step) {
   return {position.x(), position.y(), kicking::wrap_angle(from.heading_rad + step.heading_rad)};
 }
 
+void PoseHistory::grow() {
+  std::vector<Entry> larger(2 * ring_.size());
+  for (std::size_t i = 0; i < count_; ++i) larger[i] = entry(i);
+  ring_ = std::move(larger);
+  first_ = 0;
+}
+
 void PoseHistory::add(std::int64_t t_ns, const Pose& pose) {
-  if (!entries_.empty() && t_ns <= entries_.back().t_ns) entries_.clear();
-  entries_.push_back({t_ns, pose});
-  while (entries_.front().t_ns < t_ns - span_ns_) entries_.pop_front();
+  if (count_ > 0 && t_ns <= entry(count_ - 1).t_ns) count_ = 0;
+  while (count_ > 0 && entry(0).t_ns < t_ns - span_ns_) {
+    first_ = place(1);
+    --count_;
+  }
+  if (count_ == ring_.size()) grow();
+  ring_[place(count_++)] = {t_ns, pose};
 }
 
 std::optional<Pose> PoseHistory::at(std::int64_t t_ns) const {
-  if (entries_.empty()) return std::nullopt;
-  const auto after = std::lower_bound(entries_.begin(), entries_.end(), t_ns,
-                                      [](const Entry& entry, std::int64_t t) { return entry.t_ns < t; });
-  if (after == entries_.end()) return entries_.back().pose;
-  if (after == entries_.begin() || after->t_ns == t_ns) return after->pose;
-  const Entry& before = *std::prev(after);
-  const double share = static_cast<double>(t_ns - before.t_ns) / static_cast<double>(after->t_ns - before.t_ns);
-  const Pose step = relative(before.pose, after->pose);
+  if (count_ == 0) return std::nullopt;
+  if (entry(count_ - 1).t_ns < t_ns) return entry(count_ - 1).pose;
+  std::size_t after = count_ - 1;  // the first that is not before t_ns; pictures are of a few cycles ago
+  while (after > 0 && entry(after - 1).t_ns >= t_ns) --after;
+  const Entry& next = entry(after);
+  if (after == 0 || next.t_ns == t_ns) return next.pose;
+  const Entry& before = entry(after - 1);
+  const double share = static_cast<double>(t_ns - before.t_ns) / static_cast<double>(next.t_ns - before.t_ns);
+  const Pose step = relative(before.pose, next.pose);
   return compose(before.pose, {step.x_m * share, step.y_m * share, step.heading_rad * share});
 }
 

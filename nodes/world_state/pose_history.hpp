@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <vector>
 
 #include "kicking/geometry/frames.hpp"
 
@@ -22,8 +22,8 @@ class PoseHistory {
   /// Appends; an instant that is not newer than the last one starts the history anew.
   void add(std::int64_t t_ns, const kicking::Pose& pose);
 
-  bool empty() const { return entries_.empty(); }
-  const kicking::Pose& latest() const { return entries_.back().pose; }
+  bool empty() const { return count_ == 0; }
+  const kicking::Pose& latest() const { return entry(count_ - 1).pose; }
 
   /// Linear interpolation between the neighbours; the oldest or newest entry outside the span; nullopt when empty.
   std::optional<kicking::Pose> at(std::int64_t t_ns) const;
@@ -33,8 +33,14 @@ class PoseHistory {
     std::int64_t t_ns;
     kicking::Pose pose;
   };
+  std::size_t place(std::size_t i) const { return (first_ + i) & (ring_.size() - 1); }
+  const Entry& entry(std::size_t i) const { return ring_[place(i)]; }  // 0: the oldest
+  void grow();
+
   std::int64_t span_ns_;
-  std::deque<Entry> entries_;
+  std::vector<Entry> ring_ = std::vector<Entry>(64);  // a power of two; grows where more fit into the span
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace trivela::nodes

@@ -34,7 +34,7 @@ void WorldModel::vision(const msg::VisionFrame& frame) {
 
 void WorldModel::filter_velocity(const msg::Odometry& odometry) {
   const double dt_s = seconds(odometry.t_ns - twist_t_ns_);
-  const double gain = dt_s <= 0.0 ? 1.0 : 1.0 - std::exp(-dt_s / settings_.velocity_time_constant_s);
+  const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);
   twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
   twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
   twist_.omega_radps += gain * (odometry.omega_radps - twist_.omega_radps);

@@ -6,6 +6,7 @@
 #include "bus/messages.hpp"
 #include "config/settings.hpp"
 #include "nodes/world_state/ball_filter.hpp"
+#include "nodes/world_state/decay.hpp"
 #include "nodes/world_state/pose_filter.hpp"
 
 namespace trivela::nodes {
@@ -15,7 +16,10 @@ class WorldModel {
  public:
   /// `ball_offset_m`: robot centre to the ball in the handler.
   WorldModel(const config::WorldState& settings, double ball_offset_m)
-      : settings_(settings), pose_(settings), ball_(settings, ball_offset_m) {}
+      : settings_(settings),
+        pose_(settings),
+        ball_(settings, ball_offset_m),
+        velocity_decay_(settings.velocity_time_constant_s) {}
 
   /// A frame, once; a second call with the same exposure changes nothing.
   void vision(const msg::VisionFrame& frame);
@@ -33,6 +37,7 @@ class WorldModel {
   config::WorldState settings_;
   PoseFilter pose_;
   BallFilter ball_;
+  Decay velocity_decay_;
   kicking::Twist twist_{};
   std::int64_t twist_t_ns_ = 0;
   std::int64_t last_exposure_ns_ = 0;

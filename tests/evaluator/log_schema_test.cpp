@@ -50,9 +50,10 @@ TEST(Schema, EveryTableAndEveryColumnHasAComment) {
 
 TEST(Schema, EveryTableIsStrictWithoutRowidAndKeyedBySession) {
   const auto tables = tables_in_source();
-  EXPECT_EQ(tables.size(), 17u);
+  EXPECT_EQ(tables.size(), 20u);
   for (const std::string& table : tables) {
     EXPECT_NE(table.find(") STRICT, WITHOUT ROWID;"), std::string::npos) << table;
+    if (table.starts_with("CREATE TABLE texts") || table.starts_with("CREATE TABLE experiments")) continue;
     EXPECT_NE(table.find("session_id INTEGER NOT NULL"), std::string::npos) << table;
     EXPECT_TRUE(std::regex_search(table, std::regex(R"(PRIMARY KEY( \(session_id|,))"))) << table;
   }

@@ -111,6 +111,7 @@ using WheelsFarSide = FarSide<hal::WheelSample, Driven>;
 
 struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<bool> safe = false;
+  std::atomic<std::int64_t> withdrawn = 0;  ///< kick_id that was called off last
 };
 
 class FakeWheels : public hal::Wheels {
@@ -136,6 +137,7 @@ class FakeKicker : public hal::Kicker {
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override {
     if (!far_side_->safe) far_side_->command({kick_id, power, t_ns, std::this_thread::get_id()});
   }
+  void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
   void make_safe() noexcept override { far_side_->safe = true; }
   bool ended() const override { return far_side_->ended(); }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nodes/kick_decision/decision_message.hpp"
 #include "tests/nodes/node_fixture.hpp"
 
 namespace trivela::nodes {
@@ -154,10 +155,31 @@ TEST_F(KickDecisionNodeTest, ThePolicyOfTheHalfDecidesAndTheOtherRidesAlong) {
   EXPECT_EQ(decision.nth(2).policy, msg::POLICY_MOVING);
   EXPECT_EQ(decision.nth(3).policy, msg::POLICY_MOVING) << "the last one goes on";
   EXPECT_FALSE(decision.nth(1).fire) << "it has not settled";
-  ASSERT_EQ(decision.nth(1).shadow_count, 1);
+  ASSERT_EQ(decision.nth(1).shadow_count, 2);
   EXPECT_EQ(decision.nth(1).shadows[0].policy, msg::POLICY_MOVING);
   EXPECT_TRUE(decision.nth(1).shadows[0].fire) << "this one would have kicked";
   EXPECT_EQ(decision.nth(2).shadows[0].policy, msg::POLICY_STOPPED);
+}
+
+TEST_F(KickDecisionNodeTest, ThePolicyOfAPossessionIsDrawnAndItsProbabilityRecorded) {
+  auto& settings = context.settings.kick_decision;
+  settings.random = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
+  settings.random_probabilities = {0.25, 0.75};
+  const PolicyAssignment assignment{settings, 1};
+  start();
+  for (std::uint32_t id = 1; id <= 12; ++id) {
+    auto state = world(0.8);
+    state.possession_id = id;
+    cycle(state);
+    const auto chance = assignment.in_charge(1, id);
+    EXPECT_EQ(decision.nth(id).policy, to_wire(chance.policy));
+    EXPECT_EQ(decision.nth(id).assignment_probability, chance.probability);
+  }
+}
+
+TEST_F(KickDecisionNodeTest, RefusesTheOracle) {
+  context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kOracle};
+  EXPECT_THROW(KickDecisionNode{context}, std::runtime_error);
 }
 
 TEST_F(KickDecisionNodeTest, ShadowsCanBeSwitchedOff) {
@@ -206,7 +228,7 @@ TEST_F(KickDecisionNodeTest, TheTurnDriveHearsWhatBecameOfItsKick) {
   EXPECT_TRUE(first.fire);
   EXPECT_EQ(first.policy, msg::POLICY_TURN_DRIVE);
   EXPECT_NEAR(first.beta_rad, kicking::radians(15.0), 1e-9);
-  EXPECT_EQ(first.shadow_count, 2) << "stopped and moving ride along";
+  EXPECT_EQ(first.shadow_count, 3) << "stopped, moving and predictive ride along";
   msg::KickOutcome others{};
   others.t_ns = t_ns;
   others.kick_id = first.kick_id - 1;

@@ -138,6 +138,28 @@ TEST_F(KickerDriverNodeTest, RefusesWithTheReasonAndFiresNothing) {
   EXPECT_TRUE(answer(wish(10)).accepted) << "after all that it still kicks";
 }
 
+TEST_F(KickerDriverNodeTest, AStopBeforeTheInstantOfAnAcceptedOrderCallsTheKickOff) {
+  context.settings.run.cycle_s = 3600.0;  // a cycle as long as the test may take
+  context.settings.kicker_driver.future_tolerance_s = 3600.0;
+  start();
+  play();
+  sample();
+  auto later = wish(5);
+  later.fire_t_ns += 1800'000'000'000;
+  const auto accepted = answer(later);
+  EXPECT_TRUE(accepted.accepted);
+  EXPECT_EQ(accepted.fired_t_ns, later.fire_t_ns);
+  EXPECT_EQ(accepted.release_t_ns - accepted.fired_t_ns, 60'000'000);
+  EXPECT_EQ(kicker->commands(1)[0].t_ns, later.fire_t_ns) << "the device has it and waits";
+  play(false);
+  const auto off = receipt.nth(++orders);
+  EXPECT_EQ(off.kick_id, 5);
+  EXPECT_FALSE(off.accepted);
+  EXPECT_EQ(off.refusal, msg::REFUSAL_UNARMED);
+  EXPECT_EQ(kicker->withdrawn, 5);
+  EXPECT_FALSE(sample().last_accepted);
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderSentTwiceIsFiredOnce) {
   start();
   play();

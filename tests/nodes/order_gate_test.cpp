@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kNow_ns = 10'000 * kMs;
+constexpr double kCycle_s = 0.02;
 constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
 constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
 
@@ -38,7 +39,7 @@ struct Case {
   std::int64_t now_ns = kNow_ns;
 
   OrderGate gate() const {
-    OrderGate gate{settings, {15.0, 50.0}};
+    OrderGate gate{settings, {15.0, 50.0}, kCycle_s};
     if (!before.empty()) {  // answered while everything was well
       for (const auto& past : before) {
         gate.device({past.t_ns, 1.0, true, hal::KickerFault::kNone});
@@ -77,7 +78,7 @@ TEST(OrderGate, RefusesAStaleOrder) {
 
 TEST(OrderGate, RefusesAnOrderFromTheFuture) {
   Case c;
-  for (const std::int64_t t_ns : {kNow_ns + 6 * kMs, kNow_ns + 1000 * kMs, kMost}) {
+  for (const std::int64_t t_ns : {kNow_ns + 26 * kMs, kNow_ns + 1000 * kMs, kMost}) {
     c.order = order_at(kNow_ns);
     c.order.valid_until_t_ns = kMost;
     c.order.t_ns = t_ns;
@@ -86,6 +87,75 @@ TEST(OrderGate, RefusesAnOrderFromTheFuture) {
     c.order.fire_t_ns = t_ns;  // the game that was judged would be over by then
     EXPECT_EQ(c.answer(), msg::REFUSAL_STALE) << "to be fired at " << t_ns;
   }
+}
+
+TEST(OrderGate, LetsAnOrderBeFiredWithinTheCycleThatItWasJudgedFor) {
+  for (const std::int64_t after_ms : {0, 1, 13, 20}) {
+    Case c;
+    c.order.fire_t_ns = c.order.t_ns + after_ms * kMs;
+    EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << after_ms;
+  }
+  for (const std::int64_t after_ns : {-kMs, std::int64_t{-1}, 20 * kMs + 2, 24 * kMs}) {
+    Case c;
+    c.order.fire_t_ns = c.order.t_ns + after_ns;
+    EXPECT_EQ(c.answer(), msg::REFUSAL_STALE) << after_ns;
+  }
+}
+
+TEST(OrderGate, CountsTheIntervalFromTheInstantOfTheKick) {
+  Case c;
+  auto later = order_at(kNow_ns - 500 * kMs, 1);
+  later.fire_t_ns += 10 * kMs;
+  c.before = {later};
+  c.order.kick_id = 2;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_DOUBLE);
+  c.now_ns += 10 * kMs;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
+}
+
+// An accepted order that is to be fired 15 ms later, looked at after `passed_ms` with one thing taken away.
+std::optional<OrderGate::Withdrawal> withdrawn_after(std::int64_t passed_ms,
+                                                     const std::function<void(OrderGate&)>& change) {
+  OrderGate gate = Case{}.gate();
+  auto later = order_at(kNow_ns, 7);
+  later.fire_t_ns += 15 * kMs;
+  EXPECT_EQ(gate.judge(later, kNow_ns), msg::REFUSAL_NONE);
+  change(gate);
+  const auto withdrawal = gate.withdraw(kNow_ns + passed_ms * kMs);
+  EXPECT_FALSE(gate.withdraw(kNow_ns + passed_ms * kMs)) << "once";
+  return withdrawal;
+}
+
+TEST(OrderGate, CallsAnOrderOffWhoseInstantLiesAheadWhenItHasBecomeUnsafe) {
+  const auto stopped = [](OrderGate& gate) { gate.playing(false); };
+  const auto opened = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, false, hal::KickerFault::kNone}); };
+  const auto broken = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, true, hal::KickerFault::kCoil}); };
+  const auto well = [](OrderGate&) {};
+  for (const auto& unsafe : {std::function<void(OrderGate&)>{stopped}, std::function<void(OrderGate&)>{opened}}) {
+    const auto withdrawal = withdrawn_after(14, unsafe);
+    ASSERT_TRUE(withdrawal);
+    EXPECT_EQ(withdrawal->kick_id, 7);
+    EXPECT_EQ(withdrawal->order_t_ns, kNow_ns);
+    EXPECT_EQ(withdrawal->reason, msg::REFUSAL_UNARMED);
+    EXPECT_FALSE(withdrawn_after(15, unsafe)) << "the coil is energised";
+  }
+  EXPECT_EQ(withdrawn_after(5, broken)->reason, msg::REFUSAL_FAULT);
+  EXPECT_FALSE(withdrawn_after(5, well));
+}
+
+TEST(OrderGate, AnOrderThatWasCalledOffCountsAsRefusedAndDelaysNobody) {
+  OrderGate gate = Case{}.gate();
+  auto later = order_at(kNow_ns, 7);
+  later.fire_t_ns += 15 * kMs;
+  gate.judge(later, kNow_ns);
+  gate.playing(false);
+  ASSERT_TRUE(gate.withdraw(kNow_ns + kMs));
+  EXPECT_EQ(gate.handled(), 1u);
+  EXPECT_EQ(gate.refused(), 1u);
+  EXPECT_FALSE(gate.last_accepted());
+  gate.playing(true);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns + 2 * kMs, 8), kNow_ns + 2 * kMs), msg::REFUSAL_NONE);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns + 3 * kMs, 7), kNow_ns + 3 * kMs), msg::REFUSAL_DOUBLE) << "it was answered";
 }
 
 TEST(OrderGate, SurvivesTimesFromTheEndsOfTheScale) {
@@ -258,7 +328,7 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
   std::mt19937_64 random{23};
   const auto chance = [&](double p) { return std::bernoulli_distribution{p}(random); };
   config::KickerDriver settings;
-  OrderGate gate{settings, {15.0, 50.0}};
+  OrderGate gate{settings, {15.0, 50.0}, kCycle_s};
   std::set<std::int64_t> accepted;
   std::int64_t now_ns = kNow_ns, last_fire_ns = 0, next_id = 1;
   int repeats = 0;

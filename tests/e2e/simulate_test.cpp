@@ -1,0 +1,198 @@
+// An experiment in process: the same rows however it is run, and the same decisions as the nodes on the bus.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/e2e/folder.hpp"
+#include "tests/e2e/log_rows.hpp"
+#include "tests/e2e/program.hpp"
+
+namespace trivela::e2e {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string kRobot = std::string{TRIVELA_SOURCE_DIR} + "/config/robots/cambada_1.toml";
+
+std::vector<std::string> simulate(const std::string& out, int matches, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"simulate",
+                                     "--arms",
+                                     "stopped,moving@old",
+                                     "--matches",
+                                     fmt::format("{}", matches),
+                                     "--possessions",
+                                     "20",
+                                     "--robot",
+                                     kRobot,
+                                     "--out",
+                                     out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// Every cell of every table.
+std::vector<std::string> other_rows(const Folder& folder, const std::string& one, const std::string& other) {
+  const Reader a{folder / one};
+  const Reader b{folder / other};
+  std::vector<std::string> differing;
+  for (const Row& name : rows_of(a, "SELECT name FROM sqlite_schema WHERE type = 'table'")) {
+    const std::string table = std::get<std::string>(name[0]);
+    if (rows_of(a, "SELECT * FROM " + table) != rows_of(b, "SELECT * FROM " + table)) differing.push_back(table);
+  }
+  return differing;
+}
+
+void run(const Folder& folder, const std::vector<std::string>& arguments) {
+  Program program{"trivela", arguments, folder.path()};
+  ASSERT_EQ(program.wait(), 0) << program.errors();
+}
+
+TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
+  const Folder folder;
+  run(folder, simulate("one.db", 5));
+  run(folder, simulate("two.db", 5, {"--jobs", "2"}));
+  const Reader log{folder / "one.db"};
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM sessions"), 10);
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM possession_truths"), 200);
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM assignments"), 200);
+  EXPECT_GT(number_of(log, "SELECT count(*) FROM kicks WHERE outcome IS NOT NULL AND truth_outcome IS NOT NULL"), 20);
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM texts"), 3) << "two configurations and the messages";
+  EXPECT_THAT(other_rows(folder, "one.db", "two.db"), IsEmpty());
+  EXPECT_THAT(loose_ends_of(folder / "two.db"), IsEmpty());
+}
+
+// The starts are the same situations; what the arms did with them is not.
+TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
+  const Folder folder;
+  run(folder, simulate("ab.db", 3));
+  const Reader log{folder / "ab.db"};
+  const std::string starts =
+      "SELECT match_id, possession_id, start_x_m, start_y_m, start_heading_rad FROM possession_truths "
+      "JOIN sessions USING (session_id) WHERE arm = '{}' ORDER BY match_id, possession_id";
+  const auto stopped = rows_of(log, fmt::format(fmt::runtime(starts), "stopped"));
+  EXPECT_EQ(stopped.size(), 60u);
+  EXPECT_EQ(stopped, rows_of(log, fmt::format(fmt::runtime(starts), "moving@old")));
+  EXPECT_NE(number_of(log, "SELECT count(*) FROM kicks WHERE policy = 'stopped'"),
+            number_of(log, "SELECT count(*) FROM kicks WHERE policy = 'moving'"));
+}
+
+TEST(Simulate, AStoppedRunGoesOnToTheSameFile) {
+  const Folder folder;
+  constexpr int kMatches = 400;
+  run(folder, simulate("whole.db", kMatches, {"--jobs", "2"}));
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const std::string out = signal == SIGINT ? "interrupted.db" : "killed.db";
+    {
+      Program program{"trivela", simulate(out, kMatches), folder.path()};
+      const auto wal = folder / (out + "-wal");
+      ASSERT_TRUE(wait_for_change(folder.path(), program.watch(), [&] {
+        std::error_code missing;
+        const auto size = std::filesystem::file_size(wal, missing);
+        return !missing && size > 300'000;
+      }));
+      program.signal(signal);
+      EXPECT_NE(program.wait(), 0);
+      if (signal == SIGINT) EXPECT_THAT(program.errors(), HasSubstr("the same command goes on from there"));
+    }
+    {
+      const Reader part{folder / out};
+      EXPECT_LT(number_of(part, "SELECT matches_done FROM experiments"), kMatches);
+      EXPECT_GT(number_of(part, "SELECT matches_done FROM experiments"), 0);
+      EXPECT_EQ(number_of(part, "SELECT count(*) FROM sessions"),
+                2 * number_of(part, "SELECT matches_done FROM experiments"));
+    }
+    run(folder, simulate(out, kMatches));
+    EXPECT_THAT(other_rows(folder, "whole.db", out), IsEmpty()) << out;
+  }
+}
+
+TEST(Simulate, RefusesToGoOnWithOtherArguments) {
+  const Folder folder;
+  run(folder, simulate("ab.db", 2));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--seed", "2"}, std::vector<std::string>{"--set", "policy.settle_s=0.5"}}) {
+    Program other{"trivela", simulate("ab.db", 2, more), folder.path()};
+    EXPECT_EQ(other.wait(), 1);
+    EXPECT_THAT(other.errors(), HasSubstr("other arguments"));
+  }
+  Program longer{"trivela", simulate("ab.db", 3), folder.path()};
+  EXPECT_EQ(longer.wait(), 1);
+  run(folder, simulate("ab.db", 2));  // there is nothing left to play
+}
+
+TEST(Simulate, NamesWhatIsNoArm) {
+  const Folder folder;
+  const auto complaint = [&](const std::string& arms) {
+    Program program{"trivela", {"simulate", "--arms", arms, "--matches", "1"}, folder.path()};
+    EXPECT_EQ(program.wait(), 2) << arms;
+    return program.errors();
+  };
+  EXPECT_THAT(complaint("stopped,walking"), HasSubstr("\"walking\" is no policy"));
+  EXPECT_THAT(complaint("moving@worn"), HasSubstr("a table is new or old"));
+  EXPECT_THAT(complaint("moving,moving"), HasSubstr("twice"));
+  EXPECT_THAT(complaint("turn_drive"), HasSubstr("calibrates a robot"));
+  EXPECT_THAT(complaint("learned"), HasSubstr("needs a model"));
+}
+
+TEST(Simulate, AReportReadsTheExperiment) {
+  const Folder folder;
+  run(folder, simulate("ab.db", 3));
+  Program report{"trivela", {"report", "ab.db"}, folder.path()};
+  EXPECT_EQ(report.wait(), 0) << report.errors();
+  EXPECT_THAT(report.output(), HasSubstr("stopped"));
+  EXPECT_THAT(report.output(), HasSubstr("moving"));
+}
+
+/// The match with the seed of the log's only session on the bus, and the streams in which the two differ.
+std::vector<std::string> differing_on_the_bus(const Folder& folder, const std::vector<std::string>& policies) {
+  const Reader in_process{folder / "in.db"};
+  std::vector<std::string> arguments{"match",
+                                     "--minutes",
+                                     "1000",
+                                     "--seed",
+                                     fmt::format("{}", number_of(in_process, "SELECT seed FROM sessions")),
+                                     "--set",
+                                     "simulator.max_possessions=8",
+                                     "--out",
+                                     "bus.db"};
+  arguments.insert(arguments.end(), policies.begin(), policies.end());
+  run(folder, arguments);
+  const Reader bus{folder / "bus.db"};
+  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_decisions WHERE reason <> 'not_playing'"), 100);
+  EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_orders"), 0);
+  std::vector<std::string> differing;
+  for (const std::string& difference : differences_of(in_process, bus)) {
+    for (const char* const stream : {"kick_decisions,", "shadow_decisions,", "kick_orders,", "kick_receipts,",
+                                     "kick_outcomes,", "kick_truths,", "possession_truths,", "assignments,"}) {
+      if (difference.starts_with(stream)) differing.push_back(difference);
+    }
+  }
+  return differing;
+}
+
+TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
+  for (const std::string policy : {"stopped", "moving", "predictive"}) {
+    const Folder folder;
+    run(folder, {"simulate", "--arms", policy, "--matches", "1", "--possessions", "8", "--robot", kRobot, "--shadows",
+                 "--every-cycle", "--out", "in.db"});
+    EXPECT_THAT(differing_on_the_bus(folder, {"--half", policy}), IsEmpty()) << policy;
+  }
+}
+
+TEST(Simulate, DrawsThePoliciesLikeTheNodesOnTheBus) {
+  const Folder folder;
+  std::ofstream{folder / "arms.toml"} << fmt::format(
+      "[[arm]]\nname = \"drawn\"\nrandom = [\"stopped\", \"moving\", \"predictive\"]\nrobots = [\"{}\"]\n", kRobot);
+  run(folder, {"simulate", "--arms", "arms.toml", "--matches", "1", "--possessions", "8", "--shadows", "--every-cycle",
+               "--out", "in.db"});
+  const Reader log{folder / "in.db"};
+  EXPECT_GE(number_of(log, "SELECT count(DISTINCT policy) FROM assignments"), 2);
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM assignments WHERE abs(probability - 1.0 / 3.0) < 1e-12"), 8);
+  EXPECT_THAT(differing_on_the_bus(folder, {"--random", "stopped,moving,predictive"}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace trivela::e2e
