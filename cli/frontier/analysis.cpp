@@ -1,0 +1,97 @@
+#include "cli/frontier/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "evaluator/stats/quantile.hpp"
+
+namespace trivela::cli {
+namespace {
+
+double ratio(std::int64_t of, std::int64_t all) { return static_cast<double>(of) / static_cast<double>(all); }
+
+MatchTally without(MatchTally total, const MatchTally& match) {
+  total.opportunities -= match.opportunities;
+  total.kicks -= match.kicks;
+  total.on_target -= match.on_target;
+  return total;
+}
+
+/// Those that kick, the most kicks first.
+std::vector<const FrontierPoint*> by_kicks(const FrontierReport& report) {
+  std::vector<const FrontierPoint*> points;
+  for (const FrontierPoint& point : report.points) {
+    if (total_of(point.matches).kicks > 0) points.push_back(&point);
+  }
+  if (points.empty()) throw std::invalid_argument{"no threshold at which the policy kicks"};
+  std::ranges::stable_sort(points, std::ranges::greater{},
+                           [](const FrontierPoint* point) { return total_of(point->matches).kicks; });
+  return points;
+}
+
+}  // namespace
+
+double kicks_per_opportunity(const MatchTally& total) { return ratio(total.kicks, total.opportunities); }
+double efficiency_of(const MatchTally& total) { return ratio(total.on_target, total.kicks); }
+double on_target_per_opportunity(const MatchTally& total) { return ratio(total.on_target, total.opportunities); }
+
+Effect jackknife(const std::vector<const ArmTally*>& arms,
+                 const std::function<double(const std::vector<MatchTally>&)>& of) {
+  std::vector<MatchTally> totals;
+  for (const ArmTally* arm : arms) totals.push_back(total_of(*arm));
+  const double value = of(totals);
+  const std::size_t matches = arms.front()->size();
+  const auto count = static_cast<double>(matches);
+  std::vector<double> left_out;
+  double mean = 0.0;
+  for (std::size_t m = 0; m < matches; ++m) {
+    std::vector<MatchTally> rest = totals;
+    for (std::size_t a = 0; a < arms.size(); ++a) rest[a] = without(rest[a], (*arms[a])[m]);
+    left_out.push_back(of(rest));
+    mean += left_out.back() / count;
+  }
+  double squares = 0.0;
+  for (const double each : left_out) squares += (each - mean) * (each - mean);
+  const double reach =
+      evaluator::stats::t_of(evaluator::stats::kConfidence, count - 1.0) * std::sqrt((count - 1.0) / count * squares);
+  return {value, {value - reach, value + reach}};
+}
+
+std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoint& fixed) {
+  const MatchTally own = total_of(fixed.matches);
+  if (own.kicks == 0) return std::nullopt;
+  const auto points = by_kicks(report);
+  const auto fewer = std::ranges::find_if(
+      points, [&](const FrontierPoint* point) { return total_of(point->matches).kicks < own.kicks; });
+  const bool within = fewer != points.begin() && fewer != points.end();
+  const FrontierPoint& to = within ? **fewer : fewer == points.begin() ? *points.front() : *points.back();
+  const FrontierPoint& from = within ? **std::prev(fewer) : to;
+  const auto above = [within](const std::vector<MatchTally>& totals) {
+    const MatchTally &more = totals[0], &less = totals[1], &of_policy = totals[2];
+    if (!within) return efficiency_of(less) - efficiency_of(of_policy);
+    const double kicks = kicks_per_opportunity(of_policy);
+    const double most = kicks_per_opportunity(more), least = kicks_per_opportunity(less);
+    const double part = most > least ? (most - kicks) / (most - least) : 0.0;
+    const double on_target = std::lerp(on_target_per_opportunity(more), on_target_per_opportunity(less), part);
+    return on_target / kicks - efficiency_of(of_policy);
+  };
+  return Standing{fixed.name, from.threshold, to.threshold, within,
+                  jackknife({&from.matches, &to.matches, &fixed.matches}, above)};
+}
+
+const FrontierPoint& best_of(const FrontierReport& report) {
+  const auto best = std::ranges::max_element(
+      report.points, {}, [](const FrontierPoint& point) { return total_of(point.matches).on_target; });
+  if (best == report.points.end()) throw std::invalid_argument{"no threshold was played"};
+  return *best;
+}
+
+Effect share_of_oracle(const FrontierReport& report) {
+  if (!report.oracle) throw std::invalid_argument{"no oracle was played"};
+  return jackknife({&best_of(report).matches, &report.oracle->matches}, [](const std::vector<MatchTally>& totals) {
+    return ratio(totals[0].on_target, totals[1].on_target);
+  });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/factorial/effects.hpp"
+
+namespace trivela::cli {
+
+/// The swept policy at one firing threshold.
+struct FrontierPoint {
+  double threshold = 0.0;
+  ArmTally matches;
+};
+
+/// A policy without a threshold, on the same opportunities.
+struct FixedPoint {
+  std::string name;
+  ArmTally matches;
+};
+
+struct FrontierReport {
+  std::string policy;    ///< that is swept
+  std::string scenario;  ///< name of its file
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 0;
+  std::uint32_t possessions = 0;      ///< opportunities a match
+  std::vector<FrontierPoint> points;  ///< thresholds rising
+  std::vector<FixedPoint> fixed;      ///< stopped, moving
+  std::optional<FixedPoint> oracle;
+};
+
+double kicks_per_opportunity(const MatchTally& total);
+double efficiency_of(const MatchTally& total);
+double on_target_per_opportunity(const MatchTally& total);
+
+/// A function of the arms' totals over all matches with its 95 % interval: the jackknife over matches (Efron and Stein
+/// 1981), Student's distribution with one degree of freedom less than matches.
+Effect jackknife(const std::vector<const ArmTally*>& arms,
+                 const std::function<double(const std::vector<MatchTally>&)>& of);
+
+/// A policy against the frontier at its own number of kicks. Between two thresholds the frontier is what a team gets
+/// that plays some possessions with the one and the rest with the other: kicks and shots on target both linear.
+struct Standing {
+  std::string name;
+  double from_threshold = 0.0;  ///< the kicks lie between this one ...
+  double to_threshold = 0.0;    ///< ... and this one; the same where they lie beyond all
+  bool within = false;          ///< they do lie between two
+  Effect above;                 ///< efficiency of the frontier minus the policy's
+};
+
+/// None: a policy without kicks. @throws std::invalid_argument for a report without a point that kicks.
+std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoint& fixed);
+
+/// The point with the most shots on target per opportunity. @throws std::invalid_argument where there is none.
+const FrontierPoint& best_of(const FrontierReport& report);
+
+/// Shots on target of best_of() over the oracle's. @throws std::invalid_argument without an oracle.
+Effect share_of_oracle(const FrontierReport& report);
+
+}  // namespace trivela::cli

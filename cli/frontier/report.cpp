@@ -1,0 +1,164 @@
+#include "cli/frontier/report.hpp"
+
+#include <fmt/format.h>
+
+#include "evaluator/report/svg_chart.hpp"
+#include "evaluator/report/text_table.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Every point in the order of the tables, its threshold as text.
+struct Row {
+  std::string policy;
+  std::string threshold;
+  const ArmTally* matches;
+};
+
+std::vector<Row> rows_of(const FrontierReport& report) {
+  std::vector<Row> rows;
+  for (const FrontierPoint& point : report.points)
+    rows.push_back({report.policy, fmt::format("{:g}", point.threshold), &point.matches});
+  for (const FixedPoint& fixed : report.fixed) rows.push_back({fixed.name, "", &fixed.matches});
+  if (report.oracle) rows.push_back({report.oracle->name, "", &report.oracle->matches});
+  return rows;
+}
+
+Effect share(const ArmTally& matches, Measure measure) {
+  const Term alone[] = {{&matches, 1.0}};
+  return contrast(alone, measure);
+}
+
+std::string percent(const Effect& effect) {
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * effect.value, 100.0 * effect.ci.lo, 100.0 * effect.ci.hi);
+}
+
+std::string sentence(const FrontierReport& report, const FixedPoint& fixed) {
+  const auto standing = standing_of(report, fixed);
+  if (!standing) return fmt::format("{} never kicked.\n", fixed.name);
+  const char* where = standing->above.ci.lo > 0.0   ? "lies below the frontier"
+                      : standing->above.ci.hi < 0.0 ? "lies above the frontier"
+                                                    : "cannot be told from the frontier";
+  const std::string at = standing->within ? fmt::format("as many kicks (thresholds {:g} and {:g} mixed)",
+                                                        standing->from_threshold, standing->to_threshold)
+                                          : fmt::format("the nearest number of kicks that it has (threshold {:g})",
+                                                        standing->to_threshold);
+  return fmt::format("{} {}: with {} {} has {:+.1f} points more of its kicks on target (95 %: {:+.1f} to {:+.1f}).\n",
+                     fixed.name, where, at, report.policy, 100.0 * standing->above.value, 100.0 * standing->above.ci.lo,
+                     100.0 * standing->above.ci.hi);
+}
+
+std::string oracle_sentence(const FrontierReport& report) {
+  const Effect share = share_of_oracle(report);
+  return fmt::format("At its best threshold, {:g}, {} has {} % of the oracle's shots on target.\n",
+                     best_of(report).threshold, report.policy, percent(share));
+}
+
+Json json_of(const Effect& effect) { return {{"value", effect.value}, {"ci", {effect.ci.lo, effect.ci.hi}}}; }
+
+}  // namespace
+
+std::string to_text(const FrontierReport& report) {
+  std::vector<std::vector<std::string>> table{
+      {"policy", "threshold", "kicks/opp.", "efficiency [%]", "on target/opp. [%]", "kicks"}};
+  for (const Row& row : rows_of(report)) {
+    const MatchTally total = total_of(*row.matches);
+    table.push_back({row.policy, row.threshold, fmt::format("{:.3f}", kicks_per_opportunity(total)),
+                     total.kicks > 0 ? percent(share(*row.matches, Measure::kEfficiency)) : "-",
+                     percent(share(*row.matches, Measure::kPerOpportunity)), fmt::format("{}", total.kicks)});
+  }
+  std::string text = fmt::format(
+      "{} matches of {} opportunities, the same for every policy and threshold; {}, seed {}; 95 % intervals by "
+      "match.\n\n{}\n",
+      report.matches, report.possessions, report.scenario, report.seed, evaluator::text_table(table));
+  for (const FixedPoint& fixed : report.fixed) text += sentence(report, fixed);
+  if (report.oracle) text += oracle_sentence(report);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const FrontierReport& report) {
+  Json json{{"policy", report.policy},   {"scenario", report.scenario},       {"seed", report.seed},
+            {"matches", report.matches}, {"possessions", report.possessions}, {"points", Json::array()},
+            {"standings", Json::array()}};
+  for (const Row& row : rows_of(report)) {
+    const MatchTally total = total_of(*row.matches);
+    json["points"].push_back(
+        {{"policy", row.policy},
+         {"threshold", row.threshold.empty() ? Json() : Json(std::stod(row.threshold))},
+         {"opportunities", total.opportunities},
+         {"kicks", total.kicks},
+         {"on_target", total.on_target},
+         {"kicks_per_opportunity", kicks_per_opportunity(total)},
+         {"efficiency", total.kicks > 0 ? json_of(share(*row.matches, Measure::kEfficiency)) : Json()},
+         {"on_target_per_opportunity", json_of(share(*row.matches, Measure::kPerOpportunity))}});
+  }
+  for (const FixedPoint& fixed : report.fixed) {
+    Json entry{{"policy", fixed.name}, {"answer", sentence(report, fixed)}};
+    if (const auto standing = standing_of(report, fixed)) {
+      entry["within"] = standing->within;
+      entry["frontier_above"] = json_of(standing->above);
+    }
+    json["standings"].push_back(std::move(entry));
+  }
+  if (report.oracle)
+    json["of_oracle"] = {{"threshold", best_of(report).threshold}, {"share", json_of(share_of_oracle(report))}};
+  return json;
+}
+
+std::string to_csv(const FrontierReport& report) {
+  std::string csv =
+      "policy,threshold,opportunities,kicks,on_target,kicks_per_opportunity,efficiency,efficiency_low,efficiency_high,"
+      "per_opportunity,per_opportunity_low,per_opportunity_high\n";
+  for (const Row& row : rows_of(report)) {
+    const MatchTally total = total_of(*row.matches);
+    const Effect per_opportunity = share(*row.matches, Measure::kPerOpportunity);
+    csv += fmt::format("{},{},{},{},{},{:.6f},", row.policy, row.threshold, total.opportunities, total.kicks,
+                       total.on_target, kicks_per_opportunity(total));
+    if (total.kicks > 0) {
+      const Effect efficiency = share(*row.matches, Measure::kEfficiency);
+      csv += fmt::format("{:.6f},{:.6f},{:.6f},", efficiency.value, efficiency.ci.lo, efficiency.ci.hi);
+    } else {
+      csv += ",,,";
+    }
+    csv += fmt::format("{:.6f},{:.6f},{:.6f}\n", per_opportunity.value, per_opportunity.ci.lo, per_opportunity.ci.hi);
+  }
+  return csv;
+}
+
+std::string to_svg(const FrontierReport& report) {
+  evaluator::Chart chart{
+      "Efficiency and volume by firing threshold", "kicks per opportunity", "on target of kicks [%]", {}};
+  evaluator::ChartSeries line{report.policy, {}, evaluator::ChartMark::kLine, 0, 0};
+  for (const FrontierPoint& point : report.points) {
+    const MatchTally total = total_of(point.matches);
+    if (total.kicks > 0) line.points.push_back({kicks_per_opportunity(total), 100.0 * efficiency_of(total)});
+  }
+  evaluator::ChartSeries dots = line;
+  dots.name = "its thresholds";
+  dots.mark = evaluator::ChartMark::kDots;
+  chart.series = {std::move(line), std::move(dots)};
+  std::vector<FixedPoint> others = report.fixed;
+  if (report.oracle) others.push_back(*report.oracle);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const MatchTally total = total_of(others[i].matches);
+    if (total.kicks == 0) continue;
+    const auto colour = static_cast<int>(i) + 1;
+    chart.series.push_back({others[i].name,
+                            {{kicks_per_opportunity(total), 100.0 * efficiency_of(total)}},
+                            evaluator::ChartMark::kDots,
+                            colour,
+                            0});
+    const Effect efficiency = share(others[i].matches, Measure::kEfficiency);
+    chart.series.push_back({others[i].name + ", 95 %",
+                            {{kicks_per_opportunity(total), 100.0 * efficiency.ci.lo},
+                             {kicks_per_opportunity(total), 100.0 * efficiency.ci.hi}},
+                            evaluator::ChartMark::kLine,
+                            colour,
+                            0});
+  }
+  return evaluator::to_svg(chart);
+}
+
+}  // namespace trivela::cli

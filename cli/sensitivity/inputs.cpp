@@ -1,0 +1,112 @@
+#include "cli/sensitivity/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "kicking/geometry/angle.hpp"
+#include "sim/scenario_fields.hpp"
+
+namespace trivela::cli {
+namespace {
+
+constexpr UncertainInput kInputs[] = {
+    {"ball.drag_coefficient", 0.20, 0.35, "spread of published footballs below 12 m/s"},
+    {"ball.restitution_ratio", 0.60, 0.75, "carpet, soft to hard"},
+    {"ball.retention_ratio", 0.60, 0.95, "rough to smooth floor"},
+    {"robot.max_acceleration_mps2", 1.5, 4.0, "ball nearly lost, to a good handler"},
+    {"robot.max_turn_rate_radps", 1.5, 4.0, "ball nearly lost, to a good handler"},
+    {"robot.max_turn_acceleration_radps2", 3.0, 8.0, "Falcons configuration; twice the default"},
+    {"kicker.drift_sd_ratio", 0.0, 0.03, "a day without change; that of the hand table nearly"},
+    {"kicker.delay_s", 0.05, 0.08, "CAMBADA release 1.0: mean, maximum"},
+    {"kicker.delay_sd_s", 0.005, 0.03, "a third, twice"},
+    {"kicker.speed_sd_ratio", 0.01, 0.04, "half, twice"},
+    {"kicker.direction_sd_deg", 0.5, 3.0, "a third, twice"},
+    {"kicker.transfer_forward_ratio", 0.8, 1.0, "a fifth lost to the floor; none"},
+    {"kicker.transfer_lateral_ratio", 0.8, 1.0, "a fifth lost to the floor; none"},
+    {"possession.goal_distance_min_m", 1.5, 4.0, "gained near the goal, or farther"},
+    {"possession.goal_distance_max_m", 7.0, 11.0, "never far, or beyond the middle"},
+    {"possession.lateral_max_m", 1.5, 5.0, "before the goal, or over the field's width"},
+    {"possession.aim_error_sd_deg", 30.0, 120.0, "mostly facing the goal; any way"},
+    {"possession.speed_max_mps", 1.0, 2.2, "half; the robot's own limit"},
+    {"possession.travel_direction_sd_deg", 15.0, 90.0, "mostly forward; any way"},
+    {"opponent.count", 1.0, 5.0, "one, a whole team"},
+    {"opponent.distance_median_m", 1.0, 2.5, "19 situations of one log; other leagues and opponents"},
+    {"opponent.closing_min_mps", 0.3, 1.2, "half, one and a half"},
+    {"opponent.closing_max_mps", 1.3, 3.0, "two thirds, one and a half"},
+    {"opponent.dispute_distance_m", 0.4, 0.8, "bodies touch; an arm's length"},
+    {"referee.stops_per_min", 0.0, 3.0, "none; six times"},
+    {"odometry.wheel_sd_radps", 0.2, 1.8, "a third, three times"},
+    {"odometry.slip_sd_ratio", 0.0, 0.06, "none; three times"},
+    {"odometry.gyro_bias_sd_radps", 0.0, 0.05, "none; five times"},
+    {"vision.latency_s", 0.03, 0.10, "half; with the rest of 140 ms sense-to-act"},
+    {"vision.position_white_sd_m", 0.02, 0.12, "all of the published noise slow; all of it white"},
+    {"vision.position_slow_sd_m", 0.03, 0.20, "a quarter, nearly twice"},
+    {"vision.heading_white_sd_deg", 0.2, 1.5, "a third, nearly three times"},
+    {"vision.heading_slow_sd_deg", 0.2, 1.5, "a third, nearly three times"},
+    {"vision.slow_time_s", 0.5, 8.0, "a quarter, four times"},
+    {"vision.opponent_sd_m", 0.05, 0.40, "a third, three times"},
+    {"vision.dropout_ratio", 0.0, 0.20, "none; every fifth frame"},
+    {"flight_camera.position_sd_m", 0.01, 0.10, "a third, three times: what is observed, not what is kicked"},
+};
+
+/// Finds one number of a scenario by its key, reads it and may set it.
+struct Finder {
+  std::string_view key;
+  std::optional<double> set;
+  std::string section{};
+  std::optional<double> found{};
+
+  bool is(std::string_view name) const {
+    return key.size() == section.size() + name.size() && key.starts_with(section) && key.ends_with(name);
+  }
+  void operator()(std::string_view name, double& value, sim::Range) {
+    if (!is(name)) return;
+    found = value;
+    if (set) value = *set;
+  }
+  void operator()(std::string_view name, sim::Degrees angle, sim::Range) {
+    if (!is(name)) return;
+    found = kicking::degrees(angle.rad);
+    if (set) angle.rad = kicking::radians(*set);
+  }
+  void operator()(std::string_view, std::vector<double>&, sim::Range) {}
+  void operator()(std::string_view, bool&) {}
+  template <class T>
+  void operator()(std::string_view name, T& nested) {
+    const std::string outer = section;
+    section += std::string{name} + '.';
+    fields(*this, nested);
+    section = outer;
+  }
+};
+
+double visit(sim::Scenario& scenario, const std::string& key, std::optional<double> value) {
+  Finder finder{key, value};
+  fields(finder, scenario);
+  if (!finder.found) throw std::invalid_argument{fmt::format("\"{}\" is no number of a scenario", key)};
+  return *finder.found;
+}
+
+}  // namespace
+
+std::span<const UncertainInput> uncertain_inputs() { return kInputs; }
+
+double value_of(const sim::Scenario& scenario, const std::string& key) {
+  sim::Scenario copy = scenario;
+  return visit(copy, key, std::nullopt);
+}
+
+sim::Scenario with(const sim::Scenario& scenario, const std::string& key, double value) {
+  sim::Scenario changed = scenario;
+  visit(changed, key, value);
+  if (const auto problem = sim::first_problem(changed)) {
+    throw std::invalid_argument{fmt::format("{} = {}: {}: {}", key, value, problem->key, problem->why)};
+  }
+  return changed;
+}
+
+}  // namespace trivela::cli
