@@ -1,5 +1,7 @@
 #include "kicking/policy/shot.hpp"
 
+#include <cmath>
+
 #include "kicking/ballistics/aim_exact.hpp"
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
@@ -8,6 +10,7 @@ namespace trivela::kicking {
 namespace {
 
 constexpr int kBisections = 40;  // of a gap between set-points: 1e-11 of a power
+constexpr int kRounds = 12;
 
 /// The point that the drag-free flight shall pass, by the law for heights.
 FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m,
@@ -40,11 +43,10 @@ struct Speeds {
   std::optional<double> v_kick_mps;
 };
 
-/// Where the exit angle depends on the power: the angle of the least power whose kick is fast enough at its own angle,
-/// by bisection between the two set-points around it; that of the last set-point where none is.
+/// The angle of the least power whose kick is fast enough at its own angle, by bisection between the two set-points
+/// around it; that of the last set-point where none is.
 template <typename SpeedsAt>
-double matching_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
-  if (!robot.exit_angles) return robot.exit_angle_rad;
+double bisected_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
   const auto fast_enough = [&](double power) {
     const auto needed_mps = speeds_at(robot.exit_angle_at(power)).v_kick_mps;
     return needed_mps && robot.table.speed_for(power) >= *needed_mps;
@@ -61,6 +63,22 @@ double matching_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
     return robot.exit_angle_at(high);
   }
   return robot.exit_angle_at(low);
+}
+
+/// The angle of the power that is needed at that angle. Angles of one table differ little, so that power, angle, needed
+/// speed and power again settle in a few rounds; where they do not, or no speed reaches, by bisection.
+template <typename SpeedsAt>
+double matching_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
+  if (!robot.exit_angles) return robot.exit_angle_rad;
+  double angle_rad = robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power));
+  for (int i = 0; i < kRounds; ++i) {
+    const auto needed_mps = speeds_at(angle_rad).v_kick_mps;
+    if (!needed_mps) break;
+    const double next_rad = robot.exit_angle_at(robot.table.power_for(*needed_mps).power);
+    if (std::abs(next_rad - angle_rad) < 1e-10) return next_rad;
+    angle_rad = next_rad;
+  }
+  return bisected_angle(robot, speeds_at);
 }
 
 /// Speeds at the angle of the power that they need.
