@@ -9,7 +9,7 @@ namespace trivela::kicking {
 namespace {
 
 /// `ahead`: the target in R.
-double turn_rate(DrivePlan plan, const BaseMotion& base, const PolicyConfig& config, const Eigen::Vector2d& ahead,
+double turn_rate(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& ahead,
                  double alpha_rad) {
   const double side = -ahead.x() + alpha_rad * ahead.y();  // has the error's sign, alpha being small
   const double full_beyond_rad =
@@ -30,7 +30,7 @@ double turn_rate(DrivePlan plan, const BaseMotion& base, const PolicyConfig& con
 
 }  // namespace
 
-Twist command_of(DrivePlan plan, const BaseMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
+Twist command_of(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
                  double lateral_transfer, double ball_speed_mps) {
   const Eigen::Vector2d line = target_m - base.position_m;
   const Eigen::Vector2d right(base.forward.y(), -base.forward.x());

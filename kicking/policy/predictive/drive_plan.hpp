@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "kicking/policy/predictive/base_motion.hpp"
+#include "kicking/policy/predictive/drive_motion.hpp"
 
 namespace trivela::kicking {
 
@@ -16,7 +16,7 @@ inline constexpr std::array<DrivePlan, 2> kDrivePlans{DrivePlan::kOnto, DrivePla
 
 /// The plan's drive command in a state of motion. It turns the way that is quicker from the present turn rate, to where
 /// a standing turn rate sends the ball to the target: bearing plus alpha = k_x v_x / ball_speed_mps.
-Twist command_of(DrivePlan plan, const BaseMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
+Twist command_of(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
                  double lateral_transfer, double ball_speed_mps);
 
 }  // namespace trivela::kicking

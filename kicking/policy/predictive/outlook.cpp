@@ -11,8 +11,8 @@ namespace {
 constexpr double kBetter = 2e-3;           // a plan must promise so much more than the one before it
 constexpr double kLastShare = 1.0 - 1e-3;  // of a cycle: its end is the next decision's beginning
 
-BaseMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
-  BaseMotion base(input.pose, input.twist);
+DriveMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
+  DriveMotion base(input.pose, input.twist);
   if (memory.command) base.hasten(*memory.command, config, config.predictive.twist_lag_s);
   return base;
 }
@@ -40,13 +40,13 @@ Lookout::Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal
   ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
 }
 
-Twist Lookout::command_at(DrivePlan plan, const BaseMotion& base) const {
+Twist Lookout::command_at(DrivePlan plan, const DriveMotion& base) const {
   return command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral,
                     ball_speed_mps_);
 }
 
 /// Cycle by cycle, as the policy itself will steer.
-void Lookout::drive_for(DrivePlan plan, BaseMotion& base, double time_s) const {
+void Lookout::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const {
   while (time_s > 1e-6) {
     const double step_s = std::min(time_s, config_.cycle_s);
     base.step(command_at(plan, base), config_, step_s);
@@ -54,7 +54,7 @@ void Lookout::drive_for(DrivePlan plan, BaseMotion& base, double time_s) const {
   }
 }
 
-Prospect Lookout::prospect(const BaseMotion& base, double fire_after_s) {
+Prospect Lookout::prospect(const DriveMotion& base, double fire_after_s) {
   Prospect out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
@@ -140,7 +140,7 @@ void Lookout::schedule(Outlook& outlook) {
   double share = first >= last ? 0.0 : 1.0;
   if (bend < 0.0) share = std::clamp(0.5 - 0.25 * (last - first) / bend, 0.0, 1.0);
   const double fire_after_s = std::min(share, kLastShare) * config_.cycle_s;
-  BaseMotion base = start_;
+  DriveMotion base = start_;
   drive_for(outlook.plan, base, robot_.delay_s + fire_after_s);
   outlook.now = prospect(base, fire_after_s);
   outlook.value_now = value(outlook.now, survival_(fire_after_s));

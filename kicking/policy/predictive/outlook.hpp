@@ -44,15 +44,15 @@ class Lookout {
  private:
   /// The ways of both plans, one as long as they do not part.
   struct Ways {
-    std::array<BaseMotion, kDrivePlans.size()> bases;
+    std::array<DriveMotion, kDrivePlans.size()> bases;
     std::array<Outlook, kDrivePlans.size()> outlooks{};
     std::size_t count = 1;
   };
 
-  Twist command_at(DrivePlan plan, const BaseMotion& base) const;
-  void drive_for(DrivePlan plan, BaseMotion& base, double time_s) const;
+  Twist command_at(DrivePlan plan, const DriveMotion& base) const;
+  void drive_for(DrivePlan plan, DriveMotion& base, double time_s) const;
   void go_on(Ways& ways, double time_s) const;
-  Prospect prospect(const BaseMotion& base, double fire_after_s);
+  Prospect prospect(const DriveMotion& base, double fire_after_s);
   double value(const Prospect& prospect, double survival) const;
   void look_at_this_cycle(Ways& ways);
   void look_ahead(Ways& ways);
@@ -63,7 +63,7 @@ class Lookout {
   const Goal& goal_;
   const PolicyInput& input_;
   const LearnedModel* learned_;
-  BaseMotion start_;
+  DriveMotion start_;
   ShotModel model_;
   Survival survival_;
   const OpponentWatch& opponent_;

@@ -8,14 +8,14 @@ namespace trivela::kicking {
 
 /// A base on its way under a drive command, in F. It changes its velocity over ground by max_brake_mps2 at most, its
 /// turn rate by max_turn_acceleration_radps2, and reaches what is commanded otherwise.
-struct BaseMotion {
+struct DriveMotion {
   Eigen::Vector2d position_m{0.0, 0.0};
   double heading_rad = 0.0;
   Eigen::Vector2d forward{0.0, 1.0};       ///< unit vector of the heading
   Eigen::Vector2d velocity_mps{0.0, 0.0};  ///< over ground
   double omega_radps = 0.0;
 
-  BaseMotion(const Pose& pose, const Twist& twist);
+  DriveMotion(const Pose& pose, const Twist& twist);
 
   Pose pose() const { return {position_m.x(), position_m.y(), heading_rad}; }
   Twist twist() const;

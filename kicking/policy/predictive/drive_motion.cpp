@@ -1,4 +1,4 @@
-#include "kicking/policy/predictive/base_motion.hpp"
+#include "kicking/policy/predictive/drive_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +17,18 @@ Eigen::Vector2d turned(const Eigen::Vector2d& unit, double angle_rad) {
 
 }  // namespace
 
-BaseMotion::BaseMotion(const Pose& pose, const Twist& twist)
+DriveMotion::DriveMotion(const Pose& pose, const Twist& twist)
     : position_m(pose.x_m, pose.y_m),
       heading_rad(pose.heading_rad),
       forward(direction(pose.heading_rad)),
       velocity_mps(twist.vx_mps * Eigen::Vector2d(forward.y(), -forward.x()) + twist.vy_mps * forward),
       omega_radps(twist.omega_radps) {}
 
-Twist BaseMotion::twist() const {
+Twist DriveMotion::twist() const {
   return {velocity_mps.x() * forward.y() - velocity_mps.y() * forward.x(), velocity_mps.dot(forward), omega_radps};
 }
 
-void BaseMotion::hasten(const Twist& command, const PolicyConfig& config, double dt_s) {
+void DriveMotion::hasten(const Twist& command, const PolicyConfig& config, double dt_s) {
   const Eigen::Vector2d wanted =
       command.vx_mps * Eigen::Vector2d(forward.y(), -forward.x()) + command.vy_mps * forward - velocity_mps;
   const double allowed = config.max_brake_mps2 * dt_s, change = wanted.norm();
@@ -37,7 +37,7 @@ void BaseMotion::hasten(const Twist& command, const PolicyConfig& config, double
   omega_radps += std::clamp(command.omega_radps - omega_radps, -turn, turn);
 }
 
-void BaseMotion::step(const Twist& command, const PolicyConfig& config, double dt_s) {
+void DriveMotion::step(const Twist& command, const PolicyConfig& config, double dt_s) {
   const Eigen::Vector2d velocity_before = velocity_mps;
   const double omega_before = omega_radps;
   hasten(command, config, dt_s);
