@@ -18,7 +18,7 @@ namespace {
 
 struct FrontierFlags {
   std::string policy = "predictive";
-  std::vector<double> thresholds{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  std::vector<double> thresholds{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
   PlayPlan plan{.matches = 400, .jobs = std::max(1u, std::thread::hardware_concurrency())};
   std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
   ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "cli/frontier/report.hpp"
+#include "cli/sensitivity/report.hpp"
+#include "sim/scenario_fields.hpp"
+
+namespace trivela::cli {
+namespace {
+
+/// `matches` matches of `opportunities`, with these kicks and shots on target in each.
+ArmTally alike(std::size_t matches, std::int64_t opportunities, std::int64_t kicks, std::int64_t on_target) {
+  return ArmTally(matches, MatchTally{opportunities, kicks, on_target});
+}
+
+/// Matches that differ by chance.
+ArmTally random_arm(std::mt19937& random, std::size_t matches, double kick, double on_target) {
+  ArmTally arm;
+  for (std::size_t m = 0; m < matches; ++m) {
+    const std::int64_t kicks = std::binomial_distribution<std::int64_t>{40, kick}(random);
+    arm.push_back({40, kicks, std::binomial_distribution<std::int64_t>{kicks, on_target}(random)});
+  }
+  return arm;
+}
+
+TEST(UncertainInputs, AreNumbersOfTheScenarioWithPlayableEndsOnBothSidesOrAtTheValue) {
+  const sim::Scenario scenario;
+  std::set<std::string> keys;
+  for (const UncertainInput& input : uncertain_inputs()) {
+    SCOPED_TRACE(input.key);
+    EXPECT_TRUE(keys.insert(input.key).second);
+    const double value = value_of(scenario, input.key);
+    EXPECT_LT(input.low, input.high);
+    EXPECT_LE(input.low, value);
+    EXPECT_GE(input.high, value);
+    EXPECT_GT(std::string{input.why}.size(), 4U);
+    for (const double end : {input.low, input.high}) {
+      EXPECT_NEAR(value_of(with(scenario, input.key, end), input.key), end, 1e-12);
+    }
+  }
+  EXPECT_GT(keys.size(), 30U);
+}
+
+TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
+  const sim::Scenario changed = with({}, "kicker.direction_sd_deg", 3.0);
+  EXPECT_NEAR(changed.kicker.direction_sd_rad, 3.0 * M_PI / 180.0, 1e-15);
+  for (const UncertainInput& input : uncertain_inputs()) {
+    if (std::string{input.key} != "kicker.direction_sd_deg") {
+      EXPECT_EQ(value_of(changed, input.key), value_of({}, input.key)) << input.key;
+    }
+  }
+}
+
+TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
+  EXPECT_THROW(value_of({}, "kicker.delay"), std::invalid_argument);
+  EXPECT_THROW(value_of({}, "delay_s"), std::invalid_argument);
+  EXPECT_THROW(value_of({}, "kicker.powers"), std::invalid_argument);
+  EXPECT_THROW(with({}, "opponent.count", 2.5), std::invalid_argument);
+}
+
+SensitivityReport hand_case() {
+  SensitivityReport report{
+      "hand.toml", 1, 10, 100, {"stopped", "moving"}, {alike(10, 100, 50, 20), alike(10, 100, 80, 50)}, {}};
+  const UncertainInput small{"kicker.delay_s", 0.05, 0.08, "said"}, large{"vision.latency_s", 0.03, 0.1, "said"};
+  report.inputs.push_back({small, 0.06, {{0.05, {alike(10, 100, 50, 21), alike(10, 100, 80, 50)}}}});
+  report.inputs.push_back({large, 0.06, {{0.1, {alike(10, 100, 50, 20), alike(10, 100, 80, 35)}}}});
+  return report;
+}
+
+TEST(Sensitivity, AChangeIsTheDifferenceOfDifferences) {
+  SensitivityReport report = hand_case();
+  EXPECT_NEAR(headline(report.base, 0).value, 0.30, 1e-12);
+  EXPECT_NEAR(change(report, report.inputs[0].ends[0], 0).value, -0.01, 1e-12);
+  EXPECT_NEAR(change(report, report.inputs[1].ends[0], 0).value, -0.15, 1e-12);
+  sort_by_change(report);
+  EXPECT_STREQ(report.inputs[0].input.key, "vision.latency_s");
+  EXPECT_NEAR(largest_change(report, report.inputs[0]), 0.15, 1e-12);
+}
+
+TEST(Sensitivity, PairingTakesOutWhatAMatchDoesToAll) {
+  // Hard and easy matches, the same for all arms: the change is certain although each arm is not.
+  SensitivityReport report = hand_case();
+  for (std::size_t m = 0; m < 10; ++m) {
+    const auto shift = static_cast<std::int64_t>(m) - 4;
+    for (ArmTally* arm :
+         {&report.base[0], &report.base[1], &report.inputs[0].ends[0].arms[0], &report.inputs[0].ends[0].arms[1]})
+      (*arm)[m].on_target += shift;
+  }
+  const Effect moved = change(report, report.inputs[0].ends[0], 0);
+  EXPECT_NEAR(moved.ci.hi - moved.ci.lo, 0.0, 1e-12);
+}
+
+TEST(Sensitivity, TablesAndChartNameEveryInput) {
+  SensitivityReport report = hand_case();
+  sort_by_change(report);
+  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report);
+  EXPECT_LT(text.find("vision.latency_s"), text.find("kicker.delay_s"));
+  EXPECT_NE(text.find("-15.0 (-15.0 to -15.0)"), std::string::npos) << text;
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 + 4);
+  EXPECT_NE(csv.find("vision.latency_s,0.1,moving,1000,800,350,-0.150000,-0.150000,-0.150000\n"), std::string::npos);
+  for (const char* key : {"vision.latency_s", "kicker.delay_s"}) EXPECT_NE(svg.find(key), std::string::npos);
+  EXPECT_EQ(to_json(report)["inputs"].size(), 2U);
+}
+
+FrontierReport frontier_case() {
+  return {"predictive",
+          "hand.toml",
+          1,
+          20,
+          100,
+          {{0.2, alike(20, 100, 80, 56)}, {0.5, alike(20, 100, 60, 48)}, {0.8, alike(20, 100, 0, 0)}},
+          {{"moving", alike(20, 100, 70, 42)}, {"stopped", alike(20, 100, 20, 15)}},
+          FixedPoint{"oracle", alike(20, 100, 80, 70)}};
+}
+
+TEST(Frontier, IsMixedBetweenThresholdsAtThePolicysOwnKicks) {
+  const FrontierReport report = frontier_case();
+  const auto moving = standing_of(report, report.fixed[0]);
+  ASSERT_TRUE(moving && moving->within);
+  EXPECT_EQ(moving->from_threshold, 0.2);
+  EXPECT_EQ(moving->to_threshold, 0.5);
+  EXPECT_NEAR(moving->above.value, 52.0 / 70.0 - 42.0 / 70.0, 1e-12);  // half of each: 70 kicks, 52 on target
+  EXPECT_NEAR(share_of_oracle(report).value, 0.8, 1e-12);
+  EXPECT_EQ(best_of(report).threshold, 0.2);
+}
+
+TEST(Frontier, BeyondItsEndsIsComparedWithTheEnd) {
+  FrontierReport report = frontier_case();
+  const auto stopped = standing_of(report, report.fixed[1]);
+  ASSERT_TRUE(stopped);
+  EXPECT_FALSE(stopped->within);
+  EXPECT_EQ(stopped->to_threshold, 0.5);  // at 0.8 it never kicks
+  EXPECT_NEAR(stopped->above.value, 0.8 - 0.75, 1e-12);
+  report.fixed[1].matches = alike(20, 100, 90, 45);
+  EXPECT_EQ(standing_of(report, report.fixed[1])->to_threshold, 0.2);
+  report.fixed[1].matches = alike(20, 100, 0, 0);
+  EXPECT_FALSE(standing_of(report, report.fixed[1]));
+}
+
+TEST(Frontier, TheJackknifeOfAShareIsTheIntervalOfItsMatches) {
+  // Of a mean over matches of equal size it is the classic one: t s / sqrt(n).
+  std::mt19937 random{5};
+  const ArmTally arm = random_arm(random, 60, 0.7, 0.6);
+  const Effect jack = jackknife({&arm}, [](const auto& totals) { return on_target_per_opportunity(totals[0]); });
+  const Term alone[] = {{&arm, 1.0}};
+  const Effect linear = contrast(alone, Measure::kPerOpportunity);
+  EXPECT_NEAR(jack.value, linear.value, 1e-12);
+  EXPECT_NEAR(jack.ci.lo, linear.ci.lo, 1e-9);
+  EXPECT_NEAR(jack.ci.hi, linear.ci.hi, 1e-9);
+}
+
+TEST(Frontier, ItsIntervalCoversTheTruthAsOftenAsItSays) {
+  std::mt19937 random{7};
+  const double truth = (0.5 * (0.8 * 0.7 + 0.6 * 0.8)) / 0.7 - 0.6;  // kicks .8, .6 with .7, .8; moving .7 with .6
+  int covered = 0;
+  constexpr int kTimes = 400;
+  for (int i = 0; i < kTimes; ++i) {
+    FrontierReport report{"predictive", "", 1, 50, 40, {}, {}, {}};
+    report.points = {{0.2, random_arm(random, 50, 0.8, 0.7)}, {0.5, random_arm(random, 50, 0.6, 0.8)}};
+    report.fixed = {{"moving", random_arm(random, 50, 0.7, 0.6)}};
+    const auto standing = standing_of(report, report.fixed[0]);
+    covered += standing->above.ci.lo <= truth && truth <= standing->above.ci.hi;
+  }
+  EXPECT_NEAR(covered, 0.95 * kTimes, 4 * std::sqrt(0.95 * 0.05 * kTimes));
+}
+
+TEST(Frontier, TablesAndChartSayWhereAPolicyStands) {
+  const FrontierReport report = frontier_case();
+  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report);
+  EXPECT_NE(
+      text.find("moving lies below the frontier: with as many kicks (thresholds 0.2 and 0.5 mixed) predictive has "
+                "+14.3 points more"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("80.0 (80.0 to 80.0) % of the oracle's"), std::string::npos) << text;
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 + 3);
+  EXPECT_NE(csv.find("predictive,0.8,2000,0,0,0.000000,,,,0.000000"), std::string::npos) << csv;
+  for (const char* name : {"predictive", "moving", "stopped", "oracle"}) EXPECT_NE(svg.find(name), std::string::npos);
+  EXPECT_TRUE(to_json(report)["points"][3]["threshold"].is_null());
+  EXPECT_EQ(to_json(report)["standings"].size(), 2U);
+}
+
+}  // namespace
+}  // namespace trivela::cli
