@@ -7,11 +7,11 @@ namespace trivela::kicking {
 std::optional<Crossing> predict_crossing(const Pose& pose, const Twist& twist, const KickAction& kick, double goal_y_m,
                                          double launch_height_m, double gravity_mps2) {
   const Pose release = advance(pose, twist, kick.delay_s);
-  const Eigen::Vector2d ball = to_field(release, {0.0, kick.ball_offset_m});
-  const Eigen::Vector2d velocity_in_robot(
-      kick.transfer.lateral * (twist.vx_mps - twist.omega_radps * kick.ball_offset_m),
-      kick.v_kick_mps * std::cos(kick.exit_angle_rad) + kick.transfer.along_mps(twist.vy_mps));
-  const Eigen::Vector2d velocity = rotate(velocity_in_robot, release.heading_rad);
+  const Eigen::Vector2d forward = direction(release.heading_rad), right(forward.y(), -forward.x());
+  const Eigen::Vector2d ball = Eigen::Vector2d(release.x_m, release.y_m) + kick.ball_offset_m * forward;
+  const Eigen::Vector2d velocity =
+      kick.transfer.lateral * (twist.vx_mps - twist.omega_radps * kick.ball_offset_m) * right +
+      (kick.v_kick_mps * std::cos(kick.exit_angle_rad) + kick.transfer.along_mps(twist.vy_mps)) * forward;
   const double t = (goal_y_m - ball.y()) / velocity.y();
   if (!(t >= 0.0 && std::isfinite(t))) return std::nullopt;
   const double v_z = kick.v_kick_mps * std::sin(kick.exit_angle_rad);
