@@ -41,6 +41,18 @@ std::unique_ptr<SQLite::Database> make(const fs::path& path, const Experiment& e
   });
 }
 
+/// Throws unless the log is that of the experiment.
+void check(SQLite::Database& database, const fs::path& path, const Experiment& experiment) {
+  SQLite::Statement known(database, "SELECT arguments_sha256, matches FROM experiments");
+  if (!known.executeStep()) throw against(path, "is a recorded match and no experiment; choose another file");
+  if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
+      known.getColumn(1).getInt64() != experiment.matches) {
+    throw against(path,
+                  "was begun with other arguments (table experiments says which); an experiment goes on with its own "
+                  "alone, choose another file");
+  }
+}
+
 /// The log of a run that was stopped.
 std::unique_ptr<SQLite::Database> reopen(const fs::path& path, const Experiment& experiment) {
   try {
@@ -48,14 +60,7 @@ std::unique_ptr<SQLite::Database> reopen(const fs::path& path, const Experiment&
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
     if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
-    SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM experiments");
-    if (!known.executeStep()) throw against(path, "is a recorded match and no experiment; choose another file");
-    if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
-        known.getColumn(1).getInt64() != experiment.matches) {
-      throw against(path,
-                    "was begun with other arguments (table experiments says which); an experiment goes on with its own "
-                    "alone, choose another file");
-    }
+    check(*database, path, experiment);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA temp_store = MEMORY;");
     return database;
   } catch (const SQLite::Exception& error) {

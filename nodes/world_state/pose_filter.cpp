@@ -15,7 +15,7 @@ constexpr double kTurned_rad = 0.2;  // far beyond the noise of a frame and the 
 
 void PoseFilter::predict(std::int64_t t_ns, const Pose& odometry, double var_position_m2, double var_heading_rad2) {
   if (!history_.empty()) {
-    pose_ = compose(pose_, relative(history_.latest(), odometry));
+    pose_ = TurnedPose{compose(pose_, relative(history_.latest(), odometry))};
     var_position_m2_ += std::max(0.0, var_position_m2 - last_var_position_m2_);
     var_heading_rad2_ += std::max(0.0, var_heading_rad2 - last_var_heading_rad2_);
   }
@@ -24,10 +24,10 @@ void PoseFilter::predict(std::int64_t t_ns, const Pose& odometry, double var_pos
   history_.add(t_ns, odometry);
 }
 
-std::optional<Pose> PoseFilter::pose_at(std::int64_t t_ns) const {
+std::optional<TurnedPose> PoseFilter::pose_at(std::int64_t t_ns) const {
   const auto then = history_.at(t_ns);
   if (!then || !localised_) return std::nullopt;
-  return compose(pose_, relative(history_.latest(), *then));
+  return TurnedPose{compose(pose_, relative(history_.latest(), *then))};
 }
 
 /// Far frames that do not agree with each other are wild ones: each starts the count anew.
@@ -60,16 +60,17 @@ void PoseFilter::correct(std::int64_t t_exposure_ns, const Pose& seen) {
     far_frames_ = 0;
     var_position_m2_ = var_seen_m2;
     var_heading_rad2_ = var_seen_rad2;
-    pose_ = compose(seen, driven_since);
+    pose_ = TurnedPose{compose(TurnedPose{seen}, driven_since)};
     return;
   }
   if (far_frames_ > 0) return;
   const double gain = var_position_m2_ / (var_position_m2_ + var_seen_m2);
   const double gain_heading = var_heading_rad2_ / (var_heading_rad2_ + var_seen_rad2);
-  const Pose corrected{then.x_m + gain * dx_m, then.y_m + gain * dy_m, then.heading_rad + gain_heading * turn_rad};
+  const TurnedPose corrected{
+      Pose{then.x_m + gain * dx_m, then.y_m + gain * dy_m, then.heading_rad + gain_heading * turn_rad}};
   var_position_m2_ *= 1.0 - gain;
   var_heading_rad2_ *= 1.0 - gain_heading;
-  pose_ = compose(corrected, driven_since);
+  pose_ = TurnedPose{compose(corrected, driven_since)};
 }
 
 double PoseFilter::sd_position_m() const { return std::sqrt(var_position_m2_); }

@@ -30,12 +30,12 @@ class PoseFilter {
   void correct(std::int64_t t_exposure_ns, const kicking::Pose& seen);
 
   /// Pose in F at the last prediction; nullopt before the first correction.
-  std::optional<kicking::Pose> pose() const { return localised_ ? std::optional{pose_} : std::nullopt; }
+  std::optional<TurnedPose> pose() const { return localised_ ? std::optional{pose_} : std::nullopt; }
   double sd_position_m() const;
   double sd_heading_rad() const;
 
   /// The pose in F that the robot had at t_ns within the history, by the present estimate.
-  std::optional<kicking::Pose> pose_at(std::int64_t t_ns) const;
+  std::optional<TurnedPose> pose_at(std::int64_t t_ns) const;
 
  private:
   void count_far_frames(const Eigen::Vector2d& innovation_m, double innovation_rad);
@@ -43,7 +43,7 @@ class PoseFilter {
   config::WorldState settings_;
   PoseHistory history_;
   bool localised_ = false;
-  kicking::Pose pose_{};
+  TurnedPose pose_{};
   double var_position_m2_ = 0.0;
   double var_heading_rad2_ = 0.0;
   double last_var_position_m2_ = 0.0;

@@ -6,16 +6,6 @@ namespace trivela::nodes {
 
 using kicking::Pose;
 
-Pose relative(const Pose& from, const Pose& to) {
-  const Eigen::Vector2d position = kicking::to_robot(from, {to.x_m, to.y_m});
-  return {position.x(), position.y(), kicking::wrap_angle(to.heading_rad - from.heading_rad)};
-}
-
-Pose compose(const Pose& from, const Pose& step) {
-  const Eigen::Vector2d position = kicking::to_field(from, {step.x_m, step.y_m});
-  return {position.x(), position.y(), kicking::wrap_angle(from.heading_rad + step.heading_rad)};
-}
-
 void PoseHistory::grow() {
   std::vector<Entry> larger(2 * ring_.size());
   for (std::size_t i = 0; i < count_; ++i) larger[i] = entry(i);
@@ -30,10 +20,10 @@ void PoseHistory::add(std::int64_t t_ns, const Pose& pose) {
     --count_;
   }
   if (count_ == ring_.size()) grow();
-  ring_[place(count_++)] = {t_ns, pose};
+  ring_[place(count_++)] = {t_ns, TurnedPose{pose}};
 }
 
-std::optional<Pose> PoseHistory::at(std::int64_t t_ns) const {
+std::optional<TurnedPose> PoseHistory::at(std::int64_t t_ns) const {
   if (count_ == 0) return std::nullopt;
   if (entry(count_ - 1).t_ns < t_ns) return entry(count_ - 1).pose;
   std::size_t after = count_ - 1;  // the first that is not before t_ns; pictures are of a few cycles ago
@@ -43,7 +33,7 @@ std::optional<Pose> PoseHistory::at(std::int64_t t_ns) const {
   const Entry& before = entry(after - 1);
   const double share = static_cast<double>(t_ns - before.t_ns) / static_cast<double>(next.t_ns - before.t_ns);
   const Pose step = relative(before.pose, next.pose);
-  return compose(before.pose, {step.x_m * share, step.y_m * share, step.heading_rad * share});
+  return TurnedPose{compose(before.pose, {step.x_m * share, step.y_m * share, step.heading_rad * share})};
 }
 
 }  // namespace trivela::nodes

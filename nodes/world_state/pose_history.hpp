@@ -4,15 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "kicking/geometry/frames.hpp"
+#include "nodes/world_state/turned_pose.hpp"
 
 namespace trivela::nodes {
-
-/// `to` seen from `from`: position in the frame of `from`, heading relative to it.
-kicking::Pose relative(const kicking::Pose& from, const kicking::Pose& to);
-
-/// The pose reached from `from` by the relative step `step`; compose(a, relative(a, b)) = b.
-kicking::Pose compose(const kicking::Pose& from, const kicking::Pose& step);
 
 /// The odometry poses of the last `span_s`, to look up any instant in between.
 class PoseHistory {
@@ -23,15 +17,15 @@ class PoseHistory {
   void add(std::int64_t t_ns, const kicking::Pose& pose);
 
   bool empty() const { return count_ == 0; }
-  const kicking::Pose& latest() const { return entry(count_ - 1).pose; }
+  const TurnedPose& latest() const { return entry(count_ - 1).pose; }
 
   /// Linear interpolation between the neighbours; the oldest or newest entry outside the span; nullopt when empty.
-  std::optional<kicking::Pose> at(std::int64_t t_ns) const;
+  std::optional<TurnedPose> at(std::int64_t t_ns) const;
 
  private:
   struct Entry {
     std::int64_t t_ns;
-    kicking::Pose pose;
+    TurnedPose pose;
   };
   std::size_t place(std::size_t i) const { return (first_ + i) & (ring_.size() - 1); }
   const Entry& entry(std::size_t i) const { return ring_[place(i)]; }  // 0: the oldest

@@ -41,28 +41,27 @@ void WorldModel::filter_velocity(const msg::Odometry& odometry) {
   twist_t_ns_ = odometry.t_ns;
 }
 
-void WorldModel::describe_ball(const kicking::Pose& pose, std::int64_t t_ns, msg::WorldState& out) {
+void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out) {
   out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m = kNone;
   out.possession = ball_.possession();
   const auto& ball = ball_.position_m();
   out.ball_known = ball.has_value();
   if (!ball) return;
   // A held ball moves with the robot; a free one stands where it was seen.
-  const kicking::Pose seen_from = out.possession ? pose : pose_.pose_at(ball_.seen_t_ns()).value_or(pose);
-  const Eigen::Vector2d in_field = kicking::to_field(seen_from, *ball);
+  const TurnedPose seen_from = out.possession ? pose : pose_.pose_at(ball_.seen_t_ns()).value_or(pose);
+  const Eigen::Vector2d in_field = seen_from.to_field(ball->x(), ball->y());
   out.ball_x_m = in_field.x();
   out.ball_y_m = in_field.y();
   out.ball_age_s = seconds(t_ns - ball_.seen_t_ns());
   if (out.possession) {
-    const Eigen::Vector2d velocity = kicking::rotate(
-        {twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x()},
-        pose.heading_rad);
+    const Eigen::Vector2d velocity =
+        pose.turn(twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x());
     out.ball_vx_mps = velocity.x();
     out.ball_vy_mps = velocity.y();
   }
   if (opponent_m_) {
-    const kicking::Pose opponent_from = pose_.pose_at(opponent_t_ns_).value_or(pose);
-    out.opponent_distance_m = (kicking::to_field(opponent_from, *opponent_m_) - in_field).norm();
+    const TurnedPose opponent_from = pose_.pose_at(opponent_t_ns_).value_or(pose);
+    out.opponent_distance_m = (opponent_from.to_field(opponent_m_->x(), opponent_m_->y()) - in_field).norm();
   }
 }
 
@@ -81,7 +80,7 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const std::opt
   out.possession_id = referee ? referee->possession_id : 0;
   const auto localised = pose_.pose();
   out.playing = sound && localised && referee && referee->playing;
-  const kicking::Pose pose = localised.value_or(kicking::Pose{});
+  const TurnedPose pose = localised.value_or(TurnedPose{});
   out.x_m = pose.x_m;
   out.y_m = pose.y_m;
   out.heading_rad = pose.heading_rad;

@@ -32,7 +32,7 @@ class WorldModel {
 
  private:
   void filter_velocity(const msg::Odometry& odometry);
-  void describe_ball(const kicking::Pose& pose, std::int64_t t_ns, msg::WorldState& out);
+  void describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
 
   config::WorldState settings_;
   PoseFilter pose_;

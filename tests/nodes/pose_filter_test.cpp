@@ -82,8 +82,9 @@ TEST(PoseFilter, LateFramesOfAMovingRobotCorrectThePastWithoutBias) {
     if (i < 3) continue;
     // Exposed 50 ms ago, between two samples of odometry.
     const Pose older = truths[truths.size() - 4], newer = truths[truths.size() - 3];
-    const Pose step = relative(older, newer);
-    drive.filter.correct(drive.t_ns - 50'000'000, compose(older, {step.x_m / 2, step.y_m / 2, step.heading_rad / 2}));
+    const Pose step = relative(TurnedPose{older}, newer);
+    drive.filter.correct(drive.t_ns - 50'000'000,
+                         compose(TurnedPose{older}, {step.x_m / 2, step.y_m / 2, step.heading_rad / 2}));
     worst_m = std::max(worst_m, distance_m(*drive.filter.pose(), drive.truth));
     worst_rad =
         std::max(worst_rad, std::abs(kicking::wrap_angle(drive.filter.pose()->heading_rad - drive.truth.heading_rad)));

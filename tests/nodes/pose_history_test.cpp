@@ -19,8 +19,8 @@ void expect_near(const Pose& a, const Pose& b, double tolerance = 1e-12) {
 TEST(RelativePose, IsSeenFromTheFirstByHand) {
   // Facing +x of F (heading -90 degrees), what lies 2 m towards +x lies 2 m ahead.
   const Pose from{1.0, 1.0, -std::numbers::pi / 2};
-  expect_near(relative(from, {3.0, 1.0, 0.0}), {0.0, 2.0, std::numbers::pi / 2});
-  expect_near(compose(from, {0.0, 2.0, std::numbers::pi / 2}), {3.0, 1.0, 0.0});
+  expect_near(relative(TurnedPose{from}, {3.0, 1.0, 0.0}), {0.0, 2.0, std::numbers::pi / 2});
+  expect_near(compose(TurnedPose{from}, {0.0, 2.0, std::numbers::pi / 2}), {3.0, 1.0, 0.0});
 }
 
 TEST(RelativePose, ComposeUndoesRelative) {
@@ -30,9 +30,9 @@ TEST(RelativePose, ComposeUndoesRelative) {
   const auto any = [&] { return Pose{place(random), place(random), heading(random)}; };
   for (int i = 0; i < 500; ++i) {
     const Pose a = any(), b = any(), step = any();
-    expect_near(compose(a, relative(a, b)), b);
-    expect_near(relative(a, compose(a, step)), step);
-    EXPECT_LE(std::abs(compose(a, step).heading_rad), std::numbers::pi + 1e-12);
+    expect_near(compose(TurnedPose{a}, relative(TurnedPose{a}, b)), b);
+    expect_near(relative(TurnedPose{a}, compose(TurnedPose{a}, step)), step);
+    EXPECT_LE(std::abs(compose(TurnedPose{a}, step).heading_rad), std::numbers::pi + 1e-12);
   }
 }
 
