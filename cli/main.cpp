@@ -22,6 +22,8 @@ int run(int argc, char** argv) {
   cli::add_report(app, exit_code);
   cli::add_compare(app, exit_code);
   cli::add_evaluate_policy(app, exit_code);
+  cli::add_learn(app, exit_code);
+  cli::add_factorial(app, exit_code);
   cli::add_frontier(app, exit_code);
   cli::add_sensitivity(app, exit_code);
   cli::add_solve(app, exit_code);

@@ -22,6 +22,8 @@ void add_calibrate(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_evaluate_policy(CLI::App& app, int& exit_code);
+void add_learn(CLI::App& app, int& exit_code);
+void add_factorial(CLI::App& app, int& exit_code);
 void add_frontier(CLI::App& app, int& exit_code);
 void add_sensitivity(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);

@@ -12,6 +12,7 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
+#include "sim/team.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -30,6 +31,8 @@ struct RunFlags {
   std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/calibration.toml";
   std::string check = TRIVELA_CONFIG_DIR "/scenarios/noise_free.toml";
   std::string config = TRIVELA_CONFIG_DIR "/default.toml";
+  std::string team;          ///< scenario of the matches
+  std::uint32_t number = 1;  ///< whose kicker it is
   std::string out_dir = "calibration";
   std::string out;
   std::string log_level = "warn";
@@ -132,8 +135,12 @@ class Report {
 };
 
 int calibrate(const RunFlags& flags) {
-  const sim::Scenario scenario = config::load_scenario(flags.scenario);
-  const sim::Scenario noise_free = config::load_scenario(flags.check);
+  sim::Scenario scenario = config::load_scenario(flags.scenario);
+  sim::Scenario noise_free = config::load_scenario(flags.check);
+  if (!flags.team.empty()) {
+    const sim::Kicker kicker = sim::team_kicker(config::load_scenario(flags.team), flags.number);
+    scenario.kicker.speed_scale_ratio = noise_free.kicker.speed_scale_ratio = kicker.speed_scale_ratio;
+  }
   const config::Settings settings = settings_of(flags, scenario);
   config::Robot robot = config::load_robot(flags.start);
   robot.name = flags.robot;
@@ -201,6 +208,12 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   verb->add_option("--start", flags->start, "the robot's file to start from")->capture_default_str();
   verb->add_option("--scenario", flags->scenario, "world of the drives")->capture_default_str();
   verb->add_option("--check-scenario", flags->check, "world of the check")->capture_default_str();
+  verb->add_option("--team", flags->team,
+                   "scenario of the matches: the drives have a kicker as fast as one of its robots")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--number", flags->number, "which robot of the team")
+      ->check(CLI::Range(1, 5))
+      ->capture_default_str();
   verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
   verb->add_option("--kicks", flags->effort.kicks, "standing kicks with each set-point, a round")
       ->check(CLI::Range(2, 200))

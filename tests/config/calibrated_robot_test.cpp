@@ -51,6 +51,7 @@ Robot fully_calibrated() {
   c.rotation = RotationOrigin{{"2015-04-14", 18, {"turns.csv"}}, 0.0025, 0.011};
   c.transfer = TransferOrigin{{"2015-04-15", 19, {"runs.csv"}}, 0.1, 0.2, 0.3, 0.4};
   c.delay = DelayOrigin{{"2015-04-16", 20, {"runs.csv"}}, 0.0004, 0.0021};
+  c.direction = DirectionOrigin{{"2015-04-17", 21, {"stand.db"}}, 0.001, 0.002};
   return robot;
 }
 
@@ -108,6 +109,20 @@ TEST_F(CalibratedRobot, OfATrueTableIsForTheToolsAlone) {
   EXPECT_EQ(to_toml_text(again), text);
   EXPECT_THAT([&] { load_robot(file(text)); },
               ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml"), HasSubstr("effective"))));
+}
+
+TEST_F(CalibratedRobot, PlaysWithAHeightTableWhereTheFileHasOne) {
+  const std::string text = "[height_table]\ndistances_m = [3.0, 5.0, 7.0]\npowers = [17.0, 22.0, 29.0]\n";
+  const Robot robot = load_robot(file(text));
+  ASSERT_EQ(robot.model.table.set_points().size(), 3u);
+  EXPECT_EQ(robot.model.table.front().power, 17.0);
+  EXPECT_EQ(to_toml_text(load_robot(file(to_toml_text(robot)))), to_toml_text(robot));
+  EXPECT_THAT([&] { load_robot(file(text + kTable)); }, ThrowsMessage<Error>(HasSubstr("not both")));
+  EXPECT_THAT([&] { load_robot(file("name = \"none\"\n")); }, ThrowsMessage<Error>(HasSubstr("needs one table")));
+  EXPECT_THAT([&] { load_robot(file("[height_table]\ndistances_m = [3.0]\npowers = [17.0, 22.0]\n")); },
+              ThrowsMessage<Error>(HasSubstr("height_table.distances_m has 1 entries, height_table.powers 2")));
+  EXPECT_THAT([&] { load_robot(file("[height_table]\ndistances_m = [3.0, 4.0]\npowers = [22.0, 17.0]\n")); },
+              ThrowsMessage<Error>(HasSubstr("must be finite and above")));
 }
 
 TEST_F(CalibratedRobot, NamesBrokenProvenance) {

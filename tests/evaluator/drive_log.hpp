@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -70,6 +71,18 @@ class DriveLog : public LogTest {
             const kicking::Transfer& transfer) {
     const kicking::Crossing crossing = flown(pose, twist, transfer);
     kick(policy, pose, twist, crossing.x_m, crossing.z_m);
+  }
+
+  /// What a flight camera sees of the latest kick: the vertical motion of kPower's flight, on the way to the goal.
+  void see_free_fall() {
+    const kicking::RobotModel model;
+    const double v_z = model.table.speed_for(kPower) * std::sin(model.exit_angle_rad);
+    for (int i = 0; i < 20; ++i) {
+      const double t_s = 0.05 + 0.04 * i;  // after the release
+      const Int t_ns = kicks_ * 1'000'000'000 + std::llround((kDelay_s + t_s) * 1e9);
+      const double z = model.ball.radius_m + v_z * t_s - 0.5 * kicking::kGravity_mps2 * t_s * t_s;
+      writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, 0.1, 3.3 + 6.0 * t_s, z});
+    }
   }
 
   log::Reader read() {

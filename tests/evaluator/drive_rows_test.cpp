@@ -50,8 +50,11 @@ TEST_F(DriveLog, TurnKicksGiveTheDelayThatMadeThem) {
 }
 
 TEST_F(DriveLog, StraightKicksGiveTheTransferThatMadeThem) {
-  for (const double vy : {-1.0, -0.5, 0.5, 1.0})
+  for (const double vy : {-1.0, -0.5, 0.5, 1.0}) {
     kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, vy, 0.0}, {0.9, 0.6, 1});
+    see_free_fall();
+  }
+  kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, 1.0, 0.0}, {0.2, 0.2, 1});  // nobody sees it fly
   kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, 0.1, 0.11);
   kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, -1.0, 0.0}, 0.0, 0.4);  // after a bounce
   const std::vector<std::pair<double, double>> bounce{{4.0, 0.8}, {6.0, 0.9}, {8.3, 0.12}, {9.5, 0.5}};  // y, z
@@ -60,7 +63,7 @@ TEST_F(DriveLog, StraightKicksGiveTheTransferThatMadeThem) {
     writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, 0.0, bounce[i].first, bounce[i].second});
   }
   const auto kicks = straight_kicks(read(), {});
-  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("2 kicks left out: the ball touched the floor")));
+  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("3 kicks left out: the ball touched the floor")));
   const auto fit = kicking::fit_transfer(kicks.rows, kDelay_s);
   EXPECT_NEAR(fit.forward->exact.value, 0.9, 2e-3);
   EXPECT_NEAR(fit.backward->exact.value, 0.6, 2e-3);
@@ -145,8 +148,26 @@ TEST_F(DriveLog, DelaysComeFromTheFlightCameraOfKicksThatDoNotTurn) {
   EXPECT_NEAR(kicking::fit_delay(found.rows).mean_s.value, 0.06, 0.0005);
 }
 
+TEST_F(DriveLog, DirectionsAreThoseOfTheBallAndEndWhereItIsCarriedBack) {
+  for (const double vx : {-0.4, 0.0, 0.7}) {
+    kick("standing_drive", {0, 3, 0.3}, {0, 0, 0}, 0.0, 0.7);  // the heading believed plays no part
+    for (const BallSighting& s : seen_release(kicks_ * 1'000'000'000, 0.06, vx, 0.0, 0.01)) {
+      writer_.push(frames_, {Int{1}, ++seq_, s.t_ns, s.t_ns, Int{1}, s.ball_m.x(), s.ball_m.y(), s.ball_m.z()});
+    }
+  }
+  kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);  // no frames
+  const auto found = launch_directions(read(), {});
+  ASSERT_EQ(found.rows.size(), 3u);
+  EXPECT_THAT(found.left_out, ElementsAre(HasSubstr("1 kick left out")));
+  const std::vector<double> slopes{-0.4 / 6.6, 0.0, 0.7 / 6.6};
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    EXPECT_NEAR(found.rows[i].value, -std::atan(slopes[i]), 0.003) << i;
+    EXPECT_LT(found.rows[i].se, 0.01);
+  }
+}
+
 TEST(DriveRowsSql, NeverReadsTheSimulatorsTruth) {
-  for (const char* const name : {"drive_kicks", "ball_sightings"}) {
+  for (const char* const name : {"drive_kicks", "ball_sightings", "predicted_kicks"}) {
     std::ifstream in(std::string(TRIVELA_SOURCE_DIR) + "/evaluator/metrics/" + name + ".sql");
     const std::string sql{std::istreambuf_iterator<char>(in), {}};
     EXPECT_THAT(sql, HasSubstr("SELECT")) << name;

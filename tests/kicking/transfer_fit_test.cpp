@@ -112,6 +112,16 @@ TEST(TransferFit, KeepsToTheDirectionsThatWereDriven) {
   EXPECT_FALSE(fit.backward);
 }
 
+TEST(TransferFit, ADirectionThatFailsLeavesTheOtherOneStanding) {
+  TransferRow near = flown(-1.0, 8.2, 0.5, {}, 0.0);
+  near.z_cross_m = 0.5;  // 0.5 m * tan(36.78 degrees) = 0.374 m over the launch: no speed reaches it
+  const std::vector<TransferRow> rows{flown(1.0, 8.2, 5.73, {}, 0.0), flown(1.5, 8.2, 5.73, {}, 0.0), near, near};
+  const TransferFit fit = fit_transfer(rows, 0.0);
+  EXPECT_NEAR(fit.forward->exact.value, 1.0, 1e-6);
+  EXPECT_FALSE(fit.backward);
+  EXPECT_THAT(fit.failed, testing::ElementsAre(HasSubstr("backward: ")));
+}
+
 TEST(TransferFit, RefusesWhatSaysNothing) {
   const auto fit = [](std::vector<TransferRow> rows, double delay_s = 0.0) {
     return [rows, delay_s] { fit_transfer(rows, delay_s); };
