@@ -54,27 +54,32 @@ void Lookout::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const 
   }
 }
 
+/// What a log has of a kick ordered then: as believed now for one of this cycle, as predicted for a later one.
+ShotFeatures Lookout::features(const DriveMotion& base, const Prospect& prospect) const {
+  const bool now = prospect.fire_after_s <= config_.cycle_s;
+  const Eigen::Vector2d ball = now ? held_ball(input_.pose, robot_) : prospect.release.ball_m;
+  const Twist twist = now ? input_.twist : base.twist();
+  ShotFeatures shot{.p_on_target = prospect.p_on_target,
+                    .distance_m = (target_on_line(config_, goal_) - ball).norm(),
+                    .vx_mps = twist.vx_mps,
+                    .vy_mps = twist.vy_mps,
+                    .omega_radps = twist.omega_radps,
+                    .power = prospect.shot.power,
+                    .opponent_distance_m = input_.opponent_distance_m};
+  if (!now && opponent_.seen) shot.opponent_distance_m = opponent_.distance_after_m(prospect.fire_after_s);
+  return shot;
+}
+
 Prospect Lookout::prospect(const DriveMotion& base, double fire_after_s) {
   Prospect out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
   if (!(out.shot.p > 0.0)) return out;
-  if (learned_) {
-    const Twist twist = base.twist();
-    const Eigen::Vector2d line = target_on_line(config_, goal_) - out.release.ball_m;
-    ShotFeatures features{.p_on_target = out.shot.p,
-                          .distance_m = line.norm(),
-                          .vx_mps = twist.vx_mps,
-                          .vy_mps = twist.vy_mps,
-                          .omega_radps = twist.omega_radps,
-                          .power = out.shot.power,
-                          .opponent_distance_m = {}};
-    if (opponent_.seen) features.opponent_distance_m = opponent_.distance_after_m(fire_after_s);
-    out.p_on_target = learned_->p_on_target(features);
-  } else if (opponent_.seen) {
-    out.p_on_target *= 1.0 - p_blocked(config_.predictive, opponent_.distance_after_m(fire_after_s + robot_.delay_s),
-                                       out.shot, robot_.ball);
+  if (opponent_.seen) {
+    const double distance_m = opponent_.distance_after_m(fire_after_s + robot_.delay_s);
+    out.p_on_target *= 1.0 - p_blocked(config_.predictive, distance_m, out.shot, robot_.ball);
   }
+  if (learned_) out.p_on_target = learned_->p_on_target(features(base, out));
   return out;
 }
 

@@ -15,7 +15,7 @@ struct Prospect {
   double fire_after_s = 0.0;
   ShotChance shot{};
   ReleaseState release{};
-  double p_on_target = 0.0;  ///< nobody in the way, corrected by the learned model where there is one
+  double p_on_target = 0.0;  ///< nobody in the way either; corrected by the learned model where there is one
 };
 
 /// What a plan promises: the best shot of this cycle and the best later one.
@@ -52,6 +52,7 @@ class Lookout {
   Twist command_at(DrivePlan plan, const DriveMotion& base) const;
   void drive_for(DrivePlan plan, DriveMotion& base, double time_s) const;
   void go_on(Ways& ways, double time_s) const;
+  ShotFeatures features(const DriveMotion& base, const Prospect& prospect) const;
   Prospect prospect(const DriveMotion& base, double fire_after_s);
   double value(const Prospect& prospect, double survival) const;
   void look_at_this_cycle(Ways& ways);
