@@ -140,8 +140,9 @@ struct Judgement {
 /// Fire or hold? A pure function of its arguments but for the policy's own memory, which it brings up to date; nothing
 /// allocates. A policy that is not in charge is judged by the same function with a memory of its own. It never fires
 /// when the game stands, the ball is not held, the kicker is not ready, the state is older than max_state_age_s or not
-/// finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the laser), or an order of
-/// this possession is pending.
+/// finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the laser, and the
+/// predictive ones, which choose their height: where full power falls short of the line), or an order of this
+/// possession is pending.
 Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                 const PolicyInput& input, PolicyMemory& memory);
 
