@@ -9,7 +9,7 @@
 namespace trivela::cli {
 namespace {
 
-constexpr double kNames = 270.0, kPanel = 320.0, kGap = 30.0, kTop = 84.0, kRow = 24.0, kBottom = 64.0;
+constexpr double kNames = 300.0, kPanel = 320.0, kGap = 56.0, kTop = 84.0, kRow = 24.0, kBottom = 64.0;
 constexpr std::size_t kMostRows = 20;  // the smallest are in the table
 
 std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
