@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -55,12 +56,15 @@ inline FlownShot fly(const Kick& kick, const sim::Scenario& scenario, unsigned s
   flown.release_t_ns = 10 * kFrame_ns + 2 * kSubstep_ns;
   flown.expected_speed_mps = std::hypot(kick.velocity_mps.x, kick.velocity_mps.y);
   std::optional<sim::Shot> shot;
+  const double opponent_x = kick.opponent.x_m - kick.from_m.x, opponent_y = kick.opponent.y_m - kick.from_m.y;
+  std::array<sim::OpponentBody, 1> opponents;
+  opponents[0].place(kick.from_m, {std::hypot(opponent_x, opponent_y), std::atan2(-opponent_x, opponent_y), 0.0});
   std::int64_t end_ns = 4'000'000'000;
   const auto tail_ns = static_cast<std::int64_t>((scenario.possession.after_crossing_s + watch_on_s) * 1e9);
   for (std::int64_t t_ns = 0; t_ns <= end_ns; t_ns += kSubstep_ns) {
     if (t_ns == flown.release_t_ns)
       shot.emplace(scenario, sim::BallMotion{kick.from_m, kick.velocity_mps, kick.rolling}, t_ns);
-    if (shot && t_ns > flown.release_t_ns) shot->advance_to(t_ns, kick.opponent);
+    if (shot && t_ns > flown.release_t_ns) shot->advance_to(t_ns, opponents);
     if (shot && shot->result() && flown.truth.t_ns == 0) {
       flown.truth = *shot->result();
       end_ns = flown.truth.t_ns + tail_ns;
