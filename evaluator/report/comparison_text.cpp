@@ -25,7 +25,7 @@ std::string kicks_of_each(double kicks) { return fmt::format("{:.0f} kicks of ea
 
 }  // namespace
 
-std::string p_value(double p) { return p > 0.0 ? fmt::format("{:.3g}", p) : "below 1e-280"; }
+std::string p_value(double p) { return p > 1e-280 ? fmt::format("{:.3g}", p) : "below 1e-280"; }
 
 std::string points(double difference) { return fmt::format("{:+.1f} percentage points", 100.0 * difference); }
 

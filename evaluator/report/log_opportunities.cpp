@@ -140,7 +140,10 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     }
     LoggedOpportunity& o = place == places.end() ? logged.rows.back() : logged.rows[place->second];
     o.policy = text_if_any(row[4]);  // of two kicks of a possession the later one
-    o.ending = ending_of(text_if_any(row[truth ? 6 : 5]));
+    const std::string outcome = text_if_any(row[truth ? 6 : 5]);
+    // The simulator settles every ball that left; without its word there was none in front of the kicker.
+    const bool no_ball = truth && outcome.empty() && logged.sessions[o.session].simulated;
+    o.ending = no_ball ? Ending::kNoKick : ending_of(outcome);
     o.distance_m = number_if_any(row[7]);
   });
   if (alone > 0 && !places.empty()) {

@@ -30,7 +30,7 @@ std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t old
   const std::size_t strata = book.strata.size() + 1;
   std::vector<stats::MatchCounts> cells(std::max<std::size_t>(book.matches, 1) * strata);
   for (const Opportunity& o : book.opportunities) {
-    if (o.ending == Ending::kUnknown || (!of_opportunities && o.ending == Ending::kNoKick)) continue;
+    if (!of_opportunities && (o.ending == Ending::kUnknown || o.ending == Ending::kNoKick)) continue;
     if (o.group != older && o.group != newer) continue;
     stats::MatchCounts& cell = cells[o.match * strata + o.stratum];
     add(o.group == older ? cell.older : cell.newer, o.ending);
@@ -55,10 +55,6 @@ PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t old
     }
     const Ending x = a[i++].second, y = b[j].second;
     const std::uint32_t match = b[j++].first.first;
-    if (x == Ending::kUnknown || y == Ending::kUnknown) {
-      result.unpaired += 2;
-      continue;
-    }
     const bool x_in = x == Ending::kInside, y_in = y == Ending::kInside;
     ++(x_in && y_in ? result.counts.both
        : y_in       ? result.counts.newer_only

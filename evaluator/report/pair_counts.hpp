@@ -9,7 +9,7 @@
 
 namespace trivela::evaluator {
 
-/// Adds an ending that is not kUnknown: a trial, and a success if it was inside.
+/// Adds an ending: a trial, and a success if it was inside.
 inline void add(stats::Counts& sum, Ending ending) {
   sum.inside += ending == Ending::kInside ? 1 : 0;
   sum.n += 1;
@@ -19,7 +19,8 @@ inline void add(stats::Counts& sum, stats::Counts counts) {
   sum.n += counts.n;
 }
 
-/// Counts of two groups by match and stratum, of opportunities or of kicks; unknown outcomes are left out.
+/// Counts of two groups by match and stratum, of opportunities or of kicks. A kick with an unknown outcome
+/// is an opportunity without a shot on target, and left out of the kicks.
 std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities);
 
@@ -27,7 +28,7 @@ std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t old
 struct PairedOpportunities {
   stats::PairedCounts counts;
   std::vector<stats::MatchCounts> cells;  ///< the same by match
-  std::int64_t unpaired = 0;              ///< without a partner, or with an unknown outcome on either side
+  std::int64_t unpaired = 0;              ///< without a partner
 };
 PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t older, std::uint32_t newer);
 

@@ -33,9 +33,9 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
     result.inside += o.ending == Ending::kInside ? 1 : 0;
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
-    if (!book.has_matches || o.ending == Ending::kUnknown) continue;
+    if (!book.has_matches) continue;
     add(opportunities[o.match], o.ending);
-    if (o.ending != Ending::kNoKick) add(kicks[o.match], o.ending);
+    if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(kicks[o.match], o.ending);
   }
   result.matches = static_cast<std::size_t>(std::ranges::count_if(opportunities, [](auto& c) { return c.n > 0; }));
   const auto by_match = stats::clustered_wilson(kicks);
@@ -202,7 +202,9 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
     pair.why_none = fmt::format("{} has no kick whose outcome is known, so there is nothing to compare", empty.name);
     return pair;
   }
-  const auto known = [&](const GroupResult& g) { return pair.per_opportunity ? g.per_opportunity() : g.efficiency(); };
+  const auto known = [&](const GroupResult& g) {
+    return pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
+  };
   pair.bounds = stats::difference_bounds(known(older), older.unknown, known(newer), newer.unknown);
   pair.headline = headline(pair, smallest_effect);
   return pair;

@@ -25,14 +25,14 @@ struct GroupResult {
   std::size_t matches = 0;             ///< 0: not known
   std::optional<double> minutes;       ///< of play; none: not known
   stats::Interval efficiency_ci;       ///< of inside / (inside + outside)
-  stats::Interval per_opportunity_ci;  ///< of inside / (opportunities - unknown)
+  stats::Interval per_opportunity_ci;  ///< of inside / opportunities
   bool by_match = false;               ///< the intervals allow for kicks of one match being alike
   std::optional<stats::Interval>
       efficiency_bounds;  ///< if every unknown kick was outside, and inside; none: no unknown
 
   std::int64_t kicks() const { return inside + outside + unknown; }
   stats::Counts efficiency() const { return {inside, inside + outside}; }
-  stats::Counts per_opportunity() const { return {inside, opportunities > 0 ? opportunities - unknown : 0}; }
+  stats::Counts per_opportunity() const { return {inside, opportunities}; }
 };
 
 /// A difference newer - older of proportions, with everything that can be said for its interval.
@@ -93,7 +93,7 @@ struct PairResult {
   std::optional<Effect> efficiency;          ///< of kicks
   std::optional<Effect> per_opportunity;     ///< of opportunities
   std::optional<stats::PairedCounts> pairs;  ///< opportunities that both had
-  std::int64_t unpaired = 0;                 ///< opportunities without a partner, or with an unknown outcome
+  std::int64_t unpaired = 0;                 ///< opportunities without a partner
   double mcnemar_p = 1.0;
   std::optional<Stratified> stratified;
   std::optional<stats::RateRatio> on_target_rate;  ///< on target a minute

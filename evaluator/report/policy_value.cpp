@@ -63,9 +63,8 @@ PolicyValueReport evaluate_policy(const LoggedOpportunities& logged, const std::
     if (!o.has_possession) continue;
     if (!drawn(o) || !plans.contains(plan_of(o))) {
       ++report.not_drawn;
-    } else if (o.ending == Ending::kUnknown) {
-      ++report.unknown;
     } else {
+      report.unknown += o.ending == Ending::kUnknown ? 1 : 0;
       trials.push_back({.by_target = o.policy == policy,
                         .probability = *o.probability,
                         .reward = o.ending == Ending::kInside ? 1.0 : 0.0,

@@ -47,7 +47,8 @@ std::string to_text(const PolicyValueReport& r) {
   if (r.not_drawn > 0) {
     text += bullet(fmt::format("{} opportunities left out: the policy could not have been drawn there.", r.not_drawn));
   }
-  if (r.unknown > 0) text += bullet(fmt::format("{} opportunities left out: their outcome is unknown.", r.unknown));
+  if (r.unknown > 0)
+    text += bullet(fmt::format("{} kicks whose outcome is unknown count as not on target.", r.unknown));
   if (v.mean_weight_p < stats::kSampleRatioAlarm) {
     text += bullet(
         "The policies were not drawn with the probabilities of the log: trust nothing here before that is explained.");

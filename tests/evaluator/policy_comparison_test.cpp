@@ -129,7 +129,9 @@ TEST_F(PolicyComparisonTest, TruthAndObservationAreChosen) {
   EXPECT_EQ(observed.groups[0].unknown, 2);
   EXPECT_EQ(truth.groups[0].inside, 2);
   EXPECT_EQ(truth.groups[0].unknown, 0);
-  EXPECT_EQ(observed.pairs[0].unpaired, 4) << "of unknown outcomes no pair can be made";
+  EXPECT_EQ(observed.pairs[0].pairs->n(), 3)
+      << "an opportunity with an unknown outcome is one without a shot on target";
+  EXPECT_NEAR(observed.pairs[0].bounds.hi, 2.0 / 3.0, 1e-12) << "and bounded by what it may have been";
   EXPECT_EQ(truth.pairs[0].pairs->n(), 3);
 }
 
