@@ -20,7 +20,8 @@ constexpr double kStill_radps = 0.3;   // turning slower than this the ball's tr
 constexpr double kNearFloor_m = 0.12;  // lower than this over the floor before the line, the ball has touched it
 constexpr double kAirborne_s = 0.19;   // after the release every kick is higher
 constexpr double kFlight_s = 2.0;
-constexpr double kLeastReach_m = 0.5;  // of the goal line in front of the ball
+constexpr double kLeastReach_m = 0.5;   // of the goal line in front of the ball
+constexpr double kCarriedBack_m = 0.3;  // between two sightings: somebody has put the ball back for the next kick
 
 using RobotKey = std::pair<std::int64_t, std::int64_t>;  // session, robot
 
@@ -130,11 +131,13 @@ std::optional<double> launch_v_z_mps(const std::vector<BallSighting>& sightings,
   constexpr double kLeft_s = 0.06;  // after the release: four standard deviations of its instant
   constexpr double kFewest = 10.0;
   constexpr double g = kicking::kGravity_mps2;
-  double n = 0.0, t = 0.0, z = 0.0, tt = 0.0, tz = 0.0;
+  double n = 0.0, t = 0.0, z = 0.0, tt = 0.0, tz = 0.0, farthest_y_m = -HUGE_VAL;
   for (const BallSighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
     if (t_s < model.delay_s + kLeft_s) continue;
     if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;
+    if (sighting.ball_m.y() < farthest_y_m - kCarriedBack_m) break;
+    farthest_y_m = std::max(farthest_y_m, sighting.ball_m.y());
     const double straight_m = sighting.ball_m.z() + 0.5 * g * t_s * t_s;  // without gravity a line
     n += 1.0;
     t += t_s;
@@ -156,7 +159,6 @@ std::optional<kicking::LaunchDirection> launch_direction(const std::vector<BallS
   constexpr double kLeft_s = 0.06;  // after the release: four standard deviations of its instant
   constexpr std::size_t kFewest = 10;
   constexpr double kLeastLength_m = 1.0;
-  constexpr double kCarriedBack_m = 0.3;  // somebody has put the ball back for the next kick
   std::vector<Eigen::Vector2d> places;
   for (const BallSighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);

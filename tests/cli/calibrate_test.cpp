@@ -112,7 +112,7 @@ TEST_F(CalibrateVerb, TableOfLobsIsTheRobotsFile) {
   EXPECT_THAT(text_of("seven.toml"),
               AllOf(StartsWith("# Robot seven, written by trivela calibrate table on "),
                     HasSubstr("# Measured: table (4 kicks), exit angle (4 kicks)."),
-                    HasSubstr("# Not measured, kept as they were: alpha, beta, transfer, delay, ball, wheels.")));
+                    HasSubstr("# Not measured, kept as they were: alpha, beta, transfer, delay, sideways scatter, ball, wheels.")));
   EXPECT_THAT(result.out, AllOf(HasSubstr("Written: seven.toml"), HasSubstr("kicker.exit_angle_deg 36.78 -> 36.7522")));
 }
 
@@ -244,7 +244,7 @@ TEST_F(CalibrateVerb, FiguresComeTogetherInOneFile) {
   EXPECT_EQ(calibration.transfer->kicks, 4u);
   EXPECT_TRUE(calibration.transfer->exact_backward_se_ratio);
   EXPECT_EQ(calibration.kicks, 4u + 3u + 3u + 4u + 3u);
-  EXPECT_THAT(text_of("seven.toml"), AllOf(HasSubstr("# Not measured, kept as they were: ball, wheels."),
+  EXPECT_THAT(text_of("seven.toml"), AllOf(HasSubstr("# Not measured, kept as they were: sideways scatter, ball, wheels."),
                                            HasSubstr("exit_speeds_mps = [5.98858, 8.24851]\n"),
                                            HasSubstr("alpha_slope_deg_per_mps = 8.61764\n"),
                                            HasSubstr("alpha_slope_se_deg_per_mps = 0.339\n")));

@@ -29,19 +29,21 @@ class DriveLog : public LogTest {
   using Int = std::int64_t;
 
   DriveLog() : writer_(path(), session(), options()) {
-    decisions_ = writer_.table(
-        "kick_decisions",
-        {"robot_id",    "seq",        "t_ns",       "kick_id",    "half",        "possession_id", "policy",
-         "fire",        "reason",     "x_m",        "y_m",        "heading_rad", "vx_mps",        "vy_mps",
-         "omega_radps", "target_x_m", "target_y_m", "target_z_m", "distance_m",  "alpha_rad",     "beta_rad",
-         "aligned",     "left_m",     "right_m",    "charge",     "shadow_count"});
+    decisions_ =
+        writer_.table("kick_decisions", {"robot_id",   "seq",           "t_ns",         "kick_id",
+                                         "half",       "possession_id", "policy",       "fire",
+                                         "reason",     "x_m",           "y_m",          "heading_rad",
+                                         "vx_mps",     "vy_mps",        "omega_radps",  "target_x_m",
+                                         "target_y_m", "target_z_m",    "distance_m",   "alpha_rad",
+                                         "beta_rad",   "aligned",       "left_m",       "right_m",
+                                         "charge",     "shadow_count",  "fire_after_s", "assignment_probability"});
     receipts_ = writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
                                                 "order_t_ns", "fired_t_ns", "release_t_ns", "power"});
     outcomes_ = writer_.table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
                                                 "x_cross_m", "z_cross_m", "observations"});
     truths_ = writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                             "x_cross_m", "z_cross_m", "release_t_ns", "release_x_m", "release_y_m",
-                                            "release_vx_mps", "release_vy_mps", "release_vz_mps"});
+                                            "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved"});
     frames_ = writer_.table(
         "flight_frames", {"robot_id", "seq", "t_ns", "t_exposure_ns", "ball_seen", "ball_x_m", "ball_y_m", "ball_z_m"});
   }
@@ -58,13 +60,14 @@ class DriveLog : public LogTest {
                               0.0,          9.0,          0.7,
                               5.0,          0.0,          0.0,
                               Int{1},       0.3,          0.3,
-                              1.0,          Int{0}});
+                              1.0,          Int{0},       0.0,
+                              1.0});
     writer_.push(receipts_,
                  {Int{1}, ++seq_, t_ns, id, Int{accepted}, accepted ? "none" : "charging", t_ns, t_ns, t_ns, kPower});
     const auto cell = [](const std::optional<double>& value) { return value ? log::Value(*value) : log::Value(); };
     writer_.push(outcomes_, {Int{1}, ++seq_, t_ns, id, "wide_left", Int{0}, cell(x_cross_m), cell(z_cross_m), Int{9}});
-    writer_.push(truths_,
-                 {Int{1}, ++seq_, t_ns, id, Int{1}, id, "on_target", 77.0, 77.0, t_ns, 0.0, 0.0, 0.0, 0.0, 0.0});
+    writer_.push(truths_, {Int{1}, ++seq_, t_ns, id, Int{1}, id, "on_target", 77.0, 77.0, t_ns, 0.0, 0.0, 0.0, 0.0, 0.0,
+                           Int{0}});
   }
 
   void kick(const std::string& policy, const kicking::Pose& pose, const kicking::Twist& twist,
