@@ -48,13 +48,15 @@ std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std:
   return groups;
 }
 
+bool was_drawn(const LoggedOpportunity& o) { return o.probability && *o.probability < 1.0; }
+
 // Groups of a match by the halves that they played.
 using Halves = std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>>;
 
 void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::string& by,
-                  const std::vector<std::optional<std::uint32_t>>& group_of) {
+                  const std::vector<std::optional<std::uint32_t>>& group_of, bool drawn) {
   std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> first_group;
-  bool drawn = false, shared = false, all_numbered = true;
+  bool shared = false, all_numbered = true;
   Halves halves;
   std::vector<std::set<double>> chances(book.groups.size());
   for (const ComparedSession& session : logged.sessions)
@@ -63,7 +65,6 @@ void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::
     if (!group_of[i]) continue;
     const LoggedOpportunity& o = logged.rows[i];
     const std::uint32_t match = logged.sessions[o.session].match;
-    if (by == "policy" && o.probability && *o.probability < 1.0) drawn = true;
     if (o.probability) chances[*group_of[i]].insert(*o.probability);
     halves[match][o.half].insert(*group_of[i]);
     if (!all_numbered || shared || o.possession_id == 0) continue;
@@ -71,7 +72,7 @@ void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::
     const auto [place, added] = first_group.try_emplace({match, id}, *group_of[i]);
     shared = !added && place->second != *group_of[i];
   }
-  if (shared) {
+  if (shared && !drawn) {
     book.design = Design::kPaired;
     book.design_reason = "the sessions have the same matches by number";
     return;
@@ -156,12 +157,18 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   std::vector<std::optional<std::uint32_t>> group_of(logged.rows.size());
   std::map<std::string, std::uint32_t> places;
   for (std::uint32_t i = 0; i < book.groups.size(); ++i) places[book.groups[i]] = i;
-  std::int64_t nameless = 0;
+  // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
+  const bool drawn = by == "policy" && std::ranges::any_of(logged.rows, was_drawn);
+  std::int64_t nameless = 0, certain = 0;
   for (std::size_t i = 0; i < logged.rows.size(); ++i) {
     const LoggedOpportunity& o = logged.rows[i];
     const auto group = places.find(group_name(o));
     if (group == places.end()) {
       ++nameless;
+      continue;
+    }
+    if (drawn && !was_drawn(o)) {
+      ++certain;
       continue;
     }
     group_of[i] = group->second;
@@ -182,7 +189,10 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     book.remarks.push_back(
         fmt::format("{} {} without a {} left out", nameless, book.has_opportunities ? "opportunities" : "kicks", by));
   }
-  infer_design(book, logged, by, group_of);
+  if (certain > 0) {
+    book.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
+  }
+  infer_design(book, logged, by, group_of, drawn);
   add_minutes(book, logged, by);
   return book;
 }

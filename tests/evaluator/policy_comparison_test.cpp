@@ -162,6 +162,25 @@ TEST_F(PolicyComparisonTest, PoliciesDrawnAtRandomAreRandomisedAndTheirSharesChe
   EXPECT_THAT(to_text(compared({}, {"odd.db"})), HasSubstr("did not go as planned"));
 }
 
+TEST_F(PolicyComparisonTest, BesideDrawnPoliciesCertainOnesAreLeftOut) {
+  TestExperiment experiment(path(), 6);
+  for (std::uint32_t match = 0; match < 6; ++match) {
+    experiment.begin();
+    experiment.session(match, 0, "drawn", {});
+    for (std::int64_t i = 1; i <= 8; ++i) {
+      experiment.possession(1, i, i % 2 == 0 ? "moving" : "stopped", 0.5, i < 5 ? kIn : kOut);
+    }
+    experiment.session(match, 1, "certain", {{1, "moving"}});
+    for (std::int64_t i = 1; i <= 8; ++i) experiment.possession(1, i, "moving", 1.0, kIn);
+    experiment.commit();
+  }
+  experiment.finish();
+  const auto result = compared({.by = "policy"});
+  EXPECT_EQ(result.pairs[0].design, Design::kRandomised);
+  EXPECT_EQ(result.groups[1].opportunities, 24);
+  EXPECT_THAT(to_text(result), HasSubstr("48 opportunities left out"));
+}
+
 TEST_F(PolicyComparisonTest, HalvesInTurnAreAlternatingAndAlwaysTheSameOrderIsNot) {
   const auto write = [&](const char* file, bool in_turn) {
     TestExperiment experiment(path(file), 6);
