@@ -10,8 +10,8 @@ namespace trivela::cli {
 
 /// What a run of the factorial found, and under which assumptions.
 struct FactorialReport {
-  std::string scenario;             ///< name of its file
-  std::vector<std::string> robots;  ///< names
+  std::string scenario;               ///< name of its file
+  std::vector<std::string> robots{};  ///< names
   std::uint64_t seed = 1;
   std::uint32_t matches = 0;
   std::uint32_t possessions = 0;   ///< opportunities a match
@@ -19,8 +19,8 @@ struct FactorialReport {
   double hand_day_sd_ratio = 0.0;  ///< and of the kicker from day to day
   double opponent_median_m = 0.0;
   Law sweep_law = Law::kReleased;
-  std::vector<PlayedCell> cells;
-  std::vector<SweepPoint> sweep;  ///< empty: not asked for
+  std::vector<PlayedCell> cells{};
+  std::vector<SweepPoint> sweep{};  ///< empty: not asked for
 };
 
 std::string to_text(const FactorialReport& report);

@@ -42,11 +42,11 @@ struct HeldOutLoss {
 
 /// A trained correction and how it did.
 struct LearnedFit {
-  kicking::LearnedModel model;
+  kicking::LearnedModel model{};
   std::int64_t kicks = 0;  ///< of the training
   std::int64_t matches = 0;
   double ridge = 0.0;
-  HeldOutLoss held_out;
+  HeldOutLoss held_out{};
 };
 
 /// Trains LearnedModel: logistic regression with the logit of the physical probability as offset and a ridge penalty on

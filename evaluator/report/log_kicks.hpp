@@ -11,9 +11,9 @@ namespace trivela::evaluator {
 
 /// How to read logs for a comparison.
 struct LogKicks {
-  std::string by;  ///< "policy", "table", "robot" or "arm"; empty: arm where the logs have several, else policy
+  std::string by{};  ///< "policy", "table", "robot" or "arm"; empty: arm where the logs have several, else policy
   std::string
-      stratify;        ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
+      stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
   bool truth = false;  ///< outcomes by the simulator's truth; otherwise as observed
 };
 

@@ -13,7 +13,7 @@ using LaunchDirection = Estimate;
 /// How far the kicks of a standing robot scatter sideways.
 struct DirectionFit {
   double mean_rad = 0.0;
-  Estimate sd_rad;  ///< from kick to kick: sqrt(s^2 - mean(se^2)), s the scatter seen; 0: the track explains all
+  Estimate sd_rad{};  ///< from kick to kick: sqrt(s^2 - mean(se^2)), s the scatter seen; 0: the track explains all
   double seen_sd_rad = 0.0;      ///< s, with n - 1
   double observer_sd_rad = 0.0;  ///< sqrt(mean(se^2))
 };

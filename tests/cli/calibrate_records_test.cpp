@@ -62,6 +62,7 @@ TEST_F(CalibrateDrives, GiveTheWorldThatMadeThem) {
     kick("lateral_drive", {0.0, 3.0, 0.05}, {v, 0.0, 0.0}, world);
     kick("turn_drive", {0.0, 3.0, 0.0}, {0.0, 0.0, v}, {1, 1, 1});
     kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, v, 0.0}, world);
+    see_free_fall();
   }
   writer_.finalise();
   const std::string log = path().string();

@@ -61,7 +61,7 @@ TEST_F(CalibrateRun, PlaysEveryDriveAndLeavesItsRecords) {
     for (const auto& log : drive["logs"]) EXPECT_THAT(loose_ends_of(log.get<std::string>()), IsEmpty());
     EXPECT_THAT(errors_, HasSubstr(drive["drive"].get<std::string>() + ": ")) << "a line a drive";
   }
-  EXPECT_THAT(drives, ElementsAre("standing", "delay", "lateral", "turn", "straight"));
+  EXPECT_THAT(drives, ElementsAre("standing", "delay", "direction", "lateral", "turn", "straight"));
   for (const char* file : {"1_standing.scans.db", "1_standing.scenario.toml", "3_lateral.db", "4_turn.db",
                            "5_straight.db", "6_check.db", "newcomer.toml"})
     EXPECT_TRUE(std::filesystem::exists(record(file))) << file;

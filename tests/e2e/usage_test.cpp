@@ -35,7 +35,8 @@ TEST_P(Usage, IsRefusedInOneSentenceAndLeavesNothing) {
 INSTANTIATE_TEST_SUITE_P(
     Match, Usage,
     testing::Values(
-        Mistake{"UnknownPolicy", {"--half", "dancing"}, 2, "dancing"}, Mistake{"NoHalf", {}, 2, "--half is required"},
+        Mistake{"UnknownPolicy", {"--half", "dancing"}, 2, "dancing"},
+        Mistake{"NoHalf", {}, 2, "--half or --random is required"},
         Mistake{"NoMinutes", {"--half", "moving", "--minutes", "0"}, 2, "--minutes: 0 is not"},
         Mistake{"NanMinutes", {"--half", "moving", "--minutes", "nan"}, 2, "--minutes: nan is not"},
         Mistake{"WordMinutes", {"--half", "moving", "--minutes", "five"}, 2, "--minutes: five is not"},

@@ -49,15 +49,13 @@ std::filesystem::path version_1_log(const std::filesystem::path& path) {
   return path;
 }
 
-class Version1 : public testing::Test {
+class Version1 : public LogTest {
  protected:
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "trivela_version_1_test.db";
-  void SetUp() override { version_1_log(path); }
-  void TearDown() override { std::filesystem::remove(path); }
+  const std::filesystem::path log_path = version_1_log(path("version_1.db"));
 };
 
 TEST_F(Version1, SaysWhatItSaid) {
-  const Reader reader(path);
+  const Reader reader(log_path);
   const auto sessions = reader.sessions();
   ASSERT_EQ(sessions.size(), 1u);
   EXPECT_EQ(sessions[0].config_toml, "a = 1");
@@ -73,7 +71,7 @@ TEST_F(Version1, SaysWhatItSaid) {
 }
 
 TEST_F(Version1, WhatItDidNotHaveIsEmpty) {
-  const Reader reader(path);
+  const Reader reader(log_path);
   int rows = 0;
   reader.for_each_row("assignments", {"policy", "probability"}, [&](std::span<const Value>) { ++rows; });
   EXPECT_EQ(rows, 0);
@@ -90,7 +88,7 @@ TEST_F(Version1, WhatItDidNotHaveIsEmpty) {
 }
 
 TEST_F(Version1, IsReportedOn) {
-  const Report report = make_report(Reader(path));
+  const Report report = make_report(Reader(log_path));
   ASSERT_EQ(report.policies.size(), 2u);
   for (const PolicyRow& row : report.policies) {
     EXPECT_EQ(row.kicks(), 1) << row.policy;

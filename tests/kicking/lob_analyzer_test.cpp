@@ -119,7 +119,7 @@ MeanExit mean_exit(const std::vector<LobRecord>& lobs, bool effective) {
 
 TEST(Analyzer, HasTheAccuracyOfTheVectors) {
   sim::RecordPlan plan;
-  plan.kicks.assign(20, kick(8.39, 36.78));
+  plan.kicks.assign(60, kick(8.39, 36.78));
   int compared = 0;
   for (const double x : {4.0, 9.0, -1.0}) {
     sim::LaserModel laser;

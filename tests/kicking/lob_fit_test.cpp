@@ -137,7 +137,7 @@ TEST(TrueFit, ShrugsOffOutliers) {
 /// Standard errors are honest if (estimate - truth) / se has mean 0 and spread 1 over many trials.
 template <typename Estimator>
 void expect_honest(double cd, const std::vector<double>& truth, const Estimator& estimator) {
-  constexpr int kTrials = 400;
+  constexpr int kTrials = 2000;
   std::vector<double> sum(truth.size()), squares(truth.size());
   for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
     auto centres = flight(8.39, radians(36.78), cd);

@@ -91,7 +91,8 @@ TEST(PredictivePolicy, NeverFiresBelowItsThreshold) {
     for (double heading = -1.0; heading <= 1.0; heading += 0.05) {
       for (const double opponent : {0.55, 0.8, 3.0}) {
         const Judgement judgement = once(threatened({1.0, 2.0, heading}, {0.3, 0.8, -1.0}, opponent, 1.4), config);
-        if (judgement.fire) EXPECT_GE(*judgement.p_on_target, threshold);
+        if (!judgement.fire) continue;
+        EXPECT_GE(*judgement.p_on_target, threshold);
       }
     }
   }
