@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "kicking/ballistics/drag.hpp"
@@ -136,10 +137,9 @@ TEST(TrueFit, ShrugsOffOutliers) {
 
 /// Standard errors are honest if (estimate - truth) / se has mean 0 and spread 1 over many trials.
 template <typename Estimator>
-void expect_honest(double cd, const std::vector<double>& truth, const Estimator& estimator) {
-  constexpr int kTrials = 2000;
+void expect_honest(int trials, double cd, const std::vector<double>& truth, const Estimator& estimator) {
   std::vector<double> sum(truth.size()), squares(truth.size());
-  for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+  for (std::uint32_t trial = 0; std::cmp_less(trial, trials); ++trial) {
     auto centres = flight(8.39, radians(36.78), cd);
     add_noise(centres, 0.003, trial);
     const std::vector<Estimate> estimates = estimator(centres);
@@ -150,14 +150,14 @@ void expect_honest(double cd, const std::vector<double>& truth, const Estimator&
     }
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double mean = sum[i] / kTrials;
+    const double mean = sum[i] / trials;
     EXPECT_NEAR(mean, 0.0, 0.2) << i;
-    EXPECT_NEAR(std::sqrt(squares[i] / kTrials - mean * mean), 1.0, 0.12) << i;
+    EXPECT_NEAR(std::sqrt(squares[i] / trials - mean * mean), 1.0, 0.12) << i;
   }
 }
 
 TEST(TrueFit, StandardErrorsAreThoseOfRepetition) {
-  expect_honest(0.25, {8.39, radians(36.78), 0.25}, [](const auto& centres) {
+  expect_honest(400, 0.25, {8.39, radians(36.78), 0.25}, [](const auto& centres) {
     const TrueFit fit = fit_flight(centres, kLaunch_z_m, {})->values();
     return std::vector{fit.exit_speed_mps, fit.exit_angle_rad, fit.drag_coefficient};
   });
@@ -165,7 +165,7 @@ TEST(TrueFit, StandardErrorsAreThoseOfRepetition) {
 
 TEST(Parabola, StandardErrorsAreThoseOfRepetition) {
   const double speed = 8.39, angle = radians(36.78), height = std::pow(speed * std::sin(angle), 2) / 2 / kGravity_mps2;
-  expect_honest(0.0, {speed, angle, height, 4.0 * height / std::tan(angle)}, [](const auto& centres) {
+  expect_honest(4000, 0.0, {speed, angle, height, 4.0 * height / std::tan(angle)}, [](const auto& centres) {
     const EffectiveFit fit = fit_parabola(centres, kLaunch_z_m)->values;
     return std::vector{fit.exit_speed_mps, fit.exit_angle_rad, fit.height_m, fit.distance_m};
   });
