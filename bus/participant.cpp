@@ -10,13 +10,14 @@
 #include "bus/error.hpp"
 
 namespace trivela::bus {
-namespace {
 
 // One configured domain of this process.
 struct Domain {
   DomainConfig config;
   Entity entity;
 };
+
+namespace {
 
 std::shared_ptr<const Domain> join(const DomainConfig& config) {
   static std::mutex mutex;

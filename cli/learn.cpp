@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "cli/calibrate/robot_update.hpp"
 #include "cli/verbs.hpp"
+#include "cli/write_file.hpp"
 #include "config/learned_model.hpp"
 #include "evaluator/learning/learned_fit.hpp"
 #include "evaluator/report/json_values.hpp"
@@ -113,11 +113,6 @@ Json to_json(const LearnedFit& fit, const std::string& written) {
   return json;
 }
 
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream out{path};
-  if (!(out << text) || !out.flush()) throw std::runtime_error{"cannot write " + path.string()};
-}
-
 ExitCode learn(const LearnFlags& flags) {
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
   const auto kicks = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
@@ -125,10 +120,11 @@ ExitCode learn(const LearnFlags& flags) {
   const bool better = fit.held_out.better();
   const std::string written = better || flags.anyway ? flags.out : "";
   if (!written.empty()) {
-    write(written, fmt::format("# Correction of the predictive policy's probability, for kick_decision.learned_model.\n"
-                               "# Held out: {}.\n",
-                               verdict(fit.held_out)) +
-                       config::to_toml_text(file_of(fit, flags)));
+    write_file(written,
+               fmt::format("# Correction of the predictive policy's probability, for kick_decision.learned_model.\n"
+                           "# Held out: {}.\n",
+                           verdict(fit.held_out)) +
+                   config::to_toml_text(file_of(fit, flags)));
   }
   fmt::print("{}", flags.json ? to_json(fit, written).dump(2) + "\n" : text_of(fit));
   if (!flags.json && !written.empty()) fmt::print("\nWritten: {}\n", written);

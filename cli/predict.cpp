@@ -25,7 +25,7 @@ RowVerb predict_verb(const FlightConstants& constants) {
     const kicking::Twist twist{row.number("vx"), row.number("vy"), row.number("omega")};
     const double k = row.number_in("k", 0.0, 10.0);
     const kicking::KickAction kick{.v_kick_mps = row.positive("vk"),
-                                   .exit_angle_rad = row.acute_angle_rad("theta_deg"),
+                                   .exit_angle = row.acute_angle_rad("theta_deg"),
                                    .transfer = {k, k, k},
                                    .delay_s = row.number_in("tau_s", 0.0, 10.0),
                                    .ball_offset_m = row.number_in("r_m", 0.0, 10.0)};

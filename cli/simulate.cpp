@@ -7,6 +7,7 @@
 
 #include "cli/simulate/arms.hpp"
 #include "cli/simulate/experiment.hpp"
+#include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
 
@@ -65,10 +66,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
   verb->add_option("--scenario", flags->scenario, "the world")->capture_default_str();
-  verb->add_option("--robot", flags->base.robots,
-                   "robot files, one for each of the team; default: the calibrated ones");
-  verb->add_option("--config", flags->base.config, "settings of the nodes")->capture_default_str();
-  verb->add_option("--set", flags->base.overrides, "one setting on top, e.g. --set policy.settle_s=0.5");
+  add_arm_options(*verb, flags->base);
   verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
   verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");
   verb->callback([flags, &exit_code] { exit_code = simulate(*flags); });

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/laser/field_laser.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
@@ -19,11 +20,7 @@
 namespace trivela::sim {
 namespace {
 
-enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that ends a half
-
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-
-std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
 
 /// The first nanosecond that lies `wait_s` or more after `start_t_ns`.
 std::int64_t instant_after(std::int64_t start_t_ns, double wait_s) {
@@ -40,16 +37,18 @@ const Scenario& playable(const Scenario& scenario) {
 }  // namespace
 
 struct Match::State {
+  enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that ends a half
+
   State(const Scenario& values, std::uint64_t match_seed, int half_count, double half_minutes,
         std::uint32_t possession_limit)
       : scenario(playable(values)),
         seed(match_seed),
         halves(half_count),
-        half_ns(nanoseconds(half_minutes * 60.0)),
+        half_ns(kicking::nanoseconds(half_minutes * 60.0)),
         max_possessions(possession_limit),
-        cycle_ns(nanoseconds(values.cycle_s)),
+        cycle_ns(kicking::nanoseconds(values.cycle_s)),
         substeps(static_cast<std::int64_t>(std::ceil(values.cycle_s / values.substep_s - 1e-9))),
-        time_limit_ns(nanoseconds(values.possession.time_limit_s)),
+        time_limit_ns(kicking::nanoseconds(values.possession.time_limit_s)),
         world(scenario),
         sensors(scenario),
         laser(scenario.laser, scenario.ball.radius_m) {
@@ -74,7 +73,7 @@ struct Match::State {
     sensors.begin(draws);
     laser.begin(draws);
     sensors.remember(world);
-    stop_until_t_ns = world.t_ns() + nanoseconds(scenario.possession.stop_s);
+    stop_until_t_ns = world.t_ns() + kicking::nanoseconds(scenario.possession.stop_s);
     if (scenario.possession.stop_s <= 0.0) start_play();
   }
 
@@ -113,7 +112,7 @@ struct Match::State {
 
   void close_half() {
     phase = Phase::kClosing;
-    stop_until_t_ns = world.t_ns() + nanoseconds(scenario.possession.stop_s);
+    stop_until_t_ns = world.t_ns() + kicking::nanoseconds(scenario.possession.stop_s);
     world.stop_play();
   }
 
@@ -161,7 +160,7 @@ struct Match::State {
   void end(PossessionEnd how, double play_on_s, StepEvents& events) {
     ending = how;
     if (how != PossessionEnd::kKicked) world.stop_play();
-    play_until_t_ns = world.t_ns() + nanoseconds(play_on_s);
+    play_until_t_ns = world.t_ns() + kicking::nanoseconds(play_on_s);
     events.possessions.push_back({.t_ns = world.t_ns(),
                                   .half = half,
                                   .possession_id = possession_id,
@@ -215,20 +214,18 @@ Match::~Match() = default;
 Match::Match(Match&&) noexcept = default;
 Match& Match::operator=(Match&&) noexcept = default;
 
-bool Match::done() const { return state_->phase == Phase::kDone; }
+bool Match::done() const { return state_->phase == State::Phase::kDone; }
 
 Sensors Match::sense(const Looks& looks) const {
   const State& s = *state_;
-  Sensors out;
-  out.t_ns = s.world.t_ns();
-  out.carrier = s.opportunity.robot;
-  if (looks.wheels) out.wheels = s.sensors.wheels(s.world);
-  out.kicker.charge = s.world.kicker().charge();
-  if (looks.vision) out.vision = s.sensors.vision(s.world);
-  if (looks.flight) out.flight = s.sensors.flight(s.world);
-  out.referee = {.half = s.half, .playing = s.phase == Phase::kPlay, .possession_id = s.possession_id};
-  out.scans = s.laser.scans();
-  return out;
+  return {.t_ns = s.world.t_ns(),
+          .carrier = s.opportunity.robot,
+          .wheels = looks.wheels ? s.sensors.wheels(s.world) : WheelSample{},
+          .kicker = {.charge = s.world.kicker().charge()},
+          .vision = looks.vision ? s.sensors.vision(s.world) : VisionFrame{},
+          .flight = looks.flight ? s.sensors.flight(s.world) : FlightFrame{},
+          .referee = {.half = s.half, .playing = s.phase == State::Phase::kPlay, .possession_id = s.possession_id},
+          .scans = s.laser.scans()};
 }
 
 Kicker Match::true_kicker(std::uint32_t robot) const { return state_->kickers.at(robot - 1); }

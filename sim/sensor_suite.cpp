@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::sim {
 namespace {
-
-std::int64_t nanoseconds(double time_s) { return std::llround(time_s * 1e9); }
 
 /// A point of F as the robot at `pose` sees it.
 PlanPoint in_robot(const kicking::Pose& pose, const PlanVector& axis, double x_m, double y_m) {
@@ -27,8 +27,8 @@ std::size_t snapshots(const Scenario& scenario) {
 
 SensorSuite::SensorSuite(const Scenario& scenario)
     : scenario_(scenario),
-      vision_latency_ns_(nanoseconds(scenario.vision.latency_s)),
-      flight_latency_ns_(nanoseconds(scenario.flight_camera.latency_s)),
+      vision_latency_ns_(kicking::nanoseconds(scenario.vision.latency_s)),
+      flight_latency_ns_(kicking::nanoseconds(scenario.flight_camera.latency_s)),
       slow_keep_(std::exp(-scenario.cycle_s / scenario.vision.slow_time_s)),
       past_(snapshots(scenario)) {
   const Robot& robot = scenario.robot;

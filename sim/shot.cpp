@@ -4,14 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/margin.hpp"
 
 namespace trivela::sim {
 namespace {
 
 constexpr std::int64_t kNear_ns = 1'000'000;  // step beside an opponent: a centimetre of the ball's way
-
-double seconds(std::int64_t time_ns) { return static_cast<double>(time_ns) * 1e-9; }
 
 kicking::Goal goal_of(const Field& field) {
   return {.y_m = field.goal_line_y_m,
@@ -44,7 +43,7 @@ Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_
 void Shot::advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   const auto somebody_near = [&] {
     return std::ranges::any_of(
-        opponents, [&](const OpponentBody& body) { return passes(body.position(), seconds(t_ns - t_ns_)); });
+        opponents, [&](const OpponentBody& body) { return passes(body.position(), kicking::seconds(t_ns - t_ns_)); });
   };
   while (!result_ && t_ns_ < t_ns && somebody_near()) step_to(std::min(t_ns_ + kNear_ns, t_ns), opponents);
   if (t_ns_ < t_ns) step_to(t_ns, opponents);
@@ -52,7 +51,7 @@ void Shot::advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents
 
 void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   const BallMotion before = ball_;
-  const double dt_s = seconds(t_ns - t_ns_);
+  const double dt_s = kicking::seconds(t_ns - t_ns_);
   sim::advance(ball_, scenario_.ball, dt_s);
   const std::int64_t before_t_ns = std::exchange(t_ns_, t_ns);
   if (result_) return;
@@ -67,7 +66,7 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   for (const OpponentBody& body : opponents) {
     if (!result_) meet_opponent(body.position(), t_ns);
   }
-  const double age_s = seconds(t_ns - release_t_ns_);
+  const double age_s = kicking::seconds(t_ns - release_t_ns_);
   if (!result_ && (at_rest(ball_) || age_s >= scenario_.possession.flight_limit_s)) settle_short(t_ns);
 }
 
@@ -94,7 +93,8 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   const Crossing crossing{ball_.position_m.x, ball_.position_m.z};
   const auto outcome = kicking::classify(crossing.x_m, crossing.z_m, goal, ball);
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
-  const bool saved = outcome == kicking::Outcome::kOnTarget && keeper_has(crossing, seconds(t_ns - release_t_ns_));
+  const bool saved =
+      outcome == kicking::Outcome::kOnTarget && keeper_has(crossing, kicking::seconds(t_ns - release_t_ns_));
   result_ = ShotResult{t_ns, outcome, crossing, margin, saved};
   if (saved || outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
     const double kept = saved ? scenario_.ball.body_restitution_ratio : scenario_.ball.frame_restitution_ratio;

@@ -18,8 +18,6 @@ namespace {
 using evaluator::log::Crossing;
 using kicking::degrees;
 
-constexpr double kTurnDistance_m = 8.0;  // as the drive has it
-
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());

@@ -10,6 +10,9 @@
 
 namespace trivela::cli {
 
+/// Of the turn drive: robot's centre to target (paper, section 3.3).
+inline constexpr double kTurnDistance_m = 8.0;
+
 /// How far the kicks of a match went from where they were aimed. A kick without a crossing counts as infinitely far.
 struct AimErrors {
   std::size_t kicks = 0;

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "cli/calibrate/calibration_check.hpp"
 #include "evaluator/calibration/drive_rows.hpp"
 #include "evaluator/calibration/lobs_of_scans.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -17,7 +18,6 @@ namespace {
 using evaluator::log::Reader;
 using kicking::degrees;
 
-constexpr double kTurnDistance_m = 8.0;   // robot's centre to target (paper, section 3.3)
 constexpr std::size_t kFewestLobs = 2;    // of a set-point (paper, section 2.2)
 constexpr std::uint32_t kMostKicks = 40;  // with a set-point in one more round
 

@@ -2,13 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
 #include <utility>
 
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
+#include "cli/write_file.hpp"
 #include "config/scenario.hpp"
 
 namespace trivela::cli {
@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongest_s = 8.0;  // that a possession of a drive takes, stop included; for the progress bar
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream out{path};
-  if (!(out << text) || !out.flush()) throw std::runtime_error{"cannot write " + path.string()};
-}
 
 }  // namespace
 
@@ -41,7 +36,7 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const fs::path& robot_file
     }
   }
   const LogClaim claim{record.log};
-  write(scenario_file, config::to_toml_text(plan.scenario));
+  write_file(scenario_file, config::to_toml_text(plan.scenario));
 
   config::Settings settings = settings_;
   settings.run.robot = robot_file.string();

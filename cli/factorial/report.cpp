@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/factorial/effect_json.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
@@ -126,8 +127,6 @@ std::string sweep_text(const FactorialReport& report) {
              name(report.sweep_law)) +
          evaluator::text_table(rows) + "\n" + sweep_sentence(report);
 }
-
-Json json_of(const Effect& effect) { return {{"value", effect.value}, {"ci", json_of(effect.ci)}}; }
 
 Json json_of_arm(const ArmTally& matches) {
   const MatchTally total = total_of(matches);

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "cli/factorial/effect_json.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using evaluator::Json;
 
 /// Every point in the order of the tables, its threshold as text.
 struct Row {
@@ -55,8 +56,6 @@ std::string oracle_sentence(const FrontierReport& report) {
   return fmt::format("At its best threshold, {:g}, {} has {} % of the oracle's shots on target.\n",
                      best_of(report).threshold, report.policy, percent(share));
 }
-
-Json json_of(const Effect& effect) { return {{"value", effect.value}, {"ci", {effect.ci.lo, effect.ci.hi}}}; }
 
 }  // namespace
 

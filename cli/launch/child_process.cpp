@@ -16,7 +16,7 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::chrono::seconds kPatience{5};
+constexpr std::chrono::seconds kGrace{5};
 
 [[noreturn]] void become(const std::filesystem::path& program, const std::vector<std::string>& arguments, int output,
                          pid_t launcher) {
@@ -57,7 +57,7 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
 ChildProcess::~ChildProcess() {
   if (pid_ > 0 && !ended()) {
     terminate();
-    if (!wait(kPatience)) {
+    if (!wait(kGrace)) {
       kill(pid_, SIGKILL);
       waitpid(pid_, nullptr, 0);
     }

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "cli/factorial/effect_json.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using evaluator::Json;
 
 std::string headline_name(const SensitivityReport& report, std::size_t i) {
   return fmt::format("{} - {}", report.arms[i + 1], report.arms[i]);
@@ -23,8 +24,6 @@ std::string efficiency(const ArmTally& arm) {
   if (total.kicks == 0) return "-";
   return fmt::format("{:.1f}", 100.0 * static_cast<double>(total.on_target) / static_cast<double>(total.kicks));
 }
-
-Json json_of(const Effect& effect) { return {{"value", effect.value}, {"ci", {effect.ci.lo, effect.ci.hi}}}; }
 
 Json json_of(const SensitivityReport& report, const std::vector<ArmTally>& arms) {
   Json json = Json::array();

@@ -12,6 +12,7 @@
 #include "cli/simulate/match_queue.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
+#include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
 #include "nodes/recorder/record_match.hpp"
@@ -53,7 +54,8 @@ std::vector<Played> play_all(const ExperimentPlan& plan, std::uint32_t match_id)
 /// Sessions of an experiment's arms; what all matches share is made once.
 class Sessions {
  public:
-  Sessions(const ExperimentPlan& plan, std::string arguments) : arguments_(std::move(arguments)) {
+  Sessions(const ExperimentPlan& plan, const std::string& arguments)
+      : arguments_sha256_(evaluator::log::sha256(arguments)) {
     for (const nodes::Arm& arm : plan.arms) {
       Session session;
       if (arm.robots.size() == 1) session.robot_id = 1;
@@ -71,14 +73,14 @@ class Sessions {
 
   const Session& of(std::uint32_t match_id, std::size_t arm, std::uint64_t match_seed) {
     Session& session = arms_[arm];
-    session.uuid = evaluator::log::experiment_uuid(arguments_, match_id, static_cast<std::uint32_t>(arm));
+    session.uuid = evaluator::log::experiment_uuid(arguments_sha256_, match_id, static_cast<std::uint32_t>(arm));
     session.match_id = match_id;
     session.seed = static_cast<std::int64_t>(match_seed);
     return session;
   }
 
  private:
-  std::string arguments_;
+  std::string arguments_sha256_;
   std::vector<Session> arms_;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "evaluator/calibration/release_track.hpp"
+#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/ball_sightings.sql.hpp"
 #include "evaluator/metrics/drive_kicks.sql.hpp"
 #include "kicking/geometry/frames.hpp"
@@ -41,25 +42,17 @@ struct DriveKick {
   Eigen::Vector2d crossing_in_robot() const { return kicking::to_robot(pose, {*x_cross_m, goal_line_y_m}); }
 };
 
-std::optional<double> number_if_any(const log::Value& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-
-double number(const log::Value& cell) { return number_if_any(cell).value_or(NAN); }
-
 std::vector<DriveKick> all_kicks(const log::Reader& reader) {
   std::vector<DriveKick> kicks;
   reader.query(kDriveKicksSql, [&](std::span<const log::Value> row) {
     kicks.push_back({.policy = std::get<std::string>(row[0]),
                      .order_t_ns = std::get<std::int64_t>(row[1]),
-                     .pose = {number(row[2]), number(row[3]), number(row[4])},
-                     .twist = {number(row[5]), number(row[6]), number(row[7])},
-                     .goal_line_y_m = number(row[8]),
-                     .power = number(row[9]),
-                     .x_cross_m = number_if_any(row[10]),
-                     .z_cross_m = number_if_any(row[11]),
+                     .pose = {log::number(row[2]), log::number(row[3]), log::number(row[4])},
+                     .twist = {log::number(row[5]), log::number(row[6]), log::number(row[7])},
+                     .goal_line_y_m = log::number(row[8]),
+                     .power = log::number(row[9]),
+                     .x_cross_m = log::number_if_any(row[10]),
+                     .z_cross_m = log::number_if_any(row[11]),
                      .robot = {std::get<std::int64_t>(row[12]), std::get<std::int64_t>(row[13])}});
   });
   return kicks;
@@ -106,7 +99,7 @@ SightingsByRobot all_sightings(const log::Reader& reader) {
   SightingsByRobot sightings;
   reader.query(kBallSightingsSql, [&](std::span<const log::Value> row) {
     sightings[{std::get<std::int64_t>(row[0]), std::get<std::int64_t>(row[1])}].push_back(
-        {std::get<std::int64_t>(row[2]), {number(row[3]), number(row[4]), number(row[5])}});
+        {std::get<std::int64_t>(row[2]), {log::number(row[3]), log::number(row[4]), log::number(row[5])}});
   });
   return sightings;
 }

@@ -9,7 +9,7 @@ namespace trivela::evaluator {
 namespace {
 
 constexpr double kHeld_s = 0.2;
-constexpr double kFlight_s = 0.5;
+constexpr double kTrack_s = 0.5;
 constexpr double kAway_m = 0.25;  // eight standard deviations of a sighting: the ball has left
 constexpr std::size_t kFewest = 5;
 constexpr std::size_t kMostInFlight = 8;
@@ -56,7 +56,7 @@ std::optional<double> release_delay_s(std::span<const BallSighting> sightings, s
   for (const BallSighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - order_t_ns);
     if (t_s >= -kHeld_s && t_s <= 0.0) held.push_back({t_s, sighting.ball_m});
-    if (t_s > 0.0 && t_s <= kFlight_s) after.push_back({t_s, sighting.ball_m});
+    if (t_s > 0.0 && t_s <= kTrack_s) after.push_back({t_s, sighting.ball_m});
   }
   if (held.size() < kFewest) return std::nullopt;
   const Track handler = fit_track(held, 0.0);

@@ -6,18 +6,11 @@
 #include <tuple>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/predicted_kicks.sql.hpp"
 
 namespace trivela::evaluator {
 namespace {
-
-std::optional<double> number_if_any(const log::Value& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return *number;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-
-double number(const log::Value& cell) { return number_if_any(cell).value_or(NAN); }
 
 /// File, whether the match has a number, and that or its session.
 using MatchKey = std::tuple<std::size_t, bool, std::int64_t>;
@@ -35,14 +28,14 @@ std::vector<PredictedKick> predicted_kicks(const std::vector<std::filesystem::pa
       const MatchKey key{file, match_id != nullptr, match_id ? *match_id : std::get<std::int64_t>(row[2])};
       const auto match = matches.emplace(key, static_cast<std::uint32_t>(matches.size())).first->second;
       kicks.push_back({.match = match,
-                       .shot = {.p_on_target = number(row[4]),
-                                .distance_m = number(row[5]),
-                                .vx_mps = number(row[6]),
-                                .vy_mps = number(row[7]),
-                                .omega_radps = number(row[8]),
-                                .power = number(row[9]),
-                                .opponent_distance_m = number_if_any(row[10])},
-                       .on_target = number(row[11]) > 0.5});
+                       .shot = {.p_on_target = log::number(row[4]),
+                                .distance_m = log::number(row[5]),
+                                .vx_mps = log::number(row[6]),
+                                .vy_mps = log::number(row[7]),
+                                .omega_radps = log::number(row[8]),
+                                .power = log::number(row[9]),
+                                .opponent_distance_m = log::number_if_any(row[10])},
+                       .on_target = log::number(row[11]) > 0.5});
     });
   }
   return kicks;

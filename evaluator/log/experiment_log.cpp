@@ -32,8 +32,8 @@ void note_experiment(SQLite::Database& database, const Experiment& experiment) {
   insert.exec();
 }
 
-std::unique_ptr<SQLite::Database> make(const fs::path& path, const Experiment& experiment) {
-  return new_file(path, kMatchLog, [&](SQLite::Database& database) {
+void make(const fs::path& path, const Experiment& experiment) {
+  new_file(path, kMatchLog, [&](SQLite::Database& database) {
     SQLite::Transaction transaction(database);
     create_tables(database);
     note_experiment(database, experiment);
@@ -53,10 +53,11 @@ void check(SQLite::Database& database, const fs::path& path, const Experiment& e
   }
 }
 
-/// The log of a run that was stopped.
-std::unique_ptr<SQLite::Database> reopen(const fs::path& path, const Experiment& experiment) {
+/// The log of a run that was stopped, or has just begun.
+std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment& experiment) {
   try {
-    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
+    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
+                                                       kBusyTimeout_ms);
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
     if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
@@ -70,20 +71,23 @@ std::unique_ptr<SQLite::Database> reopen(const fs::path& path, const Experiment&
 
 std::unique_ptr<SQLite::Database> open(const fs::path& path, const Experiment& experiment) {
   const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
-  auto database = there ? reopen(path, experiment) : make(path, experiment);
-  // A match that a power cut takes is played again: no commit waits for the disk.
-  database->exec("PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536;");
+  if (!there) make(path, experiment);
+  auto database = resume(path, experiment);
+  // A match that a power cut takes is played again: no commit waits for the disk. The CHECKs are of labels, which come
+  // from the enumerations themselves; SQLite builds a table for each such list and row.
+  database->exec(
+      "PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536; PRAGMA ignore_check_constraints = ON;"
+      "PRAGMA wal_autocheckpoint = 8000;");
   return database;
 }
 
 }  // namespace
 
-std::string experiment_uuid(std::string_view arguments, std::uint32_t match_id, std::uint32_t arm) {
+std::string experiment_uuid(std::string_view arguments_sha256, std::uint32_t match_id, std::uint32_t arm) {
   if (match_id >= (1u << 20) || arm >= 128) throw std::out_of_range("an experiment has 2^20 matches and 128 arms");
-  const std::string hash = sha256(arguments);
   // The last bit before the variant is not part of session_id.
-  return fmt::format("{}-{:04x}-8{:03x}-8{}-{}", hash.substr(0, 8), match_id >> 4, (match_id & 15) << 8 | arm << 1,
-                     hash.substr(8, 3), hash.substr(11, 12));
+  return fmt::format("{}-{:04x}-8{:03x}-8{}-{}", arguments_sha256.substr(0, 8), match_id >> 4,
+                     (match_id & 15) << 8 | arm << 1, arguments_sha256.substr(8, 3), arguments_sha256.substr(11, 12));
 }
 
 struct ExperimentLog::Impl final : RowSink {

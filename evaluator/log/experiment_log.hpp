@@ -17,9 +17,10 @@ struct Experiment {
   std::int64_t matches = 0;  ///< of each arm
 };
 
-/// The UUID of a session of an experiment, version 8 (RFC 9562): of the arguments, the match (below 2^20) and the arm
-/// (below 128) alone. Sessions of one experiment have keys that rise with the match, then with the arm.
-std::string experiment_uuid(std::string_view arguments, std::uint32_t match_id, std::uint32_t arm);
+/// The UUID of a session of an experiment, version 8 (RFC 9562): of the arguments' SHA-256 (64 hexadecimal digits), the
+/// match (below 2^20) and the arm (below 128) alone. Sessions of one experiment have keys that rise with the match,
+/// then with the arm.
+std::string experiment_uuid(std::string_view arguments_sha256, std::uint32_t match_id, std::uint32_t arm);
 
 /// Cells of a row, in the order of the columns of its table.
 class RowSink {
@@ -56,7 +57,8 @@ class ExperimentLog {
   /// The cells of the next row of a table; end_row() inserts it.
   RowSink& row(std::size_t table, std::int64_t session_id);
 
-  /// Throws std::runtime_error where the row is against the schema or the disk refuses.
+  /// Throws std::runtime_error where a cell lacks or is of another type, the key is there, or the disk refuses. Labels
+  /// are taken as they are.
   void end_row();
 
   /// The match is in the file. Throws std::runtime_error where the disk refuses.

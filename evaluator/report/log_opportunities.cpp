@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/compared_sessions.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
@@ -25,11 +26,6 @@ std::int64_t integer(const log::Value& value) { return std::get<std::int64_t>(va
 std::optional<std::int64_t> integer_if_any(const log::Value& value) {
   const auto* const n = std::get_if<std::int64_t>(&value);
   return n != nullptr ? std::optional(*n) : std::nullopt;
-}
-
-std::optional<double> number_if_any(const log::Value& value) {
-  const auto* const x = std::get_if<double>(&value);
-  return x != nullptr ? std::optional(*x) : std::nullopt;
 }
 
 std::string text_if_any(const log::Value& value) {
@@ -97,7 +93,7 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
   // The goal's middle is the same all over a log; a log without a kick needs no distance.
   std::optional<double> goal_y_m;
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
-               [&](Cells row) { goal_y_m = number_if_any(row[0]); });
+               [&](Cells row) { goal_y_m = log::number_if_any(row[0]); });
   std::unordered_map<Key, std::size_t, KeyHash> places;
   reader.query(kOpportunitiesSql, [&](Cells row) {
     const auto session = sessions.find(integer(row[0]));
@@ -108,8 +104,8 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     o.half = static_cast<int>(integer(row[2]));
     o.possession_id = integer(row[3]);
     o.policy = text_if_any(row[4]);
-    o.probability = number_if_any(row[5]);
-    const auto x_m = number_if_any(row[6]), y_m = number_if_any(row[7]);
+    o.probability = log::number_if_any(row[5]);
+    const auto x_m = log::number_if_any(row[6]), y_m = log::number_if_any(row[7]);
     o.start_x_m = x_m;
     if (x_m && y_m && goal_y_m) o.start_distance_m = std::hypot(*x_m, *goal_y_m - *y_m);
     places[{o.session, o.robot_id, o.half, o.possession_id}] = logged.rows.size();
@@ -121,8 +117,8 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     const auto place = places.find(
         {session->second, static_cast<int>(integer(row[1])), static_cast<int>(integer(row[2])), integer(row[3])});
     if (place == places.end()) return;
-    logged.rows[place->second].first = {number_if_any(row[5]).value_or(0.0), number_if_any(row[6]).value_or(0.0),
-                                        number_if_any(row[7])};
+    logged.rows[place->second].first = {log::number_if_any(row[5]).value_or(0.0),
+                                        log::number_if_any(row[6]).value_or(0.0), log::number_if_any(row[7])};
   });
   std::int64_t alone = 0;
   reader.query(kComparedKicksSql, [&](Cells row) {
@@ -144,7 +140,7 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     // The simulator settles every ball that left; without its word there was none in front of the kicker.
     const bool no_ball = truth && outcome.empty() && logged.sessions[o.session].simulated;
     o.ending = no_ball ? Ending::kNoKick : ending_of(outcome);
-    o.distance_m = number_if_any(row[7]);
+    o.distance_m = log::number_if_any(row[7]);
   });
   if (alone > 0 && !places.empty()) {
     logged.remarks.push_back(fmt::format("{} kicks belong to no possession that the log knows", alone));
@@ -189,7 +185,7 @@ LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>&
       const auto session = fresh.find(integer(row[0]));
       if (session == fresh.end()) return;
       logged.halves.push_back({session->second, static_cast<int>(integer(row[1])), text_if_any(row[2]),
-                               number_if_any(row[3]).value_or(0.0)});
+                               log::number_if_any(row[3]).value_or(0.0)});
     });
     std::int64_t missing = 0;
     for (const log::Loss& loss : reader.losses()) missing += loss.missing();

@@ -13,14 +13,12 @@ using Table = std::vector<std::vector<std::string>>;
 
 std::string number(std::int64_t n) { return std::to_string(n); }
 
-std::string interval(stats::Interval ci) { return fmt::format("{} to {}", percent(ci.lo), percent(ci.hi)); }
-
 std::string share(stats::Counts counts) {
   const auto p = stats::efficiency(counts);
   return p ? percent(*p) : "-";
 }
 
-std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n > 0 ? interval(ci) : "-"; }
+std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n > 0 ? percent(ci) : "-"; }
 
 std::string groups_table(const PolicyComparison& c) {
   Table table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};

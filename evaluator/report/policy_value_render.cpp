@@ -9,13 +9,13 @@
 namespace trivela::evaluator {
 namespace {
 
-std::string interval(stats::Interval ci) { return fmt::format("{} to {}", percent(ci.lo), percent(ci.hi)); }
-
 std::vector<std::string> row(const std::string& name, const stats::PolicyValue& value) {
-  return {name, percent(value.value), interval(value.ci)};
+  return {name, percent(value.value), percent(value.ci)};
 }
 
-Json value_json(const stats::PolicyValue& value) { return {{"value", value.value}, {"ci95", json_of(value.ci)}}; }
+Json value_json(const stats::PolicyValue& value) {
+  return {{"value", value.value}, {"ci95", evaluator::json_of(value.ci)}};
+}
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string to_text(const PolicyValueReport& r) {
   text +=
       wrapped(fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
                           "as they were played it was {}.",
-                          r.policy, percent(v.doubly_robust.value), interval(v.doubly_robust.ci), percent(v.logged)),
+                          r.policy, percent(v.doubly_robust.value), percent(v.doubly_robust.ci), percent(v.logged)),
               "  ") +
       "\n\nOn target an opportunity\n";
   text += text_table({{"estimate", "value", "95 %"},

@@ -10,10 +10,6 @@ using Table = std::vector<std::vector<std::string>>;
 
 std::string number(std::int64_t n) { return std::to_string(n); }
 
-std::string interval(stats::Interval interval) {
-  return fmt::format("{} to {}", percent(interval.lo), percent(interval.hi));
-}
-
 std::string heading(const Report& report) {
   const auto simulated = report.simulated_sessions();
   std::string text;
@@ -41,7 +37,7 @@ std::string table2(const Report& report) {
     const auto efficiency = stats::efficiency(row.counts());
     const auto rate = row.kicks_per_min();
     table.push_back({row.policy, number(row.inside()), number(row.outside()), number(row.unknown()),
-                     efficiency ? percent(*efficiency) : "-", efficiency ? interval(stats::wilson(row.counts())) : "-",
+                     efficiency ? percent(*efficiency) : "-", efficiency ? percent(stats::wilson(row.counts())) : "-",
                      row.played_min ? fmt::format("{:.2f}", *row.played_min) : "-",
                      rate ? fmt::format("{:.2f}", *rate) : "-"});
   }

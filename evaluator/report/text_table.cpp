@@ -24,6 +24,10 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
 
 std::string percent(double fraction) { return fmt::format("{:.1f} %", 100.0 * fraction); }
 
+std::string percent(stats::Interval fractions) {
+  return fmt::format("{} to {}", percent(fractions.lo), percent(fractions.hi));
+}
+
 std::string words(std::string label) {
   std::ranges::replace(label, '_', ' ');
   return label;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/stats/counts.hpp"
+
 namespace trivela::evaluator {
 
 /// Columns padded to their widest cell, two blanks between them: the first to the left, the others to the right.
@@ -11,6 +13,9 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows);
 
 /// "52.3 %".
 std::string percent(double fraction);
+
+/// "40.1 % to 63.9 %".
+std::string percent(stats::Interval fractions);
 
 /// "on target" of "on_target".
 std::string words(std::string label);

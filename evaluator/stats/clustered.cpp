@@ -5,11 +5,11 @@
 #include <map>
 
 #include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
 
-double square(double x) { return x * x; }
 double real(std::int64_t n) { return static_cast<double>(n); }
 
 void add(Counts& sum, Counts counts) { sum = {sum.inside + counts.inside, sum.n + counts.n}; }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluator/stats/square.hpp"
+
 namespace trivela::evaluator::stats {
 namespace {
-
-double square(double x) { return x * x; }
 
 Ratio log_interval(double value, double variance, double confidence) {
   const double half_width = z_of(confidence) * std::sqrt(variance);

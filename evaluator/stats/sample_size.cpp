@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
-
-double square(double x) { return x * x; }
 
 // Phi^-1(power) for a power of one half at least.
 double z_of_power(double power) { return z_of(2.0 * power - 1.0); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
@@ -23,8 +24,6 @@ struct Cells {
 };
 
 bool has_both(const Stratum& s) { return s.older.n > 0 && s.newer.n > 0; }
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

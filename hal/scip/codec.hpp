@@ -14,6 +14,12 @@ namespace trivela::hal::scip {
 inline constexpr char kFirstCharacter = 0x30;
 inline constexpr char kLastCharacter = 0x6f;
 
+/// Steps of a revolution have four digits.
+inline constexpr int kLastStep = 9999;
+
+/// Coded characters in a line of data, without the sum.
+inline constexpr std::size_t kBlock = 64;
+
 /// `value` in so many characters, 1 to 5; bits that do not fit are cut off.
 std::string encode(std::uint32_t value, std::size_t characters);
 

@@ -13,10 +13,8 @@
 namespace trivela::hal::scip {
 namespace {
 
-constexpr std::size_t kBlock = 64;
 constexpr std::uint32_t kLargest = (1U << 18U) - 1;
 constexpr std::uint32_t kNoReturn = 1;  // an error code
-constexpr int kLastStep = 9999;
 
 std::optional<int> number_of(std::string_view digits) {
   int number = 0;

@@ -9,7 +9,6 @@
 namespace trivela::hal::scip {
 namespace {
 
-constexpr int kLastStep = 9999;  // four digits
 constexpr int kLongestRange_mm = (1 << 18) - 1;
 constexpr std::size_t kRangeCharacters = 3;
 

@@ -7,8 +7,6 @@
 namespace trivela::hal::scip {
 namespace {
 
-constexpr std::size_t kBlock = 64;  // bytes of data a line, without the sum
-
 // Takes the next line off `text`; none when there is no more.
 std::optional<std::string_view> next_line(std::string_view& text) {
   if (text.empty()) return std::nullopt;

@@ -10,10 +10,10 @@ double alpha_atan_rad(double vx_mps, double distance_m, double time_s) {
   return std::atan(vx_mps * time_s / distance_m);
 }
 
-double alpha_physical_rad(double v_kick_mps, double exit_angle_rad, const Transfer& transfer, const Twist& twist,
+double alpha_physical_rad(double v_kick_mps, const Elevation& exit_angle, const Transfer& transfer, const Twist& twist,
                           double ball_offset_m) {
   return std::atan2(transfer.lateral * (twist.vx_mps - twist.omega_radps * ball_offset_m),
-                    v_kick_mps * std::cos(exit_angle_rad) + transfer.along_mps(twist.vy_mps));
+                    v_kick_mps * exit_angle.cosine + transfer.along_mps(twist.vy_mps));
 }
 
 double beta_paper_rad(double omega_radps, double slope_s) { return slope_s * omega_radps; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kicking/ballistics/transfer.hpp"
+#include "kicking/geometry/elevation.hpp"
 #include "kicking/geometry/frames.hpp"
 
 namespace trivela::kicking {
@@ -19,7 +20,7 @@ double alpha_atan_rad(double vx_mps, double distance_m, double time_s);
 
 /// alpha at the release by velocity addition at the ball's point [rad], right positive:
 /// atan2(k_x (vx - omega r), V_kick cos(theta) + k_y vy).
-double alpha_physical_rad(double v_kick_mps, double exit_angle_rad, const Transfer& transfer, const Twist& twist,
+double alpha_physical_rad(double v_kick_mps, const Elevation& exit_angle, const Transfer& transfer, const Twist& twist,
                           double ball_offset_m);
 
 /// beta by the paper's line (section 3.3, figure 10) [rad], with the sign of omega: slope * omega.

@@ -5,14 +5,15 @@
 
 #include "kicking/ballistics/transfer.hpp"
 #include "kicking/constants.hpp"
-#include "kicking/geometry/frames.hpp"
+#include "kicking/geometry/elevation.hpp"
+#include "kicking/geometry/turned_pose.hpp"
 
 namespace trivela::kicking {
 
 /// What leaves the robot if the order goes out now.
 struct KickAction {
   double v_kick_mps = 0.0;
-  double exit_angle_rad = 0.0;
+  Elevation exit_angle{};
   Transfer transfer{};
   double delay_s = 0.0;
   double ball_offset_m = 0.27;
@@ -32,5 +33,10 @@ struct Crossing {
 /// towards the line.
 std::optional<Crossing> predict_crossing(const Pose& pose, const Twist& twist, const KickAction& kick, double goal_y_m,
                                          double launch_height_m = Ball{}.radius_m, double gravity_mps2 = kGravity_mps2);
+
+/// The same from the robot's pose at the release, advance(pose, twist, kick.delay_s).
+std::optional<Crossing> crossing_of_release(const TurnedPose& release, const Twist& twist, const KickAction& kick,
+                                            double goal_y_m, double launch_height_m = Ball{}.radius_m,
+                                            double gravity_mps2 = kGravity_mps2);
 
 }  // namespace trivela::kicking

@@ -29,9 +29,10 @@ std::optional<double> newton(double start, const Function& f) {
 
 }  // namespace
 
-std::optional<Aim> aim_exact(const FlightPoint& point, double exit_angle_rad, const Carry& carry, double gravity_mps2) {
+std::optional<Aim> aim_exact(const FlightPoint& point, const Elevation& exit_angle, const Carry& carry,
+                             double gravity_mps2) {
   const double d = point.distance_m;
-  const double tangent = std::tan(exit_angle_rad);
+  const double tangent = exit_angle.tangent();
   const double drop = d * tangent - point.height_m;
   if (!(d > 0.0 && drop > 0.0)) return std::nullopt;
 
@@ -54,7 +55,7 @@ std::optional<Aim> aim_exact(const FlightPoint& point, double exit_angle_rad, co
     t = bracketed_root(excess_m, 0.0, *t_long);
   }
   if (!t || !(d / *t > carry.along_mps)) return std::nullopt;
-  return Aim{rise_m(*t) / (*t * std::sin(exit_angle_rad)), std::atan2(carry.right_mps, d / *t - carry.along_mps), *t};
+  return Aim{rise_m(*t) / (*t * exit_angle.sine), *t, carry.right_mps, d / *t - carry.along_mps};
 }
 
 }  // namespace trivela::kicking

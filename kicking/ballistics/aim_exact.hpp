@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "kicking/ballistics/crossing.hpp"
@@ -15,15 +16,19 @@ struct Carry {
 /// Kick that makes up for the carry in speed and direction at once.
 struct Aim {
   double v_kick_mps = 0.0;
-  double left_of_target_rad = 0.0;  ///< where the kicker points at the release
   double t_flight_s = 0.0;
+  double left_mps = 0.0;    ///< of the kick's own velocity: away from the line, against the carry
+  double toward_mps = 0.0;  ///< and along it, > 0
+
+  /// Where the kicker points at the release: delta.
+  double left_of_target_rad() const { return std::atan2(left_mps, toward_mps); }
 };
 
 /// Joint solution of direction and height, without drag, with T the time of flight and delta the angle to the left:
 /// V c sin(delta) = w_right, V c cos(delta) + w_along = d / T, V s T - g T^2 / 2 = h. Eliminating V and delta,
 /// (h + g T^2 / 2) cot(theta) = |(d - w_along T, w_right T)|, solved for T in a bracket.
 /// None if the point is out of the angle's reach or the kicker would have to point backwards.
-std::optional<Aim> aim_exact(const FlightPoint& point, double exit_angle_rad, const Carry& carry,
+std::optional<Aim> aim_exact(const FlightPoint& point, const Elevation& exit_angle, const Carry& carry,
                              double gravity_mps2 = kGravity_mps2);
 
 }  // namespace trivela::kicking

@@ -9,23 +9,23 @@ double height_at(double distance_m, double v_h_mps, double v_z_mps, double gravi
   return v_z_mps * t - 0.5 * gravity_mps2 * t * t;
 }
 
-std::optional<double> crossing_speed(const FlightPoint& point, double exit_angle_rad, double gravity_mps2) {
+std::optional<double> crossing_speed(const FlightPoint& point, const Elevation& exit_angle, double gravity_mps2) {
   const double d = point.distance_m;
-  const double drop = d * std::tan(exit_angle_rad) - point.height_m;  // below the line of the kick, at d
+  const double drop = d * exit_angle.tangent() - point.height_m;  // below the line of the kick, at d
   if (!(d > 0.0 && drop > 0.0)) return std::nullopt;
-  return d / std::cos(exit_angle_rad) * std::sqrt(0.5 * gravity_mps2 / drop);
+  return d / exit_angle.cosine * std::sqrt(0.5 * gravity_mps2 / drop);
 }
 
-bool descends_through(const FlightPoint& point, double exit_angle_rad) {
-  return point.height_m < 0.5 * point.distance_m * std::tan(exit_angle_rad);
+bool descends_through(const FlightPoint& point, const Elevation& exit_angle) {
+  return point.height_m < 0.5 * point.distance_m * exit_angle.tangent();
 }
 
 double range_speed(double range_m, double exit_angle_rad, double gravity_mps2) {
   return std::sqrt(range_m * gravity_mps2 / std::sin(2.0 * exit_angle_rad));
 }
 
-double extended_range(const FlightPoint& point, double exit_angle_rad) {
-  return point.distance_m + point.height_m / std::tan(exit_angle_rad);
+double extended_range(const FlightPoint& point, const Elevation& exit_angle) {
+  return point.distance_m + point.height_m / exit_angle.tangent();
 }
 
 }  // namespace trivela::kicking

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "kicking/constants.hpp"
+#include "kicking/geometry/elevation.hpp"
 
 namespace trivela::kicking {
 
@@ -18,11 +19,11 @@ double height_at(double distance_m, double v_h_mps, double v_z_mps, double gravi
 
 /// Exit speed of the drag-free flight through the point [m/s]: v0 = sqrt(g d^2 / (2 cos^2(theta) (d tan(theta) - h))).
 /// None if no speed reaches it: d <= 0 or d tan(theta) <= h.
-std::optional<double> crossing_speed(const FlightPoint& point, double exit_angle_rad,
+std::optional<double> crossing_speed(const FlightPoint& point, const Elevation& exit_angle,
                                      double gravity_mps2 = kGravity_mps2);
 
 /// Does that flight pass the point on its way down: h < d tan(theta) / 2?
-bool descends_through(const FlightPoint& point, double exit_angle_rad);
+bool descends_through(const FlightPoint& point, const Elevation& exit_angle);
 
 /// The paper's range law (section 2.2) [m/s]: V0 = sqrt(D g / sin(2 theta)), the ball lands at the launch's height
 /// after D.
@@ -30,6 +31,6 @@ double range_speed(double range_m, double exit_angle_rad, double gravity_mps2 = 
 
 /// Landing distance by which the released CAMBADA code brings a height into the range law [m]: d + h / tan(theta).
 /// First order in h only: the ball crosses d at h / (1 + h / (d tan(theta))).
-double extended_range(const FlightPoint& point, double exit_angle_rad);
+double extended_range(const FlightPoint& point, const Elevation& exit_angle);
 
 }  // namespace trivela::kicking

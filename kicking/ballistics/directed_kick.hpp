@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "kicking/constants.hpp"
+#include "kicking/geometry/elevation.hpp"
 
 namespace trivela::kicking {
 
@@ -13,16 +13,6 @@ struct LineAhead {
   double distance_m = 0.0;
   double toward_ratio = 1.0;
   double carried_mps = 0.0;
-};
-
-/// An angle over the floor with its sine and cosine.
-struct Elevation {
-  Elevation() = default;
-  explicit Elevation(double angle) : angle_rad(angle), sine(std::sin(angle)), cosine(std::cos(angle)) {}
-
-  double angle_rad = 0.0;
-  double sine = 0.0;
-  double cosine = 1.0;
 };
 
 struct DirectedKick {

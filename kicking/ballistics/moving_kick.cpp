@@ -4,16 +4,16 @@
 
 namespace trivela::kicking {
 
-double moving_kick_paper(double v0_mps, double u_mps, double exit_angle_rad) {
-  return v0_mps - u_mps * std::cos(exit_angle_rad);
+double moving_kick_paper(double v0_mps, double u_mps, const Elevation& exit_angle) {
+  return v0_mps - u_mps * exit_angle.cosine;
 }
 
-std::optional<double> moving_kick_exact(const FlightPoint& point, double exit_angle_rad, double u_mps,
+std::optional<double> moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps,
                                         double gravity_mps2) {
   const double d = point.distance_m;
   const double h = point.height_m;
-  const double c = std::cos(exit_angle_rad);
-  const double s = std::sin(exit_angle_rad);
+  const double c = exit_angle.cosine;
+  const double s = exit_angle.sine;
   const double quadratic = c * (d * s - h * c);
   const double linear = u_mps * (d * s - 2.0 * h * c);
   const double constant = h * u_mps * u_mps + 0.5 * gravity_mps2 * d * d;

@@ -10,7 +10,7 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr const char* kWhat = "deflection";
+constexpr const char* kDeflection = "deflection";
 
 double reach_m(const DeflectionRow& row) { return row.distance_m + row.lever_m; }
 
@@ -34,8 +34,8 @@ DeflectionFit fit_deflection(std::span<const DeflectionRow> rows, std::optional<
     vx.push_back(row.vx_mps);
     b.push_back(row.b_m);
   }
-  fit.line = line_through_origin(vx, fit.alpha_rad, kWhat);
-  fit.travel = line_through_origin(vx, b, kWhat);
+  fit.line = line_through_origin(vx, fit.alpha_rad, kDeflection);
+  fit.travel = line_through_origin(vx, b, kDeflection);
   double squares = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double residual = fit.alpha_rad[i] - alpha_atan_rad(rows[i].vx_mps, reach_m(rows[i]), fit.travel.slope.value);
@@ -50,7 +50,7 @@ DeflectionFit fit_deflection(std::span<const DeflectionRow> rows, std::optional<
     carried.push_back(row.vx_mps * row.distance_m / *row.v_h_mps);
     by_carry.push_back(row.b_m - row.vx_mps * *delay_s);
   }
-  fit.lateral = line_through_origin(carried, by_carry, kWhat);
+  fit.lateral = line_through_origin(carried, by_carry, kDeflection);
   return fit;
 }
 

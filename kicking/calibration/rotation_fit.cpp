@@ -8,7 +8,7 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr const char* kWhat = "rotation";
+constexpr const char* kRotation = "rotation";
 
 void check(std::span<const RotationRow> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -27,7 +27,7 @@ RotationFit fit_rotation(std::span<const RotationRow> rows, std::optional<Rotati
     omega.push_back(row.omega_radps);
     fit.beta_rad.push_back(std::copysign(1.0, row.omega_radps) * std::atan(row.allowed_error_m / row.distance_m));
   }
-  fit.line = line_through_origin(omega, fit.beta_rad, kWhat);
+  fit.line = line_through_origin(omega, fit.beta_rad, kRotation);
   const bool with_speed = std::ranges::all_of(rows, [](const RotationRow& row) { return row.v_h_mps.has_value(); });
   if (!lever || !with_speed) return fit;
   std::vector<double> turned;  // beta without the lever
@@ -35,7 +35,7 @@ RotationFit fit_rotation(std::span<const RotationRow> rows, std::optional<Rotati
     const double of_lever = std::atan(omega[i] * lever->ball_offset_m / *rows[i].v_h_mps);
     turned.push_back(fit.beta_rad[i] - of_lever - 0.5 * lever->cycle_s * omega[i]);
   }
-  fit.delay = line_through_origin(omega, turned, kWhat);
+  fit.delay = line_through_origin(omega, turned, kRotation);
   return fit;
 }
 

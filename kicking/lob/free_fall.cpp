@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "kicking/constants.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
 
 constexpr std::size_t kMostErrors = 256;  // a flight has a hundred; no heap while scans come
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
 }  // namespace
 

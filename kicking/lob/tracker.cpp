@@ -4,14 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/free_fall.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
 
 constexpr int kLeastCentres = 6;  // that show an acceleration, or a ball that lies
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
 double apart_m(const BallCentre& a, double x_m, double z_m) { return std::hypot(a.x_m - x_m, a.z_m - z_m); }
 

@@ -17,16 +17,16 @@ struct Direction {
 };
 
 Direction expected_direction(const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input,
-                             double v_kick_mps, double exit_angle_rad) {
+                             const Shot& shot, double v_kick_mps) {
   const Twist& twist = input.twist;
   if (config.alpha_law == AlphaLaw::kPaperLine) {
     return {input.pose, alpha_paper_rad(twist.vx_mps, robot.alpha_slope_rad_per_mps),
             beta_paper_rad(twist.omega_radps, robot.beta_slope_s)};
   }
   // From the ball's point at the release, with the heading of now: the turn until then is beta's.
-  const Eigen::Vector2d ball = held_ball(advance(input.pose, twist, robot.delay_s), robot);
+  const Eigen::Vector2d ball = held_ball(shot.release, robot);
   return {{ball.x(), ball.y(), input.pose.heading_rad},
-          alpha_physical_rad(v_kick_mps, exit_angle_rad, robot.transfer_exact, twist, robot.ball_offset_m),
+          alpha_physical_rad(v_kick_mps, shot.exit_angle, robot.transfer_exact, twist, robot.ball_offset_m),
           twist.omega_radps * (robot.delay_s + 0.5 * config.cycle_s)};
 }
 
@@ -38,7 +38,7 @@ Judgement judge_moving(const PolicyConfig& config, const RobotModel& robot, cons
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
   const double v_kick_mps = shot.power ? robot.table.speed_for(*shot.power) : robot.table.back().speed_mps;
-  const Direction expected = expected_direction(config, robot, input, v_kick_mps, shot.exit_angle_rad);
+  const Direction expected = expected_direction(config, robot, input, shot, v_kick_mps);
   judgement.alpha_rad = expected.alpha_rad;
   judgement.beta_rad = expected.beta_rad;
   set_alignment(judgement, align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target,

@@ -10,7 +10,7 @@ namespace trivela::kicking {
 namespace {
 
 constexpr double kAtMark_m = 0.2;         // beyond the noise of self-localisation
-constexpr double kFewCycles = 3.0;        // past the place of the kick, within which the order must go out
+constexpr double kOrderCycles = 3.0;      // past the place of the kick, within which the order must go out
 constexpr double kTooLate_m = 0.5;        // past it without an order: it starts over
 constexpr double kAside_m = 0.5;          // off the way at the kick: somebody pushed the robot
 const double kAstray_rad = radians(8.0);  // off the heading at the kick: the same
@@ -56,7 +56,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   judgement.drive.vy_mps = velocity_mps * along.y();
   if (standing) {
     judgement.reason = settle(config, input, memory);
-  } else if (passed_m >= 0.0 && passed_m <= kFewCycles * config.cycle_s * std::abs(velocity_mps)) {
+  } else if (passed_m >= 0.0 && passed_m <= kOrderCycles * config.cycle_s * std::abs(velocity_mps)) {
     judgement.reason = Reason::kFire;
   } else {
     judgement.reason = Reason::kNotAligned;

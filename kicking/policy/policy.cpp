@@ -42,6 +42,31 @@ constexpr std::array<Rule, kPolicyCount> kRules{judge_stopped,       judge_movin
                                                 judge_lateral_drive, judge_turn_drive, judge_straight_drive,
                                                 judge_predictive,    judge_learned,    judge_predictive};
 
+/// Nothing is decided: why not, and how to drive meanwhile.
+Judgement hold(const PolicyConfig& config, const Goal& goal, Reason reason, const Twist& drive) {
+  Judgement judgement = describe(config, goal, {});
+  judgement.reason = reason;
+  judgement.drive = drive;
+  return judgement;
+}
+
+/// The policy's own rule, where something may be decided.
+Judgement judge_freely(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                       const PolicyInput& input, PolicyMemory& memory) {
+  Judgement judgement = kRules[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
+  if (order_pending(config, input, memory)) {
+    judgement.reason = Reason::kOrderPending;
+  } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
+    judgement.reason = Reason::kKickerNotReady;
+  }
+  judgement.fire = judgement.reason == Reason::kFire;
+  if (judgement.fire) {
+    memory.fired_t_ns = input.t_ns;
+    if (is_drive(policy)) count_drive_kick(policy, config, input, judgement.drive, memory.drive);
+  }
+  return judgement;
+}
+
 }  // namespace
 
 const char* name(PolicyName policy) {
@@ -120,29 +145,12 @@ Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel&
     memory.turning = false;
     memory.settling_since_t_ns.reset();
     memory.drive.passing = false;
-    Judgement held = describe(config, goal, {});
-    held.reason = hindered;
-    return held;
+    return hold(config, goal, hindered, {});
   }
-  if (is_drive(policy) && order_pending(config, input, memory)) {
-    // Between order and release nothing may change: the next velocity and the way back are for later.
-    Judgement held = describe(config, goal, {});
-    held.reason = Reason::kOrderPending;
-    held.drive = memory.drive.command;
-    return held;
-  }
-  Judgement judgement = kRules[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
-  if (order_pending(config, input, memory)) {
-    judgement.reason = Reason::kOrderPending;
-  } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
-    judgement.reason = Reason::kKickerNotReady;
-  }
-  judgement.fire = judgement.reason == Reason::kFire;
-  if (judgement.fire) {
-    memory.fired_t_ns = input.t_ns;
-    if (is_drive(policy)) count_drive_kick(policy, config, input, judgement.drive, memory.drive);
-  }
-  return judgement;
+  // Between a drive's order and its release nothing may change: the next velocity and the way back are for later.
+  if (is_drive(policy) && order_pending(config, input, memory))
+    return hold(config, goal, Reason::kOrderPending, memory.drive.command);
+  return judge_freely(policy, config, robot, goal, input, memory);
 }
 
 }  // namespace trivela::kicking

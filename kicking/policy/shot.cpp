@@ -14,13 +14,13 @@ constexpr int kRounds = 12;
 
 /// The point that the drag-free flight shall pass, by the law for heights.
 FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m,
-                         double exit_angle_rad) {
+                         const Elevation& exit_angle) {
   const FlightPoint target{distance_m, config.target_height_m - robot.ball.radius_m};
   switch (config.height_law) {
     case HeightLaw::kPaper:
       return {distance_m, 0.0};
     case HeightLaw::kExtendedRange:
-      return {extended_range(target, exit_angle_rad), 0.0};
+      return {extended_range(target, exit_angle), 0.0};
     case HeightLaw::kExact:
       break;
   }
@@ -28,11 +28,11 @@ FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, do
 }
 
 /// What the robot's motion at the release gives to the ball, along and to the right of the line ball - target.
-Carry carry_towards(const Eigen::Vector2d& line, double heading_rad, const RobotModel& robot, const Twist& twist) {
+Carry carry_towards(const Eigen::Vector2d& line, const TurnedPose& release, const RobotModel& robot,
+                    const Twist& twist) {
   const Transfer& transfer = robot.transfer_exact;
-  const Eigen::Vector2d in_robot(transfer.lateral * (twist.vx_mps - twist.omega_radps * robot.ball_offset_m),
-                                 transfer.along_mps(twist.vy_mps));
-  const Eigen::Vector2d in_field = rotate(in_robot, heading_rad);
+  const Eigen::Vector2d in_field = release.turn(
+      transfer.lateral * (twist.vx_mps - twist.omega_radps * robot.ball_offset_m), transfer.along_mps(twist.vy_mps));
   const Eigen::Vector2d along = line.normalized();
   return {in_field.dot(along), in_field.dot(Eigen::Vector2d(along.y(), -along.x()))};
 }
@@ -84,8 +84,8 @@ double matching_angle(const RobotModel& robot, const SpeedsAt& speeds_at) {
 /// Speeds at the angle of the power that they need.
 template <typename SpeedsAt>
 void set_speeds(Shot& shot, const RobotModel& robot, const SpeedsAt& speeds_at) {
-  shot.exit_angle_rad = matching_angle(robot, speeds_at);
-  const Speeds speeds = speeds_at(shot.exit_angle_rad);
+  shot.exit_angle = matching_angle(robot, speeds_at);
+  const Speeds speeds = speeds_at(shot.exit_angle);
   shot.v0_mps = speeds.v0_mps;
   shot.v_kick_mps = speeds.v_kick_mps;
 }
@@ -96,11 +96,11 @@ void set_power(Shot& shot, const RobotModel& robot, const Goal& goal, const Poli
   const PowerReading reading = robot.table.power_for(*shot.v_kick_mps);
   shot.power = reading.power;
   const KickAction action{.v_kick_mps = robot.table.speed_for(reading.power),
-                          .exit_angle_rad = robot.exit_angle_at(reading.power),
+                          .exit_angle = robot.exit_angles ? robot.exit_angle_at(reading.power) : shot.exit_angle,
                           .transfer = robot.transfer_exact,
                           .delay_s = robot.delay_s,
                           .ball_offset_m = robot.ball_offset_m};
-  shot.predicted = predict_crossing(input.pose, input.twist, action, goal.y_m, robot.ball.radius_m);
+  shot.predicted = crossing_of_release(shot.release, input.twist, action, goal.y_m, robot.ball.radius_m);
   shot.too_far = *shot.v_kick_mps > robot.table.back().speed_mps;
   const bool too_strong =
       reading.range == PowerRange::kBelow && !(shot.predicted && shot.predicted->z_m < goal.clean_height_m(robot.ball));
@@ -115,11 +115,16 @@ Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model) {
   return to_field(robot, {0.0, model.ball_offset_m});
 }
 
+Eigen::Vector2d held_ball(const TurnedPose& robot, const RobotModel& model) {
+  return robot.to_field(0.0, model.ball_offset_m);
+}
+
 Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
   Shot shot;
+  shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
   shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
-  set_speeds(shot, robot, [&](double angle_rad) {
-    const auto v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m, angle_rad), angle_rad);
+  set_speeds(shot, robot, [&](const Elevation& angle) {
+    const auto v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m, angle), angle);
     return Speeds{v0_mps, v0_mps};
   });
   set_power(shot, robot, goal, input);
@@ -128,20 +133,21 @@ Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goa
 
 Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
   const bool exact = config.motion_law == MotionLaw::kExact;
-  const Pose release = exact ? advance(input.pose, input.twist, robot.delay_s) : input.pose;
-  const Eigen::Vector2d line = target_on_line(config, goal) - held_ball(release, robot);
   Shot shot;
+  shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
+  const Eigen::Vector2d line =
+      target_on_line(config, goal) - (exact ? held_ball(shot.release, robot) : held_ball(input.pose, robot));
   shot.distance_m = line.norm();
-  set_speeds(shot, robot, [&](double angle_rad) {
-    const FlightPoint point = flight_point(config, robot, shot.distance_m, angle_rad);
-    Speeds speeds{crossing_speed(point, angle_rad), std::nullopt};
+  set_speeds(shot, robot, [&](const Elevation& angle) {
+    const FlightPoint point = flight_point(config, robot, shot.distance_m, angle);
+    Speeds speeds{crossing_speed(point, angle), std::nullopt};
     if (!speeds.v0_mps) return speeds;
     if (exact) {
-      const auto aim = aim_exact(point, angle_rad, carry_towards(line, release.heading_rad, robot, input.twist));
+      const auto aim = aim_exact(point, angle, carry_towards(line, shot.release, robot, input.twist));
       if (aim) speeds.v_kick_mps = aim->v_kick_mps;
     } else {
       const double u_mps = robot.transfer_paper.along_mps(input.twist.vy_mps);
-      speeds.v_kick_mps = moving_kick_paper(*speeds.v0_mps, u_mps, angle_rad);
+      speeds.v_kick_mps = moving_kick_paper(*speeds.v0_mps, u_mps, angle);
     }
     return speeds;
   });

@@ -9,11 +9,12 @@ namespace trivela::kicking {
 
 /// The power question of one cycle: what speed does the kick need, and which set-point gives it?
 struct Shot {
+  TurnedPose release;                ///< of the robot, when the ball leaves if the order goes out now
   double distance_m = 0.0;           ///< ball centre to target, horizontal
   std::optional<double> v0_mps;      ///< for a robot at rest
   std::optional<double> v_kick_mps;  ///< for this robot
   std::optional<double> power;
-  double exit_angle_rad = 0.0;        ///< that v0 and v_kick hold for: the power's own
+  Elevation exit_angle{};             ///< that v0 and v_kick hold for: the power's own
   bool too_far = false;               ///< no set-point is fast enough
   bool reachable = false;             ///< a set-point reaches the height, or the least one still passes below the bar
   std::optional<Crossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
@@ -24,6 +25,7 @@ Eigen::Vector2d target_on_line(const PolicyConfig& config, const Goal& goal);
 
 /// Centre of the ball in the handler, in F.
 Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model);
+Eigen::Vector2d held_ball(const TurnedPose& robot, const RobotModel& model);
 
 /// Shot of a robot taken to stand still: V_kick = V0, from where the ball is now.
 Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);

@@ -36,7 +36,8 @@ const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::R
   const auto estimate = odometry_.update(wheels.t_ns, speeds, wheels.gyro_radps);
   if (!estimate) return nullptr;
   status_ = desk_.status(kicker_sample(sensors), referee.playing);
-  world_ = model_.update(odometry_message(wheels, *estimate), vision_message(sensors.t_ns, sensors.vision), referee);
+  const msg::VisionFrame frame = vision_message(sensors.t_ns, sensors.vision);
+  world_ = model_.update(odometry_message(wheels, *estimate), &frame, &referee);
   world_.robot_id = robot_id_;
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "nodes/kick_decision/decision_message.hpp"
@@ -63,14 +64,15 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
                                      const kicking::PolicyInput* truth) {
   begin_half(world.half);
   kicking::PolicyInput input = policy_input(world, kicker);
-  input.last_kick = last_kick(outcome);
+  if (const auto seen = last_kick(outcome)) input.last_kick = seen;
   const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
-  decision_.in_charge = {chosen.policy, judge(chosen.policy, input, truth)};
+  // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.
+  new (&decision_.in_charge) Judged{chosen.policy, judge(chosen.policy, input, truth)};
   decision_.assignment_probability = chosen.probability;
   decision_.shadow_count = 0;
   for (const PolicyName policy : shadows_) {
     if (policy == chosen.policy) continue;
-    decision_.shadows[decision_.shadow_count++] = {policy, judge(policy, input, truth)};
+    new (&decision_.shadows[decision_.shadow_count++]) Judged{policy, judge(policy, input, truth)};
   }
   decision_.order.reset();
   const bool fire = decision_.in_charge.judgement.fire;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "nodes/runtime/none.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -16,8 +17,6 @@ static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
 static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
 static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

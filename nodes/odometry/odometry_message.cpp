@@ -1,13 +1,8 @@
 #include "nodes/odometry/odometry_message.hpp"
 
-#include <limits>
+#include "nodes/runtime/none.hpp"
 
 namespace trivela::nodes {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 msg::Odometry odometry_message(const hal::WheelSample& sample, const OdometryEstimate& estimate) {
   const auto wheel = [&](int i) {

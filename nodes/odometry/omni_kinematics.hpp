@@ -31,8 +31,8 @@ class OmniKinematics {
   Eigen::Vector3d twist_variance(double wheel_sd_radps) const;
 
  private:
-  Eigen::MatrixX3d forward_;   // twist -> wheel speeds
-  Eigen::Matrix3Xd backward_;  // its pseudo-inverse
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> forward_;   // twist -> wheel speeds
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> backward_;  // its pseudo-inverse
 };
 
 }  // namespace trivela::nodes

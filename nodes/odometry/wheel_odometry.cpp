@@ -6,7 +6,7 @@
 namespace trivela::nodes {
 
 std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::span<const double> wheel_radps,
-                                                      std::optional<double> gyro_radps) {
+                                                      const std::optional<double>& gyro_radps) {
   const bool finite = std::all_of(wheel_radps.begin(), wheel_radps.end(), [](double w) { return std::isfinite(w); });
   if (!finite || wheel_radps.size() < static_cast<std::size_t>(kinematics_.wheel_count())) return std::nullopt;
   if (last_t_ns_ && t_ns <= *last_t_ns_) return std::nullopt;
@@ -27,9 +27,10 @@ std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::sp
   if (last_t_ns_) {
     const double dt_s = static_cast<double>(t_ns - *last_t_ns_) * 1e-9;
     estimate_.pose = kicking::advance(estimate_.pose, mean, dt_s);
-    const double path_m = std::hypot(mean.vx_mps, mean.vy_mps) * dt_s;
+    const double path_m2 = (mean.vx_mps * mean.vx_mps + mean.vy_mps * mean.vy_mps) * dt_s * dt_s;
     const double turn_rad = mean.omega_radps * dt_s;
-    estimate_.var_position_m2 += std::pow(noise_.drift_ratio * path_m, 2) + estimate_.var_v_m2ps2 * dt_s * dt_s;
+    estimate_.var_position_m2 +=
+        noise_.drift_ratio * noise_.drift_ratio * path_m2 + estimate_.var_v_m2ps2 * dt_s * dt_s;
     estimate_.var_heading_rad2 += std::pow(noise_.heading_drift_ratio * turn_rad, 2) + var_omega * dt_s * dt_s;
   }
   last_t_ns_ = t_ns;

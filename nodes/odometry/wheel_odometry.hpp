@@ -34,7 +34,7 @@ class WheelOdometry {
   /// Takes the samples of instant `t_ns`; the first one sets the clock and moves nothing. Samples that are not finite
   /// or not newer than the last one are ignored (nullopt).
   std::optional<OdometryEstimate> update(std::int64_t t_ns, std::span<const double> wheel_radps,
-                                         std::optional<double> gyro_radps);
+                                         const std::optional<double>& gyro_radps);
 
   const OmniKinematics& kinematics() const { return kinematics_; }
 

@@ -6,15 +6,9 @@
 #include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/recorder/session_text.hpp"
+#include "nodes/runtime/now_ns.hpp"
 
 namespace trivela::nodes {
-namespace {
-
-std::int64_t now_ns(auto clock_now) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
-}
-
-}  // namespace
 
 evaluator::log::Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;

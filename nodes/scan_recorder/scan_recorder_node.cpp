@@ -4,14 +4,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 namespace {
-
-std::int64_t now_ns(auto clock_now) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
-}
 
 evaluator::log::ScanSession session_of_scans(const NodeContext& context, const hal::RangeFinder& scanner,
                                              std::int64_t t_ns) {

@@ -1,15 +1,14 @@
 #include "nodes/shot_observer/observer.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "nodes/runtime/none.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 static_assert(int{msg::OUTCOME_ON_TARGET} == int(kicking::Outcome::kOnTarget));
 static_assert(int{msg::OUTCOME_UNKNOWN} == int(kicking::Outcome::kUnknown));
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 msg::KickOutcome message(const TrackedShot& shot) {
   msg::KickOutcome out{};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::nodes {
 namespace {
 
@@ -11,8 +13,6 @@ constexpr double kJump_m = 1.0;        // between sightings: the ball was taken 
 constexpr double kFrameDepth_m = 0.4;  // a turn this close to the plane is the goal frame's work
 constexpr double kCameBack_m = 0.25;   // farther from its farthest point than noise and frame rate explain
 constexpr double kBeyond_sd = 4.0;     // sightings beyond the line by this many standard deviations are believed
-
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
 
@@ -33,7 +33,8 @@ std::vector<TrackedShot> ShotTracker::release(std::int64_t kick_id, std::int64_t
 std::vector<TrackedShot> ShotTracker::frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m) {
   const bool seen = ball_m && ball_m->allFinite();
   if (seen) history_.push_back({t_ns, *ball_m});
-  while (!history_.empty() && seconds(t_ns - history_.front().t_ns) > settings_.history_s) history_.pop_front();
+  while (!history_.empty() && kicking::seconds(t_ns - history_.front().t_ns) > settings_.history_s)
+    history_.pop_front();
   if (!open_ || t_ns < open_->release_t_ns) return {};
   if (const auto end = step(t_ns, seen ? ball_m : std::nullopt)) return {settle(*end, t_ns)};
   return {};
@@ -44,7 +45,7 @@ std::optional<FlightEnd> ShotTracker::step(std::int64_t t_ns, const std::optiona
 }
 
 std::optional<FlightEnd> ShotTracker::missed(std::int64_t t_ns) const {
-  if (seconds(t_ns - open_->seen_t_ns) <= settings_.lost_s) return std::nullopt;
+  if (kicking::seconds(t_ns - open_->seen_t_ns) <= settings_.lost_s) return std::nullopt;
   const bool beyond = !open_->sightings.empty() && open_->sightings.back().ball_m.y() > goal_.y_m;
   return beyond ? FlightEnd::kBeyondLine : FlightEnd::kLost;
 }
@@ -75,7 +76,7 @@ std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
   if (y_m > goal_.y_m + kBeyond_sd * settings_.ball_sd_m) return FlightEnd::kBeyondLine;
   if (open_->farthest_y_m - y_m > kCameBack_m && open_->farthest_y_m > goal_.y_m - kFrameDepth_m)
     return FlightEnd::kThrownBack;
-  if (at_rest() || seconds(sighting.t_ns - open_->release_t_ns) > settings_.time_out_s) {
+  if (at_rest() || kicking::seconds(sighting.t_ns - open_->release_t_ns) > settings_.time_out_s) {
     return y_m > goal_.y_m ? FlightEnd::kBeyondLine : FlightEnd::kAtRest;
   }
   return std::nullopt;
@@ -84,9 +85,10 @@ std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
 /// Slower than rest_speed over the last half second.
 bool ShotTracker::at_rest() const {
   const auto& sightings = open_->sightings;
-  const auto from = std::find_if(sightings.begin(), sightings.end(),
-                                 [&](const Sighting& s) { return seconds(sightings.back().t_ns - s.t_ns) <= 0.5; });
-  const double span_s = seconds(sightings.back().t_ns - from->t_ns);
+  const auto from = std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) {
+    return kicking::seconds(sightings.back().t_ns - s.t_ns) <= 0.5;
+  });
+  const double span_s = kicking::seconds(sightings.back().t_ns - from->t_ns);
   if (from == sightings.begin() || span_s < 0.25) return false;
   return (sightings.back().ball_m - from->ball_m).norm() < settings_.rest_speed_mps * span_s;
 }

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
+
+#include "nodes/runtime/none.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
 static_assert(int{msg::POSSESSION_STOPPED} == int(sim::PossessionEnd::kStopped));
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

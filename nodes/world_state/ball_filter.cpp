@@ -5,7 +5,7 @@
 namespace trivela::nodes {
 namespace {
 
-constexpr double kJump_m = 0.5;
+constexpr double kNewBall_m = 0.5;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool BallFilter::in_handler() const {
 void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m) {
   if (ball_m && ball_m->allFinite()) {
     const double dt_s = static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9;
-    const bool anew = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kJump_m;
+    const bool anew = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kNewBall_m;
     const double gain = anew ? 1.0 : decay_.gain(dt_s);
     position_m_ = anew ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
     seen_t_ns_ = t_exposure_ns;

@@ -29,28 +29,31 @@ class PoseFilter {
   /// Self-localisation of a picture taken at `t_exposure_ns`; ignored before the first predict().
   void correct(std::int64_t t_exposure_ns, const kicking::Pose& seen);
 
-  /// Pose in F at the last prediction; nullopt before the first correction.
-  std::optional<TurnedPose> pose() const { return localised_ ? std::optional{pose_} : std::nullopt; }
+  /// Pose in F at the last prediction; nullptr before the first correction.
+  const kicking::TurnedPose* pose() const { return localised_ ? &pose_ : nullptr; }
   double sd_position_m() const;
   double sd_heading_rad() const;
 
   /// The pose in F that the robot had at t_ns within the history, by the present estimate.
-  std::optional<TurnedPose> pose_at(std::int64_t t_ns) const;
+  std::optional<kicking::TurnedPose> pose_at(std::int64_t t_ns) const;
 
  private:
-  void count_far_frames(const Eigen::Vector2d& innovation_m, double innovation_rad);
+  /// Carries pictured_, the belief about the instant of a picture, to now.
+  void carry(std::int64_t t_exposure_ns, const kicking::Pose& driven_since);
+  void count_far_frames(double innovation_x_m, double innovation_y_m, double innovation_rad);
 
   config::WorldState settings_;
   PoseHistory history_;
   bool localised_ = false;
-  TurnedPose pose_{};
+  kicking::TurnedPose pose_{};
+  kicking::TurnedPose pictured_{};  // pose_ at the instant of the last picture that was believed
+  std::optional<std::int64_t> pictured_t_ns_;
   double var_position_m2_ = 0.0;
   double var_heading_rad2_ = 0.0;
   double last_var_position_m2_ = 0.0;
   double last_var_heading_rad2_ = 0.0;
   std::uint32_t far_frames_ = 0;
-  Eigen::Vector2d far_innovation_m_ = Eigen::Vector2d::Zero();  // of the last frame
-  double far_innovation_rad_ = 0.0;
+  double far_x_m_ = 0.0, far_y_m_ = 0.0, far_rad_ = 0.0;  // innovation of the last frame
 };
 
 }  // namespace trivela::nodes

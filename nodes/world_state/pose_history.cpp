@@ -5,6 +5,7 @@
 namespace trivela::nodes {
 
 using kicking::Pose;
+using kicking::TurnedPose;
 
 void PoseHistory::grow() {
   std::vector<Entry> larger(2 * ring_.size());

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "nodes/world_state/turned_pose.hpp"
+#include "kicking/geometry/turned_pose.hpp"
 
 namespace trivela::nodes {
 
@@ -17,15 +17,15 @@ class PoseHistory {
   void add(std::int64_t t_ns, const kicking::Pose& pose);
 
   bool empty() const { return count_ == 0; }
-  const TurnedPose& latest() const { return entry(count_ - 1).pose; }
+  const kicking::TurnedPose& latest() const { return entry(count_ - 1).pose; }
 
   /// Linear interpolation between the neighbours; the oldest or newest entry outside the span; nullopt when empty.
-  std::optional<TurnedPose> at(std::int64_t t_ns) const;
+  std::optional<kicking::TurnedPose> at(std::int64_t t_ns) const;
 
  private:
   struct Entry {
     std::int64_t t_ns;
-    TurnedPose pose;
+    kicking::TurnedPose pose;
   };
   std::size_t place(std::size_t i) const { return (first_ + i) & (ring_.size() - 1); }
   const Entry& entry(std::size_t i) const { return ring_[place(i)]; }  // 0: the oldest

@@ -1,14 +1,17 @@
 #include "nodes/world_state/world_model.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "kicking/geometry/time.hpp"
+#include "nodes/runtime/none.hpp"
 
 namespace trivela::nodes {
+
+using kicking::TurnedPose;
+
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+const TurnedPose kOrigin;
 
 bool finite(const msg::Odometry& odometry) {
   // A sum is finite only if every term is.
@@ -27,13 +30,13 @@ void WorldModel::vision(const msg::VisionFrame& frame) {
   if (frame.opponent_seen) {
     opponent_m_ = Eigen::Vector2d{frame.opponent_x_m, frame.opponent_y_m};
     opponent_t_ns_ = frame.t_exposure_ns;
-  } else if (seconds(frame.t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
+  } else if (kicking::seconds(frame.t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
     opponent_m_.reset();
   }
 }
 
 void WorldModel::filter_velocity(const msg::Odometry& odometry) {
-  const double dt_s = seconds(odometry.t_ns - twist_t_ns_);
+  const double dt_s = kicking::seconds(odometry.t_ns - twist_t_ns_);
   const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);
   twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
   twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
@@ -48,11 +51,11 @@ void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::W
   out.ball_known = ball.has_value();
   if (!ball) return;
   // A held ball moves with the robot; a free one stands where it was seen.
-  const TurnedPose seen_from = out.possession ? pose : pose_.pose_at(ball_.seen_t_ns()).value_or(pose);
-  const Eigen::Vector2d in_field = seen_from.to_field(ball->x(), ball->y());
+  const auto then = out.possession ? std::nullopt : pose_.pose_at(ball_.seen_t_ns());
+  const Eigen::Vector2d in_field = (then ? *then : pose).to_field(ball->x(), ball->y());
   out.ball_x_m = in_field.x();
   out.ball_y_m = in_field.y();
-  out.ball_age_s = seconds(t_ns - ball_.seen_t_ns());
+  out.ball_age_s = kicking::seconds(t_ns - ball_.seen_t_ns());
   if (out.possession) {
     const Eigen::Vector2d velocity =
         pose.turn(twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x());
@@ -60,13 +63,14 @@ void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::W
     out.ball_vy_mps = velocity.y();
   }
   if (opponent_m_) {
-    const TurnedPose opponent_from = pose_.pose_at(opponent_t_ns_).value_or(pose);
-    out.opponent_distance_m = (opponent_from.to_field(opponent_m_->x(), opponent_m_->y()) - in_field).norm();
+    const auto when_seen = pose_.pose_at(opponent_t_ns_);
+    const Eigen::Vector2d opponent = (when_seen ? *when_seen : pose).to_field(opponent_m_->x(), opponent_m_->y());
+    out.opponent_distance_m = (opponent - in_field).norm();
   }
 }
 
-msg::WorldState WorldModel::update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
-                                   const std::optional<msg::Referee>& referee) {
+msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
+                                   const msg::Referee* referee) {
   const bool sound = finite(odometry);
   if (sound) {
     filter_velocity(odometry);
@@ -78,9 +82,9 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const std::opt
   out.t_ns = odometry.t_ns;
   out.half = referee ? referee->half : 0;
   out.possession_id = referee ? referee->possession_id : 0;
-  const auto localised = pose_.pose();
+  const TurnedPose* const localised = pose_.pose();
   out.playing = sound && localised && referee && referee->playing;
-  const TurnedPose pose = localised.value_or(TurnedPose{});
+  const TurnedPose& pose = localised ? *localised : kOrigin;
   out.x_m = pose.x_m;
   out.y_m = pose.y_m;
   out.heading_rad = pose.heading_rad;

@@ -24,15 +24,15 @@ class WorldModel {
   /// A frame, once; a second call with the same exposure changes nothing.
   void vision(const msg::VisionFrame& frame);
 
-  /// The belief at the instant of `odometry`. `frame` is the newest vision frame, if any: pictures older than odometry
-  /// correct the past, so that the pose holds now. A robot that has not localised itself yet does not play, nor does
-  /// one in a cycle whose odometry is not finite, which changes no belief.
-  msg::WorldState update(const msg::Odometry& odometry, const std::optional<msg::VisionFrame>& frame,
-                         const std::optional<msg::Referee>& referee);
+  /// The belief at the instant of `odometry`. `frame` is the newest vision frame, nullptr where there is none, and
+  /// `referee` his latest word: pictures older than odometry correct the past, so that the pose holds now. A robot that
+  /// has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite, which changes no
+  /// belief.
+  msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee);
 
  private:
   void filter_velocity(const msg::Odometry& odometry);
-  void describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
+  void describe_ball(const kicking::TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
 
   config::WorldState settings_;
   PoseFilter pose_;

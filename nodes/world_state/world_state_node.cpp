@@ -21,7 +21,7 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
   });
   const auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
   const auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
-  msg::WorldState world = model_.update(odometry, frame, referee);
+  msg::WorldState world = model_.update(odometry, frame ? &*frame : nullptr, referee ? &*referee : nullptr);
   world.robot_id = context_.robot_id();
   world.seq = ++seq_;
   world_out_.write(world);

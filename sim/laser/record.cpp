@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/flight.hpp"
 #include "sim/laser/scan_builder.hpp"
 #include "sim/random.hpp"
@@ -12,8 +13,6 @@ namespace trivela::sim {
 namespace {
 
 constexpr std::int64_t kStep_ns = 1'000'000;
-
-std::int64_t to_ns(double t_s) { return std::llround(t_s * 1e9); }
 
 /// The scanner and the ball in front of it, step by step.
 class Scene {
@@ -53,21 +52,22 @@ SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& pla
                     -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
   SyntheticRecord record{mount_of(laser, {}), {}, {}};
   Scene scene{laser, ball, seed};
-  scene.pass(to_ns(plan.background_s));
+  scene.pass(kicking::nanoseconds(plan.background_s));
   for (std::uint32_t i = 0; i < plan.kicks.size(); ++i) {
     const SyntheticKick& kick = plan.kicks[i];
     scene.motion = BallMotion{launch, {}, true};
     // A kick falls anywhere within a revolution.
-    scene.pass(to_ns(plan.lie_s + Draws{seed, i}.uniform_in(0.0, laser.geometry.scan_period_s, Role::kStart, 0)));
+    scene.pass(kicking::nanoseconds(plan.lie_s +
+                                    Draws{seed, i}.uniform_in(0.0, laser.geometry.scan_period_s, Role::kStart, 0)));
     record.truth.push_back({scene.t_ns(), kick});
     const double v_h = kick.exit_speed_mps * std::cos(kick.exit_angle_rad);
     scene.drag_coefficient(kick.drag_coefficient);
     scene.motion = BallMotion{
         launch,
         {-v_h * std::sin(heading), v_h * std::cos(heading), kick.exit_speed_mps * std::sin(kick.exit_angle_rad)}};
-    scene.pass(to_ns(plan.fly_s));
+    scene.pass(kicking::nanoseconds(plan.fly_s));
     scene.motion.reset();
-    scene.pass(to_ns(plan.pause_s));
+    scene.pass(kicking::nanoseconds(plan.pause_s));
   }
   record.scans = std::move(scene.scans);
   return record;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
@@ -54,7 +55,7 @@ class TestExperiment {
   void session(std::uint32_t match_id, std::uint32_t arm, const std::string& arm_name,
                std::vector<log::HalfPolicy> policies, bool numbered = true) {
     log::Session session;
-    session.uuid = log::experiment_uuid("test", match_id, arm);
+    session.uuid = log::experiment_uuid(log::sha256("test"), match_id, arm);
     session.simulated_clock = session.simulated = true;
     session.config_toml = "a = 1\n";
     session.seed = 100 + match_id;

@@ -60,7 +60,7 @@ TEST(ShotWithAngles, PassesTheTargetHeightWithThePowersOwnAngle) {
     const double v = robot.table.speed_for(*shot.power);
     EXPECT_NEAR(height_at(d, v * std::cos(angle), v * std::sin(angle)), 0.70 - 0.11, 1e-9) << d;
     EXPECT_NEAR(shot.predicted->z_m, 0.70, 1e-9) << d;
-    EXPECT_NEAR(shot.exit_angle_rad, angle, 1e-12);
+    EXPECT_NEAR(shot.exit_angle.angle_rad, angle, 1e-12);
   }
   EXPECT_GT(solved, 40);
 }

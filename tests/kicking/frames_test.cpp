@@ -57,10 +57,16 @@ TEST(Advance, IsExactWithoutRotationAndSmoothAroundIt) {
   const Eigen::Vector2d expected = to_field({1, 2, 0.3}, {0.2, -0.6});
   EXPECT_DOUBLE_EQ(straight.x_m, expected.x());
   EXPECT_DOUBLE_EQ(straight.y_m, expected.y());
-  for (const double omega : {1e-12, 1e-6, 4.9e-4, 5.1e-4}) {  // either side of the series' limit
+  for (const double omega : {1e-12, 1e-6, 5e-4}) {
     const Pose a = advance({0, 0, 0}, {0.5, 1.5, omega}, 0.4);
     EXPECT_NEAR(a.x_m, 0.2 - 0.5 * omega * 0.4 * 0.6, 1e-8);
     EXPECT_NEAR(a.y_m, 0.6 + 0.5 * omega * 0.4 * 0.2, 1e-8);
+  }
+  for (const double omega : {0.1, 0.2, 0.2499, 0.2501, 0.3}) {  // either side of the series' limit
+    const Pose a = advance({0, 0, 0}, {0.5, 1.5, omega}, 0.4);
+    const double sinc = std::sin(0.4 * omega) / omega, versc = (1 - std::cos(0.4 * omega)) / omega;
+    EXPECT_NEAR(a.x_m, sinc * 0.5 - versc * 1.5, 1e-14);
+    EXPECT_NEAR(a.y_m, versc * 0.5 + sinc * 1.5, 1e-14);
   }
 }
 

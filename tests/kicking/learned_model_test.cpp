@@ -8,7 +8,13 @@ namespace trivela::kicking {
 namespace {
 
 ShotFeatures shot(double p) {
-  return {.p_on_target = p, .distance_m = 5.0, .vx_mps = -1.0, .vy_mps = 0.5, .omega_radps = 2.0, .power = 25.0};
+  return {.p_on_target = p,
+          .distance_m = 5.0,
+          .vx_mps = -1.0,
+          .vy_mps = 0.5,
+          .omega_radps = 2.0,
+          .power = 25.0,
+          .opponent_distance_m = {}};
 }
 
 TEST(LearnedModel, WithoutWeightsIsThePhysicalProbability) {

@@ -10,6 +10,7 @@ namespace trivela::nodes {
 namespace {
 
 using kicking::Pose;
+using kicking::TurnedPose;
 using kicking::Twist;
 
 constexpr std::int64_t kCycle_ns = 20'000'000;

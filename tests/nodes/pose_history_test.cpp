@@ -9,6 +9,7 @@ namespace trivela::nodes {
 namespace {
 
 using kicking::Pose;
+using kicking::TurnedPose;
 
 void expect_near(const Pose& a, const Pose& b, double tolerance = 1e-12) {
   EXPECT_NEAR(a.x_m, b.x_m, tolerance);

@@ -66,7 +66,8 @@ struct Play {
       t_ns += kCycle_ns;
       truth = kicking::advance(truth, twist, 0.02);
       odometry = kicking::advance(odometry, twist, 0.02);
-      world = model.update(wheels(), sees ? std::optional{frame()} : std::nullopt, referee);
+      const auto picture = frame();
+      world = model.update(wheels(), sees ? &picture : nullptr, referee ? &*referee : nullptr);
     }
     return world;
   }

@@ -1,0 +1,41 @@
+#include "cli/study.hpp"
+
+#include <filesystem>
+
+#include "cli/launch/progress_bar.hpp"
+
+namespace trivela::cli {
+
+std::string Study::scenario_name() const { return std::filesystem::path{scenario}.filename().string(); }
+
+void add_study_options(CLI::App& verb, Study& study) {
+  PlayPlan& plan = study.plan;
+  verb.add_option("--matches", plan.matches, "Matches of each arm")
+      ->check(CLI::Range(2, 1000000))
+      ->capture_default_str();
+  verb.add_option("--possessions", plan.possessions, "Opportunities of a match")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->capture_default_str();
+  verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
+  verb.add_option("--scenario", study.scenario, "The world")->check(CLI::ExistingFile)->capture_default_str();
+  verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");
+  verb.add_option("--svg", study.svg, "A chart")->type_name("FILE");
+  verb.add_flag("--json", study.json, "JSON instead of text");
+}
+
+void add_arm_options(CLI::App& verb, ArmBase& base) {
+  verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones");
+  verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
+  verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");
+}
+
+std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,
+                                    const PlayPlan& plan, const std::string& what) {
+  ProgressBar bar;
+  return play_arms(scenario, arms, plan, [&](std::size_t done, std::size_t all) {
+    bar.show(static_cast<double>(done), static_cast<double>(all), what);
+  });
+}
+
+}  // namespace trivela::cli
