@@ -84,14 +84,15 @@ class Sessions {
   std::vector<Session> arms_;
 };
 
-/// Threads that play matches until none is left.
+/// Threads that play matches, and write them in order, until none is left.
 class Workers {
  public:
-  Workers(const ExperimentPlan& plan, MatchQueue<std::vector<Played>>& queue, unsigned jobs) : queue_(queue) {
+  Workers(const ExperimentPlan& plan, MatchQueue<std::vector<Played>>& queue, unsigned jobs, auto write)
+      : queue_(queue) {
     for (unsigned i = 0; i < jobs; ++i) {
-      threads_.emplace_back([&plan, &queue] {
+      threads_.emplace_back([&plan, &queue, write] {
         try {
-          while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id));
+          while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id), write);
         } catch (...) {
           queue.fail(std::current_exception());
         }
@@ -169,29 +170,30 @@ int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string&
   std::vector<double> processor_s(plan.arms.size());
   const auto started = std::chrono::steady_clock::now();
   bool interrupted = false;
+  const auto write = [&](std::uint32_t match_id, const std::vector<Played>& played) {
+    log.begin();
+    for (std::size_t i = 0; i < played.size(); ++i) {
+      const std::int64_t session_id = log.add_session(sessions.of(match_id, i, played[i].seed), played[i].end_t_ns);
+      tables.write(played[i].record, session_id);
+      processor_s[i] += played[i].processor_s;
+    }
+    log.end_match();
+  };
   {
     MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
-    const Workers workers{plan, queue, jobs};
+    const Workers workers{plan, queue, jobs, write};
     ProgressBar bar;
-    while (log.matches_done() < plan.matches && !(interrupted = signals.stop_requested())) {
-      const auto match_id = static_cast<std::uint32_t>(log.matches_done());
-      const auto played = queue.take(std::chrono::milliseconds{100});
-      if (!played) continue;
-      log.begin();
-      for (std::size_t i = 0; i < played->size(); ++i) {
-        const Played& one = (*played)[i];
-        const std::int64_t session_id = log.add_session(sessions.of(match_id, i, one.seed), one.end_t_ns);
-        tables.write(one.record, session_id);
-        processor_s[i] += one.processor_s;
-      }
-      log.commit();
+    std::uint32_t done = first;
+    while (done < plan.matches && !(interrupted = signals.stop_requested())) {
+      done = queue.wait(std::chrono::milliseconds{100});
       const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
       const double opportunities =
-          static_cast<double>(log.matches_done() - first) * plan.possessions * static_cast<double>(plan.arms.size());
-      bar.show(static_cast<double>(log.matches_done() - first), plan.matches - first,
+          static_cast<double>(done - first) * plan.possessions * static_cast<double>(plan.arms.size());
+      bar.show(static_cast<double>(done - first), plan.matches - first,
                fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
     }
   }
+  log.commit();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
   const std::int64_t matches = log.matches_done() - first;
   if (interrupted) {

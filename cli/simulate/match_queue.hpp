@@ -10,8 +10,9 @@
 
 namespace trivela::cli {
 
-/// Hands out matches to workers and gives their results back in the order of the matches. Workers are never more than
-/// `ahead` matches before the one that is waited for.
+/// Hands out matches to workers, and their results, in the order of the matches, to one of them at a time: who finishes
+/// the match that is waited for takes along those that wait behind it. Workers are never more than `ahead` matches
+/// before it.
 template <class Result>
 class MatchQueue {
  public:
@@ -26,10 +27,21 @@ class MatchQueue {
     return next_++;
   }
 
-  void done(std::uint32_t match, Result result) {
-    const std::lock_guard lock{mutex_};
+  /// A match is played. `use(match, result)` is called, by this worker or by the one that is at it, never by two at
+  /// once.
+  void done(std::uint32_t match, Result result, const auto& use) {
+    std::unique_lock lock{mutex_};
     results_.emplace(match, std::move(result));
-    changed_.notify_all();
+    if (in_use_) return;
+    in_use_ = true;
+    while (auto found = results_.extract(awaited_)) {
+      lock.unlock();
+      use(found.key(), found.mapped());
+      lock.lock();
+      ++awaited_;
+      changed_.notify_all();
+    }
+    in_use_ = false;
   }
 
   /// A worker could not go on.
@@ -40,16 +52,13 @@ class MatchQueue {
     changed_.notify_all();
   }
 
-  /// The result of the next match in order, waited for up to `timeout`. Throws what a worker failed with.
-  std::optional<Result> take(auto timeout) {
+  /// Waits up to `timeout` for all results to be used; the first match whose result is not. Throws what a worker failed
+  /// with.
+  std::uint32_t wait(auto timeout) {
     std::unique_lock lock{mutex_};
-    changed_.wait_for(lock, timeout, [&] { return failure_ || results_.contains(awaited_); });
+    changed_.wait_for(lock, timeout, [&] { return failure_ || awaited_ == end_; });
     if (failure_) std::rethrow_exception(failure_);
-    auto found = results_.extract(awaited_);
-    if (found.empty()) return std::nullopt;
-    ++awaited_;
-    changed_.notify_all();
-    return std::move(found.mapped());
+    return awaited_;
   }
 
   /// No more matches are given out.
@@ -69,6 +78,7 @@ class MatchQueue {
   std::map<std::uint32_t, Result> results_;
   std::exception_ptr failure_;
   bool closed_ = false;
+  bool in_use_ = false;  // a worker has results in its hands
 };
 
 }  // namespace trivela::cli

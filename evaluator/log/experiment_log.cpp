@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBusyTimeout_ms = 5000;
+constexpr std::chrono::milliseconds kGroup{200};  // of matches in one transaction
 
 std::runtime_error against(const fs::path& path, const std::string& why) {
   return std::runtime_error(fmt::format("{}: {}", path.string(), why));
@@ -110,6 +112,7 @@ struct ExperimentLog::Impl final : RowSink {
   std::unique_ptr<SQLite::Database> database;
   std::vector<Table> tables;
   std::optional<SQLite::Transaction> transaction;
+  std::chrono::steady_clock::time_point begun;
   SQLite::Statement* statement = nullptr;  // of the row under way
   int cell = 0;
 };
@@ -135,6 +138,8 @@ std::size_t ExperimentLog::table(std::string_view name, const std::vector<std::s
 }
 
 void ExperimentLog::begin() {
+  if (impl_->transaction) return;
+  impl_->begun = std::chrono::steady_clock::now();
   impl_->transaction.emplace(*impl_->database, SQLite::TransactionBehavior::IMMEDIATE);
   if (impl_->database->execAndGet("SELECT matches_done FROM experiments").getInt64() == matches_done_) return;
   throw against(impl_->path, "another run writes to it");
@@ -162,15 +167,20 @@ void ExperimentLog::end_row() {
   }
 }
 
+void ExperimentLog::end_match() {
+  ++matches_done_;
+  if (std::chrono::steady_clock::now() - impl_->begun >= kGroup) commit();
+}
+
 void ExperimentLog::commit() {
+  if (!impl_->transaction) return;
   try {
-    impl_->database->exec("UPDATE experiments SET matches_done = matches_done + 1");
+    impl_->database->exec(fmt::format("UPDATE experiments SET matches_done = {}", matches_done_));
     impl_->transaction->commit();
   } catch (const SQLite::Exception& error) {
-    throw against(impl_->path, fmt::format("the match could not be written: {}", error.what()));
+    throw against(impl_->path, fmt::format("matches could not be written: {}", error.what()));
   }
   impl_->transaction.reset();
-  ++matches_done_;
 }
 
 void ExperimentLog::finish() {

@@ -32,7 +32,7 @@ class RowSink {
 };
 
 /// A match log of many simulated sessions, match by match: a match is in the file whole or not at all, also when the
-/// program is killed. The same rows make the same tables, however often the run was stopped. For one thread.
+/// program is killed. The same rows make the same tables, however often the run was stopped. For one thread at a time.
 class ExperimentLog {
  public:
   /// Makes the log, or goes on with it. Throws std::runtime_error naming the path where it cannot be written, holds
@@ -42,13 +42,13 @@ class ExperimentLog {
   ExperimentLog(const ExperimentLog&) = delete;
   ExperimentLog& operator=(const ExperimentLog&) = delete;
 
-  /// Matches that are in the file: 0, 1, ... up to this one.
+  /// Matches that were written, by commit() at the latest in the file: 0, 1, ... up to this one.
   std::int64_t matches_done() const { return matches_done_; }
 
   /// Registers rows of a table; returns its number. Throws std::runtime_error naming what the schema does not have.
   std::size_t table(std::string_view name, const std::vector<std::string>& columns);
 
-  /// Begins the next match. What is inserted until commit() belongs to it.
+  /// Begins the next match, unless one has begun. What is inserted until end_match() belongs to it.
   void begin();
 
   /// A session that has ended; its key for the rows.
@@ -61,7 +61,11 @@ class ExperimentLog {
   /// are taken as they are.
   void end_row();
 
-  /// The match is in the file. Throws std::runtime_error where the disk refuses.
+  /// The match is written, but in the file only where the last commit() was some tenths of a second ago: a commit costs
+  /// more than a short match.
+  void end_match();
+
+  /// What was written is in the file. Throws std::runtime_error where the disk refuses.
   void commit();
 
   /// All matches are there: folds the write-ahead log into the one file, if no reader holds it.

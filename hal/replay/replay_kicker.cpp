@@ -23,6 +23,7 @@ ReplayKicker::ReplayKicker(const ReplayLog& log) : rows_(log, "kicker_status", {
 std::optional<KickerSample> ReplayKicker::read(std::chrono::nanoseconds) {
   const auto row = rows_.next();
   if (!row) return std::nullopt;
+  now_t_ns_ = row->integer(0);
   return KickerSample{row->integer(0), row->number(1).value(), row->boolean(2), fault_of(row->text(3))};
 }
 
@@ -31,7 +32,8 @@ void ReplayKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
 }
 
 void ReplayKicker::withdraw(std::int64_t kick_id) {
-  std::erase_if(fires_, [kick_id](const Fire& fire) { return fire.kick_id == kick_id; });
+  const std::int64_t now_t_ns = now_t_ns_;
+  std::erase_if(fires_, [=](const Fire& fire) { return fire.kick_id == kick_id && fire.t_ns > now_t_ns; });
 }
 
 }  // namespace trivela::hal

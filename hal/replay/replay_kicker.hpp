@@ -35,6 +35,7 @@ class ReplayKicker final : public Kicker {
   RowPages rows_;
   std::vector<Fire> fires_;
   std::atomic<bool> safe_ = false;
+  std::atomic<std::int64_t> now_t_ns_ = 0;  // of the last sample
 };
 
 }  // namespace trivela::hal

@@ -81,7 +81,7 @@ TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
 
 TEST(Simulate, AStoppedRunGoesOnToTheSameFile) {
   const Folder folder;
-  constexpr int kMatches = 150;
+  constexpr int kMatches = 1000;  // some seconds, of which a commit holds tenths
   run(folder, simulate("whole.db", kMatches, {"--jobs", "2"}));
   for (const int signal : {SIGINT, SIGKILL}) {
     const std::string out = signal == SIGINT ? "interrupted.db" : "killed.db";

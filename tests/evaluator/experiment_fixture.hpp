@@ -48,7 +48,10 @@ class TestExperiment {
         referee_(log_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
 
   void begin() { log_.begin(); }
-  void commit() { log_.commit(); }
+  void commit() {
+    log_.end_match();
+    log_.commit();
+  }
   void finish() { log_.finish(); }
 
   /// The session that the next rows belong to. `policies`: of the halves; empty: drawn for each possession.

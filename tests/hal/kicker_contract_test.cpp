@@ -39,6 +39,7 @@ class SimRig {
     sample.charge = kSaid[i].charge;
     sample.armed = kSaid[i].armed;
     sample.fault = kFaults[i];
+    now_t_ns = sample.t_ns;
     world.samples.write(sample);
   }
 
@@ -48,7 +49,10 @@ class SimRig {
     std::vector<Fired> fired;
     for (bool over = false; !over && world.commands.wait(kPlenty);) {
       world.commands.take([&](const msg::SimFire& order) {
-        if (order.robot_id == kRobot) fired.push_back({order.kick_id, order.power, order.t_ns});
+        if (order.robot_id == kRobot && order.withdrawn)
+          std::erase_if(fired, [&](const Fired& f) { return f.kick_id == order.kick_id && f.t_ns > now_t_ns; });
+        else if (order.robot_id == kRobot)
+          fired.push_back({order.kick_id, order.power, order.t_ns});
         over = over || order.robot_id == kRobot + 1;
       });
     }
@@ -58,6 +62,7 @@ class SimRig {
   SimWorld<msg::SimKicker, msg::SimFire> world;
   std::unique_ptr<Kicker> device = std::make_unique<SimKicker>(world.here, kRobot);
   SimKicker marker{world.here, kRobot + 1};  // takes the same way, later
+  std::int64_t now_t_ns = 0;                 // of the world
 };
 
 class ReplayRig {
@@ -115,6 +120,22 @@ TYPED_TEST(KickerContract, FiresAtAnyTime) {
   kicker.read(kPlenty);
   kicker.fire(12, 50.0, 30'000'000);
   EXPECT_EQ(this->rig_.energised().back(), (Fired{12, 50.0, 30'000'000}));
+}
+
+TYPED_TEST(KickerContract, AKickThatLiesAheadIsCalledOffAndNoOther) {
+  auto& kicker = *this->rig_.device;
+  this->rig_.say(0);
+  const auto sample = kicker.read(kPlenty);
+  ASSERT_TRUE(sample);
+  kicker.fire(11, 22.5, sample->t_ns - 1);
+  kicker.fire(12, 30.0, sample->t_ns + 15'000'000);
+  kicker.fire(13, 40.0, sample->t_ns + 18'000'000);
+  kicker.withdraw(12);
+  kicker.withdraw(12);
+  kicker.withdraw(11);  // was carried out
+  kicker.withdraw(99);  // was never ordered
+  EXPECT_EQ(this->rig_.energised(),
+            (std::vector<Fired>{{11, 22.5, sample->t_ns - 1}, {13, 40.0, sample->t_ns + 18'000'000}}));
 }
 
 TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {
