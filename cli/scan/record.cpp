@@ -8,6 +8,7 @@
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "hal/open_range_finder.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -54,10 +55,14 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   const Clock::time_point started = Clock::now();
   std::size_t scans = 0;
   std::size_t refused = 0;
+  std::optional<std::int64_t> first_t_ns;
   while (!signals.stop_requested() && !finder->ended()) {
     const std::chrono::duration<double> passed = Clock::now() - started;
     if (seconds && passed.count() >= *seconds) break;
     if (const auto scan = finder->read(kLook)) {
+      // By the scanner's clock: scans that waited for the file to be made are of this time, too.
+      if (!first_t_ns) first_t_ns = scan->t_ns;
+      if (seconds && kicking::seconds(*first_t_ns, scan->t_ns) >= *seconds) break;
       scan->range_mm.size() == session.geometry.beams&& writer.push(*scan) ? ++scans : ++refused;
     }
     line.show(fmt::format("{:.0f} s, {} scans, {} lost; {}", passed.count(), scans, finder->counters().lost_scans,

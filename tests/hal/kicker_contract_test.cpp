@@ -43,26 +43,32 @@ class SimRig {
     world.samples.write(sample);
   }
 
-  /// Everything that the coil was told, once `device` can no longer have anything under way.
+  /// Everything that the coil was told, up to a word that takes the same way after it: the device's own, or where it is
+  /// gone that of another.
   std::vector<Fired> energised() {
-    marker.fire(0, 0.0, 0);
+    Kicker& last = device ? *device : static_cast<Kicker&>(marker);
+    last.withdraw(kEnd);
     std::vector<Fired> fired;
-    for (bool over = false; !over && world.commands.wait(kPlenty);) {
+    bool over = false;
+    while (!over && world.commands.wait(kPlenty)) {
       world.commands.take([&](const msg::SimFire& order) {
-        if (order.robot_id == kRobot && order.withdrawn)
+        over = over || order.kick_id == kEnd;
+        if (order.robot_id != kRobot || order.kick_id == kEnd) return;
+        if (order.withdrawn)
           std::erase_if(fired, [&](const Fired& f) { return f.kick_id == order.kick_id && f.t_ns > now_t_ns; });
-        else if (order.robot_id == kRobot)
+        else
           fired.push_back({order.kick_id, order.power, order.t_ns});
-        over = over || order.robot_id == kRobot + 1;
       });
     }
+    EXPECT_TRUE(over) << "the last word did not arrive";
     return fired;
   }
 
+  static constexpr std::int64_t kEnd = -1;
   SimWorld<msg::SimKicker, msg::SimFire> world;
   std::unique_ptr<Kicker> device = std::make_unique<SimKicker>(world.here, kRobot);
-  SimKicker marker{world.here, kRobot + 1};  // takes the same way, later
-  std::int64_t now_t_ns = 0;                 // of the world
+  SimKicker marker{world.here, kRobot + 1};
+  std::int64_t now_t_ns = 0;  // of the world
 };
 
 class ReplayRig {
@@ -119,7 +125,9 @@ TYPED_TEST(KickerContract, FiresAtAnyTime) {
   this->rig_.say(0);
   kicker.read(kPlenty);
   kicker.fire(12, 50.0, 30'000'000);
-  EXPECT_EQ(this->rig_.energised().back(), (Fired{12, 50.0, 30'000'000}));
+  const std::vector<Fired> fired = this->rig_.energised();
+  ASSERT_FALSE(fired.empty());
+  EXPECT_EQ(fired.back(), (Fired{12, 50.0, 30'000'000}));
 }
 
 TYPED_TEST(KickerContract, AKickThatLiesAheadIsCalledOffAndNoOther) {
