@@ -23,6 +23,7 @@ constexpr std::uint32_t kMostKicks = 40;  // with a set-point in one more round
 
 std::vector<std::string> names(const std::vector<std::string>& files) {
   std::vector<std::string> out;
+  out.reserve(files.size());
   for (const std::string& file : files) out.push_back(std::filesystem::path{file}.filename().string());
   return out;
 }
@@ -52,13 +53,10 @@ NextRound next_round(const std::map<double, Tally>& tallies, std::size_t wanted)
 }
 
 std::string list_of(const std::vector<double>& values) {
-  return fmt::format("[{}]", fmt::join(
-                                 [&] {
-                                   std::vector<std::string> texts;
-                                   for (const double value : values) texts.push_back(fmt::format("{:.17e}", value));
-                                   return texts;
-                                 }(),
-                                 ", "));
+  std::vector<std::string> texts;
+  texts.reserve(values.size());
+  for (const double value : values) texts.push_back(fmt::format("{:.17e}", value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 /// "8.62 +- 0.1 deg/(m/s)"
