@@ -75,8 +75,8 @@ std::unique_ptr<SQLite::Database> open(const fs::path& path, const Experiment& e
   const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
   if (!there) make(path, experiment);
   auto database = resume(path, experiment);
-  // A match that a power cut takes is played again: no commit waits for the disk. The CHECKs are of labels, which come
-  // from the enumerations themselves; SQLite builds a table for each such list and row.
+  // A match that a power cut takes is played again: no commit waits for the disk. The CHECKs are of labels, which
+  // finish() looks through at once; row by row SQLite builds a table for each such list.
   database->exec(
       "PRAGMA synchronous = NORMAL; PRAGMA cache_size = -65536; PRAGMA ignore_check_constraints = ON;"
       "PRAGMA wal_autocheckpoint = 8000;");
@@ -185,6 +185,9 @@ void ExperimentLog::commit() {
 
 void ExperimentLog::finish() {
   impl_->tables.clear();
+  impl_->database->exec("PRAGMA ignore_check_constraints = OFF;");
+  const std::string found = impl_->database->execAndGet("PRAGMA quick_check(1)").getString();
+  if (found != "ok") throw against(impl_->path, fmt::format("holds what the schema forbids: {}", found));
   fold(*impl_->database);
 }
 

@@ -1,0 +1,41 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "tests/evaluator/experiment_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+// One possession of a match, drawn for `policy`; what finish() says of the file.
+std::string verdict_on(const std::string& policy) {
+  const std::filesystem::path path =
+      std::filesystem::path{testing::TempDir()} / ("experiment_log_" + policy + "_" + std::to_string(getpid()) + ".db");
+  std::string said;
+  {
+    TestExperiment experiment{path, 1};
+    experiment.begin();
+    experiment.session(0, 0, "drawn", {});
+    experiment.possession(1, 1, policy, 0.5, std::nullopt);
+    experiment.commit();
+    try {
+      experiment.finish();
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+  }
+  for (const char* const suffix : {"", "-wal", "-shm"}) std::filesystem::remove(path.string() + suffix);
+  return said;
+}
+
+TEST(ExperimentLog, IsLookedThroughForLabelsThatTheSchemaDoesNotHave) {
+  EXPECT_EQ(verdict_on("moving"), "");
+  EXPECT_THAT(verdict_on("wild"), testing::AllOf(testing::HasSubstr("experiment_log_wild"),
+                                                 testing::HasSubstr("CHECK constraint failed in assignments")));
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
