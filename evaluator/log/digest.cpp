@@ -29,6 +29,11 @@ std::string sha256(std::string_view text) {
   return hexadecimal(std::span(digest).first(size));
 }
 
+const std::string& Digests::of(const std::string& text) {
+  const auto found = by_text_.find(text);
+  return found != by_text_.end() ? found->second : by_text_.emplace(text, sha256(text)).first->second;
+}
+
 std::string make_uuid() {
   std::array<unsigned char, 16> bytes{};
   if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,15 @@ namespace trivela::evaluator::log {
 
 /// SHA-256 of `text` (FIPS 180-4) as 64 lower case hexadecimal digits.
 std::string sha256(std::string_view text);
+
+/// sha256() that remembers: for a few long texts that come again and again.
+class Digests {
+ public:
+  const std::string& of(const std::string& text);
+
+ private:
+  std::map<std::string, std::string> by_text_;
+};
 
 /// A random UUID of version 4 (RFC 4122). Throws std::runtime_error where the system gives no random numbers.
 std::string make_uuid();

@@ -57,8 +57,8 @@ class ExperimentLog {
   /// The cells of the next row of a table; end_row() inserts it.
   RowSink& row(std::size_t table, std::int64_t session_id);
 
-  /// Throws std::runtime_error where a cell lacks or is of another type, the key is there, or the disk refuses. Labels
-  /// are looked at by finish().
+  /// Throws std::runtime_error where a cell lacks or is of another type, a label is none of the schema's, the key is
+  /// there, or the disk refuses.
   void end_row();
 
   /// The match is written, but in the file only where the last commit() was some tenths of a second ago: a commit costs
@@ -68,8 +68,7 @@ class ExperimentLog {
   /// What was written is in the file. Throws std::runtime_error where the disk refuses.
   void commit();
 
-  /// All matches are there: folds the write-ahead log into the one file, if no reader holds it. Throws
-  /// std::runtime_error where a label is none of the schema's.
+  /// All matches are there: folds the write-ahead log into the one file, if no reader holds it.
   void finish();
 
  private:

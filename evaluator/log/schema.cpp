@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "evaluator/log/digest.hpp"
 #include "evaluator/log/schema.sql.hpp"
 
 namespace trivela::evaluator::log {
@@ -10,8 +9,8 @@ namespace trivela::evaluator::log {
 namespace {
 
 /// Key of a text that the log holds from now on.
-std::string store(SQLite::Database& database, const std::string& text) {
-  const std::string key = sha256(text);
+const std::string& store(SQLite::Database& database, const std::string& text, Digests& digests) {
+  const std::string& key = digests.of(text);
   SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
   insert.bind(1, key);
   insert.bindNoCopy(2, text);
@@ -27,7 +26,8 @@ void create_tables(SQLite::Database& database) {
   database.exec(kSchemaSql);
 }
 
-void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns) {
+void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
+                    Digests& digests) {
   const std::int64_t session_id = session_id_of(session.uuid);
   SQLite::Statement insert(database,
                            "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
@@ -41,12 +41,12 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
   if (closed_t_ns) insert.bind(5, *closed_t_ns);
   insert.bind(6, session.simulated_clock ? "simulated" : "steady");
   insert.bind(7, session.realtime_offset_ns);
-  insert.bind(8, store(database, session.config_toml));
+  insert.bind(8, store(database, session.config_toml, digests));
   if (session.seed) insert.bind(9, *session.seed);
   insert.bind(10, session.software_version);
   insert.bind(11, session.scenario);
   insert.bind(12, session.simulated ? 1 : 0);
-  insert.bind(13, store(database, session.idl));
+  insert.bind(13, store(database, session.idl, digests));
   if (session.arm) insert.bind(14, *session.arm);
   if (session.kicker_table) insert.bind(15, *session.kicker_table);
   if (session.match_id) insert.bind(16, *session.match_id);
@@ -64,7 +64,8 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
 void create_log(SQLite::Database& database, const Session& session) {
   SQLite::Transaction transaction(database);
   create_tables(database);
-  insert_session(database, session);
+  Digests digests;
+  insert_session(database, session, std::nullopt, digests);
   transaction.commit();
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluator/log/digest.hpp"
 #include "evaluator/log/session.hpp"
 
 namespace trivela::evaluator::log {
@@ -31,8 +32,8 @@ void create_tables(SQLite::Database& database);
 
 /// Inserts a session's rows, its texts where they are not there yet; `uuid` must be set. `closed_t_ns`: end of the
 /// recording, none: it goes on. Throws SQLite::Exception.
-void insert_session(SQLite::Database& database, const Session& session,
-                    std::optional<std::int64_t> closed_t_ns = std::nullopt);
+void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
+                    Digests& digests);
 
 /// Both in one transaction.
 void create_log(SQLite::Database& database, const Session& session);

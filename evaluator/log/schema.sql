@@ -1,7 +1,8 @@
 -- Schema of a match log, version 2. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
--- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix.
+-- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
+-- with IN instead of OR, SQLite would build a table of more than two labels anew for each row that is written.
 
 CREATE TABLE texts (                       -- long texts, each stored once
   sha256 TEXT NOT NULL PRIMARY KEY,        -- of text, lower case hexadecimal
@@ -39,8 +40,9 @@ CREATE TABLE experiments (                 -- what `trivela simulate` was asked 
 CREATE TABLE session_policies (            -- the policy in charge, by half
   session_id INTEGER NOT NULL,             -- sessions.session_id
   half INTEGER NOT NULL,                   -- 1, 2
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
-    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge of the kicks
+  policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
+    OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
+    OR policy = 'learned' OR policy = 'oracle'), -- in charge of the kicks
   PRIMARY KEY (session_id, half)
 ) STRICT, WITHOUT ROWID;
 
@@ -49,8 +51,9 @@ CREATE TABLE assignments (                 -- the policy in charge, by possessio
   robot_id INTEGER NOT NULL,               -- robot
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
-    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge of the kicks
+  policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
+    OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
+    OR policy = 'learned' OR policy = 'oracle'), -- in charge of the kicks
   probability REAL NOT NULL,               -- with which it was put in charge; 1: not at random
   PRIMARY KEY (session_id, robot_id, half, possession_id)
 ) STRICT, WITHOUT ROWID;
@@ -167,7 +170,7 @@ CREATE TABLE kicker_status (               -- the state of the kicker
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
   armed INTEGER NOT NULL CHECK (armed IN (0, 1)), -- 1: switch on and game playing
   ready INTEGER NOT NULL CHECK (ready IN (0, 1)), -- 1: armed, charged, no fault, no kick under way
-  fault TEXT NOT NULL CHECK (fault IN ('none', 'charger', 'coil', 'link')), -- of the device
+  fault TEXT NOT NULL CHECK (fault = 'none' OR fault = 'charger' OR fault = 'coil' OR fault = 'link'), -- of the device
   last_kick_id INTEGER NOT NULL,           -- last order answered; 0: none
   last_accepted INTEGER NOT NULL CHECK (last_accepted IN (0, 1)), -- 1: the last order was accepted
   orders_handled INTEGER NOT NULL,         -- orders so far
@@ -183,12 +186,14 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   kick_id INTEGER NOT NULL,                -- joins order, receipt, outcome and truth; 0: held
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'standing_drive', 'lateral_drive', 'turn_drive',
-    'straight_drive', 'predictive', 'learned', 'oracle')), -- in charge
+  policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
+    OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
+    OR policy = 'learned' OR policy = 'oracle'), -- in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: kick now
-  reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
-    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
-    'drive_finished', 'unlikely', 'waiting')), -- why it fires or holds
+  reason TEXT NOT NULL CHECK (reason = 'fire' OR reason = 'not_playing' OR reason = 'no_ball'
+    OR reason = 'kicker_not_ready' OR reason = 'order_pending' OR reason = 'approaching' OR reason = 'turning'
+    OR reason = 'settling' OR reason = 'not_aligned' OR reason = 'out_of_range' OR reason = 'stale_state'
+    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting'), -- why it fires or holds
   x_m REAL NOT NULL,                       -- robot pose in F, m
   y_m REAL NOT NULL,                       -- robot pose in F, m
   heading_rad REAL NOT NULL,               -- robot pose in F, rad
@@ -227,11 +232,13 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   robot_id INTEGER NOT NULL,               -- robot
   seq INTEGER NOT NULL,                    -- kick_decisions.seq
   shadow_index INTEGER NOT NULL,           -- place among the decision's shadows, from 0
-  policy TEXT NOT NULL CHECK (policy IN ('stopped', 'moving', 'predictive', 'learned')), -- not in charge
+  policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'predictive'
+    OR policy = 'learned'), -- not in charge
   fire INTEGER NOT NULL CHECK (fire IN (0, 1)), -- 1: it would kick now
-  reason TEXT NOT NULL CHECK (reason IN ('fire', 'not_playing', 'no_ball', 'kicker_not_ready', 'order_pending',
-    'approaching', 'turning', 'settling', 'not_aligned', 'out_of_range', 'stale_state',
-    'drive_finished', 'unlikely', 'waiting')), -- why it fires or holds
+  reason TEXT NOT NULL CHECK (reason = 'fire' OR reason = 'not_playing' OR reason = 'no_ball'
+    OR reason = 'kicker_not_ready' OR reason = 'order_pending' OR reason = 'approaching' OR reason = 'turning'
+    OR reason = 'settling' OR reason = 'not_aligned' OR reason = 'out_of_range' OR reason = 'stale_state'
+    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting'), -- why it fires or holds
   power REAL,                              -- set-point of the robot's own table
   v_kick_mps REAL,                         -- exit speed asked of the kicker, m/s
   aligned INTEGER NOT NULL CHECK (aligned IN (0, 1)), -- 1: the two segments meet
@@ -264,8 +271,8 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   t_ns INTEGER NOT NULL,                   -- instant of the answer
   kick_id INTEGER NOT NULL,                -- of the order
   accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the coil was energised
-  refusal TEXT NOT NULL CHECK (refusal IN ('none', 'stale', 'out_of_range', 'unarmed', 'double', 'charging',
-    'fault')),                             -- why it was refused
+  refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
+    OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'), -- why it was refused
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused
   release_t_ns INTEGER NOT NULL,           -- expected release of the ball; 0: refused
@@ -281,8 +288,9 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
   seq INTEGER NOT NULL,                    -- sequence number of the stream
   t_ns INTEGER NOT NULL,                   -- exposure that settled it
   kick_id INTEGER NOT NULL,                -- of the order
-  outcome TEXT NOT NULL CHECK (outcome IN ('on_target', 'wide_left', 'wide_right', 'over', 'short', 'post', 'bar',
-    'blocked', 'unknown')),                -- on_target: between the posts and below the bar, saves included
+  outcome TEXT NOT NULL CHECK (outcome = 'on_target' OR outcome = 'wide_left' OR outcome = 'wide_right'
+    OR outcome = 'over' OR outcome = 'short' OR outcome = 'post' OR outcome = 'bar' OR outcome = 'blocked'
+    OR outcome = 'unknown'), -- on_target: between the posts and below the bar, saves included
   on_target INTEGER NOT NULL CHECK (on_target IN (0, 1)), -- 1: between the posts and below the bar
   x_cross_m REAL,                          -- ball centre at the goal line, in F, m
   z_cross_m REAL,                          -- ball centre at the goal line, m
@@ -303,8 +311,9 @@ CREATE TABLE kick_truths (                 -- the simulator's truth of a kick; n
   kick_id INTEGER NOT NULL,                -- of the order
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half
-  outcome TEXT NOT NULL CHECK (outcome IN ('on_target', 'wide_left', 'wide_right', 'over', 'short', 'post', 'bar',
-    'blocked', 'unknown')),                -- simulator's truth
+  outcome TEXT NOT NULL CHECK (outcome = 'on_target' OR outcome = 'wide_left' OR outcome = 'wide_right'
+    OR outcome = 'over' OR outcome = 'short' OR outcome = 'post' OR outcome = 'bar' OR outcome = 'blocked'
+    OR outcome = 'unknown'), -- simulator's truth
   x_cross_m REAL,                          -- simulator's truth: ball centre at the goal line, in F, m
   z_cross_m REAL,                          -- simulator's truth: ball centre at the goal line, m
   release_t_ns INTEGER NOT NULL,           -- simulator's truth: the ball left the kicker
@@ -327,7 +336,8 @@ CREATE TABLE possession_truths (           -- the simulator's truth of how a bal
   t_ns INTEGER NOT NULL,                   -- simulator's truth: end of the possession
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half
-  ending TEXT NOT NULL CHECK (ending IN ('kicked', 'disputed', 'timed_out', 'stopped')), -- simulator's truth
+  ending TEXT NOT NULL CHECK (ending = 'kicked' OR ending = 'disputed' OR ending = 'timed_out'
+    OR ending = 'stopped'), -- simulator's truth
   start_t_ns INTEGER NOT NULL,             -- simulator's truth: the possession began
   start_x_m REAL NOT NULL,                 -- simulator's truth: robot pose in F at the start, m
   start_y_m REAL NOT NULL,                 -- simulator's truth: robot pose in F at the start, m

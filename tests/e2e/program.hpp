@@ -13,7 +13,7 @@
 namespace trivela::e2e {
 
 /// How long anything may take before a test gives up.
-inline constexpr std::chrono::seconds kPatience{60};
+inline constexpr std::chrono::seconds kPatience{240};
 
 /// Something that becomes readable when a process ends. It may be anybody's child.
 class ProcessWatch {
