@@ -68,6 +68,41 @@ TEST_F(EvaluatePolicy, ValuesAPolicyThatOnlyATenthOfThePossessionsHad) {
   EXPECT_THAT(output_of("--policy moving"), HasSubstr("moving would have had a shot on target in"));
 }
 
+TEST_F(EvaluatePolicy, KnowsMoreWhereTheLogHasEveryCycle) {
+  // All start alike; who gets near is on target, and only a decision that held says who got near.
+  const auto doubly_robust = [&](bool every_cycle) {
+    std::filesystem::remove(path());
+    evaluator::RandomNumbers random(7);
+    evaluator::TestExperiment experiment(path(), 12);
+    for (std::uint32_t match = 0; match < 12; ++match) {
+      experiment.begin();
+      experiment.session(match, 0, "", {}, false);
+      for (std::int64_t i = 1; i <= 60; ++i) {
+        const bool near = random.happens(0.5);
+        const bool moving = random.happens(0.25);
+        const std::string policy = moving ? "moving" : "stopped";
+        const double probability = moving ? 0.25 : 0.75;
+        const std::string outcome = random.happens(near ? 0.95 : 0.05) ? "on_target" : "over";
+        if (every_cycle) experiment.held(1, i, policy, probability, near ? 3.0 : 8.0);
+        experiment.possession(1, i, policy, probability, LoggedKick{outcome, outcome, 3.0});
+      }
+      experiment.commit();
+    }
+    experiment.finish();
+    return nlohmann::json::parse(output_of("--policy moving --json"));
+  };
+  const auto width = [](const nlohmann::json& json) {
+    return json["doubly_robust"]["ci95"][1].get<double>() - json["doubly_robust"]["ci95"][0].get<double>();
+  };
+  const auto kicks_alone = doubly_robust(false), every_cycle = doubly_robust(true);
+  EXPECT_EQ(kicks_alone["model"], "true start");
+  EXPECT_EQ(every_cycle["model"], "first decision");
+  EXPECT_EQ(kicks_alone["snips"], every_cycle["snips"]);
+  EXPECT_LT(width(every_cycle), 0.75 * width(kicks_alone));
+  EXPECT_LT(every_cycle["doubly_robust"]["ci95"][0], 0.5);
+  EXPECT_GT(every_cycle["doubly_robust"]["ci95"][1], 0.5);
+}
+
 TEST_F(EvaluatePolicy, RefusesALogWhoseDecisionsWereCertain) {
   write(1.0);
   EXPECT_THAT(output_of("--policy moving"), HasSubstr("no policy was drawn at random"));

@@ -87,17 +87,7 @@ class TestExperiment {
     }
     if (!kick) return;
     const Int kick_id = seq_;
-    auto& d = log_.row(decisions_, session_id_);
-    for (const Int value : {Int{1}, seq_, t_ns, kick_id, half, id}) d.integer(value);
-    d.text(policy.c_str());
-    d.integer(1);
-    d.text("fire");
-    for (const double value : {0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 9.0, 0.7, kick->distance_m, 0.0, 0.0})
-      d.number(value);
-    d.integer(1);
-    for (const double value : {0.3, 0.3, 1.0, 0.0, probability}) d.number(value);
-    d.integer(0);
-    log_.end_row();
+    decision(half, id, policy, probability, kick->distance_m, kick_id);
     row(receipts_, {Int{1}, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns}, {20.0});
     if (!kick->observed.empty()) {
       row(outcomes_, {Int{1}, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
@@ -109,6 +99,12 @@ class TestExperiment {
     for (const double value : {0.0, 4.0, 0.0, 8.0, 3.0}) t.number(value);
     t.integer(0);
     log_.end_row();
+  }
+
+  /// A decision to hold, in a possession that is yet to end.
+  void held(Int half, Int id, const std::string& policy, double probability, double distance_m) {
+    ++seq_;
+    decision(half, id, policy, probability, distance_m, 0);
   }
 
   /// The referee lets a half run for so long.
@@ -125,6 +121,19 @@ class TestExperiment {
     Int number = 0;
     const char* text = nullptr;
   };
+
+  void decision(Int half, Int id, const std::string& policy, double probability, double distance_m, Int kick_id) {
+    auto& d = log_.row(decisions_, session_id_);
+    for (const Int value : {Int{1}, seq_, seq_ * 20'000'000, kick_id, half, id}) d.integer(value);
+    d.text(policy.c_str());
+    d.integer(kick_id != 0 ? 1 : 0);
+    d.text(kick_id != 0 ? "fire" : "waiting");
+    for (const double value : {0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 9.0, 0.7, distance_m, 0.0, 0.0}) d.number(value);
+    d.integer(1);
+    for (const double value : {0.3, 0.3, 1.0, 0.0, probability}) d.number(value);
+    d.integer(0);
+    log_.end_row();
+  }
 
   // Integers and labels first, numbers behind, as most tables have them.
   void row(std::size_t table, const std::vector<Cell>& cells, const std::vector<double>& numbers) {
