@@ -35,6 +35,7 @@ struct Opportunity {
   std::uint32_t match = 0;    ///< opportunities of a match are alike; numbered from 0
   std::uint32_t stratum = 0;  ///< situation; 0 where the book has no strata
   std::uint64_t id = 0;       ///< the same id in the same match: the same situation; 0: not known
+  std::uint32_t setting = 0;  ///< what it was played with apart from what is compared: others make no pair
   Ending ending = Ending::kNoKick;
 };
 

@@ -6,8 +6,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <stdexcept>
+#include <tuple>
+
+#include "evaluator/report/log_design.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -50,66 +54,30 @@ std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std:
 
 bool was_drawn(const LoggedOpportunity& o) { return o.probability && *o.probability < 1.0; }
 
-// Groups of a match by the halves that they played.
-using Halves = std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>>;
+// Numbers of what sessions and policies were played with apart from what is compared.
+class Settings {
+ public:
+  explicit Settings(const std::string& by) : by_(by) {}
 
-void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::string& by,
-                  const std::vector<std::optional<std::uint32_t>>& group_of, bool drawn) {
-  std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> first_group;
-  bool shared = false, all_numbered = true;
-  Halves halves;
-  std::vector<std::set<double>> chances(book.groups.size());
-  for (const ComparedSession& session : logged.sessions)
-    all_numbered = all_numbered && session.match_id && session.simulated;
-  for (std::size_t i = 0; i < logged.rows.size(); ++i) {
-    if (!group_of[i]) continue;
-    const LoggedOpportunity& o = logged.rows[i];
-    const std::uint32_t match = logged.sessions[o.session].match;
-    if (o.probability) chances[*group_of[i]].insert(*o.probability);
-    halves[match][o.half].insert(*group_of[i]);
-    if (!all_numbered || shared || o.possession_id == 0) continue;
-    const std::uint64_t id = static_cast<std::uint64_t>(o.half) << 48 | static_cast<std::uint64_t>(o.possession_id);
-    const auto [place, added] = first_group.try_emplace({match, id}, *group_of[i]);
-    shared = !added && place->second != *group_of[i];
+  std::uint32_t of(const ComparedSession& session, const std::string& policy) {
+    if (by_ == "arm" || by_ == "robot") return 0;
+    const Setting setting{by_ == "policy" ? "" : policy, by_ == "table" ? "" : session.table, session.setup.settings};
+    return numbers_.try_emplace(setting, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
-  if (shared && !drawn) {
-    book.design = Design::kPaired;
-    book.design_reason = "the sessions have the same matches by number";
-    return;
-  }
-  if (drawn) {
-    book.design = Design::kRandomised;
-    book.design_reason = "the log has the probability with which each possession's policy was drawn";
-    std::vector<double> shares;
-    double sum = 0.0;
-    for (const auto& chance : chances) {
-      if (chance.size() == 1) shares.push_back(*chance.begin());
-      sum += chance.size() == 1 ? *chance.begin() : 0.0;
-    }
-    if (shares.size() == book.groups.size() && std::abs(sum - 1.0) < 1e-6) book.planned_shares = shares;
-    return;
-  }
-  std::set<std::uint32_t> first, second;  // groups that had a first half alone, a second one
-  std::size_t mixed = 0;
-  for (const auto& [match, by_half] : halves) {
-    if (by_half.size() < 2 || by_half.begin()->second == by_half.rbegin()->second) continue;
-    ++mixed;
-    first.insert(by_half.begin()->second.begin(), by_half.begin()->second.end());
-    second.insert(by_half.rbegin()->second.begin(), by_half.rbegin()->second.end());
-  }
-  if (mixed > 0 && first == second) {
-    book.design = Design::kAlternating;
-    book.design_reason = "both halves were played with each";
-  } else if (mixed > 0) {
-    book.design_reason = "one after the other in every match, always in the same order of halves";
-  } else if (by == "robot") {
-    book.design_reason = "robots play side by side but from other places";
-  } else {
-    book.design_reason = "in different matches";
-  }
-}
 
-void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::string& by) {
+ private:
+  using Setting = std::tuple<std::string, std::string, std::uint32_t>;
+  std::string by_;
+  std::map<Setting, std::uint32_t> numbers_;
+};
+
+// Minutes of the halves whose opportunities are in the book.
+void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::string& by, Settings& settings) {
+  std::set<std::uint32_t> kept;  // settings
+  for (const Opportunity& o : book.opportunities) kept.insert(o.setting);
+  const auto left_out = [&](std::uint32_t setting) {
+    return book.design == Design::kPaired && !kept.contains(setting);
+  };
   for (const LoggedHalf& half : logged.halves) {
     const ComparedSession& session = logged.sessions[half.session];
     const std::string name = by == "arm"      ? session.arm
@@ -117,8 +85,21 @@ void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::s
                              : by == "policy" ? half.policy
                                               : std::string();
     const auto group = std::ranges::find(book.groups, name);
-    if (group == book.groups.end()) continue;
+    if (group == book.groups.end() || left_out(settings.of(session, half.policy))) continue;
     book.minutes[{static_cast<std::uint32_t>(group - book.groups.begin()), session.match}] += half.minutes;
+  }
+}
+
+void check(const LogKicks& options, const std::string& by, bool known_stratum) {
+  const std::array kBy{"policy", "table", "robot", "arm"};
+  if (std::ranges::find(kBy, by) == kBy.end()) {
+    throw std::runtime_error(fmt::format("--by '{}': a match log is compared by policy, table, robot or arm", by));
+  }
+  if (!options.stratify.empty() && !known_stratum) {
+    throw std::runtime_error(
+        fmt::format("--stratify '{}': a match log has distance, start_distance, robot, half, "
+                    "scenario, table, policy and arm",
+                    options.stratify));
   }
 }
 
@@ -129,18 +110,9 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   std::set<std::string> arms;
   for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
   by = !options.by.empty() ? options.by : arms.size() > 1 ? "arm" : "policy";
-  const std::array kBy{"policy", "table", "robot", "arm"};
-  if (std::ranges::find(kBy, by) == kBy.end()) {
-    throw std::runtime_error(fmt::format("--by '{}': a match log is compared by policy, table, robot or arm", by));
-  }
-  const auto group_name = *name_by(logged, by);
   const auto stratum_name = name_by(logged, options.stratify);
-  if (!options.stratify.empty() && !stratum_name) {
-    throw std::runtime_error(
-        fmt::format("--stratify '{}': a match log has distance, start_distance, robot, half, "
-                    "scenario, table, policy and arm",
-                    options.stratify));
-  }
+  check(options, by, stratum_name.has_value());
+  const auto group_name = *name_by(logged, by);
   KickBook book;
   book.groups = groups_of(logged, by, group_name);
   book.outcome = options.truth ? "truth" : "observed";
@@ -154,7 +126,8 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   book.stratified_by = options.stratify;
   book.strata_of_kicks = options.stratify == "distance";
   if (options.stratify.ends_with("distance")) book.strata = distance_bins();
-  std::vector<std::optional<std::uint32_t>> group_of(logged.rows.size());
+  Settings settings{by};
+  std::vector<std::size_t> rows;  // of the opportunities
   std::map<std::string, std::uint32_t> places;
   for (std::uint32_t i = 0; i < book.groups.size(); ++i) places[book.groups[i]] = i;
   // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
@@ -171,7 +144,7 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
       ++certain;
       continue;
     }
-    group_of[i] = group->second;
+    rows.push_back(i);
     Opportunity opportunity;
     opportunity.group = group->second;
     opportunity.match = logged.sessions[o.session].match;
@@ -180,6 +153,7 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     }
     const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
     opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
+    opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
     opportunity.ending = o.ending;
     book.opportunities.push_back(opportunity);
   }
@@ -192,8 +166,9 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   if (certain > 0) {
     book.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
   }
-  infer_design(book, logged, by, group_of, drawn);
-  add_minutes(book, logged, by);
+  infer_design(book, logged, rows, by, drawn);
+  if (book.design == Design::kPaired) keep_common_settings(book, by);
+  if (!drawn) add_minutes(book, logged, by, settings);
   return book;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluator/report/kick_book.hpp"
+#include "evaluator/report/session_setup.hpp"
 
 namespace trivela::evaluator {
 
@@ -22,6 +23,7 @@ struct ComparedSession {
   std::string table;  ///< empty: none
   std::optional<std::int64_t> match_id;
   std::string config_sha256;
+  SessionSetup setup;
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
 };
 
@@ -65,8 +67,9 @@ struct LoggedOpportunities {
   std::vector<std::string> remarks;  ///< sentences on sessions that were not closed, that stand twice, and on loss
 };
 
-/// Sessions are one match that have the same match_id or seed and scenario; recorded on robots: that overlap in time. A
-/// session that stands in several logs counts once. Throws std::runtime_error where a log cannot be read.
+/// Sessions are one match that have the same match_id or seed and world; recorded on robots: that overlap in time. A
+/// session that stands in several logs counts once, and so does a match of an experiment that was played again with the
+/// same configuration. Throws std::runtime_error where a log cannot be read.
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth);
 
 }  // namespace trivela::evaluator

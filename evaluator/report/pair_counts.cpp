@@ -1,25 +1,21 @@
 #include "evaluator/report/pair_counts.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace trivela::evaluator {
 namespace {
 
-using Key = std::pair<std::uint32_t, std::uint64_t>;  // match, id
+using PairKey = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;  // match, id, setting
 
-// Endings of a group in the order of their keys; of two with the same key the later one.
-std::vector<std::pair<Key, Ending>> keyed(const KickBook& book, std::uint32_t group) {
-  std::vector<std::pair<Key, Ending>> rows;
+// Endings of a group in the order of their keys.
+std::vector<std::pair<PairKey, Ending>> keyed(const KickBook& book, std::uint32_t group) {
+  std::vector<std::pair<PairKey, Ending>> rows;
   for (const Opportunity& o : book.opportunities) {
-    if (o.group == group && o.id != 0) rows.push_back({{o.match, o.id}, o.ending});
+    if (o.group == group && o.id != 0) rows.push_back({{o.match, o.id, o.setting}, o.ending});
   }
-  const auto key = [](const auto& row) { return row.first; };
-  std::ranges::stable_sort(rows, {}, key);
-  std::ranges::reverse(rows);
-  const auto same = std::ranges::unique(rows, {}, key);
-  rows.erase(same.begin(), same.end());
-  std::ranges::reverse(rows);
+  std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
   return rows;
 }
 
@@ -54,7 +50,7 @@ PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t old
       continue;
     }
     const Ending x = a[i++].second, y = b[j].second;
-    const std::uint32_t match = b[j++].first.first;
+    const std::uint32_t match = std::get<0>(b[j++].first);
     const bool x_in = x == Ending::kInside, y_in = y == Ending::kInside;
     ++(x_in && y_in ? result.counts.both
        : y_in       ? result.counts.newer_only

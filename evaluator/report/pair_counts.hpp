@@ -24,7 +24,7 @@ inline void add(stats::Counts& sum, stats::Counts counts) {
 std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities);
 
-/// Opportunities that two groups both had.
+/// Opportunities that two groups both had: of the same match, id and setting, which a group has once.
 struct PairedOpportunities {
   stats::PairedCounts counts;
   std::vector<stats::MatchCounts> cells;  ///< the same by match

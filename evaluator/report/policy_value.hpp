@@ -14,7 +14,7 @@ struct PolicyValueReport {
   std::string policy;
   stats::OffPolicy value;          ///< shots on target an opportunity
   std::int64_t opportunities = 0;  ///< in the log
-  std::int64_t not_drawn = 0;      ///< left out: the policy could not have been drawn there
+  std::int64_t not_drawn = 0;      ///< left out: in their configuration, or by their robot, the policy was never drawn
   std::int64_t unknown = 0;        ///< whose outcome is unknown; counted as not on target
   bool from_decisions = false;     ///< the model of outcomes knows what the robot believed; otherwise the true start
   bool simulated = false;

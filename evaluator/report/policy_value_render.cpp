@@ -45,7 +45,9 @@ std::string to_text(const PolicyValueReport& r) {
                                       : "true distance and place at the start of the possession");
   text += named_line("outcomes", r.outcome == "truth" ? "the simulator's truth" : "as the robots observed them");
   if (r.not_drawn > 0) {
-    text += bullet(fmt::format("{} opportunities left out: the policy could not have been drawn there.", r.not_drawn));
+    text += bullet(
+        fmt::format("{} opportunities left out: in their configuration, or by their robot, the policy was never drawn.",
+                    r.not_drawn));
   }
   if (r.unknown > 0)
     text += bullet(fmt::format("{} kicks whose outcome is unknown count as not on target.", r.unknown));

@@ -7,7 +7,7 @@
 namespace trivela::evaluator::stats {
 namespace {
 
-constexpr double kTie = 1.0 + 1e-7;  // probabilities so near are equal but for rounding, as in R
+constexpr double kBinomialTie = 1.0 + 1e-7;  // probabilities so near are equal but for rounding, as in R
 
 // The least x of [lo, hi] for which `holds`, which is false and then true; hi + 1: for none.
 template <typename Predicate>
@@ -37,7 +37,7 @@ double binomial_two_sided(Counts counts, double p) {
            : k <= 0     ? 1.0
                         : boost::math::cdf(boost::math::complement(distribution, static_cast<double>(k - 1)));
   };
-  const double limit = pmf(counts.inside) * kTie;
+  const double limit = pmf(counts.inside) * kBinomialTie;
   const auto mode = std::min(static_cast<std::int64_t>(static_cast<double>(counts.n + 1) * p), counts.n);
   if (pmf(mode) <= limit) return 1.0;
   // The probabilities rise up to the mode and fall beyond it, so that each tail has one boundary.

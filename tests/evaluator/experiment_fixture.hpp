@@ -47,6 +47,10 @@ class TestExperiment {
         assignments_(log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})),
         referee_(log_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
 
+  std::string table = "new";       ///< of the next sessions
+  std::string config = "a = 1\n";  ///< of the next sessions
+  std::string run = "test";        ///< sessions of another run have other keys
+
   void begin() { log_.begin(); }
   void commit() {
     log_.end_match();
@@ -58,15 +62,15 @@ class TestExperiment {
   void session(std::uint32_t match_id, std::uint32_t arm, const std::string& arm_name,
                std::vector<log::HalfPolicy> policies, bool numbered = true) {
     log::Session session;
-    session.uuid = log::experiment_uuid(log::sha256("test"), match_id, arm);
+    session.uuid = log::experiment_uuid(log::sha256(run), match_id, arm);
     session.simulated_clock = session.simulated = true;
-    session.config_toml = "a = 1\n";
+    session.config_toml = config;
     session.seed = 100 + match_id;
     session.software_version = "test";
     session.scenario = "empty_field";
     session.policies = std::move(policies);
     if (!arm_name.empty()) session.arm = arm_name;
-    session.kicker_table = "new";
+    session.kicker_table = table;
     if (numbered) session.match_id = match_id;
     session_id_ = log_.add_session(session, 600'000'000'000);
   }
