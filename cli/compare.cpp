@@ -28,12 +28,17 @@ struct CompareArguments {
   bool json = false;
 };
 
+std::string csv_name(const CompareArguments& arguments) {
+  return arguments.csv == "-" ? "standard input" : arguments.csv;
+}
+
 evaluator::KickBook read_csv(const CompareArguments& arguments) {
-  const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify};
-  if (arguments.csv == "-") return read_kicks(std::cin, "standard input", options);
+  const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify,
+                              arguments.design == "paired"};
+  if (arguments.csv == "-") return read_kicks(std::cin, csv_name(arguments), options);
   std::ifstream file(arguments.csv);
   if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
-  return read_kicks(file, arguments.csv, options);
+  return read_kicks(file, csv_name(arguments), options);
 }
 
 void check(const CompareArguments& arguments) {
@@ -41,7 +46,7 @@ void check(const CompareArguments& arguments) {
       (arguments.logs.empty() ? 0 : 1) + (arguments.csv.empty() ? 0 : 1) + (arguments.counts.empty() ? 0 : 1);
   if (sources == 0) throw UsageError("compare needs match logs, --csv KICKS.csv or --counts");
   if (sources > 1) throw UsageError("compare takes match logs, --csv or --counts, one of the three");
-  if (arguments.smallest_effect_points <= 0.0 || arguments.smallest_effect_points >= 100.0) {
+  if (!(arguments.smallest_effect_points > 0.0 && arguments.smallest_effect_points < 100.0)) {
     throw UsageError(fmt::format("--smallest-effect {}: write percentage points between 0 and 100",
                                  arguments.smallest_effect_points));
   }
@@ -61,6 +66,9 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
              : evaluator::read_log_kicks(
                    {arguments.logs.begin(), arguments.logs.end()},
                    {.by = arguments.by, .stratify = arguments.stratify, .truth = arguments.outcome == "truth"}, by);
+  if (arguments.stratify == by) {
+    throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
+  }
   if (!arguments.baseline.empty() && !evaluator::put_first(book, arguments.baseline)) {
     throw UsageError(
         fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by, fmt::join(book.groups, ", ")));
@@ -69,7 +77,12 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
     book.design = *evaluator::design_of(arguments.design);
     book.design_reason = "as --design says";
   }
-  return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+  try {
+    return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+  } catch (const std::runtime_error& error) {
+    if (!of_csv) throw;
+    throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
+  }
 }
 
 }  // namespace

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <tuple>
 
 #include "cli/csv_rows.hpp"
+#include "cli/verbs.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -50,6 +53,30 @@ class Places {
  private:
   std::map<std::string, std::uint32_t> numbers_;
 };
+
+// Lines by policy, match and opportunity: a second one has no partner of its own.
+class Plays {
+ public:
+  void add(const evaluator::Opportunity& opportunity, const Row& row, const std::string& by, std::size_t line) {
+    const auto [place, added] = lines_.try_emplace({opportunity.group, opportunity.match, opportunity.id}, line);
+    if (added) return;
+    throw CellError("opportunity", *row.word("opportunity"),
+                    fmt::format("stands in line {} already, with {} '{}'{}", place->second, by, *row.word(by),
+                                row.has("match") ? fmt::format(" and match '{}'", *row.word("match")) : ""));
+  }
+
+ private:
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>, std::size_t> lines_;
+};
+
+void check_stratum(const CsvComparison& options) {
+  for (const char* outcome : {"on_target", "kicked"}) {
+    if (options.by == outcome) throw UsageError(fmt::format("--by {}: that is the outcome, not a group", outcome));
+    if (options.stratify == outcome) {
+      throw UsageError(fmt::format("--stratify {}: that is the outcome, not a situation", outcome));
+    }
+  }
+}
 
 void check_header(const std::vector<std::string>& header, const std::string& file, const CsvComparison& options) {
   const auto has = [&](const std::string& name) { return std::ranges::find(header, name) != header.end(); };
@@ -96,7 +123,8 @@ std::uint32_t stratum_of(KickBook& book, const Row& row, const std::string& colu
 }  // namespace
 
 KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparison& options) {
-  CsvReader reader(in);
+  check_stratum(options);
+  CsvReader reader(in, file);
   const auto head = reader.next();
   if (!head) throw std::runtime_error(file + ": no header line");
   const std::vector<std::string> header = trimmed(head->cells);
@@ -105,6 +133,9 @@ KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparis
   book.stratified_by = options.stratify;
   if (options.stratify == "distance") book.strata = evaluator::distance_bins();
   Places matches, opportunities;
+  Plays plays;
+  const auto has = [&](const char* name) { return std::ranges::find(header, name) != header.end(); };
+  const bool once_each = has("opportunity") && (has("match") || options.paired);
   while (const auto record = reader.next()) {
     try {
       check_width(header, *record);
@@ -114,13 +145,13 @@ KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparis
       if (row.has("match")) opportunity.match = matches.of(word_of(row, "match"));
       if (row.has("opportunity")) opportunity.id = opportunities.of(word_of(row, "opportunity")) + 1;
       opportunity.stratum = stratum_of(book, row, options.stratify);
+      if (once_each) plays.add(opportunity, row, options.by, record->line);
       add_minutes(book, row, opportunity);
       book.opportunities.push_back(opportunity);
     } catch (const CellError& error) {
       throw std::runtime_error(fmt::format("{}:{}: {}", file, record->line, error.what()));
     }
   }
-  const auto has = [&](const char* name) { return std::ranges::find(header, name) != header.end(); };
   book.has_opportunities = has("kicked");
   book.has_matches = has("match");
   book.matches = matches.size();

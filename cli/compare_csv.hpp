@@ -11,12 +11,14 @@ namespace trivela::cli {
 struct CsvComparison {
   std::string by = "policy";  ///< column with the groups
   std::string stratify;       ///< column with the situations; "distance" for bins of distance_m; empty: none
+  bool paired = false;        ///< the same opportunities are said to have been played by every group
 };
 
 /// Reads a table of kicks, or of opportunities: columns `policy` (or the one of `by`) and `on_target` (1, 0; empty:
 /// unknown), and if wanted `kicked` (0: an opportunity without a kick), `match`, `opportunity`, `minutes` (of play of
 /// that group in that match, the same in each of its rows), `distance_m`. Throws std::runtime_error naming file, line,
-/// column and value.
+/// column and value, also where a group has an opportunity of a match twice (without `match`: where they are paired);
+/// UsageError where groups or situations are to be the outcome.
 evaluator::KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparison& options);
 
 }  // namespace trivela::cli

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <istream>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "cli/plain_text.hpp"
 
 namespace trivela::cli {
 
@@ -15,18 +21,19 @@ struct CsvRecord {
 };
 
 /// Reads CSV records: quoted cells (commas, doubled quotes and line ends inside), LF or CRLF, a byte order mark;
-/// lines that begin with '#' and empty lines are passed over.
+/// lines that begin with '#' and empty lines are passed over. Cells are printable UTF-8. `file`: what errors call it.
 class CsvReader {
  public:
-  explicit CsvReader(std::istream& in) : in_(in) {}
+  explicit CsvReader(std::istream& in, std::string file = "CSV") : in_(in), file_(std::move(file)) {}
 
-  /// The next record, none at the end.
+  /// The next record, none at the end. @throws std::runtime_error naming file, line and column (from 1) for a quote
+  /// that is never closed or closed within a cell, a byte that is not UTF-8, and a control character.
   std::optional<CsvRecord> next() {
     std::string text;
     while (read_line(text)) {
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
       if (text.empty() || text.front() == '#') continue;
-      return split(text);
+      return split(std::move(text));
     }
     return std::nullopt;
   }
@@ -39,29 +46,52 @@ class CsvReader {
     return true;
   }
 
+  [[noreturn]] void fail(std::size_t line, std::size_t column, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}:{}: column {}: {}", file_, line, column, what));
+  }
+
+  [[noreturn]] void fail_on_byte(std::size_t column, const std::string& text, std::size_t place) const {
+    const unsigned byte = static_cast<unsigned char>(text[place]);
+    fail(line_, column,
+         utf8_length(std::string_view(text).substr(place)) == 0
+             ? fmt::format("byte 0x{:02X} is not UTF-8", byte)
+             : fmt::format("a control character (byte 0x{:02X}) in a cell", byte));
+  }
+
   CsvRecord split(std::string text) {
     CsvRecord record{line_, {""}};
-    bool quoted = false;
+    bool quoted = false, closed = false;  // within quotes; behind the quote that ended the cell
+    std::size_t opened_on = 0;
     do {
+      const std::size_t unprintable = first_unprintable(text).value_or(text.size());
       for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
+        if (i == unprintable) fail_on_byte(record.cells.size(), text, i);
         std::string& cell = record.cells.back();
         if (c == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
           cell += text[++i];
-        } else if (c == '"' && (quoted || cell.empty())) {
+        } else if (c == '"' && (quoted || (cell.empty() && !closed))) {
           quoted = !quoted;
+          closed = !quoted;
+          if (quoted) opened_on = line_;
         } else if (c == ',' && !quoted) {
           record.cells.emplace_back();
-        } else {
+          closed = false;
+        } else if (!closed) {
           cell += c;
+        } else if (c != ' ' && c != '\t') {
+          fail(line_, record.cells.size(),
+               fmt::format("text behind the closing quote of the cell whose quote opens on line {}", opened_on));
         }
       }
       if (quoted) record.cells.back() += '\n';
     } while (quoted && read_line(text));
+    if (quoted) fail(opened_on, record.cells.size(), "the quote that opens here is never closed");
     return record;
   }
 
   std::istream& in_;
+  std::string file_;
   std::size_t line_ = 0;
 };
 

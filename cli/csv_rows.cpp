@@ -159,31 +159,34 @@ double Row::acute_angle_rad(std::string_view column) const {
 
 ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
                   std::ostream& err) {
-  CsvReader reader(in);
+  CsvReader reader(in, file);
   const auto head = reader.next();
   if (!head) throw std::runtime_error(file + ": no header line");
   const std::vector<std::string> header = trimmed(head->cells);
   check_header(verb, header, file);
+  // To the end before anything is written: a text that is no CSV gives no rows.
+  std::vector<CsvRecord> records;
+  while (auto record = reader.next()) records.push_back(std::move(*record));
   const auto results =
       verb.results([&](std::string_view column) { return std::count(header.begin(), header.end(), column) > 0; });
 
   ExitCode code = kDone;
   Json objects = Json::array();
   if (format == RowFormat::kCsv) out << csv_line(head->cells, results);
-  while (const auto record = reader.next()) {
+  for (const CsvRecord& record : records) {
     try {
-      const std::vector<Value> values = compute_record(verb, header, *record);
+      const std::vector<Value> values = compute_record(verb, header, record);
       if (format == RowFormat::kCsv) {
         std::vector<std::string> cells;
         std::transform(values.begin(), values.end(), std::back_inserter(cells), to_cell);
-        out << csv_line(record->cells, cells);
+        out << csv_line(record.cells, cells);
         continue;
       }
       Json& object = objects.emplace_back(Json::object());
-      for (std::size_t i = 0; i < header.size(); ++i) object[header[i]] = given_to_json(record->cells[i]);
+      for (std::size_t i = 0; i < header.size(); ++i) object[header[i]] = given_to_json(record.cells[i]);
       for (std::size_t i = 0; i < results.size(); ++i) object[results[i]] = to_json(values[i]);
     } catch (const CellError& error) {
-      err << fmt::format("{}:{}: {}\n", file, record->line, error.what());
+      err << fmt::format("{}:{}: {}\n", file, record.line, error.what());
       code = kFailed;
     }
   }
@@ -225,6 +228,9 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     } else if (column.required) {
       throw UsageError(fmt::format("{} is missing (or --csv FILE)", flag_of(column)));
     }
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (first_unprintable(cells[i])) throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
   }
   std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));
   std::ostringstream out;

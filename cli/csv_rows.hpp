@@ -78,8 +78,8 @@ struct RowVerb {
 enum class RowFormat { kCsv, kJson };
 
 /// Reads CSV from `in`, writes the rows with the results appended to `out`. A bad row is left out and named on `err`
-/// with file, line, column and value. @returns kDone, or kFailed after a bad row. @throws std::runtime_error if the
-/// header is unusable.
+/// with file, line, column and value. @returns kDone, or kFailed after a bad row. @throws std::runtime_error, with
+/// nothing written, if the header is unusable or CsvReader cannot read on.
 ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
                   std::ostream& err);
 

@@ -199,6 +199,43 @@ TEST_F(CompareCsv, SaysWhereTheTableIsWrong) {
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--baseline z"), HasSubstr("there is no such policy (a, b)"));
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--counts a=1/2"), HasSubstr("one of the three"));
   EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--smallest-effect 0"), HasSubstr("between 0 and 100"));
+  EXPECT_THAT(output_of("policy,on_target\na,1\nb,1\n", "--smallest-effect nan"), HasSubstr("between 0 and 100"));
+}
+
+TEST_F(CompareCsv, WhatHoldsForTheWholeTableNamesTheFile) {
+  EXPECT_THAT(output_of("policy,on_target\n"), HasSubstr("kicks.csv: there are no kicks"));
+  EXPECT_THAT(output_of("policy,on_target\na,1\n"), HasSubstr("kicks.csv: the only policy is 'a'"));
+  EXPECT_THAT(output_of("policy,on_target,kicked\na,,0\nb,,0\n"), HasSubstr("kicks.csv: there are 2 opportunities"));
+}
+
+TEST_F(CompareCsv, ATextThatIsNoCsvIsRefusedAndNotCounted) {
+  const std::string csv = "policy,on_target,note\na,1,q\nb,0,w\na,1,\"x\na,1,y\na,0,z\nb,1,w\nb,0,v\n";
+  EXPECT_THAT(output_of(csv), HasSubstr("kicks.csv:4: column 3: the quote that opens here is never closed"));
+  for (const char* flags : {"", "--json"}) {
+    EXPECT_THAT(output_of("policy,on_target\na,1\nb\xE9,0\n", flags),
+                HasSubstr("kicks.csv:3: column 1: byte 0xE9 is not UTF-8"));
+  }
+}
+
+TEST_F(CompareCsv, AnOpportunityIsPlayedOnceByEachGroup) {
+  const std::string csv = "policy,on_target,match,opportunity\na,1,m,1\nb,0,m,1\na,1,n,1\na,0,m,1\nb,1,m,2\n";
+  const auto refusal =
+      HasSubstr("kicks.csv:5: column opportunity: '1' stands in line 2 already, with policy 'a' and match 'm'");
+  EXPECT_THAT(output_of(csv), refusal);
+  EXPECT_THAT(output_of(csv, "--design paired"), refusal);
+  // Without matches it may be another match's, unless all are said to be pairs.
+  const std::string no_matches = "policy,on_target,opportunity\na,1,1\nb,0,1\na,1,1\n";
+  EXPECT_THAT(output_of(no_matches), HasSubstr("b against a"));
+  EXPECT_THAT(output_of(no_matches, "--design paired"), HasSubstr("'1' stands in line 2 already, with policy 'a'"));
+}
+
+TEST_F(CompareCsv, StrataAreNeitherTheOutcomeNorTheGroups) {
+  const std::string csv = "policy,on_target,kicked,floor\na,1,1,x\nb,0,1,x\n";
+  EXPECT_THAT(output_of(csv, "--stratify on_target"), HasSubstr("--stratify on_target: that is the outcome"));
+  EXPECT_THAT(output_of(csv, "--stratify kicked"), HasSubstr("--stratify kicked: that is the outcome"));
+  EXPECT_THAT(output_of(csv, "--by on_target"), HasSubstr("--by on_target: that is the outcome"));
+  EXPECT_THAT(output_of(csv, "--stratify policy"), HasSubstr("--stratify policy: within one policy there is nothing"));
+  EXPECT_THAT(output_of(csv, "--by floor --stratify floor"), HasSubstr("within one floor there is nothing"));
 }
 
 }  // namespace

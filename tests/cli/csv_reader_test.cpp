@@ -34,6 +34,53 @@ TEST(CsvReader, PassesOverCommentsEmptyLinesAndAByteOrderMark) {
   EXPECT_EQ(records[1].line, 4u);
 }
 
+/// What it says to a text that it cannot read; empty: nothing.
+std::string error_of(const std::string& text) {
+  std::istringstream in(text);
+  CsvReader reader(in, "x.csv");
+  try {
+    while (reader.next()) continue;
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CsvReader, NamesTheLineOfAQuoteThatIsNeverClosed) {
+  EXPECT_EQ(error_of("policy,on_target,note\na,1,q\na,1,\"x\na,1,y\n"),
+            "x.csv:3: column 3: the quote that opens here is never closed");
+  EXPECT_EQ(error_of("a,b\n\"two\nlines\",\"x\ny\n"), "x.csv:3: column 2: the quote that opens here is never closed");
+  EXPECT_EQ(error_of("a\n\"x\"\""), "x.csv:2: column 1: the quote that opens here is never closed");
+}
+
+TEST(CsvReader, DoesNotTakeTheNextCellsQuoteForTheClosingOne) {
+  EXPECT_EQ(error_of("a,b\n1,\"x\n2,\"y\"\n"),
+            "x.csv:3: column 2: text behind the closing quote of the cell whose quote opens on line 2");
+  EXPECT_THAT(read_all("\"x\" ,5\" tube,\"\"\n").at(0).cells, ElementsAre("x", "5\" tube", ""));
+}
+
+TEST(CsvReader, RefusesWhatIsNotUtf8) {
+  EXPECT_EQ(error_of("a,b\n1,caf\xE9\n"), "x.csv:2: column 2: byte 0xE9 is not UTF-8");
+  EXPECT_EQ(error_of("a,b\n\"1\n2\",\"3\n\xFF\"\n"), "x.csv:4: column 2: byte 0xFF is not UTF-8");
+  EXPECT_EQ(error_of("\xFF\xFE"), "x.csv:1: column 1: byte 0xFF is not UTF-8");
+  for (const char* text :
+       {"\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF8", "\xE2\x82", "\x80"}) {
+    EXPECT_THAT(error_of(text), testing::HasSubstr("is not UTF-8"));
+  }
+  const std::string beyond_ascii = "\u00E9\u20AC\U0001F916";
+  EXPECT_THAT(read_all(beyond_ascii + ",b").at(0).cells, ElementsAre(beyond_ascii, "b"));
+}
+
+TEST(CsvReader, RefusesControlCharactersButTheTab) {
+  EXPECT_EQ(error_of("a\n\x1B[31mred\n"), "x.csv:2: column 1: a control character (byte 0x1B) in a cell");
+  EXPECT_THAT(error_of(std::string{"a,\0b", 4}), testing::HasSubstr("(byte 0x00)"));
+  EXPECT_THAT(error_of("a\rb\n"), testing::HasSubstr("(byte 0x0D)"));
+  EXPECT_THAT(error_of("\xC2\x9B"), testing::HasSubstr("control character"));
+  EXPECT_THAT(read_all("a\tb\n").at(0).cells, ElementsAre("a\tb"));
+}
+
+TEST(CsvReader, PassesOverCommentsInOtherEncodings) { EXPECT_EQ(read_all("# caf\xE9\na\n").size(), 1u); }
+
 TEST(CsvReader, CountsEmptyCells) { EXPECT_THAT(read_all(",,\n").at(0).cells, ElementsAre("", "", "")); }
 
 }  // namespace
