@@ -95,10 +95,10 @@ void keep_common_settings(KickBook& book, const std::string& by) {
   for (const Opportunity& o : book.opportunities) {
     groups_of[o.setting].insert(o.group);
     if (o.id == 0 || seen.insert({o.group, situation_of(o)}).second) continue;
-    throw std::runtime_error(
-        fmt::format("{} '{}' was played twice on the same opportunities, in sessions whose settings differ or that "
-                    "are arms of their own: compare by arm, with a name for each, or leave a log out",
-                    by, book.groups[o.group]));
+    throw std::runtime_error(fmt::format(
+        "{0} '{1}' was played twice on the same opportunities, in sessions that differ: {2}, or leave a log "
+        "out",
+        by, book.groups[o.group], by == "arm" ? "give each its own arm" : "compare by arm"));
   }
   const auto common = [&](std::uint32_t setting) { return groups_of[setting].size() == book.groups.size(); };
   if (std::ranges::none_of(groups_of, [&](const auto& of) { return common(of.first); })) {
