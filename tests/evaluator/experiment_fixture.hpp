@@ -140,8 +140,8 @@ class TestExperiment {
   }
 
   // Integers and labels first, numbers behind, as most tables have them.
-  void row(std::size_t table, const std::vector<Cell>& cells, const std::vector<double>& numbers) {
-    auto& sink = log_.row(table, session_id_);
+  void row(std::size_t place, const std::vector<Cell>& cells, const std::vector<double>& numbers) {
+    auto& sink = log_.row(place, session_id_);
     for (const Cell& cell : cells) cell.text != nullptr ? sink.text(cell.text) : sink.integer(cell.number);
     for (const double number : numbers) sink.number(number);
     log_.end_row();
