@@ -115,8 +115,9 @@ Json to_json(const LearnedFit& fit, const std::string& written) {
 
 ExitCode learn(const LearnFlags& flags) {
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
-  const auto kicks = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
-  const LearnedFit fit = evaluator::fit_learned_model(kicks, flags.options);
+  const auto logged = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
+  for (const std::string& remark : logged.remarks) fmt::print(stderr, "trivela: {}\n", remark);
+  const LearnedFit fit = evaluator::fit_learned_model(logged.kicks, flags.options);
   const bool better = fit.held_out.better();
   const std::string written = better || flags.anyway ? flags.out : "";
   if (!written.empty()) {

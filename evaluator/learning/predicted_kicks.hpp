@@ -22,9 +22,16 @@ enum class PredictionSource {
   kAndShadows  ///< also kicks of other policies, with what its shadow gave its own kick of the same cycle
 };
 
-/// The predicted kicks of match logs. Matches are told apart by the number that they were played with, or by session
-/// where they have none; the same number in another file is another match.
+/// The predicted kicks of match logs, and sentences on what was left out.
+struct PredictedKicks {
+  std::vector<PredictedKick> kicks;
+  std::vector<std::string> remarks;
+};
+
+/// Reads the predicted kicks of match logs. A session counts once, in however many of the logs it stands. Sessions of
+/// one scenario and seed are one match, whatever log they are in and whatever else they were played with; so are
+/// recordings of robots whose times overlap. A simulated session without seed and match_id is a match of its own.
 /// @throws std::runtime_error as log::Reader does, and for a log of a version that had no predictions.
-std::vector<PredictedKick> predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source);
+PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source);
 
 }  // namespace trivela::evaluator

@@ -2,13 +2,12 @@
 -- charge where that was predictive, else of its shadow in the same cycle. An order may be sent twice, an outcome
 -- corrected: the first decision and the latest outcome count. Unknown outcomes and kicks that the driver did not accept
 -- are left out.
--- Columns: policy, match (its number; NULL: none was given), session_id, robot_id, p_on_target, distance_m, vx_mps,
--- vy_mps, omega_radps, power, opponent_distance_m, on_target.
-SELECT d.policy, s.match_id, d.session_id, d.robot_id,
+-- Columns: policy, session_id, robot_id, p_on_target, distance_m, vx_mps, vy_mps, omega_radps, power,
+-- opponent_distance_m, on_target.
+SELECT d.policy, d.session_id, d.robot_id,
   CASE d.policy WHEN 'predictive' THEN d.p_on_target ELSE w.p_on_target END AS p_on_target,
   d.distance_m, d.vx_mps, d.vy_mps, d.omega_radps, d.power, d.opponent_distance_m, c.outcome = 'on_target' AS on_target
 FROM kick_decisions AS d
-JOIN sessions AS s ON s.session_id = d.session_id
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT min(seq) FROM kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
