@@ -38,6 +38,7 @@ std::optional<config::Robot> robot_of(const FitFlags& flags);
 bool is_match_log(const FitFlags& flags);
 
 /// What was fitted, for people and for programs.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON throws nothing, the check cannot see it
 struct FitReport {
   std::string text;
   Json json;
