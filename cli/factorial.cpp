@@ -42,6 +42,7 @@ void factorial(const FactorialFlags& flags) {
     report.cells.push_back({cell, {}});
     arms.push_back(arm_of(cell, settings, robots));
   }
+  for (const std::string& remark : shared_robots(scenario, arms)) fmt::print(stderr, "trivela: {}\n", remark);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 
@@ -49,6 +50,7 @@ void factorial(const FactorialFlags& flags) {
                                      arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
   std::vector<double> medians_m = flags.no_sweep ? std::vector<double>{} : flags.opponent_medians_m;
   std::ranges::sort(medians_m);
+  medians_m.erase(std::unique(medians_m.begin(), medians_m.end()), medians_m.end());
   for (const double median_m : medians_m) {
     sim::Scenario world = scenario;
     world.opponent.distance_median_m = median_m;

@@ -20,6 +20,7 @@ void frontier(const FrontierFlags& flags) {
   const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
   std::vector<double> thresholds = flags.thresholds;
   std::ranges::sort(thresholds);
+  thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
   std::vector<nodes::Arm> arms;
   for (const double threshold : thresholds) {
     nodes::Arm arm = arms_of(flags.policy, flags.base).front();

@@ -25,6 +25,7 @@ std::vector<UncertainInput> chosen(const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     const auto found = std::ranges::find(all, key, &UncertainInput::key);
     if (found == all.end()) throw UsageError{fmt::format("--input: \"{}\" is none of the uncertain inputs", key)};
+    if (std::ranges::count(keys, key) > 1) throw UsageError{fmt::format("--input: \"{}\" stands twice", key)};
     some.push_back(*found);
   }
   return some;
@@ -33,6 +34,7 @@ std::vector<UncertainInput> chosen(const std::vector<std::string>& keys) {
 void sensitivity(const SensitivityFlags& flags) {
   const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
   const std::vector<nodes::Arm> arms = arms_of(flags.arms, flags.base);
+  const std::vector<UncertainInput> inputs = chosen(flags.inputs);
   if (arms.size() < 2) throw UsageError{"--arms: two or more, each is compared with the one before it"};
   SensitivityReport report{.scenario = flags.study.scenario_name(),
                            .seed = flags.study.plan.seed,
@@ -46,7 +48,7 @@ void sensitivity(const SensitivityFlags& flags) {
     return play_with_bar(world, arms, flags.study.plan, what);
   };
   report.base = play(scenario, "the scenario");
-  for (const UncertainInput& input : chosen(flags.inputs)) {
+  for (const UncertainInput& input : inputs) {
     PlayedInput played{input, value_of(scenario, input.key), {}};
     for (const double value : {input.low, input.high}) {
       if (value == played.value) continue;

@@ -16,7 +16,9 @@ void add_study_options(CLI::App& verb, Study& study) {
   verb.add_option("--possessions", plan.possessions, "Opportunities of a match")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->capture_default_str();
+  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}))
+      ->capture_default_str();
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
   verb.add_option("--scenario", study.scenario, "The world")->check(CLI::ExistingFile)->capture_default_str();
   verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");

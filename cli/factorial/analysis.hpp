@@ -56,7 +56,8 @@ struct SweepAnswer {
   std::optional<double> ratio_at_m;    ///< kick ratio 2.03, linear between points; none: nowhere in the sweep
   std::optional<double> ratio_from_m;  ///< from where on ...
   std::optional<double> ratio_to_m;    ///< ... to where the ratio's 95 % interval has it; none: beyond the sweep
-  std::size_t nearest = 0;             ///< point whose efficiencies are nearest to the paper's, both together
+  std::optional<std::size_t> nearest;  ///< point whose efficiencies are nearest to the paper's, both together; none:
+                                       ///< at no point did both kick
   double off_older = 0.0;              ///< its efficiency - 34/65
   double off_newer = 0.0;              ///< its efficiency - 100/132
   std::vector<std::size_t>

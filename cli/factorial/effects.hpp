@@ -24,11 +24,13 @@ enum class Measure {
 /// An arm's matches, in the order of their numbers.
 using ArmTally = std::vector<MatchTally>;
 
-/// A number with its 95 % interval.
+/// A number with its 95 % interval. NaN: there are too few kicks for it, or for the interval alone.
 struct Effect {
   double value = 0.0;
   evaluator::stats::Interval ci;
 };
+
+bool has_interval(const Effect& effect);
 
 MatchTally total_of(const ArmTally& matches);
 
@@ -43,10 +45,16 @@ struct Term {
 
 /// sum_a w_a p_a with p_a the arm's share over all matches. Variance by linearisation over matches, which all arms
 /// have in common: u_m = sum_a w_a (x_am - p_a n_am) / N_a, V = G / (G - 1) sum u_m^2, Student's distribution with G -
-/// 1 degrees of freedom. An arm without a kick has no efficiency: NaN.
+/// 1 degrees of freedom. An arm without a kick has no efficiency; an arm with kicks in one match only has no interval,
+/// since one match does not say how far matches differ. Nor have arms of which each has all or nothing on target.
 Effect contrast(std::span<const Term> terms, Measure measure);
 
-/// Kicks of `newer` over kicks of `older`, the interval that of the logarithm, by the same linearisation.
+/// One arm's share. Its interval is contrast()'s, which is symmetric, cut off at 0 and 1. Where all or nothing was on
+/// target, so that the linearised variance is 0: Wilson's, by match where there are enough of them.
+Effect share_of(const ArmTally& matches, Measure measure);
+
+/// Kicks of `newer` over kicks of `older`, the interval that of the logarithm, by the same linearisation. None where
+/// `older` never kicks; no interval where one of them kicks in fewer than two matches.
 Effect kick_ratio(const ArmTally& older, const ArmTally& newer);
 
 }  // namespace trivela::cli

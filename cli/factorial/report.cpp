@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "cli/factorial/effect_json.hpp"
+#include "cli/factorial/effect_text.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
@@ -16,22 +20,9 @@ using evaluator::Json;
 using evaluator::json_of;
 using kicking::PolicyName;
 
-Effect share_of(const ArmTally& matches, Measure measure) {
-  const Term term{&matches, 1.0};
-  return contrast({&term, 1}, measure);
-}
-
 double kicks_per_opportunity(const ArmTally& matches) {
   const MatchTally total = total_of(matches);
   return static_cast<double>(total.kicks) / static_cast<double>(total.opportunities);
-}
-
-std::string share_text(const Effect& effect) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * effect.value, 100.0 * effect.ci.lo, 100.0 * effect.ci.hi);
-}
-
-std::string points_text(const Effect& effect) {
-  return fmt::format("{:+.1f} ({:+.1f} to {:+.1f})", 100.0 * effect.value, 100.0 * effect.ci.lo, 100.0 * effect.ci.hi);
 }
 
 const char* law_text(const Cell& cell) { return cell.policy == PolicyName::kPredictive ? "-" : name(cell.law); }
@@ -64,6 +55,9 @@ std::string effects_text(const FactorialReport& report) {
 std::string gain_sentence(const FactorialReport& report) {
   const auto sentence = [&](const char* what, Measure measure) {
     const Gain gain = gain_of(report.cells, measure);
+    if (!has_interval(gain.gain) || !has_interval(gain.calibration) || !has_interval(gain.motion)) {
+      return fmt::format("{} cannot be told, there are too few kicks", what);
+    }
     return fmt::format("{} {} points, of which calibration {} and motion {}", what, points_text(gain.gain),
                        points_text(gain.calibration), points_text(gain.motion));
   };
@@ -79,8 +73,13 @@ std::string gain_sentence(const FactorialReport& report) {
 
 std::string sweep_sentence(const FactorialReport& report) {
   const SweepAnswer answer = answer_of(report.sweep);
+  const double first_m = report.sweep.front().opponent_median_m, last_m = report.sweep.back().opponent_median_m;
   std::string text;
-  if (answer.ratio_at_m) {
+  const bool has_ratio = std::ranges::any_of(
+      report.sweep, [](const SweepPoint& point) { return std::isfinite(kick_ratio(point.older, point.newer).value); });
+  if (!has_ratio) {
+    text = "There are too few kicks for a kick ratio. ";
+  } else if (answer.ratio_at_m) {
     const auto end = [](const std::optional<double>& metres, const char* beyond) {
       return metres ? fmt::format("{:.2f} m", *metres) : std::string{beyond};
     };
@@ -89,10 +88,12 @@ std::string sweep_sentence(const FactorialReport& report) {
                     kPaperKickRatio, *answer.ratio_at_m, end(answer.ratio_from_m, "below the sweep"),
                     end(answer.ratio_to_m, "beyond it"));
   } else {
-    text = fmt::format("The paper's kick ratio of {:.2f} is not met between {:g} and {:g} m. ", kPaperKickRatio,
-                       report.sweep.front().opponent_median_m, report.sweep.back().opponent_median_m);
+    text = fmt::format("The paper's kick ratio of {:.2f} is not met {}. ", kPaperKickRatio,
+                       first_m == last_m ? fmt::format("at {:g} m", first_m)
+                                         : fmt::format("between {:g} and {:g} m", first_m, last_m));
   }
-  const SweepPoint& nearest = report.sweep[answer.nearest];
+  if (!answer.nearest) return text + "There are too few kicks to say where its pair of efficiencies is nearest.\n";
+  const SweepPoint& nearest = report.sweep[*answer.nearest];
   std::vector<std::string> within;
   for (const std::size_t i : answer.pair_within)
     within.push_back(fmt::format("{:g}", report.sweep[i].opponent_median_m));
@@ -115,7 +116,7 @@ std::string sweep_text(const FactorialReport& report) {
   for (const SweepPoint& point : report.sweep) {
     const Effect ratio = kick_ratio(point.older, point.newer);
     rows.push_back({fmt::format("{:g}", point.opponent_median_m),
-                    fmt::format("{:.2f} ({:.2f} to {:.2f})", ratio.value, ratio.ci.lo, ratio.ci.hi),
+                    effect_text(ratio, [](double value) { return fmt::format("{:.2f}", value); }),
                     share_text(share_of(point.older, Measure::kEfficiency)),
                     share_text(share_of(point.newer, Measure::kEfficiency)),
                     fmt::format("{:.3f}", kicks_per_opportunity(point.older)),
@@ -143,11 +144,9 @@ Json json_of_gain(const Gain& gain) {
 
 std::string csv_of_arm(const ArmTally& matches) {
   const MatchTally total = total_of(matches);
-  const Effect efficiency = share_of(matches, Measure::kEfficiency);
-  const Effect per_opportunity = share_of(matches, Measure::kPerOpportunity);
-  return fmt::format("{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", total.opportunities, total.kicks,
-                     total.on_target, efficiency.value, efficiency.ci.lo, efficiency.ci.hi, per_opportunity.value,
-                     per_opportunity.ci.lo, per_opportunity.ci.hi);
+  return fmt::format("{},{},{},{},{}\n", total.opportunities, total.kicks, total.on_target,
+                     csv_cells(share_of(matches, Measure::kEfficiency)),
+                     csv_cells(share_of(matches, Measure::kPerOpportunity)));
 }
 
 }  // namespace
@@ -202,9 +201,9 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
   sweep["ratio_to_m"] = evaluator::json_of(answer.ratio_to_m);
   sweep["pair_within_m"] = Json::array();
   for (const std::size_t i : answer.pair_within) sweep["pair_within_m"].push_back(report.sweep[i].opponent_median_m);
-  sweep["nearest_m"] = report.sweep[answer.nearest].opponent_median_m;
-  sweep["off_older"] = answer.off_older;
-  sweep["off_newer"] = answer.off_newer;
+  sweep["nearest_m"] = answer.nearest ? Json(report.sweep[*answer.nearest].opponent_median_m) : Json();
+  sweep["off_older"] = answer.nearest ? Json(answer.off_older) : Json();
+  sweep["off_newer"] = answer.nearest ? Json(answer.off_newer) : Json();
   sweep["answer"] = sweep_sentence(report);
   json["sweep"] = std::move(sweep);
   return json;
@@ -244,8 +243,10 @@ std::string to_svg(const FactorialReport& report) {
     for (const PlayedCell* played : {&older, &report.cells[i + half]}) {
       const Effect share = share_of(played->matches, Measure::kPerOpportunity);
       const double x = (played->cell.table == "new" ? 1.0 : 0.0) + kApart * (static_cast<double>(i) - 3.0);
-      // Up and down the interval on the way.
-      for (const double y : {share.value, share.ci.lo, share.ci.hi, share.value}) line.points.push_back({x, 100.0 * y});
+      // Up and down the interval on the way, where there is one.
+      for (const double y : {share.value, share.ci.lo, share.ci.hi, share.value}) {
+        if (std::isfinite(y)) line.points.push_back({x, 100.0 * y});
+      }
     }
     chart.series.push_back(std::move(line));
   }

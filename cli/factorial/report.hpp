@@ -27,7 +27,7 @@ std::string to_text(const FactorialReport& report);
 nlohmann::ordered_json to_json(const FactorialReport& report);
 
 /// A row a cell and a row a point of the sweep and side: kind, table, policy, law, opponent_median_m, opportunities,
-/// kicks, on_target and both measures with their intervals.
+/// kicks, on_target and both measures with their intervals, which are empty where there are too few kicks.
 std::string to_csv(const FactorialReport& report);
 
 /// Shots on target per opportunity over the table, a line a policy and law, with 95 % intervals.

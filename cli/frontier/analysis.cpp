@@ -24,7 +24,6 @@ std::vector<const FrontierPoint*> by_kicks(const FrontierReport& report) {
   for (const FrontierPoint& point : report.points) {
     if (total_of(point.matches).kicks > 0) points.push_back(&point);
   }
-  if (points.empty()) throw std::invalid_argument{"no threshold at which the policy kicks"};
   std::ranges::stable_sort(points, std::ranges::greater{},
                            [](const FrontierPoint* point) { return total_of(point->matches).kicks; });
   return points;
@@ -62,6 +61,7 @@ std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoi
   const MatchTally own = total_of(fixed.matches);
   if (own.kicks == 0) return std::nullopt;
   const auto points = by_kicks(report);
+  if (points.empty()) return std::nullopt;
   const auto fewer = std::ranges::find_if(
       points, [&](const FrontierPoint* point) { return total_of(point->matches).kicks < own.kicks; });
   const bool within = fewer != points.begin() && fewer != points.end();
@@ -76,8 +76,9 @@ std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoi
     const double on_target = std::lerp(on_target_per_opportunity(more), on_target_per_opportunity(less), part);
     return on_target / kicks - efficiency_of(of_policy);
   };
-  return Standing{fixed.name, from.threshold, to.threshold, within,
-                  jackknife({&from.matches, &to.matches, &fixed.matches}, above)};
+  Effect difference = jackknife({&from.matches, &to.matches, &fixed.matches}, above);
+  if (has_interval(difference)) difference.ci = {std::max(difference.ci.lo, -1.0), std::min(difference.ci.hi, 1.0)};
+  return Standing{fixed.name, from.threshold, to.threshold, within, difference};
 }
 
 const FrontierPoint& best_of(const FrontierReport& report) {
@@ -89,9 +90,11 @@ const FrontierPoint& best_of(const FrontierReport& report) {
 
 Effect share_of_oracle(const FrontierReport& report) {
   if (!report.oracle) throw std::invalid_argument{"no oracle was played"};
-  return jackknife({&best_of(report).matches, &report.oracle->matches}, [](const std::vector<MatchTally>& totals) {
-    return ratio(totals[0].on_target, totals[1].on_target);
-  });
+  Effect share =
+      jackknife({&best_of(report).matches, &report.oracle->matches},
+                [](const std::vector<MatchTally>& totals) { return ratio(totals[0].on_target, totals[1].on_target); });
+  if (has_interval(share)) share.ci.lo = std::max(share.ci.lo, 0.0);
+  return share;
 }
 
 }  // namespace trivela::cli

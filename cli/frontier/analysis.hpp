@@ -38,7 +38,8 @@ double efficiency_of(const MatchTally& total);
 double on_target_per_opportunity(const MatchTally& total);
 
 /// A function of the arms' totals over all matches with its 95 % interval: the jackknife over matches (Efron and Stein
-/// 1981), Student's distribution with one degree of freedom less than matches.
+/// 1981), Student's distribution with one degree of freedom less than matches. No interval where the function has no
+/// finite value without one of the matches.
 Effect jackknife(const std::vector<const ArmTally*>& arms,
                  const std::function<double(const std::vector<MatchTally>&)>& of);
 
@@ -49,16 +50,17 @@ struct Standing {
   double from_threshold = 0.0;  ///< the kicks lie between this one ...
   double to_threshold = 0.0;    ///< ... and this one; the same where they lie beyond all
   bool within = false;          ///< they do lie between two
-  Effect above;                 ///< efficiency of the frontier minus the policy's
+  Effect above;                 ///< efficiency of the frontier minus the policy's, the interval within [-1, 1]
 };
 
-/// None: a policy without kicks. @throws std::invalid_argument for a report without a point that kicks.
+/// None: a policy without kicks, or no point that kicks.
 std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoint& fixed);
 
 /// The point with the most shots on target per opportunity. @throws std::invalid_argument where there is none.
 const FrontierPoint& best_of(const FrontierReport& report);
 
-/// Shots on target of best_of() over the oracle's. @throws std::invalid_argument without an oracle.
+/// Shots on target of best_of() over the oracle's, the interval from 0 on. Not finite where the oracle has
+/// none, without an interval where it has them in one match only. @throws std::invalid_argument without an oracle.
 Effect share_of_oracle(const FrontierReport& report);
 
 }  // namespace trivela::cli

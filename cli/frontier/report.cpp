@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/factorial/effect_json.hpp"
+#include "cli/factorial/effect_text.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
 
@@ -27,18 +30,13 @@ std::vector<Row> rows_of(const FrontierReport& report) {
   return rows;
 }
 
-Effect share(const ArmTally& matches, Measure measure) {
-  const Term alone[] = {{&matches, 1.0}};
-  return contrast(alone, measure);
-}
-
-std::string percent(const Effect& effect) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", 100.0 * effect.value, 100.0 * effect.ci.lo, 100.0 * effect.ci.hi);
-}
-
 std::string sentence(const FrontierReport& report, const FixedPoint& fixed) {
   const auto standing = standing_of(report, fixed);
-  if (!standing) return fmt::format("{} never kicked.\n", fixed.name);
+  if (total_of(fixed.matches).kicks == 0) return fmt::format("{} never kicked.\n", fixed.name);
+  if (!standing) return fmt::format("{} has no frontier beside it: {} never kicked.\n", fixed.name, report.policy);
+  if (!has_interval(standing->above)) {
+    return fmt::format("{} has, or {} has, too few kicks to tell it from the frontier.\n", fixed.name, report.policy);
+  }
   const char* where = standing->above.ci.lo > 0.0   ? "lies below the frontier"
                       : standing->above.ci.hi < 0.0 ? "lies above the frontier"
                                                     : "cannot be told from the frontier";
@@ -53,8 +51,15 @@ std::string sentence(const FrontierReport& report, const FixedPoint& fixed) {
 
 std::string oracle_sentence(const FrontierReport& report) {
   const Effect share = share_of_oracle(report);
+  if (!has_interval(share)) return "There are too few shots on target to say how much of the oracle's.\n";
   return fmt::format("At its best threshold, {:g}, {} has {} % of the oracle's shots on target.\n",
-                     best_of(report).threshold, report.policy, percent(share));
+                     best_of(report).threshold, report.policy, share_text(share));
+}
+
+/// Instead of a chart that would have nothing to scale its axes by.
+std::string no_kicks_svg() {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 80\">\n"
+         "<text x=\"20\" y=\"45\">No policy kicked: there is nothing to draw.</text>\n</svg>\n";
 }
 
 }  // namespace
@@ -65,8 +70,8 @@ std::string to_text(const FrontierReport& report) {
   for (const Row& row : rows_of(report)) {
     const MatchTally total = total_of(*row.matches);
     table.push_back({row.policy, row.threshold, fmt::format("{:.3f}", kicks_per_opportunity(total)),
-                     total.kicks > 0 ? percent(share(*row.matches, Measure::kEfficiency)) : "-",
-                     percent(share(*row.matches, Measure::kPerOpportunity)), fmt::format("{}", total.kicks)});
+                     share_text(share_of(*row.matches, Measure::kEfficiency)),
+                     share_text(share_of(*row.matches, Measure::kPerOpportunity)), fmt::format("{}", total.kicks)});
   }
   std::string text = fmt::format(
       "{} matches of {} opportunities, the same for every policy and threshold; {}, seed {}; 95 % intervals by "
@@ -90,8 +95,8 @@ nlohmann::ordered_json to_json(const FrontierReport& report) {
          {"kicks", total.kicks},
          {"on_target", total.on_target},
          {"kicks_per_opportunity", kicks_per_opportunity(total)},
-         {"efficiency", total.kicks > 0 ? json_of(share(*row.matches, Measure::kEfficiency)) : Json()},
-         {"on_target_per_opportunity", json_of(share(*row.matches, Measure::kPerOpportunity))}});
+         {"efficiency", json_of(share_of(*row.matches, Measure::kEfficiency))},
+         {"on_target_per_opportunity", json_of(share_of(*row.matches, Measure::kPerOpportunity))}});
   }
   for (const FixedPoint& fixed : report.fixed) {
     Json entry{{"policy", fixed.name}, {"answer", sentence(report, fixed)}};
@@ -112,16 +117,10 @@ std::string to_csv(const FrontierReport& report) {
       "per_opportunity,per_opportunity_low,per_opportunity_high\n";
   for (const Row& row : rows_of(report)) {
     const MatchTally total = total_of(*row.matches);
-    const Effect per_opportunity = share(*row.matches, Measure::kPerOpportunity);
-    csv += fmt::format("{},{},{},{},{},{:.6f},", row.policy, row.threshold, total.opportunities, total.kicks,
-                       total.on_target, kicks_per_opportunity(total));
-    if (total.kicks > 0) {
-      const Effect efficiency = share(*row.matches, Measure::kEfficiency);
-      csv += fmt::format("{:.6f},{:.6f},{:.6f},", efficiency.value, efficiency.ci.lo, efficiency.ci.hi);
-    } else {
-      csv += ",,,";
-    }
-    csv += fmt::format("{:.6f},{:.6f},{:.6f}\n", per_opportunity.value, per_opportunity.ci.lo, per_opportunity.ci.hi);
+    csv += fmt::format("{},{},{},{},{},{:.6f},{},{}\n", row.policy, row.threshold, total.opportunities, total.kicks,
+                       total.on_target, kicks_per_opportunity(total),
+                       csv_cells(share_of(*row.matches, Measure::kEfficiency)),
+                       csv_cells(share_of(*row.matches, Measure::kPerOpportunity)));
   }
   return csv;
 }
@@ -149,7 +148,8 @@ std::string to_svg(const FrontierReport& report) {
                             evaluator::ChartMark::kDots,
                             colour,
                             0});
-    const Effect efficiency = share(others[i].matches, Measure::kEfficiency);
+    const Effect efficiency = share_of(others[i].matches, Measure::kEfficiency);
+    if (!has_interval(efficiency)) continue;
     chart.series.push_back({others[i].name + ", 95 %",
                             {{kicks_per_opportunity(total), 100.0 * efficiency.ci.lo},
                              {kicks_per_opportunity(total), 100.0 * efficiency.ci.hi}},
@@ -157,6 +157,8 @@ std::string to_svg(const FrontierReport& report) {
                             colour,
                             0});
   }
+  if (std::ranges::all_of(chart.series, [](const auto& series) { return series.points.empty(); }))
+    return no_kicks_svg();
   return evaluator::to_svg(chart);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/factorial/effect_json.hpp"
+#include "cli/factorial/effect_text.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
@@ -12,11 +13,6 @@ using evaluator::Json;
 
 std::string headline_name(const SensitivityReport& report, std::size_t i) {
   return fmt::format("{} - {}", report.arms[i + 1], report.arms[i]);
-}
-
-/// In points of a hundred opportunities, the sign always there.
-std::string points(const Effect& effect) {
-  return fmt::format("{:+.1f} ({:+.1f} to {:+.1f})", 100.0 * effect.value, 100.0 * effect.ci.lo, 100.0 * effect.ci.hi);
 }
 
 std::string efficiency(const ArmTally& arm) {
@@ -45,14 +41,14 @@ std::string to_text(const SensitivityReport& report) {
       "calibrated anew for a changed world. Shots on target per 100 opportunities, 95 % intervals by match.\n\n",
       report.matches, report.possessions, report.scenario, report.seed);
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i)
-    text += fmt::format("{}: {}\n", headline_name(report, i), points(headline(report.base, i)));
+    text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i)));
   std::vector<std::vector<std::string>> rows{{"input", "value", "instead of"}};
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) rows[0].push_back("change of " + headline_name(report, i));
   for (const std::string& arm : report.arms) rows[0].push_back(arm + " [% of kicks]");
   for (const PlayedInput& input : report.inputs) {
     for (const PlayedEnd& end : input.ends) {
       std::vector<std::string> row{input.input.key, fmt::format("{:g}", end.value), fmt::format("{:.3g}", input.value)};
-      for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) row.push_back(points(change(report, end, i)));
+      for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) row.push_back(points_text(change(report, end, i)));
       for (const ArmTally& arm : end.arms) row.push_back(efficiency(arm));
       rows.push_back(std::move(row));
     }
@@ -102,8 +98,7 @@ std::string to_csv(const SensitivityReport& report) {
       csv += fmt::format("{},{},{},{},{},{},", key, value, report.arms[i], total.opportunities, total.kicks,
                          total.on_target);
       if (end && i > 0) {
-        const Effect moved = change(report, *end, i - 1);
-        csv += fmt::format("{:.6f},{:.6f},{:.6f}\n", moved.value, moved.ci.lo, moved.ci.hi);
+        csv += csv_cells(change(report, *end, i - 1)) + '\n';
       } else {
         csv += ",,\n";
       }

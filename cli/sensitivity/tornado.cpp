@@ -32,8 +32,9 @@ class Panel {
     for (std::size_t row = 0; row < rows_; ++row) {
       for (const PlayedEnd& end : report.inputs[row].ends) {
         const Effect moved = change(report, end, headline);
-        low = std::min(low, 100.0 * moved.ci.lo);
-        high = std::max(high, 100.0 * moved.ci.hi);
+        const bool has_ends = has_interval(moved);
+        low = std::min(low, 100.0 * (has_ends ? moved.ci.lo : moved.value));
+        high = std::max(high, 100.0 * (has_ends ? moved.ci.hi : moved.value));
       }
     }
     ticks_ = evaluator::round_ticks(low, high);
@@ -65,7 +66,7 @@ class Panel {
       const double y = kTop + kRow * (static_cast<double>(row) + (low ? 0.32 : 0.68));
       const Effect moved = change(report_, end, headline_);
       svg += line(low ? "bar c0" : "bar c1", px(0.0), y, px(100.0 * moved.value), y);
-      svg += line("whisker c6", px(100.0 * moved.ci.lo), y, px(100.0 * moved.ci.hi), y);
+      if (has_interval(moved)) svg += line("whisker c6", px(100.0 * moved.ci.lo), y, px(100.0 * moved.ci.hi), y);
     }
     return svg;
   }

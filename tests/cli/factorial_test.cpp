@@ -97,6 +97,58 @@ TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
   EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
 }
 
+TEST(Factorial, AShareStaysWithinItsBounds) {
+  ArmTally few(6, MatchTally{1, 1, 1});
+  few.back().on_target = 0;
+  const Term alone[] = {{&few, 1.0}};
+  EXPECT_GT(contrast(alone, Measure::kEfficiency).ci.hi, 1.0);
+  const Effect share = share_of(few, Measure::kEfficiency);
+  EXPECT_EQ(share.ci.hi, 1.0);
+  EXPECT_EQ(share.ci.lo, contrast(alone, Measure::kEfficiency).ci.lo);
+  for (const auto on_target : {0, 1}) {
+    const ArmTally all_alike(6, MatchTally{1, 1, on_target});
+    const Effect certain = share_of(all_alike, Measure::kEfficiency);
+    EXPECT_GT(certain.ci.hi - certain.ci.lo, 0.3) << "six kicks leave much open";
+    EXPECT_TRUE(certain.ci.lo == 0.0 || certain.ci.hi == 1.0);
+  }
+}
+
+TEST(Factorial, OneMatchWithKicksGivesNoInterval) {
+  const ArmTally none(3, MatchTally{1, 0, 0}), one{{1, 1, 1}, {1, 0, 0}, {1, 0, 0}};
+  EXPECT_TRUE(std::isnan(share_of(none, Measure::kEfficiency).value));
+  EXPECT_EQ(share_of(one, Measure::kEfficiency).value, 1.0);
+  EXPECT_FALSE(has_interval(share_of(one, Measure::kEfficiency)));
+  EXPECT_TRUE(has_interval(share_of(one, Measure::kPerOpportunity)));
+  EXPECT_EQ(kick_ratio(one, one).value, 1.0);
+  EXPECT_FALSE(has_interval(kick_ratio(one, one)));
+  EXPECT_TRUE(std::isnan(kick_ratio(none, one).value));
+}
+
+TEST(Factorial, WithoutKicksItSaysSoAndPrintsNoNan) {
+  const ArmTally none(2, MatchTally{1, 0, 0});
+  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}};
+  for (const Cell& cell : factorial_cells()) report.cells.push_back({cell, none});
+  report.sweep = {{2.0, none, none}};
+  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report), json = to_json(report).dump();
+  for (const std::string* output : {&text, &csv, &svg, &json}) {
+    EXPECT_EQ(output->find("nan"), std::string::npos) << *output;
+    EXPECT_EQ(output->find("inf"), std::string::npos) << *output;
+  }
+  EXPECT_THAT(text, HasSubstr("efficiency cannot be told, there are too few kicks"));
+  EXPECT_THAT(text, HasSubstr("shots on target per opportunity cannot be told, there are too few kicks"));
+  EXPECT_THAT(text, HasSubstr("too few kicks for a kick ratio"));
+  EXPECT_THAT(text, HasSubstr("too few kicks to say where its pair of efficiencies is nearest"));
+  EXPECT_THAT(csv, HasSubstr("cell,old,stopped,paper,0,2,0,0,,,,0.000000,0.000000,"));
+  EXPECT_TRUE(to_json(report)["cells"][0]["efficiency"].is_null());
+  EXPECT_TRUE(to_json(report)["sweep"]["nearest_m"].is_null());
+}
+
+TEST(Factorial, ASweepOfOnePointIsAtThatPoint) {
+  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = played()};
+  report.sweep = {{2.0, matches_of(5, 10), matches_of(6, 10)}};
+  EXPECT_THAT(to_text(report), HasSubstr("ratio of 2.03 is not met at 2 m."));
+}
+
 TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
   const std::vector<nodes::Arm> arms{arm_of({"old", PolicyName::kStopped, Law::kExact}, {}, {config::Robot{}}),
                                      arm_of({"new", PolicyName::kMoving, Law::kExact}, {}, {config::Robot{}})};

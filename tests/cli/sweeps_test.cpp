@@ -106,6 +106,16 @@ TEST(Sensitivity, TablesAndChartNameEveryInput) {
   EXPECT_EQ(to_json(report)["inputs"].size(), 2U);
 }
 
+TEST(Sensitivity, WithoutShotsOnTargetItHasNoIntervals) {
+  const ArmTally none = alike(2, 1, 0, 0);
+  SensitivityReport report{"hand.toml", 1, 2, 1, {"stopped", "moving"}, {none, none}, {}};
+  report.inputs.push_back({{"kicker.delay_s", 0.05, 0.08, "said"}, 0.06, {{0.05, {none, none}}}});
+  const std::string outputs = to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump();
+  EXPECT_EQ(outputs.find("nan"), std::string::npos) << outputs;
+  EXPECT_NE(to_text(report).find("moving - stopped: +0.0 (-)"), std::string::npos) << to_text(report);
+  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,\n"), std::string::npos) << to_csv(report);
+}
+
 FrontierReport frontier_case() {
   return {"predictive",
           "hand.toml",
@@ -139,6 +149,29 @@ TEST(Frontier, BeyondItsEndsIsComparedWithTheEnd) {
   EXPECT_EQ(standing_of(report, report.fixed[1])->to_threshold, 0.2);
   report.fixed[1].matches = alike(20, 100, 0, 0);
   EXPECT_FALSE(standing_of(report, report.fixed[1]));
+}
+
+TEST(Frontier, WithoutKicksItSaysSoAndPrintsNoNan) {
+  const ArmTally none = alike(2, 1, 0, 0), one{{1, 1, 1}, {1, 0, 0}};
+  FrontierReport report{
+      "predictive", "hand.toml", 1, 2, 1, {{0.2, none}}, {{"moving", none}}, FixedPoint{"oracle", none}};
+  const auto outputs = [&] { return to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump(); };
+  const auto expect_no_nan = [&] {
+    EXPECT_EQ(outputs().find("nan"), std::string::npos) << outputs();
+    EXPECT_EQ(outputs().find("inf"), std::string::npos) << outputs();
+  };
+  expect_no_nan();
+  EXPECT_NE(to_text(report).find("moving never kicked"), std::string::npos) << to_text(report);
+  EXPECT_NE(to_text(report).find("too few shots on target"), std::string::npos) << to_text(report);
+  EXPECT_NE(to_svg(report).find("nothing to draw"), std::string::npos);
+  report.fixed[0].matches = one;
+  expect_no_nan();
+  EXPECT_NE(to_text(report).find("moving has no frontier beside it: predictive never kicked"), std::string::npos);
+  EXPECT_NE(to_text(report).find("100.0 (-)"), std::string::npos) << "one kick has no interval: " << to_text(report);
+  report.points[0].matches = one;
+  report.oracle->matches = one;
+  expect_no_nan();
+  EXPECT_NE(to_text(report).find("too few kicks to tell it from the frontier"), std::string::npos) << to_text(report);
 }
 
 TEST(Frontier, TheJackknifeOfAShareIsTheIntervalOfItsMatches) {
