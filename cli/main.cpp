@@ -1,6 +1,10 @@
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <system_error>
 
+#include "cli/finite_numbers.hpp"
 #include "cli/verbs.hpp"
 
 namespace cli = trivela::cli;
@@ -29,6 +33,7 @@ int run(int argc, char** argv) {
   cli::add_solve(app, exit_code);
   cli::add_align(app, exit_code);
   cli::add_predict(app, exit_code);
+  cli::require_finite_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -40,12 +45,32 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
+int failed(const std::exception& error, cli::ExitCode code) {
+  std::fprintf(stderr, "trivela: %s\n", error.what());
+  return code;
+}
+
+int run_or_say_why_not(int argc, char** argv) try { return run(argc, argv); } catch (const cli::UsageError& error) {
+  return failed(error, cli::kBadUsage);
+} catch (const std::system_error& error) {
+  if (!std::ferror(stdout)) return failed(error, cli::kFailed);
+  errno = error.code().value();  // for is_written(), which says it
+  return cli::kFailed;
+} catch (const std::exception& error) {
+  return failed(error, cli::kFailed);
+}
+
+/// Standard output is buffered: that the disk is full may show only at the end. Where a write failed before the end,
+/// that was the last thing to set errno, since verbs print last.
+bool is_written() {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+  std::fprintf(stderr, "trivela: cannot write the output: %s\n", std::strerror(errno));
+  return false;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) try { return run(argc, argv); } catch (const cli::UsageError& error) {
-  std::fprintf(stderr, "trivela: %s\n", error.what());
-  return cli::kBadUsage;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "trivela: %s\n", error.what());
-  return cli::kFailed;
+int main(int argc, char** argv) {
+  const int exit_code = run_or_say_why_not(argc, argv);
+  return is_written() ? exit_code : cli::kFailed;
 }

@@ -1,6 +1,10 @@
-// What `trivela match` says to bad usage.
+// What `trivela` says to bad usage and to a full disk.
 #include <gmock/gmock.h>
 
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/e2e/folder.hpp"
@@ -60,6 +64,43 @@ TEST(Usage, ARecordedMatchIsNeverOverwritten) {
   EXPECT_EQ(match.wait(), 2);
   EXPECT_THAT(match.errors(), HasSubstr("--out match.db exists already"));
   EXPECT_EQ(text_of(folder / "match.db"), "a match");
+}
+
+struct BadNumber {
+  std::vector<std::string> arguments;
+  std::string says;
+};
+
+TEST(Usage, NumbersThatAreNoneAreRefusedWithFlagAndValue) {
+  const Folder folder;
+  for (const auto& [arguments, says] : std::vector<BadNumber>{
+           {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "nan"}, "--smallest-effect: nan is not"},
+           {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "inf"}, "--smallest-effect: inf is not"},
+           {{"factorial", "--opponent-median", "1,nan"}, "--opponent-median: nan is not"},
+           {{"frontier", "--threshold", "nan"}, "--threshold: nan is not"},
+           {{"factorial", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"frontier", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"sensitivity", "--input", "kicker.delay_s,kicker.delay_s"}, "\"kicker.delay_s\" stands twice"},
+           {{"sensitivity", "--seed", "-1"}, "--seed: Value -1 not in range"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2) << says;
+    EXPECT_THAT(trivela.errors(), HasSubstr(says));
+    EXPECT_EQ(trivela.output(), "");
+  }
+}
+
+TEST(Usage, AFullDiskIsSaid) {
+  const Folder folder;
+  std::ofstream{folder / "kicks.csv"} << "policy,on_target\na,1\nb,0\n";
+  const auto tests = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::string program = (tests.parent_path() / "trivela").string();
+  for (const std::string verb : {"compare --csv kicks.csv", "compare --csv kicks.csv --json", "--help",
+                                 "frontier --matches 2 --possessions 1 --threshold 0.5", "solve --help"}) {
+    const std::string command = "cd " + folder.path().string() + " && " + program + " " + verb;
+    const int status = std::system((command + " > /dev/full 2> said").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << verb;
+    EXPECT_EQ(text_of(folder / "said"), "trivela: cannot write the output: No space left on device\n") << verb;
+  }
 }
 
 }  // namespace
