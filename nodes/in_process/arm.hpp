@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ inline constexpr const char* kOldTable = "old";  ///< another hand-made one for 
 /// with any number of arms.
 struct Arm {
   std::string name;
-  kicking::PolicyName policy = kicking::PolicyName::kMoving;  ///< in charge, where `random` is empty
-  std::string table = kNewTable;                              ///< height tables: kNewTable or kOldTable
+  /// In charge, where `random` is empty; none: who plays is said by settings.kick_decision, as on the bus.
+  std::optional<kicking::PolicyName> policy = kicking::PolicyName::kMoving;
+  std::string table = kNewTable;  ///< height tables: kNewTable or kOldTable
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
   std::vector<PolicyChance> random;                    ///< drawn for each possession anew

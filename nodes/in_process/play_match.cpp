@@ -14,6 +14,7 @@
 #include "sim/hand_table.hpp"
 #include "sim/match.hpp"
 #include "sim/random.hpp"
+#include "sim/scenario_fields.hpp"
 #include "sim/team.hpp"
 
 namespace trivela::nodes {
@@ -27,9 +28,16 @@ config::Settings settings_of_match(const Arm& arm, std::uint64_t seed, const Pla
   return settings;
 }
 
-bool knows_the_truth(const PolicyAssignment& assignment) {
-  const auto candidates = assignment.candidates();
+bool knows_the_truth(const config::KickDecision& settings, std::uint8_t robot_id) {
+  const auto candidates = PolicyAssignment{settings, robot_id}.candidates();
   return std::find(candidates.begin(), candidates.end(), kicking::PolicyName::kOracle) != candidates.end();
+}
+
+bool somebody_knows_the_truth(const config::KickDecision& settings, const sim::Scenario& scenario) {
+  for (std::uint8_t robot_id = 1; robot_id <= team_size(scenario); ++robot_id) {
+    if (knows_the_truth(settings, robot_id)) return true;
+  }
+  return false;
 }
 
 std::uint8_t robot_of(std::int64_t kick_id) { return static_cast<std::uint8_t>(kick_id >> 40 & 0xff); }
@@ -49,7 +57,7 @@ class Game {
         match_id_(match_id),
         settings_(settings_of_match(arm, match_seed(seed, match_id), options)),
         session_(session_of(match_seed(seed, match_id))),
-        oracle_(knows_the_truth(PolicyAssignment{settings_.kick_decision, 1})),
+        oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
         match_(scenario, match_seed(seed, match_id), 1, kEndless_min, possessions),
         observer_(settings_.shot_observer, settings_.goal) {
     played_.match_seed = match_seed(seed, match_id);
@@ -184,25 +192,14 @@ class Game {
     const std::size_t index = robot_id - 1u;
     if (chains_.size() <= index) chains_.resize(index + 1);
     if (!chains_[index]) {
-      chains_[index] = std::make_unique<RobotChain>(settings_, robot(robot_id), robot_id, session_, seat(robot_id));
+      chains_[index] = std::make_unique<RobotChain>(settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id),
+                                                    robot_id, session_, seat(robot_id));
     }
     return *chains_[index];
   }
 
-  /// What this robot knows of itself in this arm.
-  config::Robot robot(std::uint8_t robot_id) const {
-    config::Robot robot = arm_.robots[std::min<std::size_t>(robot_id, arm_.robots.size()) - 1];
-    if (arm_.table == kOldTable) {
-      const kicking::PolicyConfig& policy = settings_.policy;
-      const std::uint32_t whose = scenario_.hand_table.one_for_all ? 1 : robot_id;
-      const auto table = sim::draw_hand_table(scenario_, sim::team_kicker(scenario_, whose), seed_, match_id_, whose);
-      robot.model = kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m);
-    }
-    return robot;
-  }
-
   std::optional<OracleSeat> seat(std::uint8_t robot_id) const {
-    if (!oracle_) return std::nullopt;
+    if (!knows_the_truth(settings_.kick_decision, robot_id)) return std::nullopt;
     return OracleSeat{oracle_config(settings_.policy, scenario_),
                       oracle_robot(scenario_, match_.true_kicker(robot_id))};
   }
@@ -246,10 +243,14 @@ std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
   return (std::uint64_t{words[0]} << 32 | words[1]) >> 12;
 }
 
+std::uint8_t team_size(const sim::Scenario& scenario) { return static_cast<std::uint8_t>(scenario.team.robots); }
+
 config::Settings settings_of(const Arm& arm, const PlayOptions& options) {
   config::Settings settings = arm.settings;
   config::KickDecision& decision = settings.kick_decision;
-  decision.policy_by_half = {arm.policy};
+  decision.shadows = options.shadows;
+  if (arm.random.empty() && !arm.policy) return settings;
+  decision.policy_by_half = {arm.policy.value_or(kicking::PolicyName::kMoving)};
   decision.policy_by_robot.clear();
   decision.random.clear();
   decision.random_probabilities.clear();
@@ -257,13 +258,36 @@ config::Settings settings_of(const Arm& arm, const PlayOptions& options) {
     decision.random.push_back(chance.policy);
     decision.random_probabilities.push_back(chance.probability);
   }
-  decision.shadows = options.shadows;
   return settings;
 }
 
-PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
-                       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+config::Robot robot_of(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+                       std::uint8_t robot_id) {
+  config::Robot robot = arm.robots[std::min<std::size_t>(robot_id, arm.robots.size()) - 1];
+  if (arm.table != kOldTable) return robot;
+  const kicking::PolicyConfig& policy = arm.settings.policy;
+  const std::uint32_t whose = scenario.hand_table.one_for_all ? 1 : robot_id;
+  const auto table = sim::draw_hand_table(scenario, sim::team_kicker(scenario, whose), seed, match_id, whose);
+  robot.model = kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m);
+  return robot;
+}
+
+std::optional<kicking::PolicyName> only_policy(const sim::Scenario& scenario, const Arm& arm) {
+  const config::KickDecision settings = settings_of(arm, {}).kick_decision;
+  std::optional<kicking::PolicyName> only;
+  for (std::uint8_t robot_id = 1; robot_id <= team_size(scenario); ++robot_id) {
+    const PolicyAssignment assignment{settings, robot_id};
+    const kicking::PolicyName policy = assignment.in_charge(1, 1).policy;
+    if (assignment.random() || (only && *only != policy)) return std::nullopt;
+    only = policy;
+  }
+  return only;
+}
+
+void check_playable(const sim::Scenario& scenario, const Arm& arm, std::uint32_t possessions) {
   if (possessions == 0) throw std::runtime_error{"a match of no possessions"};
+  if (const auto problem = sim::first_problem(scenario))
+    throw std::runtime_error{fmt::format("scenario: {}: {}", problem->key, problem->why)};
   if (arm.robots.empty()) throw std::runtime_error{"arm " + arm.name + " has no robot"};
   if (arm.table != kNewTable && arm.table != kOldTable)
     throw std::runtime_error{"arm " + arm.name + ": table \"" + arm.table + "\" is neither new nor old"};
@@ -271,6 +295,12 @@ PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint6
     throw std::runtime_error{fmt::format("arm {}: run.cycle_s = {} differs from the scenario's cycle_s = {}", arm.name,
                                          arm.settings.run.cycle_s, scenario.cycle_s)};
   }
+  config::check_policies(settings_of(arm, {}).kick_decision, "arm " + arm.name);
+}
+
+PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+                       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+  check_playable(scenario, arm, possessions);
   return Game{scenario, arm, seed, match_id, possessions, options, record}.play();
 }
 

@@ -116,6 +116,69 @@ TEST(PlayMatch, EachRobotOfATeamHasItsOwnModel) {
   for (const msg::KickOrder& order : record.orders) EXPECT_EQ(order.kick_id >> 40 & 0xff, order.robot_id);
 }
 
+/// A match of a team of three that plays by what the settings of an arm without a policy say.
+MatchRecord played_by(const config::KickDecision& decision) {
+  sim::Scenario scenario;
+  scenario.team.robots = 3;
+  Arm team;
+  team.policy.reset();
+  team.settings.kick_decision = decision;
+  MatchRecord record;
+  play_match(scenario, team, 1, 0, kPossessions, {}, &record);
+  EXPECT_EQ(record.assignments.size(), kPossessions);
+  return record;
+}
+
+TEST(PlayMatch, SettingsSayWhoPlaysRobotByRobot) {
+  config::KickDecision decision;
+  decision.policy_by_robot = {PolicyName::kStopped, PolicyName::kOracle};
+  decision.policy_by_half = {PolicyName::kPredictive};
+  const PolicyName policies[] = {PolicyName::kStopped, PolicyName::kOracle, PolicyName::kPredictive};
+  std::set<int> robots;
+  const MatchRecord record = played_by(decision);
+  for (const Assignment& row : record.assignments) {
+    EXPECT_EQ(row.policy, policies[row.robot_id - 1]) << "robot " << int{row.robot_id};
+    EXPECT_EQ(row.probability, 1.0);
+    robots.insert(row.robot_id);
+  }
+  EXPECT_EQ(robots.size(), 3u);
+}
+
+TEST(PlayMatch, SettingsDrawThePoliciesLikeTheArmDoes) {
+  config::KickDecision decision;
+  decision.random = {PolicyName::kStopped, PolicyName::kMoving};
+  decision.random_probabilities = {0.25, 0.75};
+  const MatchRecord by_settings = played_by(decision);
+  sim::Scenario scenario;
+  scenario.team.robots = 3;
+  Arm drawn;
+  drawn.random = {{PolicyName::kStopped, 0.25}, {PolicyName::kMoving, 0.75}};
+  MatchRecord by_arm;
+  play_match(scenario, drawn, 1, 0, kPossessions, {}, &by_arm);
+  ASSERT_EQ(by_arm.assignments.size(), kPossessions);
+  std::set<PolicyName> policies;
+  for (std::uint32_t i = 0; i < kPossessions; ++i) {
+    EXPECT_EQ(by_settings.assignments[i].policy, by_arm.assignments[i].policy);
+    EXPECT_EQ(by_settings.assignments[i].probability, by_arm.assignments[i].probability);
+    policies.insert(by_arm.assignments[i].policy);
+  }
+  EXPECT_EQ(policies.size(), 2u);
+}
+
+TEST(PlayMatch, KnowsWhereOnePolicyPlaysAll) {
+  sim::Scenario scenario;
+  scenario.team.robots = 2;
+  Arm team = arm(PolicyName::kStopped);
+  EXPECT_EQ(only_policy(scenario, team), PolicyName::kStopped);
+  team.policy.reset();
+  EXPECT_EQ(only_policy(scenario, team), PolicyName::kMoving) << "the settings' half";
+  team.settings.kick_decision.policy_by_robot = {PolicyName::kStopped};
+  EXPECT_EQ(only_policy(scenario, team), std::nullopt);
+  EXPECT_EQ(only_policy({}, team), PolicyName::kStopped) << "there is no second robot";
+  team.settings.kick_decision.random = {PolicyName::kStopped, PolicyName::kMoving};
+  EXPECT_EQ(only_policy({}, team), std::nullopt);
+}
+
 TEST(PlayMatch, RefusesWhatCannotBePlayed) {
   EXPECT_THROW(play_match({}, arm(PolicyName::kMoving), 1, 0, 0), std::runtime_error) << "no possessions";
   Arm fast = arm(PolicyName::kMoving);
@@ -124,6 +187,13 @@ TEST(PlayMatch, RefusesWhatCannotBePlayed) {
   Arm nobody = arm(PolicyName::kMoving);
   nobody.robots.clear();
   EXPECT_THROW(played(nobody), std::runtime_error);
+  Arm drawn = arm(PolicyName::kMoving);
+  drawn.random = {{PolicyName::kStopped, 0.5}, {PolicyName::kMoving, 0.75}};
+  EXPECT_THROW(check_playable({}, drawn, 1), std::runtime_error) << "the probabilities' sum";
+  sim::Scenario broken;
+  broken.team.robots = 2.5;
+  EXPECT_THROW(check_playable(broken, arm(PolicyName::kMoving), 1), std::runtime_error);
+  EXPECT_NO_THROW(check_playable({}, arm(PolicyName::kMoving), 1));
 }
 
 TEST(MatchSeed, FitsTheSeedsOfAMatchAndDiffers) {
