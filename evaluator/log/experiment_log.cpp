@@ -34,13 +34,20 @@ void note_experiment(SQLite::Database& database, const Experiment& experiment) {
   insert.exec();
 }
 
+std::runtime_error in_use(const fs::path& path) { return against(path, "another run writes to it"); }
+
 void make(const fs::path& path, const Experiment& experiment) {
-  new_file(path, kMatchLog, [&](SQLite::Database& database) {
-    SQLite::Transaction transaction(database);
-    create_tables(database);
-    note_experiment(database, experiment);
-    transaction.commit();
-  });
+  try {
+    new_file(path, kMatchLog, [&](SQLite::Database& database) {
+      SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+      if (!is_blank(database)) throw FileTaken("another run has begun");
+      create_tables(database);
+      note_experiment(database, experiment);
+      transaction.commit();
+    });
+  } catch (const FileTaken&) {
+    throw in_use(path);
+  }
 }
 
 /// Throws unless the log is that of the experiment.
@@ -60,6 +67,7 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment&
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
                                                        kBusyTimeout_ms);
+    if (is_blank(*database)) throw against(path, "another run writes to it, or was killed when it had just begun");
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
     if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
@@ -67,6 +75,7 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment&
     database->exec("PRAGMA journal_mode = WAL; PRAGMA temp_store = MEMORY;");
     return database;
   } catch (const SQLite::Exception& error) {
+    if (is_busy(error)) throw in_use(path);
     throw against(path, fmt::format("is there already and is no log that can be gone on with: {}", error.what()));
   }
 }
@@ -83,7 +92,8 @@ std::unique_ptr<SQLite::Database> open(const fs::path& path, const Experiment& e
 }  // namespace
 
 std::string experiment_uuid(std::string_view arguments_sha256, std::uint32_t match_id, std::uint32_t arm) {
-  if (match_id >= (1u << 20) || arm >= 128) throw std::out_of_range("an experiment has 2^20 matches and 128 arms");
+  if (match_id >= (1u << 20) || arm >= kMostArms)
+    throw std::out_of_range("an experiment has 2^20 matches and 128 arms");
   // The last bit before the variant is not part of session_id.
   return fmt::format("{}-{:04x}-8{:03x}-8{}-{}", arguments_sha256.substr(0, 8), match_id >> 4,
                      (match_id & 15) << 8 | arm << 1, arguments_sha256.substr(8, 3), arguments_sha256.substr(11, 12));
@@ -138,9 +148,14 @@ std::size_t ExperimentLog::table(std::string_view name, const std::vector<std::s
 void ExperimentLog::begin() {
   if (impl_->transaction) return;
   impl_->begun = std::chrono::steady_clock::now();
-  impl_->transaction.emplace(*impl_->database, SQLite::TransactionBehavior::IMMEDIATE);
+  try {
+    impl_->transaction.emplace(*impl_->database, SQLite::TransactionBehavior::IMMEDIATE);
+  } catch (const SQLite::Exception& error) {
+    if (is_busy(error)) throw in_use(impl_->path);
+    throw;
+  }
   if (impl_->database->execAndGet("SELECT matches_done FROM experiments").getInt64() == matches_done_) return;
-  throw against(impl_->path, "another run writes to it");
+  throw in_use(impl_->path);
 }
 
 std::int64_t ExperimentLog::add_session(const Session& session, std::int64_t closed_t_ns) {

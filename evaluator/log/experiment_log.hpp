@@ -17,9 +17,11 @@ struct Experiment {
   std::int64_t matches = 0;  ///< of each arm
 };
 
+inline constexpr std::uint32_t kMostArms = 128;  ///< of an experiment
+
 /// The UUID of a session of an experiment, version 8 (RFC 9562): of the arguments' SHA-256 (64 hexadecimal digits), the
-/// match (below 2^20) and the arm (below 128) alone. Sessions of one experiment have keys that rise with the match,
-/// then with the arm.
+/// match (below 2^20) and the arm (below kMostArms) alone. Sessions of one experiment have keys that rise with the
+/// match, then with the arm.
 std::string experiment_uuid(std::string_view arguments_sha256, std::uint32_t match_id, std::uint32_t arm);
 
 /// Cells of a row, in the order of the columns of its table.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <stdexcept>
 
@@ -16,16 +17,18 @@ constexpr int kFoldTimeout_ms = 200;  // a reader that stays must not hold up th
 
 // True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
 bool claim(const fs::path& path, const LogKind& kind) {
+  const bool there = fs::exists(path);
+  if (there && !(fs::is_regular_file(path) && fs::file_size(path) == 0)) {
+    throw FileTaken(
+        fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
+  }
   if (fs::exists(beside(path, "-wal"))) {
     throw std::runtime_error(
         fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
   }
-  if (fs::exists(path)) {
-    if (fs::is_regular_file(path) && fs::file_size(path) == 0) return false;
-    throw std::runtime_error(
-        fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
-  }
+  if (there) return false;
   std::FILE* const file = std::fopen(path.c_str(), "wx");
+  if (file == nullptr && errno == EEXIST) return false;  // who is quicker makes the tables
   if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the {} {}", kind.name, path.string()));
   std::fclose(file);
   return true;
@@ -39,20 +42,35 @@ fs::path beside(const fs::path& path, const char* suffix) {
   return other;
 }
 
+bool is_busy(const SQLite::Exception& error) { return (error.getErrorCode() & 0xFF) == SQLITE_BUSY; }
+
+bool is_blank(SQLite::Database& database) {
+  return database.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
+}
+
 std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& kind,
                                            const std::function<void(SQLite::Database&)>& create) {
   const bool made_here = claim(path, kind);
+  const auto failed = [&](const char* why) {
+    return fmt::format("cannot create the {} {}: {}", kind.name, path.string(), why);
+  };
+  // A file that another process works on stays, whoever has made it.
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
+    if (!is_blank(*database)) throw FileTaken("another process writes to it");
     create(*database);
     database->exec("PRAGMA wal_checkpoint(TRUNCATE);");  // a copy without its -wal is at least known as what it is
     return database;
+  } catch (const FileTaken& error) {
+    throw FileTaken(failed(error.what()));
   } catch (const std::exception& error) {
+    const auto* const sqlite = dynamic_cast<const SQLite::Exception*>(&error);
+    if (sqlite != nullptr && is_busy(*sqlite)) throw FileTaken(failed(error.what()));
     if (made_here) {
       for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
     }
-    throw std::runtime_error(fmt::format("cannot create the {} {}: {}", kind.name, path.string(), error.what()));
+    throw std::runtime_error(failed(error.what()));
   }
 }
 
