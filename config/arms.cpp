@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
 
@@ -13,29 +15,98 @@ void fields(V& v, ArmFields& a) {
   v("policy", a.policy);
   v("table", a.table);
   v("robots", a.robots);
-  v("set", a.set);
   v("random", a.random);
   v("random_probabilities", a.random_probabilities, Range{0.0, 1.0});
 }
 
 namespace {
 
-ArmFields read_arm(const TomlSource& source, const toml::node& node) {
-  const auto line = node.source().begin.line;
-  if (!node.is_table()) throw Error{fmt::format("{}:{}: arm: expected [[arm]]", source.file, line)};
-  ArmFields arm;
-  TableReader reader{source.file, *node.as_table(), "arm"};
-  fields(reader, arm);
-  reader.refuse_unknown_keys();
-  if (arm.name.empty()) throw Error{fmt::format("{}:{}: arm.name: an arm needs a name", source.file, line)};
-  if (arm.table != "new" && arm.table != "old") {
-    throw Error{fmt::format("{}:{}: arm.table = \"{}\": expected one of: new, old", source.file, line, arm.table)};
+constexpr std::size_t kLongestName = 64;  // bytes
+
+/// The place of a key of an arm; of the arm, where it does not have it.
+std::string place_of(const TomlSource& source, const toml::table& arm, std::string_view key) {
+  const toml::node* const node = arm.get(key);
+  return fmt::format("{}:{}", source.file, (node != nullptr ? *node : arm).source().begin.line);
+}
+
+/// Unicode's control characters, U+0000 to U+001F and U+007F to U+009F, at byte `i` of UTF-8.
+bool is_control(std::string_view text, std::size_t i) {
+  const auto byte = static_cast<unsigned char>(text[i]);
+  if (byte == 0xC2 && i + 1 < text.size()) return static_cast<unsigned char>(text[i + 1]) < 0xA0;
+  return byte < 0x20 || byte == 0x7F;
+}
+
+void check_name(const std::string& name, const std::string& place) {
+  if (name.empty()) throw Error{fmt::format("{}: arm.name = \"\": an arm needs a name", place)};
+  std::string shown;
+  bool printable = true;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool control = is_control(name, i);
+    printable = printable && !control;
+    shown += control ? fmt::format("\\x{:02x}", static_cast<unsigned char>(name[i])) : name.substr(i, 1);
+    if (control && name[i] == '\xC2') shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(name[++i]));
   }
+  if (!printable) throw Error{fmt::format("{}: arm.name = \"{}\": has a control character", place, shown)};
+  if (name.size() > kLongestName) {
+    throw Error{fmt::format("{}: arm.name = \"{}\": has {} bytes, and {} at most are a name", place, shown, name.size(),
+                            kLongestName)};
+  }
+}
+
+void check_draw(const TomlSource& source, const toml::table& table, const ArmFields& arm) {
+  const auto place = [&](const char* key) { return fmt::format("{}: arm {}", place_of(source, table, key), arm.name); };
+  if (arm.policy && !arm.random.empty()) {
+    throw Error{fmt::format("{}: policy = \"{}\" says who plays, and so does the arm's random; leave one out",
+                            place("policy"), kicking::name(*arm.policy))};
+  }
+  KickDecision draw;
+  draw.random = arm.random;
+  draw.random_probabilities = arm.random_probabilities;
+  check_policies(draw, place(arm.random_probabilities.empty() ? "random" : "random_probabilities"));
+}
+
+std::vector<SettingLine> read_set(const TomlSource& source, TableReader& reader, const toml::table& table,
+                                  const std::string& arm) {
+  std::vector<std::string> texts;
+  reader("set", texts);
+  std::vector<SettingLine> lines;
+  for (const std::string& text : texts) {
+    const auto line = table["set"][lines.size()].node()->source().begin.line;
+    lines.push_back({text, fmt::format("{}:{}: arm {}: set \"{}\"", source.file, line, arm, text)});
+  }
+  return lines;
+}
+
+ArmFields read_arm(const TomlSource& source, const toml::node& node) {
+  if (!node.is_table()) throw Error{fmt::format("{}:{}: arm: expected [[arm]]", source.file, node.source().begin.line)};
+  const toml::table& table = *node.as_table();
+  ArmFields arm;
+  TableReader reader{source.file, table, "arm"};
+  fields(reader, arm);
+  check_name(arm.name, place_of(source, table, "name"));
+  arm.set = read_set(source, reader, table, arm.name);
+  reader.refuse_unknown_keys();
+  arm.place = fmt::format("{}:{}: arm {}", source.file, node.source().begin.line, arm.name);
+  if (arm.table != "new" && arm.table != "old") {
+    throw Error{
+        fmt::format("{}: arm.table = \"{}\": expected one of: new, old", place_of(source, table, "table"), arm.table)};
+  }
+  check_draw(source, table, arm);
   const std::filesystem::path folder = std::filesystem::path{source.file}.parent_path();
   for (std::string& robot : arm.robots) {
     if (std::filesystem::path{robot}.is_relative()) robot = (folder / robot).string();
   }
   return arm;
+}
+
+void append_keys(const toml::table& table, const std::string& section, std::vector<std::string>& keys) {
+  for (const auto& [key, node] : table) {
+    const std::string full = section + std::string{key.str()};
+    if (node.is_table())
+      append_keys(*node.as_table(), full + ".", keys);
+    else
+      keys.push_back(full);
+  }
 }
 
 }  // namespace
@@ -50,15 +121,27 @@ std::vector<ArmFields> load_arms(const std::filesystem::path& path) {
     }
     for (const toml::node& table : *node.as_array()) {
       arms.push_back(read_arm(source, table));
-      for (std::size_t i = 0; i + 1 < arms.size(); ++i) {
-        if (arms[i].name != arms.back().name) continue;
-        throw Error{fmt::format("{}:{}: arm.name = \"{}\" stands there twice", source.file, table.source().begin.line,
-                                arms.back().name)};
-      }
+      const std::string& name = arms.back().name;
+      if (std::ranges::count(arms, name, &ArmFields::name) == 1) continue;
+      throw Error{
+          fmt::format("{}: arm.name = \"{}\" stands there twice", place_of(source, *table.as_table(), "name"), name)};
     }
   }
   if (arms.empty()) throw Error{fmt::format("{}: no [[arm]]", source.file)};
   return arms;
+}
+
+std::vector<std::string> override_setting(Settings& settings, const SettingLine& line) {
+  try {
+    const TomlSource source = parse_text(line.text, "");
+    read_into(source, settings);
+    std::vector<std::string> keys;
+    append_keys(source.root, "", keys);
+    return keys;
+  } catch (const Error& error) {
+    const std::string what = error.what();  // ":1: what is wrong", the line being the text's own
+    throw Error{fmt::format("{}: {}", line.place, what.substr(what.find(": ") + 2))};
+  }
 }
 
 }  // namespace trivela::config

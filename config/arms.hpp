@@ -1,26 +1,40 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "config/settings.hpp"
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::config {
 
+/// A setting on top of others, e.g. "policy.predictive.threshold = 0.4", and where it stands, for messages.
+struct SettingLine {
+  std::string text;
+  std::string place;
+};
+
 /// One [[arm]] of an experiment's file, see config/arms/*.toml. What it leaves out is the command line's.
 struct ArmFields {
   std::string name;
-  kicking::PolicyName policy = kicking::PolicyName::kMoving;
-  std::string table = "new";                 ///< "new" or "old"
-  std::vector<std::string> robots;           ///< robot files, robot n's at n - 1; relative to the file
-  std::vector<std::string> set;              ///< settings on top, e.g. "policy.predictive.threshold = 0.4"
-  std::vector<kicking::PolicyName> random;   ///< drawn for each possession, in place of `policy`
+  std::optional<kicking::PolicyName> policy;  ///< none, and `random` empty: the settings say who plays
+  std::string table = "new";                  ///< "new" or "old"
+  std::vector<std::string> robots;            ///< robot files, robot n's at n - 1; relative to the file
+  std::vector<SettingLine> set;
+  std::vector<kicking::PolicyName> random;   ///< drawn for each possession
   std::vector<double> random_probabilities;  ///< of those; empty: alike
+  std::string place;                         ///< of the arm, for messages: file, line and name
 };
 
 /// Reads an experiment's arms. Throws Error naming file, line, key and value; also for a file without arms, for two of
-/// one name, and for an arm without a name.
+/// one name, for a name that is empty, longer than 64 bytes or not printable, for probabilities that are none, and for
+/// an arm with both `policy` and `random`.
 std::vector<ArmFields> load_arms(const std::filesystem::path& path);
+
+/// Overrides settings by the line; returns the keys that it names, e.g. "policy.predictive.threshold". Throws Error
+/// that begins with the line's place.
+std::vector<std::string> override_setting(Settings& settings, const SettingLine& line);
 
 }  // namespace trivela::config

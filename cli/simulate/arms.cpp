@@ -1,16 +1,17 @@
 #include "cli/simulate/arms.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "cli/simulate/arm_settings.hpp"
 #include "cli/verbs.hpp"
 #include "config/arms.hpp"
-#include "config/learned_model.hpp"
+#include "config/error.hpp"
+#include "nodes/in_process/play_match.hpp"
 #include "nodes/recorder/session_text.hpp"
 
 namespace trivela::cli {
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 config::ArmFields arm_named(const std::string& name) {
   config::ArmFields arm;
   arm.name = name;
+  arm.place = "arm " + name;
   const auto at = name.find('@');
   const std::string policy = name.substr(0, at);
   if (at != std::string::npos) arm.table = name.substr(at + 1);
@@ -66,15 +68,37 @@ bool is_drive(kicking::PolicyName policy) {
   return policy >= kicking::PolicyName::kStandingDrive && policy <= kicking::PolicyName::kStraightDrive;
 }
 
-void check_policy(const std::string& arm, kicking::PolicyName policy, const config::Settings& settings) {
+void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, const config::Settings& settings) {
   if (is_drive(policy)) {
-    throw UsageError{fmt::format("arm {}: {} calibrates a robot (trivela calibrate run) and is no policy of play", arm,
-                                 kicking::name(policy))};
+    throw UsageError{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
+                                 arm.place, kicking::name(policy))};
   }
   if (policy == kicking::PolicyName::kLearned && !settings.policy.learned) {
     throw UsageError{
-        fmt::format("arm {}: the policy learned needs a model: --set kick_decision.learned_model=FILE", arm)};
+        fmt::format("{}: the policy learned needs a model: --set kick_decision.learned_model=FILE", arm.place)};
   }
+}
+
+/// Everybody who may be in charge.
+std::vector<kicking::PolicyName> policies_of(const nodes::Arm& arm) {
+  const config::KickDecision decision = nodes::settings_of(arm, {}).kick_decision;
+  if (!decision.random.empty()) return decision.random;
+  std::vector<kicking::PolicyName> policies = decision.policy_by_robot;
+  policies.push_back(decision.policy_by_half.front());
+  return policies;
+}
+
+std::vector<config::Robot> load_robots(const config::ArmFields& fields, const ArmBase& base) {
+  std::vector<config::Robot> robots;
+  try {
+    for (const std::string& robot : fields.robots) robots.push_back(config::load_robot(robot));
+  } catch (const config::Error& error) {
+    throw config::Error{fmt::format("{}: robots: {}", fields.place, error.what())};
+  }
+  if (!robots.empty()) return robots;
+  for (const std::string& robot : base.robots.empty() ? default_robots() : base.robots)
+    robots.push_back(config::load_robot(robot));
+  return robots;
 }
 
 nodes::Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
@@ -82,27 +106,14 @@ nodes::Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
   arm.name = fields.name;
   arm.policy = fields.policy;
   arm.table = fields.table;
-  arm.settings = config::load_settings(base.config);
-  for (const auto& lines : {base.overrides, fields.set}) {
-    for (const std::string& line : lines) config::override_setting(arm.settings, line);
-  }
-  arm.settings.policy.cycle_s = arm.settings.run.cycle_s;
-  const std::string& model = arm.settings.kick_decision.learned_model;
-  if (!model.empty()) arm.settings.policy.learned = config::load_learned_model(model).model;
-  arm.robots.clear();
-  const auto& robots = !fields.robots.empty() ? fields.robots : !base.robots.empty() ? base.robots : default_robots();
-  for (const std::string& robot : robots) arm.robots.push_back(config::load_robot(robot));
+  arm.settings = arm_settings(fields, base.config, base.overrides);
+  arm.robots = load_robots(fields, base);
   for (std::size_t i = 0; i < fields.random.size(); ++i) {
-    check_policy(arm.name, fields.random[i], arm.settings);
     const double alike = 1.0 / static_cast<double>(fields.random.size());
     arm.random.push_back(
         {fields.random[i], i < fields.random_probabilities.size() ? fields.random_probabilities[i] : alike});
   }
-  if (arm.random.empty()) check_policy(arm.name, arm.policy, arm.settings);
-  config::KickDecision check = arm.settings.kick_decision;
-  check.random = fields.random;
-  check.random_probabilities = fields.random_probabilities;
-  config::check_policies(check, "arm " + arm.name);
+  for (const kicking::PolicyName policy : policies_of(arm)) check_policy(fields, policy, arm.settings);
   return arm;
 }
 
@@ -115,9 +126,22 @@ std::vector<nodes::Arm> arms_of(const std::string& text, const ArmBase& base) {
   return arms;
 }
 
+std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms) {
+  std::vector<std::string> remarks;
+  for (const nodes::Arm& arm : arms) {
+    const std::size_t files = arm.robots.size();
+    if (files >= nodes::team_size(scenario)) continue;
+    std::string remark = fmt::format("{} robots play with {} robot file{}: {} is taken for all further ones",
+                                     nodes::team_size(scenario), files, files == 1 ? "" : "s", arm.robots.back().name);
+    if (std::ranges::find(remarks, remark) == remarks.end()) remarks.push_back(std::move(remark));
+  }
+  return remarks;
+}
+
 std::string describe(const nodes::Arm& arm) {
-  std::string text =
-      fmt::format("name = {}\npolicy = {}\ntable = {}\n", arm.name, kicking::name(arm.policy), arm.table);
+  std::string text = fmt::format("name = {}\n", arm.name);
+  if (arm.policy) text += fmt::format("policy = {}\n", kicking::name(*arm.policy));
+  text += fmt::format("table = {}\n", arm.table);
   for (const nodes::PolicyChance& chance : arm.random)
     text += fmt::format("random {} {}\n", kicking::name(chance.policy), chance.probability);
   text += nodes::session_config(arm.settings, arm.robots, nullptr);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "nodes/in_process/arm.hpp"
+#include "sim/scenario.hpp"
 
 namespace trivela::cli {
 
@@ -18,6 +19,9 @@ struct ArmBase {
 /// that height table, or a file of arms (ending in .toml). Throws UsageError and config::Error with the name that is
 /// none.
 std::vector<nodes::Arm> arms_of(const std::string& text, const ArmBase& base);
+
+/// A sentence for each number of robot files that is smaller than the scenario's team.
+std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms);
 
 /// An arm as text: all that its rows depend on.
 std::string describe(const nodes::Arm& arm);

@@ -24,6 +24,8 @@ namespace {
 using evaluator::log::ExperimentLog;
 using evaluator::log::Session;
 
+constexpr std::uint32_t kTriedMatches = 100;  // whose robots are made before the log is
+
 /// One arm's match, played.
 struct Played {
   nodes::MatchRecord record;
@@ -58,13 +60,14 @@ class Sessions {
       : arguments_sha256_(evaluator::log::sha256(arguments)) {
     for (const nodes::Arm& arm : plan.arms) {
       Session session;
-      if (arm.robots.size() == 1) session.robot_id = 1;
+      if (arm.robots.size() == 1 && nodes::team_size(plan.scenario) == 1) session.robot_id = 1;
       session.simulated = session.simulated_clock = true;
       session.config_toml = nodes::session_config(nodes::settings_of(arm, plan.options), arm.robots, &plan.scenario);
       session.software_version = nodes::software_version();
       session.scenario = plan.scenario_name;
       session.idl = nodes::idl_text();
-      if (arm.random.empty()) session.policies.push_back({1, kicking::name(arm.policy)});
+      if (const auto policy = nodes::only_policy(plan.scenario, arm))
+        session.policies.push_back({1, kicking::name(*policy)});
       session.arm = arm.name;
       session.kicker_table = arm.table;
       arms_.push_back(std::move(session));
@@ -159,7 +162,26 @@ std::string ExperimentPlan::arguments() const {
   return text;
 }
 
+void check_playable(const ExperimentPlan& plan) {
+  if (plan.arms.size() > evaluator::log::kMostArms)
+    throw UsageError{
+        fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), evaluator::log::kMostArms)};
+  for (const nodes::Arm& arm : plan.arms) {
+    nodes::check_playable(plan.scenario, arm, plan.possessions);
+    for (std::uint32_t match_id = 0; match_id < std::min(plan.matches, kTriedMatches); ++match_id) {
+      for (std::uint8_t robot_id = 1; robot_id <= nodes::team_size(plan.scenario); ++robot_id) {
+        try {
+          nodes::robot_of(plan.scenario, arm, plan.seed, match_id, robot_id);
+        } catch (const std::exception& error) {
+          throw std::runtime_error{fmt::format("arm {}: {}", arm.name, error.what())};
+        }
+      }
+    }
+  }
+}
+
 int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out) {
+  check_playable(plan);
   SignalInbox signals;  // before the threads, which must not be interrupted
   const std::string arguments = plan.arguments();
   ExperimentLog log{out, {arguments, plan.matches}};

@@ -22,8 +22,13 @@ struct ExperimentPlan {
   std::string arguments() const;
 };
 
-/// Plays what is missing in the log `out` with `jobs` threads, and prints what each arm did. The rows do not depend on
-/// `jobs`, nor on how often the run was stopped. Returns the exit code.
+/// Throws UsageError or std::runtime_error in a sentence that names the arm, where a match of the plan cannot be
+/// played.
+void check_playable(const ExperimentPlan& plan);
+
+/// Checks the plan, so that one that is refused leaves no log. Plays what is missing in the log `out` with `jobs`
+/// threads, and prints what each arm did. The rows do not depend on `jobs`, nor on how often the run was stopped.
+/// Returns the exit code.
 int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out);
 
 }  // namespace trivela::cli
