@@ -28,6 +28,21 @@ inline double number(const Value& cell) {
   return number_if_any(cell).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// The whole number in a cell. Throws std::bad_variant_access where it is none.
+inline std::int64_t integer(const Value& cell) { return std::get<std::int64_t>(cell); }
+
+/// The same; none where it is NULL.
+inline std::optional<std::int64_t> integer_if_any(const Value& cell) {
+  const auto* const whole = std::get_if<std::int64_t>(&cell);
+  return whole != nullptr ? std::optional(*whole) : std::nullopt;
+}
+
+/// The text in a cell; empty where there is none.
+inline std::string text_if_any(const Value& cell) {
+  const auto* const text = std::get_if<std::string>(&cell);
+  return text != nullptr ? *text : std::string();
+}
+
 /// Called with the cells of one row, in the order of the columns asked for.
 using RowFunction = std::function<void(std::span<const Value>)>;
 

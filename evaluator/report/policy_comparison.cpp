@@ -3,25 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "evaluator/report/pair_counts.hpp"
-#include "evaluator/stats/exact.hpp"
+#include "evaluator/report/policy_headline.hpp"
 #include "evaluator/stats/robustness.hpp"
 #include "evaluator/stats/sample_ratio.hpp"
-#include "evaluator/stats/sample_size.hpp"
 #include "evaluator/stats/several_tests.hpp"
 
 namespace trivela::evaluator {
 namespace {
-
-double square(double x) { return x * x; }
-
-double p_of(const stats::Clustered& clustered) {
-  if (clustered.standard_error == 0.0) return clustered.value == 0.0 ? 1.0 : 0.0;
-  return stats::student_p(clustered.value / clustered.standard_error, clustered.df);
-}
 
 GroupResult group_result(const KickBook& book, std::uint32_t group) {
   GroupResult result;
@@ -102,63 +93,6 @@ Stratified stratified(const KickBook& book, const std::vector<stats::MatchCounts
   return result;
 }
 
-// Kicks of each policy for a difference of this size, by the ratio of the variance seen to that of independent kicks.
-std::optional<double> needed(const Effect& effect, double standard_error, double difference) {
-  const double p1 = *stats::efficiency(effect.older), p2 = *stats::efficiency(effect.newer);
-  const double independent =
-      p1 * (1.0 - p1) / static_cast<double>(effect.older.n) + p2 * (1.0 - p2) / static_cast<double>(effect.newer.n);
-  const double other = p1 + difference <= 1.0 && p1 + difference >= 0.0 ? p1 + difference : p1 - difference;
-  const auto kicks = stats::kicks_per_policy(p1, std::clamp(other, 0.0, 1.0));
-  if (!kicks) return std::nullopt;
-  return *kicks * (independent > 0.0 && standard_error > 0.0 ? square(standard_error) / independent : 1.0);
-}
-
-Headline headline(const PairResult& pair, double smallest_effect) {
-  Headline result;
-  result.of_opportunities = pair.per_opportunity.has_value();
-  const Effect& crude = result.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
-  result.adjusted = pair.stratified && pair.stratified->standardised && !pair.pairs &&
-                    pair.stratified->of_opportunities == result.of_opportunities;
-  const auto& clustered = result.adjusted ? pair.stratified->clustered : crude.clustered;
-  result.by_match = clustered.has_value();
-  double standard_error = 0.0;
-  if (clustered) {
-    result.difference = clustered->value;
-    result.ci = clustered->ci;
-    standard_error = clustered->standard_error;
-    result.p = p_of(*clustered);
-    result.method = pair.pairs        ? "paired, clustered by match"
-                    : result.adjusted ? "standardised, clustered by match"
-                                      : "clustered by match";
-    result.p_method = "Student's t of the difference over matches";
-  } else if (result.adjusted) {
-    result.difference = pair.stratified->standardised->difference.value;
-    result.ci = pair.stratified->standardised->difference.ci;
-    result.p = pair.stratified->cmh ? pair.stratified->cmh->p : 1.0;
-    result.method = "standardised, MOVER of Wilson intervals";
-    result.p_method = "Cochran-Mantel-Haenszel";
-  } else {
-    result.difference = crude.difference;
-    result.ci = crude.independent;
-    if (pair.pairs) {
-      result.p = pair.mcnemar_p;
-      result.method = "Newcombe's for pairs";
-      result.p_method = "McNemar, exact";
-    } else {
-      const auto boschloo = stats::boschloo_two_sided_doubled(crude.older, crude.newer);
-      result.p = boschloo ? *boschloo : stats::fisher_two_sided(crude.older, crude.newer);
-      result.method = "Newcombe's";
-      result.p_method = boschloo ? "Boschloo, twice the smaller one-sided p" : "Fisher";
-    }
-  }
-  if (!clustered) standard_error = 0.5 * (result.ci.hi - result.ci.lo) / stats::z_of(stats::kConfidence);
-  result.p_holm = result.p;
-  result.verdict = stats::verdict(result.ci, smallest_effect);
-  result.needed_for_smallest = needed(crude, standard_error, smallest_effect).value_or(0.0);
-  result.needed_for_seen = needed(crude, standard_error, result.difference);
-  return result;
-}
-
 std::optional<stats::RateRatio> rate(const GroupResult& older, const GroupResult& newer, bool inside_only) {
   if (!older.minutes || !newer.minutes || *older.minutes <= 0.0 || *newer.minutes <= 0.0) return std::nullopt;
   const auto events = [&](const GroupResult& group) { return inside_only ? group.inside : group.kicks(); };
@@ -206,7 +140,7 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
     return pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
   };
   pair.bounds = stats::difference_bounds(known(older), older.unknown, known(newer), newer.unknown);
-  pair.headline = headline(pair, smallest_effect);
+  pair.headline = headline_of(pair, smallest_effect);
   return pair;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Cells = std::span<const log::Value>;
 
-std::int64_t integer(const log::Value& value) { return std::get<std::int64_t>(value); }
+using log::integer;
 const std::string& text(const log::Value& value) { return std::get<std::string>(value); }
 
 std::vector<PolicyRow> policy_rows(const log::Reader& reader) {
