@@ -36,7 +36,7 @@ std::vector<CsvRecord> read_blanks(const std::string& text) {
 }
 
 /// Comments after numbers too; lines keep their numbers.
-std::vector<CsvRecord> read_csv(const std::string& text) {
+std::vector<CsvRecord> read_csv(const std::string& text, const std::string& file) {
   std::vector<CsvRecord> records;
   std::istringstream lines(text);
   std::stringstream in;
@@ -44,7 +44,7 @@ std::vector<CsvRecord> read_csv(const std::string& text) {
     line.erase(std::min(line.find('#'), line.size()));
     in << (words_of(line).empty() ? "" : line) << '\n';
   }
-  CsvReader reader(in);
+  CsvReader reader(in, file);
   while (auto record = reader.next()) records.push_back(std::move(*record));
   return records;
 }
@@ -89,7 +89,7 @@ NumberTable NumberTable::read(const std::string& file, const std::string& column
   table.file_ = file == "-" ? "standard input" : file;
   table.header_ = named_columns(columns);
   const std::string text = text_of(file);
-  table.records_ = is_csv(text) ? read_csv(text) : read_blanks(text);
+  table.records_ = is_csv(text) ? read_csv(text, table.file_) : read_blanks(text);
   auto& records = table.records_;
   if (records.empty()) throw std::runtime_error(table.file_ + ": no rows");
   const bool numbers_first = std::ranges::any_of(records.front().cells, is_number);
