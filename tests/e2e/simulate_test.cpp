@@ -321,6 +321,16 @@ TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
   }
 }
 
+TEST(Simulate, PlaysARobotsOwnPolicyLikeTheNodesOnTheBus) {
+  const Folder folder;
+  const std::string own = "kick_decision.policy_by_robot=['stopped']";
+  std::ofstream{folder / "arms.toml"} << fmt::format("[[arm]]\nname = \"own\"\nset = [\"{}\"]\n", own);
+  run(folder, {"simulate", "--arms", "arms.toml", "--matches", "1", "--possessions", "8", "--robot", kRobot,
+               "--shadows", "--every-cycle", "--out", "in.db"});
+  EXPECT_EQ(number_of(Reader{folder / "in.db"}, "SELECT count(*) FROM assignments WHERE policy = 'stopped'"), 8);
+  EXPECT_THAT(differing_on_the_bus(folder, {"--half", "moving", "--set", own}), IsEmpty());
+}
+
 TEST(Simulate, DrawsThePoliciesLikeTheNodesOnTheBus) {
   const Folder folder;
   std::ofstream{folder / "arms.toml"} << fmt::format(
