@@ -80,6 +80,7 @@ config::Settings arm_settings(const config::ArmFields& arm, const std::string& c
                               const std::vector<std::string>& overrides) {
   config::Settings settings = config::load_settings(config);
   std::vector<config::SettingLine> lines;
+  lines.reserve(overrides.size() + arm.set.size());
   for (const std::string& line : overrides) lines.push_back({line, "--set " + line});
   lines.insert(lines.end(), arm.set.begin(), arm.set.end());
   std::vector<std::string> given;
