@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "config/plain_text.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
 
@@ -29,22 +30,17 @@ std::string place_of(const TomlSource& source, const toml::table& arm, std::stri
   return fmt::format("{}:{}", source.file, (node != nullptr ? *node : arm).source().begin.line);
 }
 
-/// Unicode's control characters, U+0000 to U+001F and U+007F to U+009F, at byte `i` of UTF-8.
-bool is_control(std::string_view text, std::size_t i) {
-  const auto byte = static_cast<unsigned char>(text[i]);
-  if (byte == 0xC2 && i + 1 < text.size()) return static_cast<unsigned char>(text[i + 1]) < 0xA0;
-  return byte < 0x20 || byte == 0x7F;
-}
-
 void check_name(const std::string& name, const std::string& place) {
   if (name.empty()) throw Error{fmt::format("{}: arm.name = \"\": an arm needs a name", place)};
   std::string shown;
   bool printable = true;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool control = is_control(name, i);
-    printable = printable && !control;
-    shown += control ? fmt::format("\\x{:02x}", static_cast<unsigned char>(name[i])) : name.substr(i, 1);
-    if (control && name[i] == '\xC2') shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(name[++i]));
+  for (std::string_view rest = name; !rest.empty();) {
+    const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
+    const bool plain = character != "\t" && !is_control(character);
+    printable = printable && plain;
+    for (const char byte : character)
+      shown += plain ? std::string{byte} : fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    rest.remove_prefix(character.size());
   }
   if (!printable) throw Error{fmt::format("{}: arm.name = \"{}\": has a control character", place, shown)};
   if (name.size() > kLongestName) {

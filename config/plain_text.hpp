@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace trivela::cli {
+namespace trivela::config {
 
 /// Bytes of the UTF-8 character that `text` begins with (RFC 3629: no overlong form, surrogate, or code point over
 /// U+10FFFF); 0: it begins with none.
@@ -27,7 +27,7 @@ inline std::size_t utf8_length(std::string_view text) {
 /// U+0000 to U+001F but the tab, U+007F, and U+0080 to U+009F: a terminal may obey them.
 inline bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character.front());
-  if (first == 0xC2) return static_cast<unsigned char>(character[1]) < 0xA0;
+  if (first == 0xC2) return character.size() > 1 && static_cast<unsigned char>(character[1]) < 0xA0;
   return (first < 0x20 && first != '\t') || first == 0x7F;
 }
 
@@ -41,4 +41,4 @@ inline std::optional<std::size_t> first_unprintable(std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace trivela::cli
+}  // namespace trivela::config
