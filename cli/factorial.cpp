@@ -42,7 +42,7 @@ void factorial(const FactorialFlags& flags) {
     report.cells.push_back({cell, {}});
     arms.push_back(arm_of(cell, settings, robots));
   }
-  for (const std::string& remark : shared_robots(scenario, arms)) fmt::print(stderr, "trivela: {}\n", remark);
+  warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 

@@ -28,6 +28,7 @@ void frontier(const FrontierFlags& flags) {
     arms.push_back(std::move(arm));
   }
   for (nodes::Arm& arm : arms_of("stopped,moving,oracle", flags.base)) arms.push_back(std::move(arm));
+  warn_of_shared_robots(scenario, arms);
   auto played = play_with_bar(scenario, arms, flags.study.plan, "the frontier");
   FrontierReport report{.policy = flags.policy,
                         .scenario = flags.study.scenario_name(),

@@ -47,6 +47,7 @@ void sensitivity(const SensitivityFlags& flags) {
   const auto play = [&](const sim::Scenario& world, const std::string& what) {
     return play_with_bar(world, arms, flags.study.plan, what);
   };
+  warn_of_shared_robots(scenario, arms);
   report.base = play(scenario, "the scenario");
   for (const UncertainInput& input : inputs) {
     PlayedInput played{input, value_of(scenario, input.key), {}};

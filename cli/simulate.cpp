@@ -36,7 +36,7 @@ int simulate(const SimulateFlags& flags) {
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
-  for (const std::string& remark : shared_robots(plan.scenario, plan.arms)) fmt::print(stderr, "trivela: {}\n", remark);
+  warn_of_shared_robots(plan.scenario, plan.arms);
   return run_experiment(plan, flags.jobs, flags.out);
 }
 

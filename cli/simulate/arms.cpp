@@ -126,16 +126,17 @@ std::vector<nodes::Arm> arms_of(const std::string& text, const ArmBase& base) {
   return arms;
 }
 
-std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms) {
-  std::vector<std::string> remarks;
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms) {
+  std::vector<std::string> remarks;  // each once
   for (const nodes::Arm& arm : arms) {
     const std::size_t files = arm.robots.size();
     if (files >= nodes::team_size(scenario)) continue;
     std::string remark = fmt::format("{} robots play with {} robot file{}: {} is taken for all further ones",
                                      nodes::team_size(scenario), files, files == 1 ? "" : "s", arm.robots.back().name);
-    if (std::ranges::find(remarks, remark) == remarks.end()) remarks.push_back(std::move(remark));
+    if (std::ranges::find(remarks, remark) != remarks.end()) continue;
+    fmt::print(stderr, "trivela: {}\n", remark);
+    remarks.push_back(std::move(remark));
   }
-  return remarks;
 }
 
 std::string describe(const nodes::Arm& arm) {

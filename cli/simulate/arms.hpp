@@ -20,8 +20,8 @@ struct ArmBase {
 /// none.
 std::vector<nodes::Arm> arms_of(const std::string& text, const ArmBase& base);
 
-/// A sentence for each number of robot files that is smaller than the scenario's team.
-std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms);
+/// Says on standard error where an arm has fewer robot files than the scenario's team has robots.
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms);
 
 /// An arm as text: all that its rows depend on.
 std::string describe(const nodes::Arm& arm);
