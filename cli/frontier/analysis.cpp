@@ -38,6 +38,7 @@ double on_target_per_opportunity(const MatchTally& total) { return ratio(total.o
 Effect jackknife(const std::vector<const ArmTally*>& arms,
                  const std::function<double(const std::vector<MatchTally>&)>& of) {
   std::vector<MatchTally> totals;
+  totals.reserve(arms.size());
   for (const ArmTally* arm : arms) totals.push_back(total_of(*arm));
   const double value = of(totals);
   const std::size_t matches = arms.front()->size();
