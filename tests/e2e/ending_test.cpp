@@ -22,7 +22,7 @@ void expect_finalised(const std::filesystem::path& path) {
   EXPECT_THAT(log.warnings(), IsEmpty());
   EXPECT_THAT(gaps_of(log), IsEmpty());
   EXPECT_THAT(losses_of(log), IsEmpty());
-  EXPECT_GT(number_of(log, "SELECT count(*) FROM world_states"), 0);
+  EXPECT_GT(number_of(log, "SELECT count(*) FROM world_states"), 100);
 }
 
 TEST(Ending, AMatchStartsOneProcessPerNode) {

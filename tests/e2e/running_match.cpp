@@ -2,10 +2,14 @@
 
 #include <stdexcept>
 
+#include "tests/e2e/log_rows.hpp"
+
 namespace trivela::e2e {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::int64_t kPlayedCycles = 100;
 
 std::vector<std::string> arguments(std::vector<std::string> more) {
   std::vector<std::string> all{"match", "--half",   "stopped",   "--half", "moving",
@@ -20,6 +24,11 @@ RunningMatch::RunningMatch(std::vector<std::string> more_arguments)
     : program_("trivela", arguments(std::move(more_arguments)), folder_.path()) {
   if (!wait_until_recorded(500'000)) {
     throw std::runtime_error{"the match did not get going: " + program_.output() + program_.errors()};
+  }
+  const Reader growing{log()};
+  if (!wait_for_change(folder_.path(), program_.watch(),
+                       [&] { return number_of(growing, "SELECT count(*) FROM world_states") > kPlayedCycles; })) {
+    throw std::runtime_error{"the match does not go on: " + program_.output() + program_.errors()};
   }
   for (const pid_t child : children_of(program_.id())) nodes_.emplace(program_of(child), ProcessWatch{child});
 }

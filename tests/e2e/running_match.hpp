@@ -8,7 +8,7 @@
 
 namespace trivela::e2e {
 
-/// A match in a folder of its own that would go on for long, some seconds of play after its start.
+/// A match in a folder of its own that would go on for long, more than 100 cycles of which are in its log.
 class RunningMatch {
  public:
   /// Throws std::runtime_error if the match ended instead, with what it said.
