@@ -9,7 +9,6 @@
 namespace trivela::e2e {
 namespace {
 
-using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
