@@ -59,7 +59,8 @@ std::string oracle_sentence(const FrontierReport& report) {
 /// Instead of a chart that would have nothing to scale its axes by.
 std::string no_kicks_svg() {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 400 80\">\n"
-         "<text x=\"20\" y=\"45\">No policy kicked: there is nothing to draw.</text>\n</svg>\n";
+         "<rect width=\"400\" height=\"80\" fill=\"#fff\"/>\n"
+         "<text fill=\"#222\" x=\"20\" y=\"45\">No policy kicked: there is nothing to draw.</text>\n</svg>\n";
 }
 
 }  // namespace

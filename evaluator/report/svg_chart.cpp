@@ -128,7 +128,12 @@ std::string legend(const Chart& chart, double x0) {
 }  // namespace
 
 std::vector<double> round_ticks(double low, double high) {
-  const double span = std::max(high - low, 1e-9 * std::max({1.0, std::abs(low), std::abs(high)}));
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (high - low <= 1e-9 * largest) {  // one value: half of it to either side, of 0 the unit above
+    low -= 0.5 * largest;
+    high += largest > 0.0 ? 0.5 * largest : 1.0;
+  }
+  const double span = high - low;
   const double power = std::pow(10.0, std::floor(std::log10(span / 5.0)));
   double step = power;
   for (const double factor : {2.0, 5.0, 10.0}) {

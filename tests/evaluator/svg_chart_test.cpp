@@ -91,6 +91,11 @@ TEST(SvgChart, DrawsEveryPointInsideTheAxes) {
   EXPECT_EQ(dots, 3);
 }
 
+TEST(SvgChart, OneValueStandsWithinTicksOfItsOwnSize) {
+  EXPECT_THAT(round_ticks(0.5, 0.5), Pointwise(DoubleNear(1e-12), {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}));
+  EXPECT_THAT(round_ticks(0.0, 0.0), Pointwise(DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
+}
+
 TEST(SvgChart, RefusesWhatCannotBeDrawn) {
   EXPECT_THAT([] { to_svg({"t", "x", "y", {}}); }, ThrowsMessage<std::invalid_argument>("chart: no points"));
   const Chart nan{"t", "x", "y", {{"s", {{0, std::numeric_limits<double>::quiet_NaN()}}, ChartMark::kLine, 0, 0}}};
