@@ -13,11 +13,13 @@ double seconds(CommitPace::Clock::duration duration) { return std::chrono::durat
 }  // namespace
 
 CommitPace::CommitPace(double span_s)
-    : span_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(span_s))) {}
+    : span_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(span_s))) {
+  recent_[0] = span_ / 2;  // the disk is not known yet
+}
 
 CommitPace::Clock::duration CommitPace::wait() const {
   const Clock::duration slowest = *std::ranges::max_element(recent_);
-  return span_ - span_ / 10 - std::min(slowest, span_ / 2);
+  return span_ - span_ / 10 - std::clamp(slowest, span_ / 4, span_ / 2);
 }
 
 std::optional<std::string> CommitPace::committed(Clock::duration commit, Clock::duration age, Clock::time_point now) {

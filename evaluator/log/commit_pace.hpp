@@ -9,9 +9,9 @@
 namespace trivela::evaluator::log {
 
 /// How long rows may wait for company before their commit begins, so that none is older than the span once it is safe:
-/// the span, less a tenth for the bus and the scheduler, less what the slowest of the recent commits took. A row that
-/// comes as a commit begins waits for that one and for its own, so that the span holds on a disk that takes up to half
-/// of it.
+/// the span, less a tenth for the bus and the scheduler, less what the slowest of the recent commits took, at least a
+/// quarter, since any disk is slow now and then. A row that comes as a commit begins waits for that one and for its
+/// own, so that the span holds on a disk that takes up to half of it.
 class CommitPace {
  public:
   using Clock = std::chrono::steady_clock;
