@@ -122,8 +122,25 @@ TEST_F(Limits, ANodeWithoutMemoryForThreadsSaysSo) {
     std::string said;
     const int code = exit_code("world_state", said, [&] { limit(RLIMIT_AS, megabytes << 20); });
     EXPECT_EQ(code, megabytes < 100 ? 1 : 0) << said;
-    if (code != 0) EXPECT_THAT(said, HasSubstr("threads"));
+    EXPECT_EQ(code == 0, said.find("threads") == std::string::npos) << said;
   }
+}
+
+TEST_F(Limits, AnExperimentWithoutMemoryForThreadsSaysSo) {
+  int refused = 0;
+  for (const rlim_t megabytes : {36, 42, 50, 60, 80, 400}) {
+    SCOPED_TRACE(fmt::format("{} MB", megabytes));
+    forget("arms.db");
+    Program simulate{
+        "trivela",
+        {"simulate", "--arms", "stopped", "--matches", "8", "--possessions", "2", "--jobs", "8", "--out", "arms.db"},
+        folder_.path(),
+        [&] { limit(RLIMIT_AS, megabytes << 20); }};
+    const int code = simulate.wait();
+    EXPECT_THAT(code, AnyOf(0, 1)) << simulate.errors();
+    if (simulate.errors().find("of 8 threads can be started") != std::string::npos) ++refused;
+  }
+  EXPECT_GE(refused, 2);
 }
 #endif
 

@@ -27,7 +27,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 using testing::HasSubstr;
 
 constexpr Milliseconds kSpan{100};  // recorder.group_commit_s
-constexpr int kKills = 12;
+constexpr int kKills = 8;
 
 config::Settings settings_for(const Folder& folder, int kill) {
   config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
