@@ -9,11 +9,13 @@
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/cycle_watch.hpp"
 #include "nodes/recorder/sequence_watch.hpp"
+#include "nodes/recorder/silence_record.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
 
-/// Every message of the graph, of every robot in the domain, to one SQLite match log.
+/// Every message of the graph, of every robot in the domain, to one SQLite match log; in real time also what was
+/// silent.
 class RecorderNode {
  public:
   RecorderNode(NodeContext& context, evaluator::log::Writer& log);
@@ -35,6 +37,7 @@ class RecorderNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   CycleWatch cycles_;
+  std::optional<SilenceRecord> silences_;                   // not in lockstep
   std::set<std::tuple<int, int, std::uint32_t>> assigned_;  // robot, half, possession that a policy was noted for
 };
 
