@@ -26,7 +26,7 @@ InputWatch::InputWatch(const NodeContext& context, bus::Node& node) : context_(c
 void InputWatch::add(const bus::Input& input) {
   const bool device = input.name.starts_with(kDevice);
   if (!device && input.period_s <= 0.0) return;
-  const std::string name = device ? "samples of " + input.name.substr(kDevice.size()) : input.name;
+  const std::string name = device ? input.name.substr(kDevice.size()) : input.name;
   const auto known = std::ranges::find(inputs_, name, &Watched::name);
   if (known != inputs_.end()) {
     known->heard_ns.push_back(input.heard_ns);

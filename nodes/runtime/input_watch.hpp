@@ -22,7 +22,7 @@ class InputWatch {
 
  private:
   struct Watched {
-    std::string name;  // "odometry", "samples of wheels"
+    std::string name;  // topic or device
     std::size_t stream = 0;
     std::int64_t period_ns = 0;
     std::vector<std::function<std::int64_t(std::int64_t)>> heard_ns;  // a topic may come in several ways

@@ -69,7 +69,7 @@ TEST_F(InputWatchTest, ADeviceIsWatchedToo) {
       [&, n = 0](int) mutable { speaks = ++n < 20; });
   InputWatch watch{context, listener};
   const Running running{Executor::kListener, stop, {&listener}};
-  EXPECT_TRUE(log_lines->wait_for("no samples of wheels for 0."));
+  EXPECT_TRUE(log_lines->wait_for("no wheels for 0."));
 }
 
 TEST_F(InputWatchTest, WhatWasNeverHeardIsSaidOnceAfterSomeSeconds) {
