@@ -72,8 +72,11 @@ class Node {
   std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}) {
     stored_.emplace_back(meta<T>::topic);
     auto mailbox = std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
-    add_input(std::string(meta<T>::topic), meta<T>::period_s,
-              [mailbox](std::int64_t before_ns) { return mailbox->heard_ns(before_ns); });
+    // The mailbox goes with its owner, whom its reader may call.
+    add_input(std::string(meta<T>::topic), meta<T>::period_s, [weak = std::weak_ptr(mailbox)](std::int64_t before_ns) {
+      const auto owned = weak.lock();
+      return owned ? owned->heard_ns(before_ns) : std::int64_t{0};
+    });
     return mailbox;
   }
 

@@ -28,7 +28,7 @@ firsts AS (
 receipts AS (
   SELECT r.session_id, r.robot_id, r.t_ns, r.accepted,
     r.accepted = 0 AND r.refusal <> 'double' AND EXISTS (
-      SELECT 1 FROM kick_receipts AS k INDEXED BY kick_receipts_kick
+      SELECT 1 FROM main.kick_receipts AS k INDEXED BY kick_receipts_kick
       WHERE k.session_id = r.session_id AND k.robot_id = r.robot_id AND k.kick_id = r.kick_id AND k.seq < r.seq
         AND k.accepted = 1) AS withdrawal
   FROM kick_receipts AS r),

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     nodes::RecorderNode node{context, log};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
+    node.note_silences();
     log.finalise();
     const auto stats = log.stats();
     fmt::print("recorded {} rows, {:.0f} a second, queue high-water {} of {}, {} missing: {}\n", stats.rows_written,

@@ -19,7 +19,7 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
       step_done_(step_done_writer(context, node_)) {
   if (!context.settings.run.lockstep) {
     silences_.emplace(context, log);
-    node_.every(SilenceRecord::kStep, "silence", [this] { silences_->look(now_ns(std::chrono::steady_clock::now())); });
+    node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
   }
   record<msg::Odometry>("odometry");
   record<msg::VisionFrame>("vision_frames");
@@ -34,6 +34,10 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
   record<msg::KickTruth>("kick_truths");
   record<msg::PossessionTruth>("possession_truths");
   record_decisions();
+}
+
+void RecorderNode::note_silences() {
+  if (silences_) silences_->look(now_ns(std::chrono::steady_clock::now()));
 }
 
 template <class T>

@@ -21,6 +21,10 @@ class RecorderNode {
   RecorderNode(NodeContext& context, evaluator::log::Writer& log);
   bus::Node& node() { return node_; }
 
+  /// Notes what fell silent or was heard again since the last time; the node does so itself, and whoever runs it once
+  /// more after the last samples.
+  void note_silences();
+
  private:
   template <class T>
   void record(const std::string& table);

@@ -368,6 +368,18 @@ TEST(ExecutorTest, WhatATimerThrowsEndsTheRun) {
   EXPECT_THROW(Executor(Executor::kListener, stop, {&node}).run(), std::runtime_error);
 }
 
+TEST(ExecutorTest, AMailboxGoesWithItsOwnerAndNotWithTheNode) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  std::weak_ptr<Mailbox<msg::Referee>> mailbox;
+  {
+    const auto owned = node.stores<msg::Referee>();
+    mailbox = owned;
+  }
+  EXPECT_TRUE(mailbox.expired());
+  EXPECT_EQ(node.inputs().at(0).heard_ns(0), 0);
+}
+
 TEST(ExecutorTest, ANodeKnowsWhenItsInputsCameLast) {
   const Participant participant(fresh_domain());
   Node node(participant, "node", 1);
