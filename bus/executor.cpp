@@ -4,6 +4,8 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace trivela::bus {
 namespace {
 
@@ -76,6 +78,7 @@ void Executor::start_threads() {
     for (const auto& slot : node->slots_) {
       has_topics = has_topics || slot->reader;
       if (slot->poll) threads_.emplace_back([this, &slot = *slot] { serve_device(slot); });
+      if (slot->tick) threads_.emplace_back([this, &slot = *slot] { serve_timer(slot); });
     }
     if (has_topics && kind_ == kWaitset) threads_.emplace_back([this, node] { serve_topics(*node); });
   }
@@ -114,6 +117,18 @@ void Executor::serve_device(Slot& slot) {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
     while (!stop_.requested()) slot.poll(kDeviceTimeout);
+  });
+}
+
+void Executor::serve_timer(Slot& slot) {
+  guarded([&] {
+    name_this_thread(slot.reaction.name);
+    const ReactionScope scope(slot.reaction, false);
+    auto next = std::chrono::steady_clock::now() + slot.period;
+    while (!stop_.wait_until(next)) {
+      slot.tick();
+      next = std::max(next + slot.period, std::chrono::steady_clock::now());
+    }
   });
 }
 

@@ -11,7 +11,8 @@
 
 namespace trivela::bus {
 
-/// Runs the reactions of one or more nodes. Devices always have a thread each; topics come in one of two ways:
+/// Runs the reactions of one or more nodes. Devices and timers always have a thread each; topics come in one of two
+/// ways:
 ///
 /// kWaitset: each node has one thread that waits for its topics and runs its reactions one after the other. They may
 /// wait, e.g. in Mailbox::await.
@@ -43,6 +44,7 @@ class Executor {
   void finish() noexcept;
   void serve_topics(Node& node);
   void serve_device(Slot& slot);
+  void serve_timer(Slot& slot);
   void react(Slot& slot) noexcept;
   void take(Slot& slot) noexcept;
   bool failed();

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "nodes/recorder/message_row.hpp"
+#include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -16,6 +17,10 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
       log_(log),
       node_(context.participant, "recorder"),
       step_done_(step_done_writer(context, node_)) {
+  if (!context.settings.run.lockstep) {
+    silences_.emplace(context, log);
+    node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
+  }
   record<msg::Odometry>("odometry");
   record<msg::VisionFrame>("vision_frames");
   record<msg::FlightFrame>("flight_frames");
@@ -29,6 +34,10 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
   record<msg::KickTruth>("kick_truths");
   record<msg::PossessionTruth>("possession_truths");
   record_decisions();
+}
+
+void RecorderNode::note_silences() {
+  if (silences_) silences_->look(now_ns(std::chrono::steady_clock::now()));
 }
 
 template <class T>
@@ -50,9 +59,13 @@ void RecorderNode::record(const std::string& table) {
   // State streams have a sample a cycle.
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
+  std::optional<std::size_t> voice;
+  if (silences_ && bus::meta<T>::period_s > 0.0) voice = silences_->add(table, bus::meta<T>::period_s);
   node_.on<T>(
-      [this, table, id, cycle_stream, watch = SequenceWatch{}](const T& sample, const bus::SampleInfo& info) mutable {
+      [this, table, id, cycle_stream, voice, watch = SequenceWatch{}](const T& sample,
+                                                                      const bus::SampleInfo& info) mutable {
         store(table, id, watch, sample, info.writer);
+        if (voice) silences_->heard(*voice, sample.robot_id, sample.t_ns);
         if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);

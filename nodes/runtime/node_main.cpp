@@ -16,6 +16,7 @@
 #include "bus/executor.hpp"
 #include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
+#include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace trivela::nodes {
@@ -87,6 +88,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
 
 void run(NodeContext& context, bus::Node& node) {
   const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
+  InputWatch silences{context, node};
   bus::Executor{kind, context.stop, {&node}}.run();
 }
 
