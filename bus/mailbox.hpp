@@ -54,6 +54,7 @@ class Mailbox {
 
  private:
   void take() {
+    if (reader_.keep_hearing()) waitset_.attach(reader_.condition(), 0);
     reader_.take([this](const T& sample) {
       if (!robot_id_ || sample.robot_id == *robot_id_) latest_ = sample;
     });

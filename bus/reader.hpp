@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "bus/entity.hpp"
 #include "bus/options.hpp"
 #include "bus/participant.hpp"
+#include "bus/silence_watch.hpp"
 #include "bus/waitset.hpp"
 #include "idl/meta.hpp"
 
@@ -48,6 +51,17 @@ class AnyReader {
   ReaderCounts counts() const;
   const std::string& topic() const { return topic_; }
 
+  /// In real time, to be asked now and then by who takes: makes this reader anew where it has heard nothing for too
+  /// long, since what a packet broke in Cyclone's picture of a writer stays broken for the readers that it has. Returns
+  /// the old reader then, and condition() is another one; no handle: nothing happened. The old one must go where no lock
+  /// is held that the listener takes.
+  [[nodiscard]] Entity renew_if_silent();
+
+  /// As above, for who holds no such lock: true if it was made anew.
+  bool keep_hearing() { return renew_if_silent().handle() != 0; }
+
+  const Participant& participant() const { return participant_; }
+
   /// Cyclone's handle of the reader; for bus/ alone.
   std::int32_t handle() const { return reader_.handle(); }
 
@@ -57,11 +71,17 @@ class AnyReader {
  protected:
   using Sink = void (*)(void* context, const void* sample, const SampleInfo& info);
 
+  /// period: after which a sample of the topic follows the last, if it has one.
   AnyReader(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
-            Profile profile, const ReaderOptions& options, DataListener listener, void* context);
+            Profile profile, std::chrono::nanoseconds period, const ReaderOptions& options, DataListener listener,
+            void* context);
   std::size_t take_raw(Sink sink, void* context);
 
  private:
+  Entity open();
+  bool time_to_renew();
+  bool is_new(std::uint64_t writer, std::uint64_t instance, std::int64_t source_t_ns);
+
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
   struct DeleteCallbacks {
     void operator()(Callbacks* callbacks) const noexcept;
@@ -69,12 +89,31 @@ class AnyReader {
 
   Participant participant_;
   std::string topic_;
+  Profile profile_;
+  ReaderOptions options_;
   std::unique_ptr<Callbacks, DeleteCallbacks> callbacks_;
   Entity topic_entity_;
   Entity reader_;
   Entity condition_;
   std::unique_ptr<Waitset> waitset_;
+
+  // The newest sample of each writer and robot, which a reader made anew is given once more.
+  struct Newest {
+    std::uint64_t writer;
+    std::uint64_t instance;
+    std::int64_t source_t_ns;
+  };
+  std::vector<Newest> newest_;
+  std::optional<SilenceWatch> silence_;  // in real time, of a topic with a period
+  std::uint64_t renewals_seen_ = 0;      // of the participant's readers that have a period
+  std::chrono::steady_clock::time_point renewed_{};
 };
+
+/// The period of T's topic; zero: it has none.
+template <Message T>
+constexpr std::chrono::nanoseconds period_of() {
+  return meta<T>::profile == Profile::kState ? std::chrono::milliseconds(20) : std::chrono::nanoseconds::zero();
+}
 
 /// Receives T from its topic with its profile.
 template <Message T>
@@ -84,7 +123,8 @@ class Reader : public AnyReader {
   /// writer's in this process. Throws Error if Cyclone refuses.
   explicit Reader(const Participant& participant, const ReaderOptions& options = {}, DataListener listener = nullptr,
                   void* context = nullptr)
-      : AnyReader(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, options, listener, context) {}
+      : AnyReader(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, period_of<T>(), options,
+                  listener, context) {}
 
   /// Hands everything that has arrived to f(sample, info) or f(sample) and returns how many samples that were. An
   /// exception of f passes through; what was taken with its sample is gone.

@@ -130,6 +130,7 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
 
 std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
+  fire_.keep_hearing();
   const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
