@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "bus/hearing.hpp"
+#include "bus/renewal.hpp"
 
 namespace trivela::bus {
 namespace {
@@ -102,6 +103,7 @@ void Executor::wait_for_stop() {
     for (Node* node : nodes_) {
       const auto deaf = node->participant().hearing() ? node->participant().hearing()->deaf() : std::nullopt;
       if (deaf) return give_up(*deaf);
+      for (const auto& mailbox : node->mailboxes_) mailbox();
       if (kind_ == kListener)
         for (const auto& slot : node->slots_) keep_hearing(*slot);
     }
@@ -115,15 +117,10 @@ void Executor::give_up(const Deaf& deaf) {
   over_ = true;
 }
 
-// The old reader goes last: its listener may wait for the reaction.
 bool Executor::keep_hearing(Slot& slot) {
-  if (!slot.reader) return false;
-  Entity old;
-  {
-    const std::lock_guard lock(slot.running);
-    old = slot.reader->renew_if_silent();
-  }
-  return old.handle() != 0;
+  if (!slot.reader || !renew_if_silent(*slot.reader, slot.running, [] {})) return false;
+  react(slot);  // what came before it was in its place
+  return true;
 }
 
 void Executor::finish() noexcept {

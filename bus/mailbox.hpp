@@ -9,6 +9,7 @@
 #include "bus/error.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
+#include "bus/renewal.hpp"
 #include "bus/waitset.hpp"
 
 namespace trivela::bus {
@@ -52,9 +53,14 @@ class Mailbox {
 
   AnyReader& reader() { return reader_; }
 
+  /// In real time, to be called now and then, but by no listener: makes a reader anew that has heard nothing for too
+  /// long. A node's executor does it.
+  void keep_hearing() {
+    renew_if_silent(reader_, mutex_, [this] { waitset_.attach(reader_.condition(), 0); });
+  }
+
  private:
   void take() {
-    if (reader_.keep_hearing()) waitset_.attach(reader_.condition(), 0);
     reader_.take([this](const T& sample) {
       if (!robot_id_ || sample.robot_id == *robot_id_) latest_ = sample;
     });

@@ -70,7 +70,9 @@ class Node {
   template <Message T>
   std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}) {
     stored_.emplace_back(meta<T>::topic);
-    return std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+    auto mailbox = std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+    mailboxes_.push_back([mailbox] { mailbox->keep_hearing(); });
+    return mailbox;
   }
 
   /// Calls react(sample) or react(sample, info) for each T that arrives; react may write the declared outputs only.
@@ -135,6 +137,7 @@ class Node {
   std::shared_ptr<Guard> interrupt_;
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
+  std::vector<std::function<void()>> mailboxes_;  // each call looks whether one has fallen silent
 };
 
 }  // namespace trivela::bus

@@ -76,7 +76,7 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
   reader_ = open();
 }
 
-Entity AnyReader::open() {
+Entity AnyReader::open() const {
   // Given at creation: a listener set later is not called for what arrived before.
   const std::unique_ptr<dds_listener_t, DeleteListener> listeners(dds_create_listener(callbacks_.get()));
   if (callbacks_->data != nullptr) {
@@ -120,13 +120,8 @@ bool AnyReader::time_to_renew() {
   return true;
 }
 
-Entity AnyReader::renew_if_silent() {
-  if (!time_to_renew()) return Entity();
-  Entity anew = open();
-  waitset_.reset();
-  condition_.reset();
-  std::swap(reader_, anew);
-  return anew;
+AnyReader::Retired AnyReader::replace(Entity anew) {
+  return {std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
 }
 
 // A reader made anew is given the last sample of each writer and robot that still stands.

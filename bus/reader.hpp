@@ -51,14 +51,22 @@ class AnyReader {
   ReaderCounts counts() const;
   const std::string& topic() const { return topic_; }
 
-  /// In real time, to be asked now and then by who takes: makes this reader anew where it has heard nothing for too
-  /// long, since what a packet broke in Cyclone's picture of a writer stays broken for the readers that it has. Returns
-  /// the old reader then, and condition() is another one; no handle: nothing happened. The old one must go where no lock
-  /// is held that the listener takes.
-  [[nodiscard]] Entity renew_if_silent();
+  /// In real time: whether it has heard nothing for so long that it shall be made anew, since what a packet broke in
+  /// Cyclone's picture of a writer stays broken for the readers that it has. To be asked now and then by who takes;
+  /// bus/renewal.hpp does what follows.
+  bool time_to_renew();
 
-  /// As above, for who holds no such lock: true if it was made anew.
-  bool keep_hearing() { return renew_if_silent().handle() != 0; }
+  /// What goes when a reader is made anew.
+  struct Retired {
+    Entity reader;
+    Entity condition;
+    std::unique_ptr<Waitset> waitset;
+  };
+
+  /// A second reader like this one, and this one with that in its place; for bus/ alone. A listener may not call them:
+  /// Cyclone waits for it.
+  Entity open() const;
+  [[nodiscard]] Retired replace(Entity anew);
 
   const Participant& participant() const { return participant_; }
 
@@ -78,8 +86,6 @@ class AnyReader {
   std::size_t take_raw(Sink sink, void* context);
 
  private:
-  Entity open();
-  bool time_to_renew();
   bool is_new(std::uint64_t writer, std::uint64_t instance, std::int64_t source_t_ns);
 
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bus/reader.hpp"
+#include "bus/renewal.hpp"
 
 namespace trivela::hal {
 
@@ -16,7 +17,7 @@ std::optional<T> read_newer(bus::Reader<T>& reader, std::uint8_t robot_id, std::
                             std::chrono::nanoseconds timeout) {
   const auto deadline = std::chrono::steady_clock::now() + timeout;
   for (;;) {
-    reader.keep_hearing();
+    bus::renew_if_silent(reader);
     std::optional<T> newest;
     reader.take([&](const T& sample) {
       if (sample.robot_id != robot_id || (after_t_ns && sample.t_ns <= *after_t_ns)) return;

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "bus/renewal.hpp"
+
 namespace trivela::hal {
 namespace {
 
@@ -15,7 +17,7 @@ SimRangeFinder::SimRangeFinder(const bus::Participant& participant, std::uint8_t
     : robot_id_(robot_id), reader_(participant, {.period = {}, .keep_all = true, .on_liveliness = {}}) {}
 
 void SimRangeFinder::take() {
-  reader_.keep_hearing();
+  bus::renew_if_silent(reader_);
   reader_.take([this](const msg::SimScan& sample) {
     if (sample.robot_id != robot_id_) return;
     geometry_ = {.beams = std::min<std::size_t>(sample.beam_count, std::size(sample.range_mm)),

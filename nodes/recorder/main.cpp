@@ -1,18 +1,22 @@
 #include <fmt/core.h>
 
+#include <optional>
+
 #include "bus/executor.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 int main(int argc, char** argv) {
   using namespace trivela;
-  return nodes::node_main(argc, argv, "recorder", [](nodes::NodeContext& context) {
+  std::optional<evaluator::log::Writer> log_of_all;  // also of those that the recorder hears as a new member
+  return nodes::node_main(argc, argv, "recorder", [&log_of_all](nodes::NodeContext& context) {
     const config::Recorder& settings = context.settings.recorder;
     evaluator::log::WriterOptions options;
     options.queue_capacity = settings.queue_capacity;
     options.group_commit_s = settings.group_commit_s;
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
-    evaluator::log::Writer log{settings.log, nodes::session_of(context), options};
+    if (!log_of_all) log_of_all.emplace(settings.log, nodes::session_of(context), options);
+    evaluator::log::Writer& log = *log_of_all;
     nodes::RecorderNode node{context, log};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();

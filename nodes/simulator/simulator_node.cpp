@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "bus/renewal.hpp"
 #include "config/scenario.hpp"
 #include "nodes/simulator/sim_messages.hpp"
 #include "sim/laser/field_laser.hpp"
@@ -130,7 +131,8 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
 
 std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
-  fire_.keep_hearing();
+  bus::renew_if_silent(fire_);
+  drive_.keep_hearing();
   const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
