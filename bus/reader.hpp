@@ -118,7 +118,7 @@ class AnyReader {
 /// The period of T's topic; zero: it has none.
 template <Message T>
 constexpr std::chrono::nanoseconds period_of() {
-  return meta<T>::profile == Profile::kState ? std::chrono::milliseconds(20) : std::chrono::nanoseconds::zero();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(meta<T>::period_s));
 }
 
 /// Receives T from its topic with its profile.
