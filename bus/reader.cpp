@@ -111,12 +111,13 @@ bool AnyReader::time_to_renew() {
   if (!silence_->due(now)) return false;
   const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
   const std::size_t matched = writers();
-  hearing->renewed(fmt::format("{}: silent for {:.1f} s with {} writers: the reader is made anew", topic_, silent_s,
-                               matched));
+  hearing->renewed(
+      fmt::format("{}: silent for {:.1f} s with {} writers: the reader is made anew", topic_, silent_s, matched));
   constexpr std::size_t kHelpless = 3;
   if (matched > 0 && silence_->attempts() > kHelpless)
-    hearing->give_up(topic_, fmt::format("silent for {:.1f} s, though {} write it and the reader was made anew {} times",
-                                         silent_s, matched, kHelpless));
+    hearing->give_up(
+        topic_, fmt::format("silent for {:.1f} s, though {} write it and the reader was made anew {} times", silent_s,
+                            matched, kHelpless));
   return true;
 }
 

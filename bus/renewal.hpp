@@ -8,7 +8,8 @@ namespace trivela::bus {
 
 /// In real time, makes a reader anew that has heard nothing for too long; true if it did. `taking` is what who takes
 /// holds: it is not held while Cyclone makes and deletes readers, since a listener may wait for it that Cyclone waits
-/// for. `attach`, under it, is for who waits for the reader's condition(), which then is another one. Not for listeners.
+/// for. `attach`, under it, is for who waits for the reader's condition(), which then is another one. Not for
+/// listeners.
 template <class Mutex, class F>
 bool renew_if_silent(AnyReader& reader, Mutex& taking, F&& attach) {
   {

@@ -21,7 +21,7 @@ std::optional<T> read_newer(bus::Reader<T>& reader, std::uint8_t robot_id, std::
     std::optional<T> newest;
     reader.take([&](const T& sample) {
       if (sample.robot_id != robot_id || (after_t_ns && sample.t_ns <= *after_t_ns)) return;
-      if (!reader.participant().believes(sample.t_ns)) return;
+      if (!reader.participant().believes(sample.t_ns)) return;  // or all that follow would be older
       newest = sample;
       after_t_ns = sample.t_ns;
     });

@@ -12,13 +12,13 @@ namespace trivela::faults {
 /// What a mutator does to the packets that pass.
 struct Mutations {
   std::uint64_t seed = 1;
-  double share = 1.0;  ///< of the packets that pass are answered with a mutated copy, 0..1
-  std::uint32_t most_flips = 3;           ///< bits of a copy that are turned over: 1 to so many
-  std::vector<std::uint8_t> only{};       ///< bytes of these submessages alone (rtps_packet.hpp); empty: of any
-  std::size_t from = 0;                   ///< of such a submessage the bytes from here, counted from its header
-  std::size_t to = SIZE_MAX;              ///< up to before here
-  bool discovery = true;                  ///< submessages between builtin endpoints, too
-  bool user_data = true;                  ///< those between all other endpoints, too
+  double share = 1.0;                ///< of the packets that pass are answered with a mutated copy, 0..1
+  std::uint32_t most_flips = 3;      ///< bits of a copy that are turned over: 1 to so many
+  std::vector<std::uint8_t> only{};  ///< bytes of these submessages alone (rtps_packet.hpp); empty: of any
+  std::size_t from = 0;              ///< of such a submessage the bytes from here, counted from its header
+  std::size_t to = SIZE_MAX;         ///< up to before here
+  bool discovery = true;             ///< submessages between builtin endpoints, too
+  bool user_data = true;             ///< those between all other endpoints, too
 };
 
 /// Listens on the loopback interface for the RTPS packets of others, turns bits of copies over, and sends these to

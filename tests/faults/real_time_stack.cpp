@@ -13,8 +13,7 @@ namespace trivela::faults {
 namespace {
 
 config::Settings settings_for(const e2e::Folder& folder, double minutes) {
-  config::Settings settings =
-      config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
+  config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;
   settings.domain.domain_id = 1 + random() % 100;
@@ -25,7 +24,9 @@ config::Settings settings_for(const e2e::Folder& folder, double minutes) {
   return settings;
 }
 
-std::string last_of(const std::string& text) { return text.substr(text.size() - std::min<std::size_t>(text.size(), 500)); }
+std::string last_of(const std::string& text) {
+  return text.substr(text.size() - std::min<std::size_t>(text.size(), 500));
+}
 
 }  // namespace
 

@@ -55,8 +55,7 @@ std::vector<Submessage> submessages_of(std::span<const std::uint8_t> packet) {
   for (std::size_t at = kRtpsHeader; at + kSubmessageHeader <= packet.size();) {
     const auto* header = packet.data() + at;
     const bool little = (header[1] & kLittleEndian) != 0;
-    const std::size_t length =
-        little ? header[2] + 256u * header[3] : header[3] + 256u * header[2];
+    const std::size_t length = little ? header[2] + 256u * header[3] : header[3] + 256u * header[2];
     // Length 0: it goes on to the end of the packet.
     const std::size_t end = length == 0 ? packet.size() : std::min(packet.size(), at + kSubmessageHeader + length);
     Submessage part{.id = header[0], .begin = at, .end = end, .discovery = false};

@@ -10,10 +10,10 @@ namespace trivela::faults {
 
 /// A part of an RTPS packet (OMG RTPS 2.2, 8.3): where it lies, and what it is.
 struct Submessage {
-  std::uint8_t id = 0;      ///< 0x06 ACKNACK, 0x07 HEARTBEAT, 0x08 GAP, 0x15 DATA, ...
-  std::size_t begin = 0;    ///< of its header of four bytes, from the packet's beginning
-  std::size_t end = 0;      ///< behind its last byte
-  bool discovery = false;   ///< between builtin endpoints: participants, endpoints and their liveliness
+  std::uint8_t id = 0;     ///< 0x06 ACKNACK, 0x07 HEARTBEAT, 0x08 GAP, 0x15 DATA, ...
+  std::size_t begin = 0;   ///< of its header of four bytes, from the packet's beginning
+  std::size_t end = 0;     ///< behind its last byte
+  bool discovery = false;  ///< between builtin endpoints: participants, endpoints and their liveliness
 };
 
 /// Length of the packet's own header, whose bytes 8..19 are the sender's GUID prefix.

@@ -36,9 +36,9 @@ StreamWitness::~StreamWitness() = default;
 
 std::vector<std::string> StreamWitness::deaf_within(std::chrono::milliseconds span) {
   const auto until = std::chrono::steady_clock::now() + span;
-  std::map<std::string, int> heard{{"odometry hears sim/wheels", 0},        {"world_state hears odometry", 0},
-                                   {"world_state hears vision", 0},         {"kick_decision hears world_state", 0},
-                                   {"kicker_driver hears sim/kicker", 0},   {"kick_decision hears kicker_status", 0},
+  std::map<std::string, int> heard{{"odometry hears sim/wheels", 0},      {"world_state hears odometry", 0},
+                                   {"world_state hears vision", 0},       {"kick_decision hears world_state", 0},
+                                   {"kicker_driver hears sim/kicker", 0}, {"kick_decision hears kicker_status", 0},
                                    {"the witness hears the simulator", 0}};
   int decided = 0;
   while (std::chrono::steady_clock::now() < until) {
