@@ -5,7 +5,8 @@
 
 namespace trivela::bus {
 
-/// While it lives, the lines that Cyclone would write to standard error go to `line` instead; one at a time in a process.
+/// While it lives, the lines that Cyclone would write to standard error go to `line` instead. One at a time in a
+/// process.
 class LibraryLog {
  public:
   /// line(severe, text) is called on any thread, for a line after the other; it must not use the bus.

@@ -110,14 +110,15 @@ bool AnyReader::time_to_renew() {
   }
   if (!silence_->due(now)) return false;
   const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
-  const std::size_t matched = writers();
+  const std::uint32_t alive = liveliness().alive;
   hearing->renewed(
-      fmt::format("{}: silent for {:.1f} s with {} writers: the reader is made anew", topic_, silent_s, matched));
+      fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made anew", topic_, silent_s, alive));
+  // A writer that stands still or is gone lapses; one that is there and not heard lives on.
   constexpr std::size_t kHelpless = 3;
-  if (matched > 0 && silence_->attempts() > kHelpless)
+  if (alive > 0 && silence_->attempts() > kHelpless)
     hearing->give_up(
-        topic_, fmt::format("silent for {:.1f} s, though {} write it and the reader was made anew {} times", silent_s,
-                            matched, kHelpless));
+        topic_, fmt::format("silent for {:.1f} s with {} live writers, and the reader was made anew {} times", silent_s,
+                            alive, kHelpless));
   return true;
 }
 
@@ -148,8 +149,8 @@ std::size_t AnyReader::take_raw(Sink sink, void* context) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
       if (silence_) {
-        silence_->heard(Clock::now());
         if (!is_new(info.publication_handle, info.instance_handle, info.source_timestamp)) continue;
+        silence_->heard(Clock::now());
       }
       sink(context, loan.sample(i), {info.source_timestamp, info.publication_handle});
       ++taken;
