@@ -62,7 +62,7 @@ Participant::Participant(const DomainConfig& config, std::unique_ptr<Hearing> he
 bool Participant::believes(std::int64_t t_ns) const {
   constexpr std::chrono::seconds kFarthestAhead{1};
   const auto latest = std::chrono::steady_clock::now().time_since_epoch() + kFarthestAhead;
-  return !state_->hearing || std::chrono::nanoseconds{t_ns} <= latest;
+  return !state_->hearing || (t_ns >= 0 && std::chrono::nanoseconds{t_ns} <= latest);
 }
 
 Hearing* Participant::hearing() const { return state_->hearing.get(); }

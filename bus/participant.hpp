@@ -32,7 +32,7 @@ class Participant {
   /// The same for a run in real time: readers of topics with a period that hear nothing are made anew.
   Participant(const DomainConfig& config, RealTime real_time);
 
-  /// False where an instant cannot be true: in real time, more than a second ahead of the steady clock.
+  /// False where an instant cannot be true: in real time, below 0 or over a second ahead of the steady clock.
   bool believes(std::int64_t t_ns) const;
 
   /// What the readers of this member miss; nullptr where this is no run in real time. For bus/ alone.

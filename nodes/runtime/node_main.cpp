@@ -47,7 +47,8 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
 bus::Participant join(const config::Settings& settings, const std::shared_ptr<spdlog::logger>& logger,
                       std::chrono::seconds stay) {
   if (settings.run.lockstep) return bus::Participant{domain_of(settings.domain)};
-  return {domain_of(settings.domain), {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
+  return {domain_of(settings.domain),
+          {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
 }
 
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know

@@ -149,6 +149,7 @@ TEST(Renewal, AnInstantMoreThanASecondAheadIsBelievedInRealTimeByNobody) {
   EXPECT_TRUE(real_time.believes(0));
   EXPECT_FALSE(real_time.believes(now + kHour_ns));
   EXPECT_FALSE(real_time.believes(std::numeric_limits<std::int64_t>::max()));
+  EXPECT_FALSE(real_time.believes(std::numeric_limits<std::int64_t>::min()));
   EXPECT_TRUE(Participant{domain}.believes(now + kHour_ns)) << "a simulated clock knows no now";
 }
 
