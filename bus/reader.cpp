@@ -126,15 +126,14 @@ AnyReader::Retired AnyReader::replace(Entity anew) {
   return {std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
 }
 
-// A reader made anew is given the last sample of each writer and robot that still stands.
-bool AnyReader::is_new(std::uint64_t writer, std::uint64_t instance, std::int64_t source_t_ns) {
-  const auto known = std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) {
-    return newest.writer == writer && newest.instance == instance;
-  });
+// A reader made anew is given the last sample of each writer that still stands.
+bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
+  const auto known =
+      std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) { return newest.writer == writer; });
   if (known == newest_.end()) {
     constexpr std::size_t kMost = 64;  // writers come and go
     if (newest_.size() == kMost) newest_.erase(newest_.begin());
-    newest_.push_back({writer, instance, source_t_ns});
+    newest_.push_back({writer, source_t_ns});
     return true;
   }
   return std::exchange(known->source_t_ns, source_t_ns) != source_t_ns;
@@ -149,7 +148,7 @@ std::size_t AnyReader::take_raw(Sink sink, void* context) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
       if (silence_) {
-        if (!is_new(info.publication_handle, info.instance_handle, info.source_timestamp)) continue;
+        if (!is_new(info.publication_handle, info.source_timestamp)) continue;
         silence_->heard(Clock::now());
       }
       sink(context, loan.sample(i), {info.source_timestamp, info.publication_handle});

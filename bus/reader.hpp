@@ -86,7 +86,7 @@ class AnyReader {
   std::size_t take_raw(Sink sink, void* context);
 
  private:
-  bool is_new(std::uint64_t writer, std::uint64_t instance, std::int64_t source_t_ns);
+  bool is_new(std::uint64_t writer, std::int64_t source_t_ns);
 
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
   struct DeleteCallbacks {
@@ -103,10 +103,9 @@ class AnyReader {
   Entity condition_;
   std::unique_ptr<Waitset> waitset_;
 
-  // The newest sample of each writer and robot, which a reader made anew is given once more.
+  // The newest sample of each writer, who speaks for one robot: a reader made anew is given it once more.
   struct Newest {
     std::uint64_t writer;
-    std::uint64_t instance;
     std::int64_t source_t_ns;
   };
   std::vector<Newest> newest_;
