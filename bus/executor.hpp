@@ -32,7 +32,8 @@ class Executor {
 
   /// Runs until the stop is requested; what has then arrived for a reaction with ReaderOptions::keep_all is still
   /// delivered. Throws Error naming the topics if the reactions form a cycle (kListener), and
-  /// rethrows the first exception of a reaction, which ends the run.
+  /// rethrows the first exception of a reaction, which ends the run; Deaf, where a participant in real time does not
+  /// hear what its nodes need and making readers anew does not help.
   void run();
 
  private:
@@ -41,12 +42,17 @@ class Executor {
   void open_readers();
   void catch_up();
   void start_threads();
+  void wait_for_stop();
+  bool in_real_time() const;
+  void give_up(const class Deaf& deaf);
+  bool over() const { return over_ || stop_.requested(); }
   void finish() noexcept;
   void serve_topics(Node& node);
   void serve_device(Slot& slot);
   void serve_timer(Slot& slot);
   void react(Slot& slot) noexcept;
   void take(Slot& slot) noexcept;
+  bool keep_hearing(Slot& slot);
   bool failed();
   static void on_data(void* slot) noexcept;
   template <class F>
@@ -56,6 +62,7 @@ class Executor {
   Stop& stop_;
   std::vector<Node*> nodes_;
   std::atomic<bool> listening_ = false;
+  std::atomic<bool> over_ = false;
   std::vector<std::thread> threads_;
   std::mutex failure_mutex_;
   std::exception_ptr failure_;

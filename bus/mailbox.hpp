@@ -10,6 +10,7 @@
 #include "bus/last_heard.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
+#include "bus/renewal.hpp"
 #include "bus/waitset.hpp"
 
 namespace trivela::bus {
@@ -60,6 +61,12 @@ class Mailbox {
   }
 
   AnyReader& reader() { return reader_; }
+
+  /// In real time, to be called now and then, but by no listener: makes a reader anew that has heard nothing for too
+  /// long. A node's executor does it.
+  void keep_hearing() {
+    renew_if_silent(reader_, mutex_, [this] { waitset_.attach(reader_.condition(), 0); });
+  }
 
  private:
   void take() {

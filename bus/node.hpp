@@ -77,6 +77,9 @@ class Node {
       const auto owned = weak.lock();
       return owned ? owned->heard_ns(before_ns) : std::int64_t{0};
     });
+    mailboxes_.push_back([weak = std::weak_ptr(mailbox)] {
+      if (const auto owned = weak.lock()) owned->keep_hearing();
+    });
     return mailbox;
   }
 
@@ -165,6 +168,7 @@ class Node {
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
   std::vector<Input> inputs_;
+  std::vector<std::function<void()>> mailboxes_;  // each call looks whether one has fallen silent
 };
 
 }  // namespace trivela::bus

@@ -8,6 +8,7 @@
 
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/cycle_watch.hpp"
+#include "nodes/recorder/instant_watch.hpp"
 #include "nodes/recorder/sequence_watch.hpp"
 #include "nodes/recorder/silence_record.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -29,9 +30,15 @@ class RecorderNode {
   template <class T>
   void record(const std::string& table);
   void record_decisions();
+  /// What is known of a stream from the samples before.
+  struct Watch {
+    SequenceWatch numbers;
+    InstantWatch instants;
+  };
+  /// The number that the sample is recorded with; none: it cannot be true, and is counted as rejected.
   template <class T>
-  std::int64_t store(const std::string& table, evaluator::log::TableId id, SequenceWatch& watch, T sample,
-                     std::uint64_t writer);
+  std::optional<std::int64_t> store(const std::string& table, evaluator::log::TableId id, Watch& watch, T sample,
+                                    std::uint64_t writer);
 
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
