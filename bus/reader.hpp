@@ -12,7 +12,7 @@
 #include "bus/entity.hpp"
 #include "bus/options.hpp"
 #include "bus/participant.hpp"
-#include "bus/silence_watch.hpp"
+#include "bus/renewal_patience.hpp"
 #include "bus/waitset.hpp"
 #include "idl/meta.hpp"
 
@@ -109,8 +109,8 @@ class AnyReader {
     std::int64_t source_t_ns;
   };
   std::vector<Newest> newest_;
-  std::optional<SilenceWatch> silence_;  // in real time, of a topic with a period
-  std::uint64_t renewals_seen_ = 0;      // of the participant's readers that have a period
+  std::optional<RenewalPatience> silence_;  // in real time, of a topic with a period
+  std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};
 };
 

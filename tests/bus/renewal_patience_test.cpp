@@ -1,4 +1,4 @@
-#include "bus/silence_watch.hpp"
+#include "bus/renewal_patience.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-const SilenceWatch::Time kStart{seconds{1000}};
+const RenewalPatience::Time kStart{seconds{1000}};
 
-TEST(SilenceWatch, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSeconds) {
-  SilenceWatch watch{milliseconds{20}, kStart};
+TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSeconds) {
+  RenewalPatience watch{milliseconds{20}, kStart};
   EXPECT_FALSE(watch.due(kStart + milliseconds{499}));
   auto now = kStart;
   for (const auto wait : {milliseconds{500}, milliseconds{1000}, milliseconds{2000}, milliseconds{4000},
@@ -23,8 +23,8 @@ TEST(SilenceWatch, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSe
   EXPECT_EQ(watch.silent_for(now), now - kStart);
 }
 
-TEST(SilenceWatch, BeginsAnewOnceSomethingIsHeard) {
-  SilenceWatch watch{milliseconds{20}, kStart};
+TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
+  RenewalPatience watch{milliseconds{20}, kStart};
   EXPECT_TRUE(watch.due(kStart + seconds{1}));
   watch.heard(kStart + seconds{2});
   EXPECT_EQ(watch.attempts(), 0u);
@@ -32,8 +32,8 @@ TEST(SilenceWatch, BeginsAnewOnceSomethingIsHeard) {
   EXPECT_TRUE(watch.due(kStart + seconds{2} + milliseconds{500}));
 }
 
-TEST(SilenceWatch, WaitsForManyPeriodsOfASlowTopic) {
-  SilenceWatch watch{milliseconds{200}, kStart};
+TEST(RenewalPatience, WaitsForManyPeriodsOfASlowTopic) {
+  RenewalPatience watch{milliseconds{200}, kStart};
   EXPECT_FALSE(watch.due(kStart + milliseconds{4999}));
   EXPECT_TRUE(watch.due(kStart + milliseconds{5000}));
 }

@@ -8,11 +8,11 @@ namespace trivela::bus {
 
 /// Knows when a reader that hears nothing is to be made anew: after half a second of silence (or 25 periods, if that is
 /// longer), then each time after twice as long, up to ten seconds.
-class SilenceWatch {
+class RenewalPatience {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  SilenceWatch(std::chrono::nanoseconds period, Time now)
+  RenewalPatience(std::chrono::nanoseconds period, Time now)
       : first_(std::max<std::chrono::nanoseconds>(kFirst, 25 * period)), patience_(first_), since_(now), heard_(now) {}
 
   void heard(Time now) {
