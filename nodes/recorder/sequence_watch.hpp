@@ -9,7 +9,7 @@ namespace trivela::nodes {
 
 /// Finds what a stream lost from its sequence numbers, robot by robot, and keeps them unique when a node is started
 /// anew. A number that no writer can have come to in the time that passed is not believed before its successor has
-/// confirmed it, nor is a robot that the writer did not speak for before.
+/// confirmed it, nor is a robot 0.
 class SequenceWatch {
  public:
   struct Finding {
@@ -22,8 +22,7 @@ class SequenceWatch {
   /// `writer` tells the writers of a topic apart; a new one starts a new count, which is no gap. `heard_s`: when this
   /// one came, on any clock that rises; none: as in lockstep, where any time may have passed.
   Finding see(std::uint8_t robot_id, std::uint64_t seq, std::uint64_t writer, std::optional<double> heard_s = {}) {
-    const bool known_robot = robot_id != 0 && speaks_for_.try_emplace(writer, robot_id).first->second == robot_id;
-    if (!known_robot || seq > kHighest) return {.believed = false};
+    if (robot_id == 0 || seq > kHighest) return {.believed = false};
     Stream& stream = streams_[robot_id];
     if (stream.writer != writer) stream.begin_anew(writer);
     Finding finding{.seq = static_cast<std::int64_t>(stream.offset + seq)};
@@ -77,7 +76,6 @@ class SequenceWatch {
     }
   };
   std::map<std::uint8_t, Stream> streams_;
-  std::map<std::uint64_t, std::uint8_t> speaks_for_;  // robot of each writer
 };
 
 }  // namespace trivela::nodes
