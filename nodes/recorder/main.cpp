@@ -9,17 +9,22 @@
 
 int main(int argc, char** argv) {
   using namespace trivela;
-  std::optional<nodes::PlacedLog> placed;  // one log, also where the recorder joins the bus anew
-  return nodes::node_main(argc, argv, "recorder", [&placed](nodes::NodeContext& context) {
+  // One log, also where the recorder joins the bus anew, and what was silent when it left.
+  std::optional<nodes::PlacedLog> placed;
+  std::shared_ptr<nodes::SilenceRecord> silences;
+  return nodes::node_main(argc, argv, "recorder", [&placed, &silences](nodes::NodeContext& context) {
     const config::Recorder& settings = context.settings.recorder;
     evaluator::log::WriterOptions options;
     options.queue_capacity = settings.queue_capacity;
     options.group_commit_s = settings.group_commit_s;
     options.warn_late = !context.settings.run.lockstep;  // where nobody looks at a clock
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
-    if (!placed) placed.emplace(nodes::place_log(context, options));
+    if (!placed) {
+      placed.emplace(nodes::place_log(context, options));
+      silences = std::make_shared<nodes::SilenceRecord>(context.logger, context.settings.run.cycle_s, *placed->writer);
+    }
     evaluator::log::Writer& log = *placed->writer;
-    nodes::RecorderNode node{context, log};
+    nodes::RecorderNode node{context, log, silences};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
     node.note_silences();

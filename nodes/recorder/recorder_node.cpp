@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <utility>
 
 #include "nodes/recorder/message_row.hpp"
 #include "nodes/runtime/now_ns.hpp"
@@ -13,13 +14,14 @@ namespace trivela::nodes {
 using evaluator::log::LossKind;
 using evaluator::log::TableId;
 
-RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
+RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<SilenceRecord> silences)
     : context_(context),
       log_(log),
       node_(context.participant, "recorder"),
       step_done_(step_done_writer(context, node_)) {
   if (!context.settings.run.lockstep) {
-    silences_.emplace(context, log);
+    silences_ = std::move(silences);
+    if (!silences_) silences_ = std::make_shared<SilenceRecord>(context.logger, context.settings.run.cycle_s, log);
     node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
   }
   record<msg::Odometry>("odometry");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -19,7 +20,8 @@ namespace trivela::nodes {
 /// silent.
 class RecorderNode {
  public:
-  RecorderNode(NodeContext& context, evaluator::log::Writer& log);
+  /// `silences`: those of the same log that an earlier node of this process noted; none: there was no such node.
+  RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<SilenceRecord> silences = nullptr);
   bus::Node& node() { return node_; }
 
   /// Notes what fell silent or was heard again since the last time; the node does so itself, and whoever runs it once
@@ -48,7 +50,7 @@ class RecorderNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   CycleWatch cycles_;
-  std::optional<SilenceRecord> silences_;                   // not in lockstep
+  std::shared_ptr<SilenceRecord> silences_;                 // none in lockstep
   std::set<std::tuple<int, int, std::uint32_t>> assigned_;  // robot, half, possession that a policy was noted for
 };
 

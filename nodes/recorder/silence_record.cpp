@@ -8,8 +8,10 @@
 namespace trivela::nodes {
 
 std::size_t SilenceRecord::add(const std::string& table, double period_s) {
-  const double longest_s = std::max(period_s, context_.settings.run.cycle_s);
+  const double longest_s = std::max(period_s, cycle_s_);
   const std::lock_guard lock{mutex_};
+  const auto known = std::ranges::find(tables_, table);
+  if (known != tables_.end()) return static_cast<std::size_t>(known - tables_.begin());
   tables_.push_back(table);
   return watch_.add(static_cast<std::int64_t>(std::llround(longest_s * 1e9)));
 }
@@ -26,7 +28,7 @@ void SilenceRecord::look(std::int64_t now_ns) {
     write(edge);
     lines_.note(edge, fmt::format("{} of robot {}", tables_[edge.stream], edge.robot_id));
   }
-  for (const std::string& line : lines_.due(now_ns)) context_.logger->warn("{}", line);
+  for (const std::string& line : lines_.due(now_ns)) logger_->warn("{}", line);
 }
 
 void SilenceRecord::write(const SilenceEdge& edge) {

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <spdlog/logger.h>
+
+#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "evaluator/log/writer.hpp"
-#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/silence_lines.hpp"
 #include "nodes/runtime/silence_watch.hpp"
 
@@ -19,9 +22,11 @@ class SilenceRecord {
   /// How often look() is to be called.
   static constexpr std::chrono::milliseconds kStep{20};
 
-  SilenceRecord(const NodeContext& context, evaluator::log::Writer& log) : context_(context), log_(log) {}
+  /// Streams have at least the period of a cycle.
+  SilenceRecord(std::shared_ptr<spdlog::logger> logger, double cycle_s, evaluator::log::Writer& log)
+      : logger_(std::move(logger)), cycle_s_(cycle_s), log_(log) {}
 
-  /// One more stream: the table of its samples, and its period.
+  /// The number of a stream, by the table of its samples, and with its period where it is new.
   std::size_t add(const std::string& table, double period_s);
 
   void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns);
@@ -30,7 +35,8 @@ class SilenceRecord {
  private:
   void write(const SilenceEdge& edge);
 
-  const NodeContext& context_;
+  const std::shared_ptr<spdlog::logger> logger_;
+  const double cycle_s_;
   evaluator::log::Writer& log_;
   std::mutex mutex_;  // of what follows
   std::vector<std::string> tables_;

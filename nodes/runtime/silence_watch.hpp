@@ -40,10 +40,11 @@ class SilenceWatch {
   }
 
   /// A sample of `ns` was heard. A gap between the instants of two samples is a silence that has ended, even if no look
-  /// saw it begin.
+  /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news.
   void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns) {
     const auto [place, first] = voices_.try_emplace({stream, robot_id});
     Voice& voice = place->second;
+    if (!first && ns == voice.last_ns) return;
     const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
     if (voice.silent || (!first && ns > voice.last_ns && ns - voice.last_ns > limit_ns))
       edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, ns});

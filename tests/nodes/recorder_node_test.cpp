@@ -242,6 +242,24 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
   EXPECT_THAT(silences(read()), testing::Contains("odometry 3 1020000000 2260000000"));
 }
 
+TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
+  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  const auto silences_so_far = std::make_shared<SilenceRecord>(context.logger, 0.02, *log);
+  Says<msg::Odometry> odometry{participant};
+  {
+    RecorderNode first{context, *log, silences_so_far};
+    bus::Stop first_stop;
+    const Running first_run{Executor::kWaitset, first_stop, {&first.node()}};
+    odometry({.t_ns = 1'000'000'000});
+    EXPECT_TRUE(log_lines->wait_for("no odometry of robot 1 for"));
+  }
+  node.emplace(context, *log, silences_so_far);
+  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+  odometry({.t_ns = 2'240'000'000});
+  EXPECT_TRUE(log_lines->wait_for("odometry of robot 1 back after 1.24 s"));
+  EXPECT_THAT(silences(read()), testing::Contains("odometry 1 1000000000 2240000000"));
+}
+
 TEST_F(RecorderNodeTest, WhatMerelyCameLateIsNoSilence) {
   start(Executor::kWaitset);
   Says<msg::Odometry> odometry{participant};

@@ -83,6 +83,15 @@ TEST_F(SilenceWatchTest, AGapThatNoLookSawIsASilenceThatEnded) {
   EXPECT_EQ(seen[0].to_ns, 80 * kMs);
 }
 
+TEST_F(SilenceWatchTest, TheLastSampleOnceMoreIsNoNews) {
+  watch.heard(odometry, 1, 0);
+  ASSERT_THAT(look_until(200 * kMs), SizeIs(1));
+  watch.heard(odometry, 1, 0);
+  EXPECT_THAT(look_until(400 * kMs), IsEmpty());
+  watch.heard(odometry, 1, 410 * kMs);
+  EXPECT_EQ(watch.look(420 * kMs).at(0).from_ns, 0);
+}
+
 TEST_F(SilenceWatchTest, SamplesThatCameLateButAllAreADelay) {
   watch.heard(odometry, 1, 0);
   ASSERT_THAT(look_until(200 * kMs), SizeIs(1));
