@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace trivela::faults {
+
+/// What the way from one host to another does to frames.
+struct Way {
+  std::chrono::microseconds delay{0};
+  std::chrono::microseconds jitter{0};  ///< at most so much more, drawn anew for each frame: they overtake each other
+  double drop = 0.0;                    ///< share of frames that never arrive; 1: cut
+  double garble = 0.0;                  ///< share of UDP datagrams with bits turned over
+};
+
+/// (from, to) by place in the hub's list of cables. What is not named is sound.
+using Ways = std::map<std::pair<std::size_t, std::size_t>, Way>;
+
+/// How many frames the hub has treated so since it began.
+struct HubCounts {
+  std::uint64_t forwarded = 0;
+  std::uint64_t delayed = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t garbled = 0;
+};
+
+/// Joins the cables of NetworkHosts in a thread of its own: frames to everybody go to everybody, others to the host
+/// whose number is their MAC address's last byte.
+class Hub {
+ public:
+  struct Cable {
+    int descriptor = -1;
+    std::uint8_t number = 0;
+  };
+
+  /// The cables must outlive it. Throws std::system_error if no thread can be had.
+  Hub(std::vector<Cable> cables, std::uint64_t seed);
+  Hub(const Hub&) = delete;
+  Hub& operator=(const Hub&) = delete;
+  ~Hub();
+
+  /// From now on the ways are these.
+  void set(Ways ways);
+
+  HubCounts counts() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trivela::faults
