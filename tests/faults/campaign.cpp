@@ -19,6 +19,7 @@ constexpr std::array<const char*, 7> kPeriodic{"referee", "vision",        "odom
                                                "drive",   "kicker_status", "sim/drive"};
 constexpr double kStart_s = 90.0;                  // for the whole chain, on a busy machine
 constexpr double kRefusal_s = 20.0;                // for a twin
+constexpr double kPlay_s = 5.0;                    // longest stop, with what a busy machine adds
 constexpr double kEnd_s = 10.0;                    // for a node after SIGTERM
 constexpr std::int64_t kFresh_ns = 300'000'000;    // a periodic topic that lives was heard so lately
 constexpr std::chrono::milliseconds kCommit{150};  // a recorder that lives writes within
@@ -109,7 +110,8 @@ class Campaign {
     Wholeness whole{stack_, true};
     const auto ready = [&] {
       for (std::size_t node = 0; node < kNodes.size(); ++node) {
-        if (!stack_.running(node)) throw std::runtime_error{fmt::format("{} did not stay", kNodes[node])};
+        if (stack_.has(node) && !stack_.running(node))
+          throw std::runtime_error{fmt::format("{} did not stay", kNodes[node])};
       }
       return whole.look();
     };
@@ -122,6 +124,7 @@ class Campaign {
     Trial trial;
     trial.fault = fault;
     wait(fault.waits_s);
+    if (kNodes[fault.node] == "referee") wait(kPlay_s, [&] { return lets_play(); });
     trial.began_ns = now_ns();
     if (on_link(fault.kind)) {
       stack_.disturb(fault);
@@ -143,6 +146,8 @@ class Campaign {
     });
   }
 
+  bool lets_play() const { return !stack_.wire().words.empty() && stack_.wire().words.back().playing; }
+
   void trouble_process(const Fault& fault, Trial& trial) {
     NodeProcess& node = stack_.node(fault.node);
     switch (fault.kind) {
@@ -161,7 +166,12 @@ class Campaign {
           trial.complaint = fmt::format("{} did not end within {} s of SIGTERM", kNodes[fault.node], kEnd_s);
         else if (node.code() != 0)
           trial.complaint = fmt::format("{} ended with {} after SIGTERM", kNodes[fault.node], *node.code());
+        wait(fault.lasts_s);
         return stack_.start(fault.node);
+      case FaultKind::kSilence:
+        node.signal(SIGUSR1);
+        wait(fault.lasts_s);
+        return node.signal(SIGUSR1);
       default:
         return start_twin(fault, trial);
     }
@@ -182,7 +192,7 @@ class Campaign {
     std::vector<std::string> ended;
     trial.recovered = wait(watch_.limit_s, [&] {
       for (std::size_t node = 0; node < kNodes.size(); ++node) {
-        if (stack_.running(node)) continue;
+        if (!stack_.has(node) || stack_.running(node)) continue;
         ended.push_back(fmt::format("{} ended by itself with {}", kNodes[node], stack_.node(node).code().value_or(-1)));
         stack_.start(node);
       }

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <deque>
 #include <mutex>
 #include <queue>
 #include <random>
@@ -22,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestFrame = 2048;
 constexpr std::size_t kMostBits = 8;  // turned over in a datagram
+constexpr std::size_t kMostConfined = 4;
 
 struct Waiting {
   Clock::time_point due;
@@ -44,8 +47,9 @@ struct Hub::Impl {
   std::vector<Cable> cables;
   int stop = eventfd(0, EFD_CLOEXEC);
   mutable std::mutex mutex;
-  Ways ways;         // under the mutex
-  HubCounts counts;  // under the mutex
+  Ways ways;                                          // under the mutex
+  HubCounts counts;                                   // under the mutex
+  std::deque<std::pair<Guid, std::size_t>> confined;  // under the mutex
   std::mt19937_64 random;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
   std::thread thread;
@@ -92,15 +96,18 @@ struct Hub::Impl {
   void send(std::size_t from, std::size_t to, Frame frame) {
     const std::lock_guard lock{mutex};
     ++counts.forwarded;
+    std::vector<std::uint8_t> copy{frame.begin(), frame.end()};
+    for (const auto& [writer, listener] : confined) {
+      if (to != listener) mute(copy, writer);
+    }
     const auto found = ways.find({from, to});
-    if (found == ways.end()) return put(to, frame);
+    if (found == ways.end()) return put(to, copy);
     const Way& way = found->second;
     std::uniform_real_distribution<double> share{0.0, 1.0};
     if (share(random) < way.drop) {
       ++counts.dropped;
       return;
     }
-    std::vector<std::uint8_t> copy{frame.begin(), frame.end()};
     if (share(random) < way.garble && garble(copy, kMostBits, random)) ++counts.garbled;
     const auto delay = way.delay + std::chrono::microseconds{std::llround(share(random) * double(way.jitter.count()))};
     if (delay == delay.zero()) return put(to, copy);
@@ -128,6 +135,12 @@ Hub::~Hub() {
 void Hub::set(Ways ways) {
   const std::lock_guard lock{impl_->mutex};
   impl_->ways = std::move(ways);
+}
+
+void Hub::confine(const Guid& writer, std::size_t listener) {
+  const std::lock_guard lock{impl_->mutex};
+  impl_->confined.emplace_back(writer, listener);
+  if (impl_->confined.size() > kMostConfined) impl_->confined.pop_front();  // a writer that has long gone
 }
 
 HubCounts Hub::counts() const {

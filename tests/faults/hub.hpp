@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/faults/rtps_writer.hpp"
+
 namespace trivela::faults {
 
 /// What the way from one host to another does to frames.
@@ -45,6 +47,9 @@ class Hub {
 
   /// From now on the ways are these.
   void set(Ways ways);
+
+  /// What this writer says comes to the host at place `listener` alone, whatever the ways are.
+  void confine(const Guid& writer, std::size_t listener);
 
   HubCounts counts() const;
 

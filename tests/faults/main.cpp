@@ -21,6 +21,7 @@ constexpr int kSkipped = 77;  // SKIP_RETURN_CODE of the ctest entry
 struct Arguments {
   std::size_t faults = 50;
   std::size_t stalls = 0;
+  std::size_t referee_losses = 0;
   std::uint64_t seed = 1;
   fs::path log_dir;
   fs::path json;
@@ -55,17 +56,23 @@ void write_events(const fs::path& file, const Stack& stack) {
   }
 }
 
+std::vector<Fault> faults_of(const Arguments& arguments, bool with_links) {
+  if (arguments.stalls > 0) return draw_stalls(arguments.stalls, arguments.seed);
+  if (arguments.referee_losses == 0) return draw_faults(arguments.faults, arguments.seed, with_links);
+  if (!with_links) throw std::runtime_error{"the referee can be lost on a host of its own alone"};
+  return draw_referee_losses(arguments.referee_losses, arguments.seed);
+}
+
 Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_links) {
   cli::SignalInbox inbox;
   cli::ProgressBar bar;
   StackPlan plan;
   plan.programs = arguments.programs;
-  plan.witness = fs::path{TRIVELA_BINARY_DIR} / "tests/fault_witness";
+  plan.own = fs::path{TRIVELA_BINARY_DIR} / "tests";
   plan.folder = folder;
   plan.with_links = with_links;
   plan.seed = arguments.seed;
-  const std::vector<Fault> faults = arguments.stalls > 0 ? draw_stalls(arguments.stalls, arguments.seed)
-                                                         : draw_faults(arguments.faults, arguments.seed, with_links);
+  const std::vector<Fault> faults = faults_of(arguments, with_links);
   Watch watch;
   watch.limit_s = arguments.limit_s;
   watch.progress = [&](std::size_t done, const Fault& fault) {
@@ -112,6 +119,8 @@ int main(int argc, char** argv) {
   Arguments arguments;
   app.add_option("--faults", arguments.faults, "how many")->check(CLI::Range(1, 1000000))->capture_default_str();
   app.add_option("--stalls", arguments.stalls, "instead: so many stalls of 0.5 to 2 s of each node in turn");
+  app.add_option("--referee-losses", arguments.referee_losses,
+                 "instead: so many rounds of seven ways to lose the referee while it lets play");
   app.add_option("--seed", arguments.seed, "of faults and matches")->capture_default_str();
   app.add_option("--log-dir", arguments.log_dir, "keep configuration, logs and what everybody said in this folder");
   app.add_option("--json", arguments.json, "write the table to this file, too");

@@ -43,7 +43,7 @@ std::vector<std::string> environment_of(const ProcessPlan& plan) {
   sigprocmask(SIG_SETMASK, &none, nullptr);
   if (plan.network >= 0 && setns(plan.network, CLONE_NEWNET) != 0) _exit(126);
   const int says = open(plan.says.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  dup2(plan.input >= 0 ? plan.input : open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   dup2(plan.output >= 0 ? plan.output : says, STDOUT_FILENO);
   dup2(says, STDERR_FILENO);
   execve(plan.program.c_str(), arguments, environment);

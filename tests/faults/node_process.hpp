@@ -19,7 +19,6 @@ struct ProcessPlan {
   std::filesystem::path says;                      ///< file that its standard output and error are added to
   int network = -1;                                ///< namespace to run in; -1: ours
   int output = -1;                                 ///< standard output instead, e.g. a pipe's end
-  int input = -1;                                  ///< standard input; -1: nothing
 };
 
 /// A process that the campaign does things to. It ends with the object, and with the campaign however that ends.

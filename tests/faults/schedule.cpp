@@ -46,9 +46,11 @@ struct Target {
   std::optional<std::size_t> other;
 };
 
-std::vector<Target> targets_of(FaultKind kind) {
+std::vector<Target> targets_of(FaultKind kind, bool with_links) {
   std::vector<Target> targets;
-  for (std::size_t node = 0; node < kNodes.size(); ++node) targets.push_back({node, std::nullopt});
+  for (std::size_t node = 0; node < kNodes.size(); ++node) {
+    if (with_links || node != node_index("referee")) targets.push_back({node, std::nullopt});
+  }
   if (!on_link(kind)) return targets;
   for (const auto& [from, to] : links()) targets.push_back({from, to});
   return targets;
@@ -74,6 +76,8 @@ double length_s(FaultKind kind, Random& random) {
     case FaultKind::kRestart:
     case FaultKind::kTwin:
       return 0.0;
+    case FaultKind::kSilence:
+      return uniform(random, 0.5, 4.0);
     case FaultKind::kCut:
       return uniform(random, 0.0, 1.0) < kLongCut ? uniform(random, 5.5, 8.0) : spread(random, 0.05, 3.0);
     case FaultKind::kDelay:
@@ -98,7 +102,8 @@ std::vector<std::pair<std::size_t, std::size_t>> links() {
       {"odometry", "recorder"},           {"world_state", "kick_decision"}, {"world_state", "recorder"},
       {"kick_decision", "odometry"},      {"kick_decision", "recorder"},    {"kick_decision", "kicker_driver"},
       {"kicker_driver", "shot_observer"}, {"kicker_driver", "recorder"},    {"shot_observer", "kick_decision"},
-      {"shot_observer", "recorder"}};
+      {"shot_observer", "recorder"},      {"simulator", "referee"},         {"referee", "world_state"},
+      {"referee", "kicker_driver"},       {"referee", "shot_observer"},     {"referee", "recorder"}};
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (const auto& [from, to] : kLinks) found.emplace_back(node_index(from), node_index(to));
   return found;
@@ -114,6 +119,8 @@ const char* name(FaultKind kind) {
       return "restart";
     case FaultKind::kTwin:
       return "twin";
+    case FaultKind::kSilence:
+      return "silence";
     case FaultKind::kDelay:
       return "delay";
     case FaultKind::kCut:
@@ -145,7 +152,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
   if (with_links) kinds.insert(kinds.end(), {FaultKind::kDelay, FaultKind::kCut, FaultKind::kGarble});
   std::vector<Deck<Target>> targets;
   for (int kind = 0; kind <= static_cast<int>(FaultKind::kGarble); ++kind)
-    targets.emplace_back(targets_of(static_cast<FaultKind>(kind)));
+    targets.emplace_back(targets_of(static_cast<FaultKind>(kind), with_links));
   Deck<FaultKind> deck{kinds};
   std::vector<Fault> faults;
   while (faults.size() < count) {
@@ -154,6 +161,8 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
     const Target target = targets[static_cast<std::size_t>(fault.kind)].draw(random);
     fault.node = target.node;
     fault.other = target.other;
+    // A second referee would be heard like the first one.
+    if (fault.kind == FaultKind::kTwin && fault.node == node_index("referee")) fault.kind = FaultKind::kSilence;
     fault.waits_s = uniform(random, 0.0, 1.0);
     fault.lasts_s = length_s(fault.kind, random);
     set_way(fault, random);
@@ -167,6 +176,7 @@ std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
   std::vector<Fault> faults;
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t node = 0; node < kNodes.size(); ++node) {
+      if (node == node_index("referee")) continue;
       Fault fault;
       fault.kind = FaultKind::kStop;
       fault.node = node;
@@ -174,6 +184,30 @@ std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
       fault.lasts_s = uniform(random, 0.5, 2.0);
       faults.push_back(fault);
     }
+  }
+  return faults;
+}
+
+std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed) {
+  Random random{seed};
+  const std::size_t referee = node_index("referee");
+  std::vector<Fault> faults;
+  const auto add = [&](FaultKind kind, std::optional<std::size_t> other = std::nullopt) {
+    Fault fault;
+    fault.kind = kind;
+    fault.node = referee;
+    fault.other = other;
+    fault.waits_s = uniform(random, 0.0, 1.0);
+    fault.lasts_s = uniform(random, 1.5, 4.0);
+    set_way(fault, random);
+    faults.push_back(fault);
+  };
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (const FaultKind kind :
+         {FaultKind::kKill, FaultKind::kRestart, FaultKind::kStop, FaultKind::kSilence, FaultKind::kCut})
+      add(kind);
+    add(FaultKind::kCut, node_index("kicker_driver"));
+    add(FaultKind::kCut, node_index("world_state"));
   }
   return faults;
 }

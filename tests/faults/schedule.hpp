@@ -13,9 +13,9 @@
 
 namespace trivela::faults {
 
-/// The nodes under test, in the order in which they are started.
-inline constexpr std::array<std::string_view, 7> kNodes{
-    "recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "simulator"};
+/// The nodes under test, in the order in which they are started. The referee is fault_referee, on links alone.
+inline constexpr std::array<std::string_view, 8> kNodes{
+    "recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "referee", "simulator"};
 
 /// Place of a node in kNodes.
 std::size_t node_index(std::string_view name);
@@ -26,8 +26,9 @@ std::vector<std::pair<std::size_t, std::size_t>> links();
 enum class FaultKind {
   kKill,     ///< SIGKILL, and started again after a while
   kStop,     ///< SIGSTOP, and SIGCONT after a while
-  kRestart,  ///< SIGTERM, and started again at once
+  kRestart,  ///< SIGTERM, and started again
   kTwin,     ///< a second one is started: it must refuse
+  kSilence,  ///< of the referee: it is there and says nothing
   kDelay,    ///< frames come late and overtake each other
   kCut,      ///< no frame comes through
   kGarble,   ///< bits are turned over
@@ -55,5 +56,9 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
 
 /// Each node in turn is stopped for 0.5 to 2 s, `rounds` times.
 std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed);
+
+/// The referee is killed, deleted, paused, silent and cut off - from all, from the driver, from the world's model - for
+/// 1.5 to 4 s while it lets play, `rounds` times.
+std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed);
 
 }  // namespace trivela::faults

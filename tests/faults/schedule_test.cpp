@@ -28,12 +28,16 @@ TEST(Schedule, IsTheSeeds) {
 TEST(Schedule, HasEachKindOnEachNodeAlike) {
   std::map<FaultKind, int> kinds;
   std::map<std::pair<FaultKind, std::size_t>, int> nodes;
-  for (const Fault& fault : draw_faults(490, 1, true)) {
+  for (Fault fault : draw_faults(560, 1, true)) {
+    if (fault.kind == FaultKind::kSilence) {
+      EXPECT_EQ(kNodes[fault.node], "referee");
+      fault.kind = FaultKind::kTwin;  // in whose place it is
+    }
     ++kinds[fault.kind];
     if (!on_link(fault.kind)) ++nodes[{fault.kind, fault.node}];
   }
   EXPECT_EQ(kinds.size(), 7u);
-  EXPECT_THAT(kinds, Each(Pair(testing::_, 70)));
+  EXPECT_THAT(kinds, Each(Pair(testing::_, 80)));
   EXPECT_EQ(nodes.size(), 4 * kNodes.size());
   EXPECT_THAT(nodes, Each(Pair(testing::_, 10)));
 }
@@ -54,13 +58,15 @@ TEST(Schedule, LeavesLinksAloneWhereThereAreNone) {
 
 TEST(Schedule, StallsGoRoundTheNodesForHalfASecondToTwo) {
   const auto stalls = draw_stalls(3, 1);
-  ASSERT_EQ(stalls.size(), 3 * kNodes.size());
+  std::map<std::size_t, int> nodes;
   for (std::size_t i = 0; i < stalls.size(); ++i) {
     EXPECT_EQ(stalls[i].kind, FaultKind::kStop);
-    EXPECT_EQ(stalls[i].node, i % kNodes.size());
+    ++nodes[stalls[i].node];
     EXPECT_GE(stalls[i].lasts_s, 0.5);
     EXPECT_LE(stalls[i].lasts_s, 2.0);
   }
+  EXPECT_EQ(nodes.size(), kNodes.size() - 1) << "all but the referee, which is lost in ways of its own";
+  EXPECT_THAT(nodes, Each(Pair(testing::_, 3)));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "tests/faults/stack.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
 #include <signal.h>
@@ -63,6 +62,15 @@ halves = 1
 half_minutes = 1000.0
 )";
 
+/// A program of the campaign's own, which takes the bus from its environment.
+ProcessPlan foreign_plan(const StackPlan& stack, const char* program) {
+  ProcessPlan plan;
+  plan.program = stack.own / program;
+  plan.arguments = {std::to_string(kDomain)};
+  plan.environment = {{"CYCLONEDDS_URI", "file://" + (stack.folder / "cyclonedds.xml").string()}};
+  return plan;
+}
+
 }  // namespace
 
 Stack::Stack(const StackPlan& plan) : plan_(plan) {
@@ -80,14 +88,6 @@ Stack::Stack(const StackPlan& plan) : plan_(plan) {
   start_witness(wire_, "witness_wire", network(kNodes.size()));
 }
 
-Stack::~Stack() {
-  for (Witness* witness : {&device_, &wire_}) {
-    for (const int descriptor : {witness->words, witness->leash}) {
-      if (descriptor >= 0) close(descriptor);
-    }
-  }
-}
-
 void Stack::write_configuration() const {
   std::ofstream{plan_.folder / "cyclonedds.xml"}
       << (plan_.with_links ? std::string{kHostsXml} : fmt::format(kLoopbackXml, getpid()));
@@ -97,24 +97,25 @@ void Stack::write_configuration() const {
 }
 
 void Stack::start_witness(Witness& witness, const char* name, int network) {
-  std::array<int, 2> words{}, leash{};
-  if (pipe2(words.data(), O_CLOEXEC) != 0 || pipe2(leash.data(), O_CLOEXEC) != 0)
-    throw std::runtime_error{"no pipe for a witness"};
-  ProcessPlan plan;
-  plan.program = plan_.witness;
-  plan.arguments = {std::to_string(kDomain)};
-  plan.environment = {{"CYCLONEDDS_URI", "file://" + (plan_.folder / "cyclonedds.xml").string()}};
+  ProcessPlan plan = foreign_plan(plan_, "fault_witness");
   plan.says = plan_.folder / fmt::format("{}.txt", name);
   plan.network = network;
-  plan.output = words[1];
-  plan.input = leash[0];
+  plan.output = witness.words.write_end();
   witness.process = std::make_unique<NodeProcess>(plan);
-  close(words[1]);
-  close(leash[0]);
-  witness.words = words[0];
-  witness.leash = leash[1];
-  fcntl(witness.words, F_SETFL, O_NONBLOCK);
-  fcntl(witness.words, F_SETPIPE_SZ, 1 << 20);
+  witness.words.close_write_end();
+}
+
+/// What the simulator's referee says comes to ours alone, which says it again.
+void Stack::start_referee() {
+  const std::size_t place = node_index("referee");
+  referee_words_ = std::make_unique<LinePipe>();
+  ProcessPlan plan = foreign_plan(plan_, "fault_referee");
+  plan.says = plan_.folder / "referee.txt";
+  plan.network = hosts_[place].network();
+  plan.output = referee_words_->write_end();
+  nodes_[place].reset();
+  nodes_[place] = std::make_unique<NodeProcess>(plan);
+  referee_words_->close_write_end();
 }
 
 ProcessPlan Stack::plan_of(std::size_t node) {
@@ -127,6 +128,8 @@ ProcessPlan Stack::plan_of(std::size_t node) {
 }
 
 void Stack::start(std::size_t node) {
+  if (!has(node)) return;
+  if (kNodes[node] == "referee") return start_referee();
   ProcessPlan plan = plan_of(node);
   if (kNodes[node] == "recorder") {
     const fs::path log = plan_.folder / fmt::format("match-{:04}.db", ++recorders_);
@@ -176,20 +179,20 @@ void Stack::sound() {
   if (hub_) hub_->set({});
 }
 
-bool Stack::hear(Witness& witness) {
-  std::array<char, 65536> buffer;
-  bool heard = false;
-  for (;;) {
-    const ssize_t size = read(witness.words, buffer.data(), buffer.size());
-    if (size == 0) throw std::runtime_error{"a witness is gone"};
-    if (size < 0) return heard;
-    heard = true;
-    witness.rest.append(buffer.data(), static_cast<std::size_t>(size));
-    std::size_t begin = 0;
-    for (std::size_t end; (end = witness.rest.find('\n', begin)) != std::string::npos; begin = end + 1)
-      witness.testimony.note(witness.rest.substr(begin, end - begin));
-    witness.rest.erase(0, begin);
-  }
+void Stack::hear(Witness& witness) {
+  if (!witness.words.hear([&](const std::string& line) { witness.testimony.note(line); }))
+    throw std::runtime_error{"a witness is gone"};
+}
+
+void Stack::hear_referee() {
+  if (!referee_words_) return;
+  constexpr std::string_view kWriter = "writer ";
+  referee_words_->hear([&](const std::string& line) {
+    const auto writer =
+        line.starts_with(kWriter) ? guid_of(std::string_view{line}.substr(kWriter.size())) : std::nullopt;
+    if (!writer) throw std::runtime_error{fmt::format("the referee says \"{}\"", line)};
+    hub_->confine(*writer, node_index("referee"));
+  });
 }
 
 bool Stack::listen(std::chrono::nanoseconds timeout, const std::function<bool()>& done) {
@@ -197,10 +200,14 @@ bool Stack::listen(std::chrono::nanoseconds timeout, const std::function<bool()>
   for (;;) {
     hear(device_);
     hear(wire_);
+    hear_referee();
     if (done()) return true;
     const auto left = deadline - Clock::now();
     if (left <= left.zero()) return false;
-    std::array<pollfd, 2> sources{pollfd{device_.words, POLLIN, 0}, pollfd{wire_.words, POLLIN, 0}};
+    std::array<pollfd, 3> sources{pollfd{device_.words.file_descriptor(), POLLIN, 0},
+                                  pollfd{wire_.words.file_descriptor(), POLLIN, 0},
+                                  pollfd{referee_words_ ? referee_words_->file_descriptor() : -1, POLLIN, 0}};
+    if (referee_words_ && !running(node_index("referee"))) sources[2].fd = -1;  // it would be readable for ever
     const auto wait = std::min<std::chrono::nanoseconds>(left, kGlance);
     poll(sources.data(), sources.size(), static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(wait).count()));
   }

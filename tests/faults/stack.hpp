@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/faults/hub.hpp"
+#include "tests/faults/line_pipe.hpp"
 #include "tests/faults/network_host.hpp"
 #include "tests/faults/node_process.hpp"
 #include "tests/faults/schedule.hpp"
@@ -19,9 +20,9 @@ namespace trivela::faults {
 
 struct StackPlan {
   std::filesystem::path programs;  ///< folder of trivela-NODE
-  std::filesystem::path witness;   ///< fault_witness
+  std::filesystem::path own;       ///< folder of fault_witness and fault_referee
   std::filesystem::path folder;    ///< for configuration, logs and what the nodes say; exists
-  bool with_links = true;          ///< a host for each node; otherwise all of them share the loopback
+  bool with_links = true;          ///< a host for each node; otherwise all share the loopback, and there is no referee
   std::uint64_t seed = 1;
 };
 
@@ -30,7 +31,8 @@ struct StackPlan {
 class Stack {
  public:
   explicit Stack(const StackPlan& plan);
-  ~Stack();
+  Stack(const Stack&) = delete;
+  Stack& operator=(const Stack&) = delete;
 
   void start(std::size_t node);
   void start_all();
@@ -39,6 +41,9 @@ class Stack {
 
   NodeProcess& node(std::size_t node) { return *nodes_[node]; }
   bool running(std::size_t node) { return nodes_[node] && !nodes_[node]->ended(); }
+
+  /// Whether the node is one of this stack.
+  bool has(std::size_t node) const { return plan_.with_links || kNodes[node] != "referee"; }
 
   /// A second one of the kind, on the same host.
   std::unique_ptr<NodeProcess> twin(std::size_t node);
@@ -64,16 +69,16 @@ class Stack {
  private:
   struct Witness {
     Testimony testimony;
+    LinePipe words;
     std::unique_ptr<NodeProcess> process;
-    int words = -1;    // its standard output
-    int leash = -1;    // its standard input
-    std::string rest;  // an unfinished line
   };
 
   void write_configuration() const;
   ProcessPlan plan_of(std::size_t node);
   void start_witness(Witness& witness, const char* name, int network);
-  bool hear(Witness& witness);
+  void start_referee();
+  void hear(Witness& witness);
+  void hear_referee();
 
   StackPlan plan_;
   std::vector<NetworkHost> hosts_;  // of the nodes, then of the wire's witness
@@ -83,6 +88,7 @@ class Stack {
   std::size_t simulators_ = 0;
   Witness device_;
   Witness wire_;
+  std::unique_ptr<LinePipe> referee_words_;
 };
 
 }  // namespace trivela::faults

@@ -11,8 +11,8 @@
 namespace trivela::faults {
 namespace {
 
-constexpr std::array kKinds{FaultKind::kKill,  FaultKind::kStop, FaultKind::kRestart, FaultKind::kTwin,
-                            FaultKind::kDelay, FaultKind::kCut,  FaultKind::kGarble};
+constexpr std::array kKinds{FaultKind::kKill,    FaultKind::kStop,  FaultKind::kRestart, FaultKind::kTwin,
+                            FaultKind::kSilence, FaultKind::kDelay, FaultKind::kCut,     FaultKind::kGarble};
 
 std::size_t count_of(const std::vector<Finding>& findings, std::initializer_list<Offence> offences) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) {

@@ -1,12 +1,13 @@
 // fault_witness DOMAIN_ID: hears the bus as a program of somebody else would - stock idlc types, no code of the stack -
-// and says on standard output what came when, by CLOCK_MONOTONIC at arrival. CYCLONEDDS_URI says where the bus is. A line:
+// and says on standard output what came when, by CLOCK_MONOTONIC at arrival. CYCLONEDDS_URI says where the bus is. A
+// line:
 //   ARRIVAL_NS order T_NS KICK_ID FIRE_T_NS VALID_UNTIL_T_NS
 //   ARRIVAL_NS fire T_NS KICK_ID WITHDRAWN
 //   ARRIVAL_NS truth RELEASE_T_NS KICK_ID
 //   ARRIVAL_NS outcome KICK_ID
 //   ARRIVAL_NS referee PLAYING
 //   ARRIVAL_NS sample TOPIC                      a topic that is heard for its rhythm alone
-// It never takes the driver's word: kicker_status is a rhythm, kick_receipt is not read. Ends with its standard input.
+// It never takes the driver's word: kicker_status is a rhythm, kick_receipt is not read.
 #include <dds/dds.h>
 #include <inttypes.h>
 #include <sched.h>
@@ -28,7 +29,7 @@ struct Stream {
   const char* topic;
   const dds_topic_descriptor_t* type;
   Describe describe;
-  bool order; // QoS of an order, not of a state or an event
+  bool order;  // QoS of an order, not of a state or an event
 };
 
 static int describe_order(char* line, size_t size, const char* topic, const void* sample) {
@@ -98,7 +99,7 @@ static void say(int64_t arrival_ns, const struct Stream* stream, const void* sam
   int length = snprintf(line, sizeof line, "%" PRId64 " ", arrival_ns);
   length += stream->describe(line + length, sizeof line - (size_t)length - 1, stream->topic, sample);
   line[length++] = '\n';
-  if (write(STDOUT_FILENO, line, (size_t)length) != length) exit(1); // nobody listens any more
+  if (write(STDOUT_FILENO, line, (size_t)length) != length) exit(1);  // nobody listens any more
 }
 
 static void on_data(dds_entity_t reader, void* context) {
@@ -139,14 +140,12 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: fault_witness DOMAIN_ID\n");
     return 2;
   }
-  // Before the bus's threads exist, which inherit it: what a busy machine keeps waiting, comes late by the witness's fault.
+  // Before the bus's threads exist, which inherit it: what a busy machine keeps waiting, comes late by the witness's
+  // fault.
   const struct sched_param priority = {.sched_priority = 10};
   sched_setscheduler(0, SCHED_FIFO, &priority);
   const dds_entity_t participant = dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL);
   if (participant < 0) fail("participant in domain", argv[1], participant);
   for (size_t i = 0; i < sizeof kStreams / sizeof *kStreams; ++i) listen_to(participant, &kStreams[i]);
-  char ignored[16];
-  while (read(STDIN_FILENO, ignored, sizeof ignored) > 0) continue;
-  dds_delete(participant);
-  return 0;
+  for (;;) pause();
 }
