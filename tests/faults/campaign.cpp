@@ -82,9 +82,10 @@ class Wholeness {
     const auto& orders = stack_.wire().orders;
     for (std::size_t i = fires_before_; i < fires.size(); ++i) {
       if (fires[i].withdrawn) continue;
-      const bool ordered_since = std::any_of(orders.rbegin(), orders.rend(), [&](const OrderSeen& order) {
-        return order.kick_id == fires[i].kick_id && order.arrival_ns > since_ns_;
-      });
+      const auto before = std::find_if(orders.rbegin(), orders.rend(),
+                                       [&](const OrderSeen& order) { return order.arrival_ns <= since_ns_; });
+      const bool ordered_since = std::any_of(orders.rbegin(), before,
+                                             [&](const OrderSeen& order) { return order.kick_id == fires[i].kick_id; });
       if (!ordered_since) continue;
       if (fired_ns_ == 0) fired_ns_ = fires[i].arrival_ns;
       outcome_ = outcome_ || stack_.wire().outcome_arrival_ns.contains(fires[i].kick_id);
@@ -123,6 +124,7 @@ class Campaign {
   Trial suffer(const Fault& fault) {
     Trial trial;
     trial.fault = fault;
+    stack_.insist(fault.insists);
     wait(fault.waits_s);
     if (kNodes[fault.node] == "referee") wait(kPlay_s, [&] { return lets_play(); });
     trial.began_ns = now_ns();
@@ -134,6 +136,7 @@ class Campaign {
       trouble_process(fault, trial);
     }
     recover(trial);
+    stack_.insist(false);
     return trial;
   }
 

@@ -129,6 +129,8 @@ std::vector<Finding> judge(const Testimony& device, const Testimony& wire, const
   OrdersById orders;
   for (const Testimony* witness : {&device, &wire}) {
     for (const OrderSeen& order : witness->orders) orders.emplace(order.kick_id, order);
+    // Of two who order, a witness's reader may hear another one than the driver's for the moment of the change.
+    for (const OrderSeen& order : witness->decided) orders.emplace(order.kick_id, order);
   }
   std::vector<Finding> found;
   const auto add = [&](const std::optional<Finding>& finding) {

@@ -46,6 +46,15 @@ struct Target {
   std::optional<std::size_t> other;
 };
 
+/// Half of the faults that leave the way to an order alone.
+bool insists(const Fault& fault, Random& random) {
+  const bool drawn = random() % 2 == 0;
+  for (const std::string_view name : {"odometry", "world_state", "kick_decision"}) {
+    if (fault.node == node_index(name) || fault.other == node_index(name)) return false;
+  }
+  return drawn;
+}
+
 std::vector<Target> targets_of(FaultKind kind, bool with_links) {
   std::vector<Target> targets;
   for (std::size_t node = 0; node < kNodes.size(); ++node) {
@@ -143,6 +152,7 @@ std::string text(const Fault& fault) {
   if (fault.kind == FaultKind::kDelay)
     out += fmt::format(", {:.0f} to {:.0f} ms", ms(fault.way.delay), ms(fault.way.delay + fault.way.jitter));
   if (fault.kind == FaultKind::kGarble) out += fmt::format(", {:.0f} % of the frames", 100.0 * fault.way.garble);
+  if (fault.insists) out += ", insisting";
   return out;
 }
 
@@ -165,6 +175,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
     if (fault.kind == FaultKind::kTwin && fault.node == node_index("referee")) fault.kind = FaultKind::kSilence;
     fault.waits_s = uniform(random, 0.0, 1.0);
     fault.lasts_s = length_s(fault.kind, random);
+    fault.insists = insists(fault, random);
     set_way(fault, random);
     faults.push_back(fault);
   }
@@ -182,6 +193,7 @@ std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
       fault.node = node;
       fault.waits_s = uniform(random, 0.0, 1.0);
       fault.lasts_s = uniform(random, 0.5, 2.0);
+      fault.insists = insists(fault, random);
       faults.push_back(fault);
     }
   }
@@ -192,6 +204,7 @@ std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed) {
   Random random{seed};
   const std::size_t referee = node_index("referee");
   std::vector<Fault> faults;
+  bool insisting = false;
   const auto add = [&](FaultKind kind, std::optional<std::size_t> other = std::nullopt) {
     Fault fault;
     fault.kind = kind;
@@ -199,10 +212,12 @@ std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed) {
     fault.other = other;
     fault.waits_s = uniform(random, 0.0, 1.0);
     fault.lasts_s = uniform(random, 1.5, 4.0);
+    fault.insists = insisting;
     set_way(fault, random);
     faults.push_back(fault);
   };
   for (std::size_t round = 0; round < rounds; ++round) {
+    insisting = round % 2 == 0;
     for (const FaultKind kind :
          {FaultKind::kKill, FaultKind::kRestart, FaultKind::kStop, FaultKind::kSilence, FaultKind::kCut})
       add(kind);

@@ -44,7 +44,8 @@ struct Fault {
   std::optional<std::size_t> other;  ///< of a link: its other end; none: everything that the node says and hears
   double waits_s = 0.0;              ///< from the whole chain to the fault, so that it comes anywhere in a kick
   double lasts_s = 0.0;
-  Way way;  ///< what a link does meanwhile
+  bool insists = false;  ///< fault_client orders all the while, in kick_decision's place
+  Way way;               ///< what a link does meanwhile
 };
 
 /// "cut kick_decision-kicker_driver 0.42 s".

@@ -57,6 +57,7 @@ domain_id = {2}
 dds_file = "{1}/cyclonedds.xml"
 [kick_decision]
 policy_by_half = ["moving"]
+order_validity_s = 0.05
 [simulator]
 halves = 1
 half_minutes = 1000.0
@@ -86,6 +87,10 @@ Stack::Stack(const StackPlan& plan) : plan_(plan) {
   const auto network = [&](std::size_t host) { return hosts_.empty() ? -1 : hosts_[host].network(); };
   start_witness(device_, "witness_device", network(node_index("kicker_driver")));
   start_witness(wire_, "witness_wire", network(kNodes.size()));
+  ProcessPlan client = foreign_plan(plan_, "fault_client");
+  client.says = plan_.folder / "client.txt";
+  client.network = network(node_index("kick_decision"));
+  client_ = std::make_unique<NodeProcess>(client);
 }
 
 void Stack::write_configuration() const {
@@ -163,6 +168,11 @@ std::unique_ptr<NodeProcess> Stack::twin(std::size_t node) {
   }
   plan.says = plan_.folder / fmt::format("{}_twin.txt", kNodes[node]);
   return std::make_unique<NodeProcess>(plan);
+}
+
+void Stack::insist(bool insisting) {
+  if (insisting != insisting_) client_->signal(SIGUSR1);
+  insisting_ = insisting;
 }
 
 void Stack::disturb(const Fault& fault) {

@@ -20,7 +20,7 @@ namespace trivela::faults {
 
 struct StackPlan {
   std::filesystem::path programs;  ///< folder of trivela-NODE
-  std::filesystem::path own;       ///< folder of fault_witness and fault_referee
+  std::filesystem::path own;       ///< folder of fault_witness, fault_referee and fault_client
   std::filesystem::path folder;    ///< for configuration, logs and what the nodes say; exists
   bool with_links = true;          ///< a host for each node; otherwise all share the loopback, and there is no referee
   std::uint64_t seed = 1;
@@ -47,6 +47,9 @@ class Stack {
 
   /// A second one of the kind, on the same host.
   std::unique_ptr<NodeProcess> twin(std::size_t node);
+
+  /// Whether fault_client orders on kick_decision's host.
+  void insist(bool insisting);
 
   /// What the links of a fault do from now on; all are sound again with sound().
   void disturb(const Fault& fault);
@@ -89,6 +92,8 @@ class Stack {
   Witness device_;
   Witness wire_;
   std::unique_ptr<LinePipe> referee_words_;
+  std::unique_ptr<NodeProcess> client_;
+  bool insisting_ = false;
 };
 
 }  // namespace trivela::faults

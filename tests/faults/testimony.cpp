@@ -19,10 +19,10 @@ void Testimony::note(const std::string& line) {
     in >> playing;
     words.push_back({arrival_ns, playing});
     last_sample_ns["referee"] = arrival_ns;
-  } else if (what == "order") {
+  } else if (what == "order" || what == "decision") {
     OrderSeen order{arrival_ns};
     in >> order.t_ns >> order.kick_id >> order.fire_t_ns >> order.valid_until_t_ns;
-    orders.push_back(order);
+    (what == "order" ? orders : decided).push_back(order);
   } else if (what == "fire") {
     FireSeen fire{arrival_ns};
     in >> fire.t_ns >> fire.kick_id >> fire.withdrawn;

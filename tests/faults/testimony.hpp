@@ -42,6 +42,7 @@ struct TruthSeen {
 /// All that one witness saw, each in the order of arrival.
 struct Testimony {
   std::vector<OrderSeen> orders;
+  std::vector<OrderSeen> decided;  ///< the orders that kick_decision says it has given
   std::vector<FireSeen> fires;
   std::vector<WordSeen> words;
   std::vector<TruthSeen> truths;

@@ -2,6 +2,7 @@
 // and says on standard output what came when, by CLOCK_MONOTONIC at arrival. CYCLONEDDS_URI says where the bus is. A
 // line:
 //   ARRIVAL_NS order T_NS KICK_ID FIRE_T_NS VALID_UNTIL_T_NS
+//   ARRIVAL_NS decision T_NS KICK_ID FIRE_T_NS VALID_UNTIL_T_NS    what kick_decision says that it has ordered
 //   ARRIVAL_NS fire T_NS KICK_ID WITHDRAWN
 //   ARRIVAL_NS truth RELEASE_T_NS KICK_ID
 //   ARRIVAL_NS outcome KICK_ID
@@ -23,6 +24,9 @@
 
 enum { kSamplesAtOnce = 64, kLongestLine = 200 };
 
+static const int64_t kValidity_ns = 50000000;  // kick_decision.order_validity_s of the campaign
+
+// 0: there is nothing to say of it.
 typedef int (*Describe)(char* line, size_t size, const char* topic, const void* sample);
 
 struct Stream {
@@ -37,6 +41,15 @@ static int describe_order(char* line, size_t size, const char* topic, const void
   (void)topic;
   return snprintf(line, size, "order %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64, order->t_ns, order->kick_id,
                   order->fire_t_ns, order->valid_until_t_ns);
+}
+
+static int describe_decision(char* line, size_t size, const char* topic, const void* sample) {
+  const trivela_msg_KickDecision* decision = sample;
+  (void)topic;
+  if (decision->kick_id == 0) return 0;
+  return snprintf(line, size, "decision %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64, decision->t_ns,
+                  decision->kick_id, decision->t_ns + (int64_t)(decision->fire_after_s * 1e9),
+                  decision->t_ns + kValidity_ns);
 }
 
 static int describe_fire(char* line, size_t size, const char* topic, const void* sample) {
@@ -70,6 +83,7 @@ static int describe_rhythm(char* line, size_t size, const char* topic, const voi
 
 static const struct Stream kStreams[] = {
     {"kick_order", &trivela_msg_KickOrder_desc, describe_order, true},
+    {"kick_decision", &trivela_msg_KickDecision_desc, describe_decision, false},
     {"sim/fire", &trivela_msg_SimFire_desc, describe_fire, false},
     {"sim/kick_truth", &trivela_msg_KickTruth_desc, describe_truth, false},
     {"kick_outcome", &trivela_msg_KickOutcome_desc, describe_outcome, false},
@@ -97,7 +111,9 @@ static void fail(const char* what, const char* topic, dds_return_t code) {
 static void say(int64_t arrival_ns, const struct Stream* stream, const void* sample) {
   char line[kLongestLine];
   int length = snprintf(line, sizeof line, "%" PRId64 " ", arrival_ns);
-  length += stream->describe(line + length, sizeof line - (size_t)length - 1, stream->topic, sample);
+  const int described = stream->describe(line + length, sizeof line - (size_t)length - 1, stream->topic, sample);
+  if (described == 0) return;
+  length += described;
   line[length++] = '\n';
   if (write(STDOUT_FILENO, line, (size_t)length) != length) exit(1);  // nobody listens any more
 }
