@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/faults/forged_orders.hpp"
+
 namespace trivela::faults {
 namespace {
 
@@ -136,6 +138,19 @@ TEST(FireRules, AKickThatIsCalledOffBeforeItsInstantIsNoFire) {
   EXPECT_THAT(offences(device), IsEmpty());
   device.fires = {{1001 * kMs, 1020 * kMs, 1, false}, {1041 * kMs, 0, 1, true}, fire(2, 1101)};
   EXPECT_THAT(offences(device), ElementsAre(Offence::kTooSoon)) << "called off after it was carried out";
+}
+
+TEST(FireRules, AnIdThatTheWireTurnedIntoAnotherIsForged) {
+  const std::int64_t id = 0x0102030405060708;
+  const Finding finding{Offence::kNoOrder, fire(id, 2000), ""};
+  const GarbledFrame frame{1990 * kMs, {0xaa, 8, 7, 6, 5, 4, 3, 2, 1, 0xaa}};
+  EXPECT_TRUE(forged_by_the_wire(finding, {frame}));
+  EXPECT_FALSE(forged_by_the_wire(finding, {{1990 * kMs, {8, 7, 6, 5, 4, 3, 2, 0}}})) << "another id";
+  EXPECT_FALSE(forged_by_the_wire(finding, {{2010 * kMs, frame.bytes}})) << "it came after the fire";
+  EXPECT_FALSE(forged_by_the_wire({Offence::kStale, finding.fire, ""}, {frame}));
+  std::vector<Finding> findings{{Offence::kStopped, finding.fire, ""}, finding};
+  EXPECT_EQ(take_forged(findings, {frame}).size(), 1u);
+  EXPECT_EQ(findings.size(), 1u);
 }
 
 TEST(FireRules, TheSameFireSeenByBothWitnessesIsOne) {

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
-#include <numeric>
 #include <vector>
+
+#include "tests/faults/rtps_writer.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -65,6 +67,37 @@ TEST(Frame, GarblingTurnsBitsOfThePayloadOverAndVoidsTheChecksum) {
     EXPECT_LE(turned, 8);
     EXPECT_EQ(after[14 + 20 + 6], 0);
   }
+}
+
+TEST(Frame, OneWritersWordsAreMutedAndNoOthers) {
+  const auto guid = guid_of("000102030405060708090a0b00000103");
+  ASSERT_TRUE(guid);
+  constexpr std::size_t kData = kHeaders + 20, kHeartbeat = kData + 4 + 24;
+  auto frame = datagram(20 + 4 + 24 + 4 + 28);
+  for (std::size_t i = 0; i < 12; ++i) frame[kHeaders + 8 + i] = static_cast<std::uint8_t>(i);
+  frame[kData] = 0x15;
+  frame[kData + 1] = 1;
+  frame[kData + 2] = 24;  // bytes until the next submessage
+  std::copy(guid->begin() + 12, guid->end(), frame.begin() + kData + 12);
+  frame[kHeartbeat] = 0x07;
+  frame[kHeartbeat + 1] = 1;
+  frame[kHeartbeat + 2] = 28;
+  std::copy(guid->begin() + 12, guid->end(), frame.begin() + kHeartbeat + 8);
+  auto other = *guid;
+  other.back() = 4;
+  auto muted = frame;
+  EXPECT_FALSE(mute(muted, other));
+  EXPECT_EQ(muted, frame);
+  EXPECT_TRUE(mute(muted, *guid));
+  EXPECT_EQ(muted[kData + 12], 0xff);
+  EXPECT_EQ(muted[kHeartbeat + 8], 0xff);
+  EXPECT_FALSE(mute(muted, *guid)) << "nothing is left of it";
+}
+
+TEST(Frame, AGuidIsThirtyTwoDigits) {
+  EXPECT_FALSE(guid_of("0001"));
+  EXPECT_FALSE(guid_of("x00102030405060708090a0b00000103"));
+  EXPECT_EQ((*guid_of("000102030405060708090a0bff000103"))[12], 0xff);
 }
 
 TEST(Frame, WhatHasNoPayloadIsLeftAsItIs) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <queue>
 #include <random>
 #include <thread>
@@ -50,6 +51,8 @@ struct Hub::Impl {
   Ways ways;                                          // under the mutex
   HubCounts counts;                                   // under the mutex
   std::deque<std::pair<Guid, std::size_t>> confined;  // under the mutex
+  std::optional<std::size_t> keeps_garbled;           // under the mutex
+  std::vector<GarbledFrame> garbled;                  // under the mutex
   std::mt19937_64 random;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting;
   std::thread thread;
@@ -108,8 +111,12 @@ struct Hub::Impl {
       ++counts.dropped;
       return;
     }
-    if (share(random) < way.garble && garble(copy, kMostBits, random)) ++counts.garbled;
+    const bool hit = share(random) < way.garble && garble(copy, kMostBits, random);
     const auto delay = way.delay + std::chrono::microseconds{std::llround(share(random) * double(way.jitter.count()))};
+    if (hit) {
+      ++counts.garbled;
+      if (keeps_garbled == to) garbled.push_back({(Clock::now() + delay).time_since_epoch().count(), copy});
+    }
     if (delay == delay.zero()) return put(to, copy);
     ++counts.delayed;
     waiting.push({Clock::now() + delay, to, std::move(copy)});
@@ -141,6 +148,16 @@ void Hub::confine(const Guid& writer, std::size_t listener) {
   const std::lock_guard lock{impl_->mutex};
   impl_->confined.emplace_back(writer, listener);
   if (impl_->confined.size() > kMostConfined) impl_->confined.pop_front();  // a writer that has long gone
+}
+
+void Hub::keep_garbled(std::size_t to) {
+  const std::lock_guard lock{impl_->mutex};
+  impl_->keeps_garbled = to;
+}
+
+std::vector<GarbledFrame> Hub::garbled() const {
+  const std::lock_guard lock{impl_->mutex};
+  return impl_->garbled;
 }
 
 HubCounts Hub::counts() const {

@@ -30,6 +30,12 @@ struct HubCounts {
   std::uint64_t garbled = 0;
 };
 
+/// A frame as it was handed to a host with bits turned over.
+struct GarbledFrame {
+  std::int64_t arrival_ns = 0;  ///< CLOCK_MONOTONIC
+  std::vector<std::uint8_t> bytes;
+};
+
 /// Joins the cables of NetworkHosts in a thread of its own: frames to everybody go to everybody, others to the host
 /// whose number is their MAC address's last byte.
 class Hub {
@@ -52,6 +58,10 @@ class Hub {
   void confine(const Guid& writer, std::size_t listener);
 
   HubCounts counts() const;
+
+  /// Keeps what is garbled on its way to the host at place `to`, from now on.
+  void keep_garbled(std::size_t to);
+  std::vector<GarbledFrame> garbled() const;
 
  private:
   struct Impl;

@@ -9,6 +9,7 @@
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "tests/e2e/folder.hpp"
+#include "tests/faults/forged_orders.hpp"
 #include "tests/faults/verdict.hpp"
 
 namespace trivela::faults {
@@ -93,7 +94,10 @@ Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_l
   verdict.orders = stack.wire().orders.size();
   verdict.fires = fires_carried_out(stack.device(), stack.wire(), rules);
   verdict.findings = judge(stack.device(), stack.wire(), rules);
-  verdict.logged = look_up(verdict.fires, stack.logs(), rules.steady_t_ns);
+  verdict.forged = take_forged(verdict.findings, stack.garbled_to_driver());
+  const KickRows rows = read_kick_rows(stack.logs());
+  verdict.logged = look_up(verdict.fires, rows, rules.steady_t_ns);
+  verdict.unreadable = rows.unreadable;
   verdict.frames = stack.hub_counts();
   if (!arguments.log_dir.empty()) write_events(folder / "events.txt", stack);
   return verdict;

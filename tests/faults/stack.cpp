@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kGlance{20};
 constexpr std::chrono::seconds kGrace{10};
 
 constexpr const char* kHostsXml = R"(<CycloneDDS xmlns="https://cdds.io/config"><Domain Id="any">
-  <General><Interfaces><NetworkInterface name="tap0"/></Interfaces><AllowMulticast>true</AllowMulticast>
+  <General><Interfaces><NetworkInterface name="tap0"/></Interfaces><AllowMulticast>spdp</AllowMulticast>
     <MaxMessageSize>1400B</MaxMessageSize><MaxRexmitMessageSize>1400B</MaxRexmitMessageSize><FragmentSize>1344B</FragmentSize></General>
   <Discovery><Tag>faults</Tag><SPDPInterval>1s</SPDPInterval><LeaseDuration>5s</LeaseDuration></Discovery>
 </Domain></CycloneDDS>
@@ -83,6 +83,7 @@ Stack::Stack(const StackPlan& plan) : plan_(plan) {
       cables.push_back({host.cable(), number});
     }
     hub_ = std::make_unique<Hub>(std::move(cables), plan_.seed);
+    hub_->keep_garbled(node_index("kicker_driver"));
   }
   const auto network = [&](std::size_t host) { return hosts_.empty() ? -1 : hosts_[host].network(); };
   start_witness(device_, "witness_device", network(node_index("kicker_driver")));
@@ -185,6 +186,10 @@ void Stack::disturb(const Fault& fault) {
   hub_->set(std::move(ways));
 }
 
+std::vector<GarbledFrame> Stack::garbled_to_driver() const {
+  return hub_ ? hub_->garbled() : std::vector<GarbledFrame>{};
+}
+
 void Stack::sound() {
   if (hub_) hub_->set({});
 }
@@ -233,12 +238,13 @@ std::vector<fs::path> Stack::logs() const {
 }
 
 std::optional<fs::file_time_type> Stack::log_changed() const {
-  const fs::path log = plan_.folder / fmt::format("match-{:04}.db", recorders_);
   std::optional<fs::file_time_type> last;
-  for (const char* ending : {"", "-wal"}) {
-    std::error_code none;
-    const auto changed = fs::last_write_time(log.string() + ending, none);
-    if (!none && (!last || changed > *last)) last = changed;
+  for (const fs::path& log : logs()) {
+    for (const char* ending : {"", "-wal"}) {
+      std::error_code none;
+      const auto changed = fs::last_write_time(log.string() + ending, none);
+      if (!none && (!last || changed > *last)) last = changed;
+    }
   }
   return last;
 }

@@ -56,6 +56,9 @@ class Stack {
   void sound();
   HubCounts hub_counts() const { return hub_ ? hub_->counts() : HubCounts{}; }
 
+  /// Frames that reached the driver's host with bits turned over.
+  std::vector<GarbledFrame> garbled_to_driver() const;
+
   /// Takes in what the witnesses say, for up to `timeout` or until `done` says so, which is asked after each word and
   /// at least every 20 ms. Throws std::runtime_error if a witness is gone.
   bool listen(std::chrono::nanoseconds timeout, const std::function<bool()>& done);
@@ -63,10 +66,10 @@ class Stack {
   const Testimony& device() const { return device_.testimony; }
   const Testimony& wire() const { return wire_.testimony; }
 
-  /// Match logs so far, the newest last.
+  /// Match logs so far.
   std::vector<std::filesystem::path> logs() const;
 
-  /// Last change of the newest log of the running recorder, by the system's clock; none: there is no log.
+  /// Last change of any log, by the system's clock; none: there is no log.
   std::optional<std::filesystem::file_time_type> log_changed() const;
 
  private:

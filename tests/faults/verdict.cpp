@@ -70,7 +70,7 @@ std::string circumstances(const Verdict& verdict, std::int64_t at_ns) {
 }  // namespace
 
 bool Verdict::clean() const {
-  return findings.empty() && logged.lost.empty() && logged.unreadable.empty() &&
+  return findings.empty() && logged.lost.empty() && unreadable.empty() &&
          std::all_of(trials.begin(), trials.end(),
                      [](const Trial& trial) { return trial.recovered && trial.complaint.empty(); });
 }
@@ -98,6 +98,8 @@ std::string text(const Verdict& verdict) {
   }
   out += fmt::format("\nFrames on the links: {} forwarded, {} delayed, {} dropped, {} garbled\n",
                      verdict.frames.forwarded, verdict.frames.delayed, verdict.frames.dropped, verdict.frames.garbled);
+  out += fmt::format("Fires for an order that the garbled wire had given another id, which nobody can tell: {}\n",
+                     verdict.forged.size());
   out += fmt::format("Kicks: {} in a log, {} in a gap that the logs count\n", verdict.logged.in_a_log,
                      verdict.logged.counted);
   out += "\n  goal 0                                       count\n";
@@ -111,7 +113,7 @@ std::string text(const Verdict& verdict) {
                        circumstances(verdict, finding.fire.arrival_ns));
   for (const FireSeen& fire : verdict.logged.lost)
     out += fmt::format("  kick {} is in no log; {}\n", fire.kick_id, circumstances(verdict, fire.arrival_ns));
-  for (const std::string& log : verdict.logged.unreadable) out += fmt::format("  {}\n", log);
+  for (const std::string& log : verdict.unreadable) out += fmt::format("  {}\n", log);
   for (const Trial& trial : verdict.trials) {
     if (!trial.complaint.empty()) out += fmt::format("  \"{}\": {}\n", text(trial.fault), trial.complaint);
   }
@@ -124,6 +126,7 @@ nlohmann::json json(const Verdict& verdict) {
                      {"took_s", verdict.took_s},
                      {"orders", verdict.orders},
                      {"fires", verdict.fires.size()},
+                     {"fires_for_forged_ids", verdict.forged.size()},
                      {"kicks_in_a_log", verdict.logged.in_a_log},
                      {"kicks_in_a_counted_gap", verdict.logged.counted},
                      {"fires_without_a_valid_fresh_order", without_order(verdict)},

@@ -18,7 +18,9 @@ struct Verdict {
   std::size_t orders = 0;  ///< that the wire's witness saw
   std::vector<FireSeen> fires;
   std::vector<Finding> findings;
+  std::vector<Finding> forged;  ///< fires for an order that the wire had forged: told, not counted
   LoggedKicks logged;
+  std::vector<std::string> unreadable;  ///< logs that cannot be read
   HubCounts frames;
   double took_s = 0.0;
 
