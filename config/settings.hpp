@@ -14,9 +14,10 @@ namespace trivela::config {
 /// Which robot this is and how its cycle runs.
 struct Run {
   std::uint32_t robot_id = 1;
-  double cycle_s = 0.02;      ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
-  std::uint32_t session = 0;  ///< upper 15 bits of every kick_id; 0: drawn at the start
-  bool lockstep = false;      ///< wait for every input of a cycle and tell the simulator when it is finished
+  double cycle_s = 0.02;           ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
+  std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
+  bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
+  double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
   std::string log_level = "info";                   ///< trace, debug, info, warn, error, off
@@ -77,6 +78,7 @@ struct KickDecision {
 struct KickerDriver {
   double min_interval_s = 0.5;        ///< between two kicks
   double min_charge_ratio = 0.9;      ///< of the full capacitor energy
+  double max_order_age_s = 0.1;       ///< an order that was judged longer ago is refused, whatever it says of itself
   double future_tolerance_s = 0.025;  ///< an order from further ahead is refused; a cycle and what clocks differ by
   double link_timeout_s = 0.1;        ///< no device sample for longer: fault
 };

@@ -143,6 +143,7 @@ void fields(V& v, Run& r) {
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
   v("session", r.session, Range{0, 32767});
   v("lockstep", r.lockstep);
+  v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);
   v("scenario", r.scenario);
   v("log_level", r.log_level);
@@ -203,6 +204,7 @@ template <class V>
 void fields(V& v, KickerDriver& k) {
   v("min_interval_s", k.min_interval_s, Range{0.0, 10.0});
   v("min_charge_ratio", k.min_charge_ratio, Range{0.0, 1.0});
+  v("max_order_age_s", k.max_order_age_s, Range{0.001, 1.0});
   v("future_tolerance_s", k.future_tolerance_s, Range{0.0, 1.0});
   v("link_timeout_s", k.link_timeout_s, Range{0.001, 10.0});
 }

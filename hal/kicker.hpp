@@ -10,13 +10,19 @@ enum class KickerFault { kNone, kCharger, kCoil, kLink };
 
 /// One reading of the kicker.
 struct KickerSample {
-  std::int64_t t_ns = 0;
-  double charge = 0.0;  ///< capacitor energy, 0..1
-  bool armed = false;   ///< the arm switch
+  std::int64_t t_ns = 0;  ///< of the clock in Kicker
+  double charge = 0.0;    ///< capacitor energy, 0..1
+  bool armed = false;     ///< the arm switch
   KickerFault fault = KickerFault::kNone;
 };
 
 /// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
+///
+/// Every t_ns is of one clock, the one that the orders' t_ns are of: in real time this machine's steady clock
+/// (CLOCK_MONOTONIC), of the instant at which the device took the sample, never of that at which it was read; in
+/// lockstep and replay the simulated or recorded time. A backend whose device has another clock converts. So a sample
+/// or an order that waited, for this process or for the device, shows its age to whoever looks at the clock: a backend
+/// hands out the newest sample it has, and never gives a waiting one the present instant.
 class Kicker {
  public:
   /// Makes the kicker safe.

@@ -11,7 +11,7 @@ namespace trivela::hal {
 
 /// One reading of wheels and gyro.
 struct WheelSample {
-  std::int64_t t_ns = 0;
+  std::int64_t t_ns = 0;                ///< of the sample on the steady clock, as in hal/kicker.hpp
   int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
   std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
   std::optional<double> gyro_radps;     ///< counter-clockwise

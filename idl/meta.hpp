@@ -30,7 +30,8 @@ struct Enumerator {
 };
 
 /// Specialised by the generated code for each struct T of the IDL: `name`, `fields`, `visit(message, f)`; for a topic
-/// also `topic`, `profile` and `descriptor()`.
+/// also `topic`, `profile`, `period_s` (@period, the longest time between two samples while all is well; 0: none) and
+/// `descriptor()`.
 template <class T>
 struct meta;
 

@@ -8,6 +8,7 @@
 
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/version_1.sql.hpp"
+#include "evaluator/log/version_2.sql.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -39,7 +40,9 @@ struct Reader::Impl {
 };
 
 Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {
-  if (impl_->file.version() == 1) impl_->file.database().exec(kVersion1Sql);
+  const int version = impl_->file.version();
+  if (version == 1) impl_->file.database().exec(kVersion1Sql);
+  if (version == 2) impl_->file.database().exec(kVersion2Sql);
 }
 Reader::~Reader() = default;
 

@@ -1,4 +1,4 @@
--- Schema of a scan record, version 1. One file holds one session of one scanner.
+-- Schema of a scan record, version 2. One file holds one session of one scanner.
 -- t_ns are nanoseconds of the session's clock. x is along the kick from the ball's centre at the launch, z over the floor.
 
 CREATE TABLE sessions (                    -- the recording, one row
@@ -54,15 +54,18 @@ CREATE TABLE verdicts (                    -- what a human said of a lob; the la
   PRIMARY KEY (session_id, seq)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE losses (                      -- what the recording missed, by stream
+CREATE TABLE losses (                      -- what the recording missed: a row of counters a stream, and one a silence
   session_id INTEGER NOT NULL,             -- sessions.session_id
-  stream TEXT NOT NULL,                    -- name of the table that the rows were for
-  received INTEGER NOT NULL,               -- rows handed to the record, refused ones included
-  lost INTEGER NOT NULL,                   -- not used by scans
-  gaps INTEGER NOT NULL,                   -- not used by scans
-  overflow INTEGER NOT NULL,               -- rows that found the record's queue full
+  stream TEXT NOT NULL,                    -- name of the table that the samples were for
+  robot_id INTEGER NOT NULL,               -- robot whose samples stayed away; 0: the counters, of all robots
+  from_t_ns INTEGER NOT NULL,              -- last sample before the silence; of the counters: start of the recording
+  to_t_ns INTEGER,                         -- first sample after it, NULL: none came; of the counters: latest sample
+  received INTEGER NOT NULL,               -- rows handed to the log, refused ones included
+  lost INTEGER NOT NULL,                   -- samples that the bus reported as lost
+  gaps INTEGER NOT NULL,                   -- sequence numbers that never arrived
+  overflow INTEGER NOT NULL,               -- rows that found the log's queue full
   nan_refused INTEGER NOT NULL,            -- rows with NaN, infinity or NULL where a number must be
-  rejected INTEGER NOT NULL,               -- rows against the schema
-  out_of_order INTEGER NOT NULL,           -- not used by scans
-  PRIMARY KEY (session_id, stream)
+  rejected INTEGER NOT NULL,               -- rows against the schema: unknown label, wrong type, same key twice
+  out_of_order INTEGER NOT NULL,           -- samples older than their predecessor
+  PRIMARY KEY (session_id, stream, robot_id, from_t_ns)
 ) STRICT, WITHOUT ROWID;

@@ -1,4 +1,4 @@
--- Schema of a match log, version 2. One file holds one session or several merged ones.
+-- Schema of a match log, version 3. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -25,10 +25,25 @@ CREATE TABLE sessions (                    -- one recording
   idl_sha256 TEXT NOT NULL,                -- texts.sha256 of the messages' definition
   arm TEXT,                                -- of an experiment; NULL: none
   kicker_table TEXT,                       -- height tables of that arm: 'new' or 'old'
-  match_id INTEGER                         -- of the experiment: where it is the same, possessions are the same situations
+  match_id INTEGER,                        -- of the experiment: where it is the same, possessions are the same situations
+  continues_uuid TEXT                      -- session that this one goes on from after its recorder ended; NULL: none
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX sessions_match ON sessions (match_id, arm);
+
+CREATE TABLE continued (                   -- the kicker driver's counters where the session ends that this one continues
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  orders_handled INTEGER NOT NULL,         -- last kicker_status.orders_handled there
+  orders_refused INTEGER NOT NULL,         -- last kicker_status.orders_refused there
+  PRIMARY KEY (session_id, robot_id)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE digests (                     -- made when a session ends, of all its rows but this one
+  session_id INTEGER NOT NULL PRIMARY KEY, -- sessions.session_id
+  row_count INTEGER NOT NULL,              -- rows that it covers
+  sha256 TEXT NOT NULL                     -- of those rows (evaluator/log/row_digest.hpp), lower case hexadecimal
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE experiments (                 -- what `trivela simulate` was asked for; none in a recorded match
   arguments_sha256 TEXT NOT NULL PRIMARY KEY, -- of arguments: a file goes on with the same ones alone
@@ -272,11 +287,14 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   kick_id INTEGER NOT NULL,                -- of the order
   accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the coil was energised
   refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
-    OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'), -- why it was refused
+    OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'
+    OR refusal = 'referee_silent'), -- why it was refused
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused
   release_t_ns INTEGER NOT NULL,           -- expected release of the ball; 0: refused
   power REAL NOT NULL,                     -- set-point given to the device
+  received_steady_ns INTEGER NOT NULL,     -- steady clock: the order was taken; 0: lockstep
+  fired_steady_ns INTEGER NOT NULL,        -- steady clock: the device was told; 0: refused, or lockstep
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -345,9 +363,12 @@ CREATE TABLE possession_truths (           -- the simulator's truth of how a bal
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE losses (                      -- what the recording missed, by stream
+CREATE TABLE losses (                      -- what the recording missed: a row of counters a stream, and one a silence
   session_id INTEGER NOT NULL,             -- sessions.session_id
   stream TEXT NOT NULL,                    -- name of the table that the samples were for
+  robot_id INTEGER NOT NULL,               -- robot whose samples stayed away; 0: the counters, of all robots
+  from_t_ns INTEGER NOT NULL,              -- last sample before the silence; of the counters: start of the recording
+  to_t_ns INTEGER,                         -- first sample after it, NULL: none came; of the counters: latest sample
   received INTEGER NOT NULL,               -- rows handed to the log, refused ones included
   lost INTEGER NOT NULL,                   -- samples that the bus reported as lost
   gaps INTEGER NOT NULL,                   -- sequence numbers that never arrived
@@ -355,7 +376,7 @@ CREATE TABLE losses (                      -- what the recording missed, by stre
   nan_refused INTEGER NOT NULL,            -- rows with NaN, infinity or NULL where a number must be
   rejected INTEGER NOT NULL,               -- rows against the schema: unknown label, wrong type, same key twice
   out_of_order INTEGER NOT NULL,           -- samples older than their predecessor
-  PRIMARY KEY (session_id, stream)
+  PRIMARY KEY (session_id, stream, robot_id, from_t_ns)
 ) STRICT, WITHOUT ROWID;
 
 -- A kick is a decision that fired; an order may be sent twice, so the latest receipt that is no answer to a repetition

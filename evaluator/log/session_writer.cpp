@@ -16,6 +16,7 @@ SessionWriter::SessionWriter(const std::filesystem::path& path, const NewLog& lo
     : kind_(log.kind),
       database_(new_file(path, log.kind, log.create)),
       session_id_(log.session_id),
+      started_t_ns_(log.started_t_ns),
       latest_t_ns_(log.started_t_ns) {
   for (const std::string& table : tables_of(*database_)) schema_[table] = *columns_of(*database_, table);
 }
@@ -111,34 +112,37 @@ GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::dequ
     sums.add(loss);
     result.counters.push_back(loss);
   }
-  write_losses(sums.all());
+  write_losses(sums.all(), latest_t_ns);
   transaction.commit();
   latest_t_ns_ = latest_t_ns;
   return result;
 }
 
-void SessionWriter::write_losses(const std::vector<Loss>& losses) {
+void SessionWriter::write_losses(const std::vector<Loss>& losses, std::int64_t latest_t_ns) {
   SQLite::Statement insert(*database_,
-                           "INSERT OR REPLACE INTO losses (session_id, stream, received, lost, gaps, overflow, "
-                           "nan_refused, rejected, out_of_order) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "INSERT OR REPLACE INTO losses (session_id, stream, robot_id, from_t_ns, to_t_ns, received, "
+                           "lost, gaps, overflow, nan_refused, rejected, out_of_order) "
+                           "VALUES (?, ?, 0, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const Loss& loss : losses) {
     insert.reset();
     insert.bind(1, session_id_);
     insert.bind(2, loss.stream);
-    insert.bind(3, loss.received);
-    insert.bind(4, loss.lost);
-    insert.bind(5, loss.gaps);
-    insert.bind(6, loss.overflow);
-    insert.bind(7, loss.nan_refused);
-    insert.bind(8, loss.rejected);
-    insert.bind(9, loss.out_of_order);
+    insert.bind(3, started_t_ns_);
+    insert.bind(4, latest_t_ns);
+    insert.bind(5, loss.received);
+    insert.bind(6, loss.lost);
+    insert.bind(7, loss.gaps);
+    insert.bind(8, loss.overflow);
+    insert.bind(9, loss.nan_refused);
+    insert.bind(10, loss.rejected);
+    insert.bind(11, loss.out_of_order);
     insert.exec();
   }
 }
 
 void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t> closed_t_ns) {
   SQLite::Transaction transaction(*database_);
-  write_losses(book.all());
+  write_losses(book.all(), latest_t_ns_);
   if (closed_t_ns) {
     SQLite::Statement close(*database_, "UPDATE sessions SET closed_t_ns = ? WHERE session_id = ?");
     close.bind(1, *closed_t_ns);

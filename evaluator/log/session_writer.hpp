@@ -69,13 +69,14 @@ class SessionWriter {
  private:
   enum class Fate { kWritten, kNan, kRejected };
   Fate insert(const Row& row, const RowTable& table, SQLite::Statement& statement);
-  void write_losses(const std::vector<Loss>& losses);
+  void write_losses(const std::vector<Loss>& losses, std::int64_t latest_t_ns);
 
   LogKind kind_;
   std::unique_ptr<SQLite::Database> database_;
   std::map<std::string, std::vector<Column>, std::less<>> schema_;  // by table
   std::vector<std::unique_ptr<SQLite::Statement>> statements_;      // by table
   std::int64_t session_id_;
+  std::int64_t started_t_ns_;
   std::int64_t latest_t_ns_;
 };
 

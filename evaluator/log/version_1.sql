@@ -1,4 +1,4 @@
--- A match log of version 1 as queries of version 2 know it: views of this connection that stand before its tables.
+-- A match log of version 1 as queries of version 3 know it: views of this connection that stand before its tables.
 -- What version 1 did not have is empty, NULL or what was true then.
 CREATE TEMP VIEW texts AS
 SELECT config_sha256 AS sha256, config_toml AS text FROM main.sessions GROUP BY config_sha256
@@ -6,7 +6,8 @@ UNION ALL
 SELECT 'idl of session ' || session_id, idl FROM main.sessions;
 
 CREATE TEMP VIEW sessions AS
-SELECT s.*, 'idl of session ' || session_id AS idl_sha256, NULL AS arm, NULL AS kicker_table, NULL AS match_id
+SELECT s.*, 'idl of session ' || session_id AS idl_sha256, NULL AS arm, NULL AS kicker_table, NULL AS match_id,
+  NULL AS continues_uuid
 FROM main.sessions AS s;
 
 CREATE TEMP VIEW experiments AS
@@ -27,3 +28,17 @@ SELECT t.*, 0 AS saved FROM main.kick_truths AS t;
 
 CREATE TEMP VIEW kicks AS
 SELECT k.*, 0 AS truth_saved FROM main.kicks AS k;
+
+CREATE TEMP VIEW continued AS
+SELECT NULL AS session_id, NULL AS robot_id, NULL AS orders_handled, NULL AS orders_refused WHERE 0;
+
+CREATE TEMP VIEW digests AS
+SELECT NULL AS session_id, NULL AS row_count, NULL AS sha256 WHERE 0;
+
+CREATE TEMP VIEW kick_receipts AS
+SELECT r.*, 0 AS received_steady_ns, 0 AS fired_steady_ns FROM main.kick_receipts AS r;
+
+CREATE TEMP VIEW losses AS
+SELECT l.*, 0 AS robot_id, (SELECT started_t_ns FROM main.sessions AS s WHERE s.session_id = l.session_id) AS from_t_ns,
+  NULL AS to_t_ns
+FROM main.losses AS l;

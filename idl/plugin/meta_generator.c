@@ -122,6 +122,7 @@ static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const
   if (!type->nested.value) {
     const char* topic = annotation_text(&type->node, "topic_name");
     const char* profile = annotation_text(&type->node, "profile");
+    const char* period = annotation_text(&type->node, "period");
     if (topic == NULL || profile == NULL || *profile == '\0') {
       idl_error(pstate, idl_location(node), "%s needs @topic_name and @profile, or @nested", idl_identifier(node));
       return IDL_RETCODE_SEMANTIC_ERROR;
@@ -129,6 +130,7 @@ static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const
     fprintf(out, "  static constexpr std::string_view topic = \"%s\";\n", topic);
     fprintf(out, "  static constexpr Profile profile = Profile::k%c%s;\n", toupper((unsigned char)profile[0]),
             profile + 1);
+    fprintf(out, "  static constexpr double period_s = %s;\n", period ? period : "0");
     fputs("  static const dds_topic_descriptor_t& descriptor() { return ", out);
     print_c_name(out, node);
     fputs("_desc; }\n", out);

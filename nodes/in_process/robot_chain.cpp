@@ -35,7 +35,8 @@ const CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::R
   const std::span<const double> speeds{wheels.wheel_radps.data(), static_cast<std::size_t>(wheels.wheel_count)};
   const auto estimate = odometry_.update(wheels.t_ns, speeds, wheels.gyro_radps);
   if (!estimate) return nullptr;
-  status_ = desk_.status(kicker_sample(sensors), referee.playing);
+  status_ =
+      desk_.status(kicker_sample(sensors), referee.playing ? RefereeSays::kPlay : RefereeSays::kStop, sensors.t_ns);
   const msg::VisionFrame frame = vision_message(sensors.t_ns, sensors.vision);
   world_ = model_.update(odometry_message(wheels, *estimate), &frame, &referee);
   world_.robot_id = robot_id_;

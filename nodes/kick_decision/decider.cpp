@@ -1,5 +1,6 @@
 #include "nodes/kick_decision/decider.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <new>
@@ -60,10 +61,11 @@ void Decider::begin_half(std::uint8_t half) {
 }
 
 const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
-                                     const std::optional<msg::KickOutcome>& outcome,
-                                     const kicking::PolicyInput* truth) {
+                                     const std::optional<msg::KickOutcome>& outcome, const kicking::PolicyInput* truth,
+                                     double world_age_s) {
   begin_half(world.half);
   kicking::PolicyInput input = policy_input(world, kicker);
+  input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
   if (const auto seen = last_kick(outcome)) input.last_kick = seen;
   const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
   // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.

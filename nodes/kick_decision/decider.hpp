@@ -43,11 +43,11 @@ class Decider {
           std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
 
   /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
-  /// was seen, if any. `truth`: what the oracle is told where it may be in charge. The reference holds until the next
-  /// call.
+  /// was seen, if any. `truth`: what the oracle is told where it may be in charge. `world_age_s`: how long ago `world`
+  /// held, in real time. The reference holds until the next call.
   const CycleDecision& decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
                               const std::optional<msg::KickOutcome>& outcome,
-                              const kicking::PolicyInput* truth = nullptr);
+                              const kicking::PolicyInput* truth = nullptr, double world_age_s = 0.0);
 
   /// The record of the last decide(), which was given these. Its seq counts the cycles with the ball.
   msg::KickDecision record(const msg::WorldState& world, const msg::KickerStatus* kicker) const;

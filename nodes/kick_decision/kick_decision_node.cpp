@@ -48,7 +48,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   stay_alive();
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
-  const CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker));
+  const CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
   if (decision.order) {
     order_out_.write(*decision.order);
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
@@ -58,6 +58,11 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
   drive(world, decision.in_charge.judgement);
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+}
+
+/// What waited for this process to go on is old: nothing is decided on it.
+double KickDecisionNode::age_s(const msg::WorldState& world) const {
+  return context_.settings.run.lockstep ? 0.0 : kicking::seconds(context_.steady_ns() - world.t_ns);
 }
 
 /// The next possession begins a second after a kick, when its outcome has long been told; in lockstep, where a second

@@ -18,6 +18,7 @@ class KickDecisionNode {
 
  private:
   void on_world(const msg::WorldState& world);
+  double age_s(const msg::WorldState& world) const;
   std::optional<msg::KickOutcome> outcome(const msg::WorldState& world, const msg::KickerStatus* kicker);
   void drive(const msg::WorldState& world, const kicking::Judgement& judgement);
   void stay_alive();

@@ -1,5 +1,7 @@
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 
+#include <cmath>
+
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -11,7 +13,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
       step_done_(step_done_writer(context, node_)),
-      referee_(node_.stores<msg::Referee>()),
+      referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, receipt_out_, "kicker_driver");
   node_.on_device(
@@ -22,24 +24,25 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
       bus::writes<msg::KickerStatus, msg::KickReceipt, msg::SimFire, msg::StepDone>());
-  // In lockstep the word of a cycle comes with its sample, when no order's instant lies ahead.
-  if (!context_.settings.run.lockstep)
+  bus::ReaderOptions orders, words;
+  if (context_.settings.run.lockstep) {
+    // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
+    referee_of_cycle_ = node_.stores<msg::Referee>();
+  } else {
+    words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
-                           bus::writes<msg::KickReceipt, msg::SimFire>());
-  bus::ReaderOptions orders;
-  // In lockstep a cycle takes as long as it takes.
-  if (!context_.settings.run.lockstep)
+                           bus::writes<msg::KickReceipt, msg::SimFire>(), words);
     orders.on_liveliness = [logger = context_.logger](const bus::Liveliness& writers) {
       if (writers.alive == 0 && writers.lapsed > 0) logger->warn("the decision loop is silent: no order comes");
     };
+  }
   node_.on<msg::KickOrder>([this](const msg::KickOrder& order) { on_order(order); },
                            bus::writes<msg::KickReceipt, msg::SimFire, msg::StepDone>(), orders);
 }
 
-/// The clock of the device's samples; between two of them real time goes on, but not in lockstep.
+/// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.
 std::int64_t KickerDriverNode::now_t_ns() const {
-  if (context_.settings.run.lockstep) return sample_t_ns_;
-  return sample_t_ns_ + std::chrono::nanoseconds{std::chrono::steady_clock::now() - sampled_}.count();
+  return context_.settings.run.lockstep ? sample_t_ns_ : context_.steady_ns();
 }
 
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
@@ -49,19 +52,40 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
     const bool scans = context_.settings.scan_recorder.enabled;
     expect_readers(receipt_out_, scans ? 3 : 2);  // shot_observer, recorder, scan_recorder
   });
-  const auto referee = input_of_cycle(context_, *referee_, sample.t_ns);
+  std::optional<msg::Referee> word;
+  if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
-  sampled_ = std::chrono::steady_clock::now();
-  status_out_.write(desk_.status(sample, referee && referee->playing));
+  check_clock(sample);
+  status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
   withdraw();
   report_done(sample.t_ns);
 }
 
+/// In lockstep the cycle's word; in real time the last one, for as long as it counts.
+RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
+  if (referee_of_cycle_) return word_of_cycle && word_of_cycle->playing ? RefereeSays::kPlay : RefereeSays::kStop;
+  const std::int64_t now_ns = now_t_ns();
+  if (const auto news = referee_.news(now_ns)) context_.logger->warn(*news);
+  return referee_.says(now_ns);
+}
+
+/// A sample that is not of the steady clock would make every order stale without saying why.
+void KickerDriverNode::check_clock(const hal::KickerSample& sample) {
+  constexpr double kAnotherClock_s = 10.0;  // no stall of ours is as long
+  const double off_s = kicking::seconds(now_t_ns() - sample.t_ns);
+  const bool differs = !context_.settings.run.lockstep && std::abs(off_s) > kAnotherClock_s;
+  if (differs && !clock_differs_)
+    context_.logger->error("the kicker's samples are {:.0f} s off this machine's steady clock: nothing will be fired",
+                           off_s);
+  clock_differs_ = differs;
+}
+
 void KickerDriverNode::on_referee(const msg::Referee& word) {
-  if (word.playing) return;
   const std::lock_guard lock{mutex_};
-  desk_.stop();
+  referee_.heard(word, now_t_ns());
+  if (word.playing) return;
+  desk_.referee(RefereeSays::kStop);
   withdraw();
 }
 
@@ -75,10 +99,15 @@ void KickerDriverNode::withdraw() {
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order) {
+  const bool real_time = !context_.settings.run.lockstep;
+  const std::int64_t received_ns = real_time ? context_.steady_ns() : 0;
   const std::lock_guard lock{mutex_};
-  const msg::KickReceipt receipt = desk_.answer(order, now_t_ns());
+  if (real_time) desk_.referee(referee_says({}));
+  msg::KickReceipt receipt = desk_.answer(order, now_t_ns());
+  receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
     kicker_->fire(receipt.kick_id, receipt.power, receipt.fired_t_ns);
+    if (real_time) receipt.fired_steady_ns = context_.steady_ns();
     context_.logger->info("kick {} fired with power {:.2f}", order.kick_id, order.power);
   } else {
     context_.logger->warn("kick {} refused: {}", order.kick_id, bus::label(receipt.refusal));

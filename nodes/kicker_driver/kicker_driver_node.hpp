@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,7 +13,8 @@ namespace trivela::nodes {
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
 /// the OrderDesk accepts the order. An order may be fired up to a cycle after it was judged: the device has it and
 /// waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the kick
-/// is called off and a second receipt says so. Leaving, by whichever way, makes the device safe.
+/// is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game. Leaving,
+/// by whichever way, makes the device safe.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
@@ -26,6 +26,8 @@ class KickerDriverNode {
   void on_referee(const msg::Referee& word);
   void withdraw();
   std::int64_t now_t_ns() const;
+  RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
+  void check_clock(const hal::KickerSample& sample);
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
@@ -33,12 +35,13 @@ class KickerDriverNode {
   std::unique_ptr<hal::Kicker> kicker_;
   OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
-  std::chrono::steady_clock::time_point sampled_{};
+  bool clock_differs_ = false;
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
-  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
+  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
+  RefereeWatch referee_;                                          // real time
   FirstCycle first_;
 };
 

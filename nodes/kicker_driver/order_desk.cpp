@@ -17,16 +17,16 @@ OrderDesk::OrderDesk(const config::Settings& settings, const kicking::RobotModel
       delay_ns_(static_cast<std::int64_t>(model.delay_s * 1e9)),
       robot_id_(robot_id) {}
 
-msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, bool playing) {
+msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
   gate_.device(sample);
-  gate_.playing(playing);
+  gate_.referee(says);
   msg::KickerStatus out{};
   out.robot_id = robot_id_;
   out.seq = ++statuses_;
   out.t_ns = sample.t_ns;
   out.charge = sample.charge;
   out.armed = gate_.armed();
-  out.ready = gate_.ready(sample.t_ns);
+  out.ready = gate_.ready(now_t_ns);
   out.fault = static_cast<msg::KickerFault>(sample.fault);
   out.last_kick_id = gate_.last_kick_id();
   out.last_accepted = gate_.last_accepted();

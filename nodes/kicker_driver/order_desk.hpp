@@ -12,22 +12,23 @@
 namespace trivela::nodes {
 
 /// The kicker's driver without bus and device: samples and the referee's word in, statuses out; orders in, receipts
-/// out. Whoever owns it fires what it accepts.
+/// out. Whoever owns it fires what it accepts. Every now_t_ns is of the clock that the samples' and orders' t_ns are
+/// of, and never falls behind it: the steady clock, in lockstep the sample's.
 class OrderDesk {
  public:
   OrderDesk(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id);
 
-  msg::KickerStatus status(const hal::KickerSample& sample, bool playing);
+  msg::KickerStatus status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns);
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
-  /// now or the order's own instant if that lies ahead.
+  /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
   msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns);
 
-  /// The referee has stopped the game: known at once, not with the next sample.
-  void stop() { gate_.playing(false); }
+  /// What the referee's word permits by now.
+  void referee(RefereeSays says) { gate_.referee(says); }
 
   /// A second receipt, which refuses an accepted order after all: its instant lies ahead, and by now the game stands or
-  /// the device is not well. The device is to be told. To be asked after every status() and stop().
+  /// the device is not well. The device is to be told. To be asked after every status() and referee().
   std::optional<msg::KickReceipt> withdrawal(std::int64_t now_t_ns);
 
   std::uint32_t handled() const { return gate_.handled(); }

@@ -13,35 +13,60 @@ double seconds_from(std::int64_t from_t_ns, std::int64_t to_t_ns) {
   return (static_cast<double>(to_t_ns) - static_cast<double>(from_t_ns)) * 1e-9;
 }
 
+/// The same wish, whenever it was sent.
+bool same(const msg::KickOrder& a, const msg::KickOrder& b) {
+  const bool same_power = a.power == b.power || (std::isnan(a.power) && std::isnan(b.power));
+  return a.kick_id == b.kick_id && a.t_ns == b.t_ns && same_power && a.fire_t_ns == b.fire_t_ns &&
+         a.valid_until_t_ns == b.valid_until_t_ns;
+}
+
 }  // namespace
 
 bool OrderGate::sound(std::int64_t now_t_ns) const {
-  return sample_ && sample_->fault == hal::KickerFault::kNone &&
-         seconds_from(sample_->t_ns, now_t_ns) <= settings_.link_timeout_s;
+  if (!sample_ || sample_->fault != hal::KickerFault::kNone) return false;
+  const double age_s = seconds_from(sample_->t_ns, now_t_ns);
+  return age_s <= settings_.link_timeout_s && age_s >= -settings_.future_tolerance_s;
 }
 
 bool OrderGate::rested(std::int64_t now_t_ns) const {
   return !last_fire_t_ns_ || seconds_from(*last_fire_t_ns_, now_t_ns) >= settings_.min_interval_s;
 }
 
-bool OrderGate::answered(std::int64_t kick_id) const {
-  return std::find(answered_.begin(), answered_.end(), kick_id) != answered_.end();
+bool OrderGate::known(const msg::KickOrder& order) const {
+  return std::ranges::find(accepted_ids_, order.kick_id) != accepted_ids_.end() ||
+         std::ranges::any_of(refused_orders_, [&](const msg::KickOrder& refused) { return same(refused, order); });
+}
+
+void OrderGate::remember(const msg::KickOrder& order, bool accepted) {
+  if (accepted) {
+    accepted_ids_[oldest_accepted_] = order.kick_id;
+    oldest_accepted_ = (oldest_accepted_ + 1) % kRemembered;
+  } else if (!known(order)) {
+    refused_orders_[oldest_refused_] = order;
+    oldest_refused_ = (oldest_refused_ + 1) % kRemembered;
+  }
 }
 
 bool OrderGate::ready(std::int64_t now_t_ns) const {
   return sound(now_t_ns) && armed() && rested(now_t_ns) && charged();
 }
 
+msg::Refusal OrderGate::disarmed() const {
+  const bool switched_on = sample_ && sample_->armed;
+  return switched_on && referee_ == RefereeSays::kSilent ? msg::REFUSAL_REFEREE_SILENT : msg::REFUSAL_UNARMED;
+}
+
 msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns) const {
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
-  if (!std::isfinite(order.power) || order.power < power_.min || order.power > power_.max)
+  if (!std::isfinite(order.power) || order.power < power_.min || order.power > power_.max || order.kick_id <= 0)
     return msg::REFUSAL_OUT_OF_RANGE;
-  if (!armed()) return msg::REFUSAL_UNARMED;
+  if (!armed()) return disarmed();
+  if (seconds_from(order.t_ns, now_t_ns) > settings_.max_order_age_s) return msg::REFUSAL_STALE;
   const double ahead_s = seconds_from(now_t_ns, std::max(order.t_ns, order.fire_t_ns));
   if (now_t_ns > order.valid_until_t_ns || ahead_s > settings_.future_tolerance_s) return msg::REFUSAL_STALE;
   const double after_s = seconds_from(order.t_ns, order.fire_t_ns);
   if (!(after_s >= 0.0 && after_s <= cycle_s_ + kClockStep_s)) return msg::REFUSAL_STALE;
-  if (answered(order.kick_id) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
+  if (known(order) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
   if (!charged()) return msg::REFUSAL_CHARGING;
   return msg::REFUSAL_NONE;
 }
@@ -49,10 +74,7 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
 msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns) {
   const msg::Refusal refusal = reason(order, now_t_ns);
   ++handled_;
-  if (!answered(order.kick_id)) {
-    answered_[oldest_] = order.kick_id;
-    oldest_ = (oldest_ + 1) % kRemembered;
-  }
+  remember(order, refusal == msg::REFUSAL_NONE);
   last_kick_id_ = order.kick_id;
   last_accepted_ = refusal == msg::REFUSAL_NONE;
   if (last_accepted_) {
@@ -68,7 +90,7 @@ msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns
 std::optional<OrderGate::Withdrawal> OrderGate::withdraw(std::int64_t now_t_ns) {
   if (!accepted_ || accepted_->fire_t_ns <= now_t_ns || (sound(now_t_ns) && armed())) return std::nullopt;
   const Withdrawal withdrawal{accepted_->kick_id, accepted_->order_t_ns,
-                              sound(now_t_ns) ? msg::REFUSAL_UNARMED : msg::REFUSAL_FAULT};
+                              sound(now_t_ns) ? disarmed() : msg::REFUSAL_FAULT};
   last_fire_t_ns_ = accepted_->fire_before_t_ns;
   if (last_kick_id_ == accepted_->kick_id) last_accepted_ = false;
   ++refused_;

@@ -1,5 +1,8 @@
 #include "nodes/odometry/odometry_node.hpp"
 
+#include <cmath>
+
+#include "kicking/geometry/time.hpp"
 #include "nodes/odometry/odometry_message.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -28,6 +31,7 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
   }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
+  if (!sample) stop_without_commands();
   if (!sample && context_.settings.run.lockstep) cycle_over_.release();
   return sample;
 }
@@ -47,26 +51,32 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   out.robot_id = context_.robot_id();
   out.seq = ++seq_;
   odometry_out_.write(out);
-  stop_without_commands(sample.t_ns);
+  stop_without_commands();
 }
 
 /// A robot that nobody drives any more stands still. In lockstep the next command is waited for instead.
-void OdometryNode::stop_without_commands(std::int64_t t_ns) {
+void OdometryNode::stop_without_commands() {
   if (context_.settings.run.lockstep) return;
   const std::lock_guard lock{drive_mutex_};
-  const double silence_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - commanded_}.count();
+  const std::int64_t now_ns = context_.steady_ns();
+  const double silence_s = kicking::seconds(now_ns - commanded_t_ns_);
   if (!driving_ || silence_s <= context_.settings.odometry.drive_timeout_s) return;
   driving_ = false;
-  wheels_->drive({}, t_ns);
+  wheels_->drive({}, now_ns);
   context_.logger->warn("no drive command for {:.2f} s: the base stops", silence_s);
 }
 
 void OdometryNode::on_drive(const msg::DriveCommand& command) {
   {
     const std::lock_guard lock{drive_mutex_};
-    commanded_ = std::chrono::steady_clock::now();
-    driving_ = true;
-    wheels_->drive({command.vx_mps, command.vy_mps, command.omega_radps}, command.t_ns);
+    const bool real_time = !context_.settings.run.lockstep;
+    const std::int64_t now_ns = real_time ? context_.steady_ns() : command.t_ns;
+    // One that waited for this process to go on is of a moment that has passed.
+    if (std::abs(kicking::seconds(now_ns - command.t_ns)) <= context_.settings.odometry.drive_timeout_s) {
+      commanded_t_ns_ = command.t_ns;
+      driving_ = true;
+      wheels_->drive({command.vx_mps, command.vy_mps, command.omega_radps}, command.t_ns);
+    }
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_ODOMETRY, command.t_ns);
   if (context_.settings.run.lockstep) cycle_over_.release();

@@ -11,7 +11,7 @@
 namespace trivela::nodes {
 
 /// Owns the base: wheel samples in, Odometry out; DriveCommand in, set-points to the wheels. Without commands for
-/// odometry.drive_timeout_s the base stops.
+/// odometry.drive_timeout_s the base stops, whether or not its wheels say anything; a command that is older is none.
 class OdometryNode {
  public:
   OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels);
@@ -20,7 +20,7 @@ class OdometryNode {
  private:
   std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
   void on_wheels(const hal::WheelSample& sample);
-  void stop_without_commands(std::int64_t t_ns);
+  void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
 
   NodeContext& context_;
@@ -33,7 +33,7 @@ class OdometryNode {
   std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
   std::mutex drive_mutex_;  // device thread and drive reaction
-  std::chrono::steady_clock::time_point commanded_{};
+  std::int64_t commanded_t_ns_ = 0;
   bool driving_ = false;
 };
 

@@ -15,9 +15,9 @@ evaluator::log::Session session_of(const NodeContext& context) {
   const bool simulated = settings.run.lockstep || settings.hal.wheels == "sim";
   evaluator::log::Session session;
   session.simulated = simulated;
-  session.simulated_clock = simulated;
+  session.simulated_clock = settings.run.lockstep;
   const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
-  if (!simulated) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
+  if (!session.simulated_clock) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = realtime_ns - session.started_t_ns;
   std::optional<sim::Scenario> scenario;
   if (settings.hal.wheels == "replay") {

@@ -3,6 +3,8 @@
 #include <spdlog/logger.h>
 
 #include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,6 +15,7 @@
 #include "bus/stop.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
+#include "nodes/runtime/now_ns.hpp"
 
 namespace trivela::nodes {
 
@@ -23,6 +26,8 @@ struct NodeContext {
   bus::Participant participant;
   std::shared_ptr<spdlog::logger> logger;
   bus::Stop& stop;
+  /// This machine's steady clock, which every t_ns of real time is of [ns]; another one in tests.
+  std::function<std::int64_t()> steady_ns = [] { return now_ns(std::chrono::steady_clock::now()); };
 
   std::uint8_t robot_id() const { return static_cast<std::uint8_t>(settings.run.robot_id); }
   std::chrono::nanoseconds cycle() const;

@@ -4,8 +4,11 @@
 #include <poll.h>
 
 #include <stdexcept>
+#include <string_view>
+#include <type_traits>
 
 #include "config/scenario.hpp"
+#include "kicking/geometry/time.hpp"
 #include "nodes/simulator/sim_messages.hpp"
 #include "sim/laser/field_laser.hpp"
 
@@ -61,7 +64,7 @@ SimulatorNode::SimulatorNode(NodeContext& context)
 
 void SimulatorNode::run() {
   if (context_.settings.run.lockstep && !nodes_are_here()) return;
-  started_ = std::chrono::steady_clock::now();
+  if (!context_.settings.run.lockstep) started_ns_ = context_.steady_ns();
   while (!match_.done()) {
     const sim::Sensors sensors = match_.sense();
     t_ns_ = sensors.t_ns;
@@ -94,6 +97,11 @@ template <class T>
 void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) {
   message.robot_id = context_.robot_id();
   message.seq = seq;
+  bus::visit_fields(message, [this](std::string_view name, std::string_view, auto& field) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, std::int64_t>) {
+      if (name.ends_with("_ns")) field += started_ns_;  // an instant of the world
+    }
+  });
   writer.write(message);
 }
 
@@ -116,14 +124,11 @@ void SimulatorNode::publish_scans(const sim::Sensors& sensors) {
 
 bool SimulatorNode::await_cycle(std::int64_t t_ns) {
   if (context_.settings.run.lockstep) return barrier_.wait_for(t_ns, context_.stop);
-  const auto until = started_ + std::chrono::nanoseconds{t_ns} + context_.cycle();
+  const std::int64_t until_ns = started_ns_ + t_ns + context_.cycle().count();
   pollfd stop{context_.stop.file_descriptor(), POLLIN, 0};
-  const auto left = until - std::chrono::steady_clock::now();
+  const std::int64_t left_ns = until_ns - context_.steady_ns();
   timespec timeout{};
-  if (left > left.zero()) {
-    timeout.tv_sec = std::chrono::duration_cast<std::chrono::seconds>(left).count();
-    timeout.tv_nsec = std::chrono::nanoseconds{left}.count() % 1'000'000'000;
-  }
+  if (left_ns > 0) timeout = {left_ns / 1'000'000'000, left_ns % 1'000'000'000};
   ppoll(&stop, 1, &timeout, nullptr);
   return !context_.stop.requested();
 }
@@ -133,12 +138,7 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
-      if (fire.withdrawn) {
-        if (out.fire && out.fire->kick_id == fire.kick_id) out.fire.reset();
-        return;
-      }
-      out.fire = sim::Fire{fire.t_ns, fire.kick_id, fire.power};
-      ++fires_;
+      order(fire, out);
     });
     return fires_ >= barrier_.fires();
   };
@@ -150,11 +150,35 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
         !ready_before_stop(context_.stop, fired, "a kick has not reached the simulator"))
       return std::nullopt;
   } else {
-    drive = drive_.latest();
+    drive = fresh_drive();
     take_fires();
   }
   if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
   return out;
+}
+
+/// What the simulated kicker does with the driver's word.
+void SimulatorNode::order(const msg::SimFire& fire, sim::Commands& out) {
+  constexpr double kLate_s = 0.05;
+  if (fire.withdrawn) {
+    if (out.fire && out.fire->kick_id == fire.kick_id) out.fire.reset();
+    return;
+  }
+  ++fires_;
+  const std::int64_t fire_t_ns = fire.t_ns - started_ns_;
+  const double late_s = kicking::seconds(t_ns_ - fire_t_ns);
+  if (!context_.settings.run.lockstep && late_s > kLate_s) {
+    context_.logger->warn("kick {} reached the coil {:.3f} s after its instant: not fired", fire.kick_id, late_s);
+    return;
+  }
+  out.fire = sim::Fire{fire_t_ns, fire.kick_id, fire.power};
+}
+
+std::optional<msg::SimDrive> SimulatorNode::fresh_drive() {
+  const auto drive = drive_.latest();
+  const bool fresh =
+      drive && kicking::seconds(started_ns_ + t_ns_ - drive->t_ns) <= context_.settings.odometry.drive_timeout_s;
+  return fresh ? drive : std::nullopt;
 }
 
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {

@@ -10,7 +10,10 @@
 namespace trivela::nodes {
 
 /// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer, otherwise in
-/// real time.
+/// real time. The world's time begins at 0. In lockstep it is every t_ns on the bus; in real time those are of the
+/// steady clock, so that a simulator that is started anew goes on where the nodes are. A fire that reaches the
+/// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
+/// the base stands.
 class SimulatorNode {
  public:
   explicit SimulatorNode(NodeContext& context);
@@ -33,6 +36,8 @@ class SimulatorNode {
 
   template <class T>
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
+  void order(const msg::SimFire& fire, sim::Commands& out);
+  std::optional<msg::SimDrive> fresh_drive();
 
   NodeContext& context_;
   sim::Scenario scenario_;
@@ -54,7 +59,7 @@ class SimulatorNode {
   std::uint64_t kicks_ = 0;
   std::uint64_t possessions_ = 0;
   std::uint64_t scans_ = 0;
-  std::chrono::steady_clock::time_point started_{};
+  std::int64_t started_ns_ = 0;  // on the steady clock; 0 in lockstep
   ProgressLine progress_;
 };
 

@@ -37,4 +37,11 @@ void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::
   }
 }
 
+void BallFilter::silence(double silence_s) {
+  if (silence_s > settings_.ball_forget_s) position_m_.reset();
+  if (silence_s <= settings_.possession_forget_s) return;
+  possession_ = false;
+  differs_since_ns_.reset();
+}
+
 }  // namespace trivela::nodes

@@ -23,6 +23,9 @@ class BallFilter {
   /// One frame; nullopt when the ball was not seen.
   void observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m);
 
+  /// No frame has come since the last one for silence_s: what was not seen is forgotten by the same limits.
+  void silence(double silence_s);
+
   /// Position in R at the last exposure; nullopt when unknown.
   const std::optional<Eigen::Vector2d>& position_m() const { return position_m_; }
 

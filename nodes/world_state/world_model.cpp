@@ -77,7 +77,10 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
     pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
                   odometry.var_heading_rad2);
   }
-  if (frame) vision(*frame);
+  if (frame) {
+    vision(*frame);
+    ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
+  }
   msg::WorldState out{};
   out.t_ns = odometry.t_ns;
   out.half = referee ? referee->half : 0;

@@ -8,7 +8,11 @@ WorldStateNode::WorldStateNode(NodeContext& context)
       node_(context.participant, "world_state", context.robot_id()),
       world_out_(node_.writer<msg::WorldState>()),
       vision_(node_.stores<msg::VisionFrame>()),
-      referee_(node_.stores<msg::Referee>()),
+      referee_watch_(context.settings.run.referee_timeout_s),
+      referee_(node_.stores<msg::Referee>(
+          {.period = {},
+           .keep_all = false,
+           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers); }})),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");
   node_.on<msg::Odometry>([this](const msg::Odometry& odometry) { on_odometry(odometry); },
@@ -20,11 +24,22 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
     expect_readers(world_out_, 2);  // kick_decision, recorder
   });
   const auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
-  const auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
+  auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
+  if (!context_.settings.run.lockstep) trust_no_silence(referee);
   msg::WorldState world = model_.update(odometry, frame ? &*frame : nullptr, referee ? &*referee : nullptr);
   world.robot_id = context_.robot_id();
   world.seq = ++seq_;
   world_out_.write(world);
+}
+
+/// In real time the word is the last one that came, however long ago.
+void WorldStateNode::trust_no_silence(std::optional<msg::Referee>& word) {
+  if (!word) return;
+  const std::int64_t now_ns = context_.steady_ns();
+  if (!heard_ || heard_->seq != word->seq || heard_->t_ns != word->t_ns) referee_watch_.heard(*word, now_ns);
+  heard_ = word;
+  if (const auto news = referee_watch_.news(now_ns)) context_.logger->warn(*news);
+  word->playing = referee_watch_.says(now_ns) == RefereeSays::kPlay;
 }
 
 }  // namespace trivela::nodes

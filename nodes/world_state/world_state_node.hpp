@@ -1,11 +1,13 @@
 #pragma once
 
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/referee_watch.hpp"
 #include "nodes/world_state/world_model.hpp"
 
 namespace trivela::nodes {
 
-/// Odometry in, with the newest vision frame and the referee's word; WorldState out.
+/// Odometry in, with the newest vision frame and the referee's word; WorldState out. Nobody plays by the word of a
+/// referee who has fallen silent.
 class WorldStateNode {
  public:
   explicit WorldStateNode(NodeContext& context);
@@ -13,13 +15,16 @@ class WorldStateNode {
 
  private:
   void on_odometry(const msg::Odometry& odometry);
+  void trust_no_silence(std::optional<msg::Referee>& word);
 
   NodeContext& context_;
   WorldModel model_;
   bus::Node node_;
   bus::Output<msg::WorldState> world_out_;
   std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;
+  RefereeWatch referee_watch_;  // real time
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
+  std::optional<msg::Referee> heard_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;
 };

@@ -37,8 +37,9 @@ class DriveLog : public LogTest {
                                          "target_y_m", "target_z_m",    "distance_m",   "alpha_rad",
                                          "beta_rad",   "aligned",       "left_m",       "right_m",
                                          "charge",     "shadow_count",  "fire_after_s", "assignment_probability"});
-    receipts_ = writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
-                                                "order_t_ns", "fired_t_ns", "release_t_ns", "power"});
+    receipts_ = writer_.table("kick_receipts",
+                              {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
+                               "release_t_ns", "power", "received_steady_ns", "fired_steady_ns"});
     outcomes_ = writer_.table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
                                                 "x_cross_m", "z_cross_m", "observations"});
     truths_ = writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
@@ -62,8 +63,8 @@ class DriveLog : public LogTest {
                               Int{1},       0.3,          0.3,
                               1.0,          Int{0},       0.0,
                               1.0});
-    writer_.push(receipts_,
-                 {Int{1}, ++seq_, t_ns, id, Int{accepted}, accepted ? "none" : "charging", t_ns, t_ns, t_ns, kPower});
+    writer_.push(receipts_, {Int{1}, ++seq_, t_ns, id, Int{accepted}, accepted ? "none" : "charging", t_ns, t_ns, t_ns,
+                             kPower, Int{0}, Int{0}});
     const auto cell = [](const std::optional<double>& value) { return value ? log::Value(*value) : log::Value(); };
     writer_.push(outcomes_, {Int{1}, ++seq_, t_ns, id, "wide_left", Int{0}, cell(x_cross_m), cell(z_cross_m), Int{9}});
     writer_.push(truths_, {Int{1}, ++seq_, t_ns, id, Int{1}, id, "on_target", 77.0, 77.0, t_ns, 0.0, 0.0, 0.0, 0.0, 0.0,

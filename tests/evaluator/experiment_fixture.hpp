@@ -35,8 +35,9 @@ class TestExperiment {
                                                  "aligned",     "left_m",       "right_m",
                                                  "charge",      "fire_after_s", "assignment_probability",
                                                  "shadow_count"})),
-        receipts_(log_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
-                                               "order_t_ns", "fired_t_ns", "release_t_ns", "power"})),
+        receipts_(log_.table("kick_receipts",
+                             {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
+                              "release_t_ns", "received_steady_ns", "fired_steady_ns", "power"})),
         outcomes_(log_.table("kick_outcomes",
                              {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
         truths_(log_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
@@ -92,7 +93,7 @@ class TestExperiment {
     if (!kick) return;
     const Int kick_id = seq_;
     decision(half, id, policy, probability, kick->distance_m, kick_id);
-    row(receipts_, {Int{1}, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns}, {20.0});
+    row(receipts_, {Int{1}, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
     if (!kick->observed.empty()) {
       row(outcomes_, {Int{1}, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
     }

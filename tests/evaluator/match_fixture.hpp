@@ -25,8 +25,9 @@ class MatchLog {
                                              "charge",     "shadow_count",  "fire_after_s", "assignment_probability"})),
         orders_(writer_.table("kick_orders",
                               {"robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"})),
-        receipts_(writer_.table("kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal",
-                                                  "order_t_ns", "fired_t_ns", "release_t_ns", "power"})),
+        receipts_(writer_.table(
+            "kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
+                              "release_t_ns", "power", "received_steady_ns", "fired_steady_ns"})),
         outcomes_(writer_.table("kick_outcomes",
                                 {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
         truths_(writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
@@ -51,8 +52,8 @@ class MatchLog {
   void order(Int kick_id) { writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40}); }
 
   void receipt(Int kick_id, const std::string& refusal = "none") {
-    writer_.push(receipts_,
-                 {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none"}, refusal, t_ns(), t_ns(), t_ns(), 20.0});
+    writer_.push(receipts_, {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none"}, refusal, t_ns(), t_ns(), t_ns(),
+                             20.0, Int{0}, Int{0}});
   }
 
   void outcome(Int kick_id, const std::string& label) {

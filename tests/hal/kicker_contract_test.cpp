@@ -1,6 +1,8 @@
 // What every backend of Kicker promises, run over each of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/sim/sim_kicker.hpp"
 #include "tests/hal/recorded_log.hpp"
@@ -116,6 +118,24 @@ TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_FALSE(kicker.read(milliseconds(20)));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+/// A process that stood still finds what came meanwhile: each sample still of the instant at which the device took it.
+TYPED_TEST(KickerContract, ASampleThatWaitedKeepsItsInstant) {
+  auto& kicker = *this->rig_.device;
+  for (std::size_t i = 0; i < kSaid.size(); ++i) this->rig_.say(i);
+  std::int64_t last_t_ns = 0;
+  while (last_t_ns < kSaid.back().t_ns) {
+    const auto sample = kicker.read(kPlenty);
+    ASSERT_TRUE(sample);
+    const auto said = std::ranges::find(kSaid, sample->t_ns, &KickerSample::t_ns);
+    ASSERT_NE(said, kSaid.end()) << sample->t_ns << " is no instant of the device";
+    EXPECT_EQ(sample->charge, said->charge);
+    EXPECT_GT(sample->t_ns, last_t_ns);
+    last_t_ns = sample->t_ns;
+  }
+  kicker.fire(11, 22.5, kSaid.front().t_ns);  // the driver's word waited, too
+  EXPECT_EQ(this->rig_.energised(), (std::vector<Fired>{{11, 22.5, kSaid.front().t_ns}})) << "the device sees its age";
 }
 
 TYPED_TEST(KickerContract, FiresAtAnyTime) {

@@ -38,6 +38,7 @@ class KickDecisionNodeTest : public NodeTest {
   msg::DriveCommand cycle(msg::WorldState state, bool ready = true, std::int64_t status_age_ns = 0) {
     msg::KickerStatus status{};
     state.t_ns = t_ns;
+    clock_ns = t_ns + world_age_ns;
     status.t_ns = t_ns - status_age_ns;
     status.ready = ready;
     status.charge = 0.97;
@@ -48,6 +49,7 @@ class KickDecisionNodeTest : public NodeTest {
   }
 
   std::int64_t t_ns = 1'000'000'000;
+  std::int64_t world_age_ns = 0;
   std::size_t cycles = 0;
   Heard<msg::KickDecision> decision{participant};
   Heard<msg::KickOrder> order{participant};
@@ -66,7 +68,7 @@ TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
   EXPECT_EQ(sent.seq, 1u);
   EXPECT_EQ(sent.t_ns, 1'000'000'000);
   EXPECT_EQ(sent.fire_t_ns, sent.t_ns);
-  EXPECT_EQ(sent.valid_until_t_ns, sent.t_ns + 1000'000'000'000);
+  EXPECT_EQ(sent.valid_until_t_ns, sent.t_ns + 50'000'000);
   EXPECT_EQ(sent.kick_id, (std::int64_t{5} << 48) | (std::int64_t{1} << 40) | 1);
   // The power that the policy itself finds for this state.
   kicking::PolicyInput input;
@@ -84,6 +86,22 @@ TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
   EXPECT_EQ(record.power, sent.power);
   EXPECT_EQ(record.policy, msg::POLICY_MOVING);
   EXPECT_EQ(record.charge, 0.97);
+}
+
+TEST_F(KickDecisionNodeTest, AWorldThatWaitedIsNotDecidedOnAndTheRobotStands) {
+  start();
+  world_age_ns = 141'000'000;  // policy.max_state_age_s 0.14
+  auto far = world();
+  far.y_m = 0.0;
+  const auto stands = cycle(far);
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_STALE_STATE);
+  EXPECT_FALSE(decision.nth(1).fire);
+  EXPECT_EQ(stands.vx_mps, 0.0);
+  EXPECT_EQ(stands.vy_mps, 0.0);
+  EXPECT_EQ(stands.omega_radps, 0.0);
+  world_age_ns = 139'000'000;
+  EXPECT_NE(cycle(far).vy_mps, 0.0);
+  EXPECT_NE(decision.nth(2).reason, msg::REASON_STALE_STATE);
 }
 
 TEST_F(KickDecisionNodeTest, OneFireIsOneOrder) {

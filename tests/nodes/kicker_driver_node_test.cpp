@@ -1,6 +1,7 @@
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "tests/nodes/node_fixture.hpp"
@@ -18,22 +19,32 @@ class KickerDriverNodeTest : public NodeTest {
     order.expect_reader();
   }
 
-  msg::KickerStatus sample(double charge = 1.0, bool armed = true, hal::KickerFault fault = hal::KickerFault::kNone) {
-    kicker->put({t_ns += 20'000'000, charge, armed, fault});
+  msg::KickerStatus sample(double charge = 1.0, bool armed = true, hal::KickerFault fault = hal::KickerFault::kNone,
+                           std::int64_t after_ns = 20'000'000) {
+    clock_ns = t_ns += after_ns;
+    kicker->put({t_ns, charge, armed, fault});
     return status.nth(++samples);
   }
   void play(bool playing = true) {
     msg::Referee word{};
+    word.t_ns = t_ns;
     word.playing = playing;
-    referee(word);
+    (*referee)(word);
   }
   msg::KickOrder wish(std::int64_t kick_id, double power = 30.0) const {
     msg::KickOrder out{};
     out.t_ns = out.fire_t_ns = t_ns;
-    out.valid_until_t_ns = t_ns + 3600'000'000'000;
+    out.valid_until_t_ns = t_ns + 50'000'000;
     out.kick_id = kick_id;
     out.power = power;
     return out;
+  }
+  /// Whether it becomes true while real time goes on and the nodes' time hardly does.
+  bool eventually(const std::function<bool()>& true_now) {
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    while (std::chrono::steady_clock::now() < deadline)
+      if (true_now()) return true;
+    return false;
   }
   msg::KickReceipt answer(const msg::KickOrder& wished) {
     order(wished);
@@ -46,7 +57,7 @@ class KickerDriverNodeTest : public NodeTest {
   Heard<msg::KickerStatus> status{participant};
   Heard<msg::KickReceipt> receipt{participant};
   Says<msg::KickOrder> order{participant};
-  Says<msg::Referee> referee{participant};
+  std::optional<Says<msg::Referee>> referee{std::in_place, participant};
   std::optional<KickerDriverNode> node;
   std::optional<Running> running;
 };
@@ -78,6 +89,7 @@ TEST_F(KickerDriverNodeTest, FiresAnOrderAndAnswersIt) {
     SCOPED_TRACE(kind);
     bus::Stop own_stop;
     NodeContext own{context.settings, context.robot, participant, context.logger, own_stop};
+    own.steady_ns = context.steady_ns;
     const auto far_side = std::make_shared<KickerFarSide>();
     KickerDriverNode own_node{own, std::make_unique<FakeKicker>(far_side)};
     const Running own_run{kind, own_stop, {&own_node.node()}};
@@ -93,6 +105,8 @@ TEST_F(KickerDriverNodeTest, FiresAnOrderAndAnswersIt) {
     EXPECT_EQ(given.power, 33.5);
     EXPECT_GE(given.fired_t_ns, t_ns);
     EXPECT_EQ(given.fired_t_ns, given.t_ns);
+    EXPECT_EQ(given.received_steady_ns, clock_ns);
+    EXPECT_EQ(given.fired_steady_ns, clock_ns);
     EXPECT_EQ(given.release_t_ns - given.fired_t_ns, 60'000'000);
     const auto fired = far_side->commands(1);
     ASSERT_EQ(fired.size(), 1u);
@@ -117,7 +131,7 @@ TEST_F(KickerDriverNodeTest, RefusesWithTheReasonAndFiresNothing) {
   auto early = wish(6);
   early.t_ns = early.fire_t_ns = t_ns + 3600'000'000'000;
   EXPECT_EQ(answer(early).refusal, msg::REFUSAL_STALE);
-  EXPECT_EQ(answer(wish(3)).refusal, msg::REFUSAL_DOUBLE);
+  EXPECT_EQ(answer(early).refusal, msg::REFUSAL_STALE);
   sample(0.5);
   EXPECT_EQ(answer(wish(7)).refusal, msg::REFUSAL_CHARGING);
   sample(1.0, true, hal::KickerFault::kCharger);
@@ -126,6 +140,8 @@ TEST_F(KickerDriverNodeTest, RefusesWithTheReasonAndFiresNothing) {
   EXPECT_FALSE(last.accepted);
   EXPECT_EQ(last.fired_t_ns, 0);
   EXPECT_EQ(last.release_t_ns, 0);
+  EXPECT_EQ(last.received_steady_ns, clock_ns);
+  EXPECT_EQ(last.fired_steady_ns, 0);
   EXPECT_EQ(last.power, 0.0);
   EXPECT_EQ(last.seq, 10u);
   EXPECT_TRUE(log_lines->wait_for("kick 7 refused: charging"));
@@ -146,6 +162,7 @@ TEST_F(KickerDriverNodeTest, AStopBeforeTheInstantOfAnAcceptedOrderCallsTheKickO
   sample();
   auto later = wish(5);
   later.fire_t_ns += 1800'000'000'000;
+  later.valid_until_t_ns = later.fire_t_ns;
   const auto accepted = answer(later);
   EXPECT_TRUE(accepted.accepted);
   EXPECT_EQ(accepted.fired_t_ns, later.fire_t_ns);
@@ -172,11 +189,77 @@ TEST_F(KickerDriverNodeTest, AnOrderSentTwiceIsFiredOnce) {
 }
 
 TEST_F(KickerDriverNodeTest, ASilentDeviceIsAFault) {
-  context.settings.kicker_driver.link_timeout_s = 1e-9;
   start();
   play();
   sample();
+  clock_ns += 100'000'001;  // link_timeout_s 0.1
   EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_FAULT);
+}
+
+// As after a stall of the process: everything that came meanwhile is there at once, and time has gone on.
+TEST_F(KickerDriverNodeTest, WhatWaitedWhileItStoodStillIsNotFired) {
+  start();
+  play();
+  sample();
+  auto waiting = wish(1);
+  waiting.valid_until_t_ns = t_ns + 3600'000'000'000;
+  clock_ns += 1'000'000'000;
+  kicker->put({t_ns += 20'000'000, 1.0, true, hal::KickerFault::kNone});  // of the backlog
+  EXPECT_FALSE(status.nth(++samples).ready) << "a sample is as old as it is";
+  EXPECT_EQ(answer(waiting).refusal, msg::REFUSAL_FAULT);
+  t_ns = clock_ns;
+  play();
+  sample();
+  waiting.kick_id = 2;
+  EXPECT_EQ(answer(waiting).refusal, msg::REFUSAL_STALE);
+  EXPECT_EQ(kicker->commanded(), 0u);
+  EXPECT_TRUE(answer(wish(3)).accepted);
+}
+
+TEST_F(KickerDriverNodeTest, SamplesOfAnotherClockAreSaid) {
+  start();
+  play();
+  clock_ns = 5'000'000'000'000;
+  kicker->put({20'000'000, 1.0, true, hal::KickerFault::kNone});
+  EXPECT_FALSE(status.nth(++samples).ready);
+  EXPECT_TRUE(log_lines->wait_for("off this machine's steady clock"));
+}
+
+TEST_F(KickerDriverNodeTest, ASilentRefereeDisarmsAndHisWordArmsAgain) {
+  start();
+  play();
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(sample().armed);
+  EXPECT_FALSE(sample().armed) << "run.referee_timeout_s 1 is over";
+  EXPECT_TRUE(log_lines->wait_for("the referee is silent"));
+  const auto refused = answer(wish(1));
+  EXPECT_EQ(refused.refusal, msg::REFUSAL_REFEREE_SILENT);
+  EXPECT_EQ(kicker->commanded(), 0u);
+  play();
+  EXPECT_TRUE(sample().armed);
+  EXPECT_TRUE(log_lines->wait_for("the referee is heard again"));
+  EXPECT_TRUE(answer(wish(2)).accepted);
+}
+
+TEST_F(KickerDriverNodeTest, BetweenTwoSamplesSilenceCountsToo) {
+  context.settings.kicker_driver.link_timeout_s = 10.0;
+  start();
+  play();
+  sample();
+  clock_ns = t_ns += 1'000'000'000;
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_REFEREE_SILENT);
+}
+
+TEST_F(KickerDriverNodeTest, ARefereeWhoIsGoneDisarms) {
+  start();
+  play();
+  EXPECT_TRUE(sample().armed);
+  referee.reset();
+  EXPECT_TRUE(eventually([&] { return !sample(1.0, true, hal::KickerFault::kNone, 1).armed; }))
+      << "his writer was deleted";
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_REFEREE_SILENT);
+  referee.emplace(participant);
+  play();
+  EXPECT_TRUE(eventually([&] { return sample(1.0, true, hal::KickerFault::kNone, 1).armed; }));
 }
 
 TEST_F(KickerDriverNodeTest, AnotherRobotsOrdersAreNotItsOwn) {

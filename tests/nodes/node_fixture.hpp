@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <spdlog/sinks/base_sink.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <latch>
@@ -148,14 +149,14 @@ class NodeTest : public testing::Test {
   NodeTest() {
     context.settings.domain.domain_id = domain.domain_id;
     context.settings.run.session = 5;
-    // Time goes on as fast as this machine is slow.
-    context.settings.kicker_driver.link_timeout_s = 1000.0;
-    context.settings.kick_decision.order_validity_s = 1000.0;
+    context.steady_ns = [this] { return clock_ns.load(); };
   }
 
   std::unique_ptr<FakeWheels> fake_wheels() { return std::make_unique<FakeWheels>(wheels); }
   std::unique_ptr<FakeKicker> fake_kicker() { return std::make_unique<FakeKicker>(kicker); }
 
+  /// The steady clock of the nodes: time goes on when the test says so, however slow this machine is.
+  std::atomic<std::int64_t> clock_ns = 1'000'000'000;
   bus::DomainConfig domain = bus::fresh_domain();
   bus::Participant participant{domain};
   bus::Stop stop;

@@ -15,6 +15,8 @@ constexpr std::int64_t kCycle_ns = 20'000'000;
 
 class OdometryNodeTest : public NodeTest {
  protected:
+  OdometryNodeTest() { clock_ns = 0; }
+
   hal::WheelSample sample(const Twist& twist) {
     hal::WheelSample out{
         .t_ns = t_ns += kCycle_ns, .wheel_count = 3, .wheel_radps = {}, .gyro_radps = twist.omega_radps};
@@ -51,6 +53,7 @@ TEST_F(OdometryNodeTest, PassesDriveCommandsOnAndThoseOfItsRobotOnly) {
   for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
     bus::Stop own_stop;
     NodeContext own{context.settings, context.robot, participant, context.logger, own_stop};
+    own.steady_ns = context.steady_ns;
     const auto far_side = std::make_shared<WheelsFarSide>();
     Says<msg::DriveCommand> other{participant, 2}, drive{participant};
     OdometryNode node{own, std::make_unique<FakeWheels>(far_side)};
@@ -98,8 +101,7 @@ TEST_F(OdometryNodeTest, BrokenWheelSamplesAreReportedAndDoNotKillIt) {
   EXPECT_TRUE(log_lines->wait_for("wheel sample of t 40000000 ns is unusable"));
 }
 
-TEST_F(OdometryNodeTest, ABaseThatNobodyDrivesAnyMoreStops) {
-  context.settings.odometry.drive_timeout_s = 0.01;
+TEST_F(OdometryNodeTest, ABaseThatNobodyDrivesAnyMoreStopsWhetherOrNotItsWheelsSpeak) {
   Heard<msg::Odometry> odometry{participant};
   Says<msg::DriveCommand> drive{participant};
   OdometryNode node{context, fake_wheels()};
@@ -109,15 +111,37 @@ TEST_F(OdometryNodeTest, ABaseThatNobodyDrivesAnyMoreStops) {
   command.vy_mps = 1.0;
   drive(command);
   ASSERT_EQ(wheels->commands(1).size(), 1u);
-  const auto deadline = std::chrono::steady_clock::now() + kPlenty;
-  for (std::size_t n = 1; wheels->commanded() < 2 && std::chrono::steady_clock::now() < deadline; ++n) {
-    wheels->put(sample({0.0, 1.0, 0.0}));
-    odometry.first(n);
-  }
-  const auto driven = wheels->commands(2);
+  clock_ns = 200'000'000;
+  wheels->put(sample({0.0, 1.0, 0.0}));
+  odometry.first(1);
+  EXPECT_EQ(wheels->commanded(), 1u) << "for drive_timeout_s it may go on";
+  clock_ns = 200'000'001;  // and no sample comes
+  auto driven = wheels->commands(2);
   ASSERT_EQ(driven.size(), 2u);
   EXPECT_EQ(driven[1].twist.vy_mps, 0.0);
   EXPECT_TRUE(log_lines->wait_for("the base stops"));
+  command.t_ns = clock_ns;
+  drive(command);
+  driven = wheels->commands(3);
+  ASSERT_EQ(driven.size(), 3u);
+  EXPECT_EQ(driven[2].twist.vy_mps, 1.0) << "driven again";
+}
+
+TEST_F(OdometryNodeTest, ACommandThatWaitedIsNotDriven) {
+  clock_ns = 1'000'000'000;
+  Says<msg::DriveCommand> drive{participant};
+  OdometryNode node{context, fake_wheels()};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  drive.expect_reader();
+  for (const std::int64_t t_ns : {std::int64_t{799'999'999}, std::int64_t{0}, std::int64_t{1'000'000'000}}) {
+    msg::DriveCommand command{};
+    command.t_ns = t_ns;
+    command.vy_mps = 1.0;
+    drive(command);
+  }
+  const auto driven = wheels->commands(1);
+  ASSERT_EQ(driven.size(), 1u);
+  EXPECT_EQ(driven[0].t_ns, 1'000'000'000);
 }
 
 TEST_F(OdometryNodeTest, AfterTheLastSampleItStillDrivesAndStops) {

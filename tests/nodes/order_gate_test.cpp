@@ -1,6 +1,7 @@
 #include "nodes/kicker_driver/order_gate.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <cmath>
 #include <functional>
@@ -33,7 +34,7 @@ struct Case {
   config::KickerDriver settings{};
   hal::KickerSample sample{kNow_ns, 1.0, true, hal::KickerFault::kNone};
   bool heard = true;
-  bool playing = true;
+  RefereeSays referee = RefereeSays::kPlay;
   std::vector<msg::KickOrder> before{};
   msg::KickOrder order = order_at(kNow_ns);
   std::int64_t now_ns = kNow_ns;
@@ -43,12 +44,12 @@ struct Case {
     if (!before.empty()) {  // answered while everything was well
       for (const auto& past : before) {
         gate.device({past.t_ns, 1.0, true, hal::KickerFault::kNone});
-        gate.playing(true);
+        gate.referee(RefereeSays::kPlay);
         gate.judge(past, past.t_ns);
       }
     }
     if (heard) gate.device(sample);
-    gate.playing(playing);
+    gate.referee(referee);
     return gate;
   }
   msg::Refusal answer() const { return gate().judge(order, now_ns); }
@@ -74,6 +75,41 @@ TEST(OrderGate, RefusesAStaleOrder) {
   c.order = order_at(kNow_ns);
   c.order.valid_until_t_ns = kLeast;
   EXPECT_EQ(c.answer(), msg::REFUSAL_STALE);
+}
+
+TEST(OrderGate, RefusesAnOldOrderWhateverItSaysOfItsValidity) {
+  Case c;
+  for (const std::int64_t t_ns : {std::int64_t{0}, kLeast, kLeast + 1, kNow_ns - 101 * kMs, -kNow_ns}) {
+    c.order.t_ns = t_ns;
+    for (const std::int64_t fire_t_ns : {t_ns, kNow_ns}) {
+      c.order.fire_t_ns = fire_t_ns;
+      for (const std::int64_t valid : {kNow_ns, kNow_ns + 3'600'000 * kMs, kMost}) {
+        c.order.valid_until_t_ns = valid;
+        EXPECT_EQ(c.answer(), msg::REFUSAL_STALE) << t_ns;
+      }
+    }
+  }
+  c.order.t_ns = c.order.fire_t_ns = kNow_ns - 100 * kMs;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "max_order_age_s";
+}
+
+TEST(OrderGate, ARefereeWhoFellSilentIsAReasonOfItsOwn) {
+  Case c;
+  c.referee = RefereeSays::kSilent;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_REFEREE_SILENT);
+  c.sample.armed = false;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_UNARMED) << "the switch is nearer";
+  c = {};
+  c.referee = RefereeSays::kNothing;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_UNARMED);
+}
+
+TEST(OrderGate, ASampleFromTheFutureIsNoneOfThisClock) {
+  Case c;
+  c.sample.t_ns = kNow_ns + 25 * kMs;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
+  c.sample.t_ns += kMs;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_FAULT);
 }
 
 TEST(OrderGate, RefusesAnOrderFromTheFuture) {
@@ -127,7 +163,7 @@ std::optional<OrderGate::Withdrawal> withdrawn_after(std::int64_t passed_ms,
 }
 
 TEST(OrderGate, CallsAnOrderOffWhoseInstantLiesAheadWhenItHasBecomeUnsafe) {
-  const auto stopped = [](OrderGate& gate) { gate.playing(false); };
+  const auto stopped = [](OrderGate& gate) { gate.referee(RefereeSays::kStop); };
   const auto opened = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, false, hal::KickerFault::kNone}); };
   const auto broken = [](OrderGate& gate) { gate.device({kNow_ns, 1.0, true, hal::KickerFault::kCoil}); };
   const auto well = [](OrderGate&) {};
@@ -148,12 +184,12 @@ TEST(OrderGate, AnOrderThatWasCalledOffCountsAsRefusedAndDelaysNobody) {
   auto later = order_at(kNow_ns, 7);
   later.fire_t_ns += 15 * kMs;
   gate.judge(later, kNow_ns);
-  gate.playing(false);
+  gate.referee(RefereeSays::kStop);
   ASSERT_TRUE(gate.withdraw(kNow_ns + kMs));
   EXPECT_EQ(gate.handled(), 1u);
   EXPECT_EQ(gate.refused(), 1u);
   EXPECT_FALSE(gate.last_accepted());
-  gate.playing(true);
+  gate.referee(RefereeSays::kPlay);
   EXPECT_EQ(gate.judge(order_at(kNow_ns + 2 * kMs, 8), kNow_ns + 2 * kMs), msg::REFUSAL_NONE);
   EXPECT_EQ(gate.judge(order_at(kNow_ns + 3 * kMs, 7), kNow_ns + 3 * kMs), msg::REFUSAL_DOUBLE) << "it was answered";
 }
@@ -179,7 +215,7 @@ TEST(OrderGate, RefusesWhileUnarmed) {
   by_switch.sample.armed = false;
   EXPECT_EQ(by_switch.answer(), msg::REFUSAL_UNARMED);
   Case by_referee;
-  by_referee.playing = false;
+  by_referee.referee = RefereeSays::kStop;
   EXPECT_EQ(by_referee.answer(), msg::REFUSAL_UNARMED);
   Case before_the_first_sample;
   before_the_first_sample.heard = false;
@@ -197,13 +233,34 @@ TEST(OrderGate, RefusesAKickIdThatItHasAnswered) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
 }
 
-TEST(OrderGate, RefusesAKickIdThatItHasRefused) {
+TEST(OrderGate, ARefusedOrderKeepsNobodysKickIdButIsKnownAgainAsAWhole) {
   Case c;
-  auto too_strong = order_at(kNow_ns - 1000 * kMs, 8);
-  too_strong.power = 99.0;
-  c.before = {too_strong, order_at(kNow_ns - 900 * kMs, 9)};
+  auto forged = order_at(kNow_ns - 20 * kMs, 8);
+  forged.power = 99.0;
+  auto early = order_at(kNow_ns - 20 * kMs, 8);
+  early.valid_until_t_ns = kNow_ns - 30 * kMs;
+  c.before = {forged, early};
   c.order = order_at(kNow_ns, 8);
-  EXPECT_EQ(c.answer(), msg::REFUSAL_DOUBLE);
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "the true order of that kick";
+  OrderGate gate = Case{}.gate();
+  gate.device({kNow_ns, 0.1, true, hal::KickerFault::kNone});
+  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_CHARGING);
+  gate.device({kNow_ns, 1.0, true, hal::KickerFault::kNone});
+  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_DOUBLE) << "the same order again";
+}
+
+TEST(OrderGate, NoFloodOfForgedOrdersMakesATrueOneDoubleOrAnOldOneNew) {
+  OrderGate gate = Case{}.gate();
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 1), kNow_ns), msg::REFUSAL_NONE);
+  for (std::int64_t id = 1; id <= 1000; ++id) {
+    auto forged = order_at(kNow_ns + id, id);
+    forged.power = std::nan("");
+    EXPECT_NE(gate.judge(forged, kNow_ns + id), msg::REFUSAL_NONE);
+  }
+  const std::int64_t later_ns = kNow_ns + 600 * kMs;
+  gate.device({later_ns, 1.0, true, hal::KickerFault::kNone});
+  EXPECT_EQ(gate.judge(order_at(later_ns, 1), later_ns), msg::REFUSAL_DOUBLE) << "accepted before the flood";
+  EXPECT_EQ(gate.judge(order_at(later_ns, 2), later_ns), msg::REFUSAL_NONE);
 }
 
 TEST(OrderGate, RemembersAsManyKickIdsAsItSaysHoweverOftenOneIsRepeated) {
@@ -216,10 +273,12 @@ TEST(OrderGate, RemembersAsManyKickIdsAsItSaysHoweverOftenOneIsRepeated) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_DOUBLE);
 }
 
-TEST(OrderGate, RefusesTheNumberThatNoKickHas) {
+TEST(OrderGate, RefusesNumbersThatNoKickHas) {
   Case c;
-  c.order.kick_id = 0;
-  EXPECT_EQ(c.answer(), msg::REFUSAL_DOUBLE);
+  for (const std::int64_t id : {std::int64_t{0}, std::int64_t{-1}, kLeast}) {
+    c.order.kick_id = id;
+    EXPECT_EQ(c.answer(), msg::REFUSAL_OUT_OF_RANGE) << id;
+  }
 }
 
 TEST(OrderGate, RefusesAKickTooSoonAfterTheLast) {
@@ -272,7 +331,7 @@ TEST(OrderGate, NamesTheFirstReasonOfSeveral) {
   const std::vector<Wrong> in_order{
       {msg::REFUSAL_FAULT, [](Case& c) { c.sample.fault = hal::KickerFault::kCoil; }},
       {msg::REFUSAL_OUT_OF_RANGE, [](Case& c) { c.order.power = 99.0; }},
-      {msg::REFUSAL_UNARMED, [](Case& c) { c.playing = false; }},
+      {msg::REFUSAL_UNARMED, [](Case& c) { c.referee = RefereeSays::kStop; }},
       {msg::REFUSAL_STALE, [](Case& c) { c.order.valid_until_t_ns = kNow_ns - 1; }},
       {msg::REFUSAL_DOUBLE, [](Case& c) { c.before = {order_at(kNow_ns - 900 * kMs, c.order.kick_id)}; }},
       {msg::REFUSAL_CHARGING, [](Case& c) { c.sample.charge = 0.5; }}};
@@ -310,7 +369,7 @@ TEST(OrderGate, IsReadyExactlyWhenItWouldAccept) {
               for (const std::int64_t last_kick_ms : {0, 100, 499, 500, 5000}) {
                 Case c;
                 c.heard = heard;
-                c.playing = playing;
+                c.referee = playing ? RefereeSays::kPlay : RefereeSays::kSilent;
                 c.sample = {kNow_ns - sample_age_ms * kMs, charge, armed, fault};
                 if (last_kick_ms > 0) c.before = {order_at(kNow_ns - last_kick_ms * kMs, 1)};
                 if (!heard) c.before.clear();
@@ -335,7 +394,7 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
   for (int i = 0; i < 20000; ++i) {
     now_ns += static_cast<std::int64_t>(random() % 100) * kMs;
     gate.device({now_ns, chance(0.9) ? 1.0 : 0.3, chance(0.95), hal::KickerFault::kNone});
-    gate.playing(chance(0.95));
+    gate.referee(chance(0.95) ? RefereeSays::kPlay : RefereeSays::kStop);
     const bool again = chance(0.5) && next_id > 1;
     const std::int64_t back = std::min<std::int64_t>(next_id - 1, 1 + static_cast<std::int64_t>(random() % 60));
     const std::int64_t id = again ? next_id - back : next_id++;
@@ -347,6 +406,40 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
   }
   EXPECT_GT(accepted.size(), 500u);
   EXPECT_GT(repeats, 5000);
+}
+
+/// A number that somebody might send: near now, near an end of the type, or anything.
+rc::Gen<std::int64_t> any_instant() {
+  return rc::gen::oneOf(
+      rc::gen::map(rc::gen::inRange<std::int64_t>(-300, 300), [](std::int64_t ms) { return kNow_ns + ms * kMs / 2; }),
+      rc::gen::element<std::int64_t>(0, 1, -1, kLeast, kLeast + 1, kMost, kMost - 1, kNow_ns),
+      rc::gen::arbitrary<std::int64_t>());
+}
+
+TEST(OrderGate, OverTheWholeMessageOnlyAFreshOrderOfANewKickWithinRangeFires) {
+  int fired = 0;
+  EXPECT_TRUE(rc::check([&fired] {
+    Case c;
+    c.before = {order_at(kNow_ns - 1000 * kMs, 3)};
+    msg::KickOrder& order = c.order;
+    const bool near = *rc::gen::arbitrary<bool>();  // else hardly any fires
+    order.t_ns = near ? kNow_ns - *rc::gen::inRange<std::int64_t>(0, 120) * kMs : *any_instant();
+    order.fire_t_ns = near ? order.t_ns + *rc::gen::inRange<std::int64_t>(0, 25) * kMs : *any_instant();
+    order.valid_until_t_ns = *any_instant();
+    order.kick_id = *rc::gen::oneOf(rc::gen::inRange<std::int64_t>(1, 6), any_instant());
+    order.power = *rc::gen::oneOf(rc::gen::map(rc::gen::inRange(10, 60), [](int power) { return 1.0 * power; }),
+                                  rc::gen::element(std::nan(""), HUGE_VAL, -HUGE_VAL, -0.0, 1e308, 15.0, 50.0));
+    if (c.answer() != msg::REFUSAL_NONE) return;
+    ++fired;
+    // In words of the wire, not of the gate: no overflow, since only instants around now pass.
+    RC_ASSERT(order.power >= 15.0 && order.power <= 50.0);
+    RC_ASSERT(order.kick_id > 0 && order.kick_id != 3);
+    RC_ASSERT(order.t_ns >= kNow_ns - 100 * kMs && order.t_ns <= kNow_ns + 25 * kMs);
+    RC_ASSERT(order.valid_until_t_ns >= kNow_ns);
+    RC_ASSERT(order.fire_t_ns >= order.t_ns && order.fire_t_ns <= order.t_ns + 20 * kMs + 1);
+    RC_ASSERT(order.fire_t_ns <= kNow_ns + 25 * kMs);
+  }));
+  EXPECT_GT(fired, 0);
 }
 
 }  // namespace

@@ -195,6 +195,8 @@ TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   context.settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
   context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
   context.settings.simulator.seed = 77;
+  EXPECT_FALSE(session_of(context).simulated_clock) << "in real time a simulator's samples are of the steady clock";
+  context.settings.run.lockstep = true;
   const auto session = session_of(context);
   EXPECT_TRUE(session.simulated && session.simulated_clock);
   EXPECT_EQ(session.started_t_ns, 0);

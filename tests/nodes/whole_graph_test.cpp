@@ -81,6 +81,7 @@ TEST_F(WholeGraphTest, AWheelSampleBecomesAKickInTheSensorsThread) {
   Says<msg::Referee> referee{participant};
   const Running running{bus::Executor::kListener, stop, chain()};
   msg::Referee word{};
+  word.t_ns = clock_ns;
   word.half = 1;
   word.playing = true;
   word.possession_id = 1;
@@ -88,7 +89,7 @@ TEST_F(WholeGraphTest, AWheelSampleBecomesAKickInTheSensorsThread) {
   std::size_t cycle = 0;
   while (kicker->commanded() == 0 && cycle < 10) {
     ++cycle;
-    const std::int64_t t_ns = 1'000'000'000 + static_cast<std::int64_t>(cycle) * kCycle_ns;
+    const std::int64_t t_ns = clock_ns += kCycle_ns;
     kicker->put({t_ns, 1.0, true, hal::KickerFault::kNone});
     status.first(cycle);
     msg::VisionFrame frame{};
@@ -116,13 +117,11 @@ TEST_F(WholeGraphTest, AWheelSampleBecomesAKickInTheSensorsThread) {
 // The same with the observer and the recorder beside them.
 TEST_F(WholeGraphTest, RunsToCompletionWithEveryNode) {
   const auto nodes = whole();
+  clock_ns = 0;
   {
     const Running running{bus::Executor::kListener, stop, nodes};
     for (std::size_t cycle = 1; cycle <= 50; ++cycle) {
-      wheels->put({.t_ns = static_cast<std::int64_t>(cycle) * kCycle_ns,
-                   .wheel_count = 3,
-                   .wheel_radps = {1.0, -1.0, 0.5},
-                   .gyro_radps = {}});
+      wheels->put({.t_ns = clock_ns += kCycle_ns, .wheel_count = 3, .wheel_radps = {1.0, -1.0, 0.5}, .gyro_radps = {}});
       ASSERT_EQ(wheels->commands(cycle).size(), cycle);
     }
   }

@@ -14,6 +14,8 @@ constexpr std::int64_t kCycle_ns = 20'000'000;
 
 class WorldStateNodeTest : public NodeTest {
  protected:
+  WorldStateNodeTest() { clock_ns = 0; }
+
   static msg::Odometry odometry(std::int64_t cycle) {
     msg::Odometry out{};
     out.t_ns = cycle * kCycle_ns;
@@ -48,6 +50,7 @@ TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
     bus::Stop own_stop;
     const bus::Participant own_participant{bus::fresh_domain()};
     NodeContext own{context.settings, context.robot, own_participant, context.logger, own_stop};
+    own.steady_ns = context.steady_ns;
     Heard<msg::WorldState> heard{own_participant};
     Says<msg::Odometry> wheels_tell{own_participant};
     Says<msg::VisionFrame> camera_tells{own_participant};
@@ -82,6 +85,53 @@ TEST_F(WorldStateNodeTest, WithoutCameraAndRefereeNobodyPlays) {
   wheels_say(odometry(1));
   EXPECT_FALSE(world.nth(1).playing);
   EXPECT_FALSE(world.nth(1).ball_known);
+}
+
+TEST_F(WorldStateNodeTest, NobodyPlaysByTheWordOfARefereeWhoIsSilentOrGone) {
+  std::optional<Says<msg::Referee>> another{std::in_place, participant};
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  referee_says(referee());
+  std::size_t cycle = 0;
+  const auto playing_at = [&](std::int64_t now_ns) {
+    clock_ns = now_ns;
+    camera_says(vision(static_cast<std::int64_t>(++cycle)));
+    wheels_say(odometry(static_cast<std::int64_t>(cycle)));
+    return world.nth(cycle).playing;
+  };
+  EXPECT_TRUE(playing_at(1'000'000'000));
+  EXPECT_FALSE(playing_at(1'000'000'001)) << "run.referee_timeout_s";
+  EXPECT_TRUE(log_lines->wait_for("the referee is silent, his last word is of 1.00 s ago"));
+  auto word = referee();
+  word.t_ns = 5'000'000'000;
+  referee_says(word);
+  EXPECT_TRUE(playing_at(5'000'000'000));
+  EXPECT_TRUE(log_lines->wait_for("the referee is heard again"));
+  word.playing = false;
+  referee_says(word);
+  EXPECT_FALSE(playing_at(5'000'000'000));
+}
+
+TEST_F(WorldStateNodeTest, ABallIsHeldNoLongerThanTheCameraSpeaks) {
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  referee_says(referee());
+  for (std::int64_t cycle = 1; cycle <= 5; ++cycle) {
+    camera_says(vision(cycle));
+    wheels_say(odometry(cycle));
+    world.first(static_cast<std::size_t>(cycle));
+  }
+  EXPECT_TRUE(world.nth(5).possession);
+  // possession_forget_s 0.15: 7.5 cycles; ball_forget_s 0.5: 25 cycles.
+  wheels_say(odometry(12));
+  EXPECT_TRUE(world.nth(6).possession);
+  wheels_say(odometry(13));
+  EXPECT_FALSE(world.nth(7).possession);
+  EXPECT_TRUE(world.nth(7).ball_known);
+  wheels_say(odometry(31));
+  EXPECT_FALSE(world.nth(8).ball_known);
 }
 
 TEST_F(WorldStateNodeTest, AnotherRobotsSensorsAreNotItsOwn) {
