@@ -174,7 +174,7 @@ class Campaign {
       case FaultKind::kSilence:
         node.signal(SIGUSR1);
         wait(fault.lasts_s);
-        return node.signal(SIGUSR1);
+        return node.signal(SIGUSR2);
       default:
         return start_twin(fault, trial);
     }

@@ -171,10 +171,7 @@ std::unique_ptr<NodeProcess> Stack::twin(std::size_t node) {
   return std::make_unique<NodeProcess>(plan);
 }
 
-void Stack::insist(bool insisting) {
-  if (insisting != insisting_) client_->signal(SIGUSR1);
-  insisting_ = insisting;
-}
+void Stack::insist(bool insisting) { client_->signal(insisting ? SIGUSR1 : SIGUSR2); }
 
 void Stack::disturb(const Fault& fault) {
   if (!hub_) return;

@@ -96,7 +96,6 @@ class Stack {
   Witness wire_;
   std::unique_ptr<LinePipe> referee_words_;
   std::unique_ptr<NodeProcess> client_;
-  bool insisting_ = false;
 };
 
 }  // namespace trivela::faults

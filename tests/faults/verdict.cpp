@@ -14,6 +14,8 @@ namespace {
 constexpr std::array kKinds{FaultKind::kKill,    FaultKind::kStop,  FaultKind::kRestart, FaultKind::kTwin,
                             FaultKind::kSilence, FaultKind::kDelay, FaultKind::kCut,     FaultKind::kGarble};
 
+constexpr std::size_t kMostTold = 20;  // findings in the text
+
 std::size_t count_of(const std::vector<Finding>& findings, std::initializer_list<Offence> offences) {
   return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) {
     return std::find(offences.begin(), offences.end(), finding.offence) != offences.end();
@@ -108,9 +110,14 @@ std::string text(const Verdict& verdict) {
   out += fmt::format("  fires closer than the minimum interval      {:>6}\n", too_soon(verdict));
   out += fmt::format("  kicks neither in a log nor in a counted gap {:>6}\n", verdict.logged.lost.size());
   out += fmt::format("  faults that were not recovered from         {:>6}\n", unrecovered(verdict));
-  for (const Finding& finding : verdict.findings)
+  const std::size_t told = std::min(verdict.findings.size(), kMostTold);
+  for (std::size_t i = 0; i < told; ++i) {
+    const Finding& finding = verdict.findings[i];
     out += fmt::format("  kick {} {}: {}; {}\n", finding.fire.kick_id, name(finding.offence), finding.why,
                        circumstances(verdict, finding.fire.arrival_ns));
+  }
+  if (told < verdict.findings.size())
+    out += fmt::format("  ... and {} more (--json has all)\n", verdict.findings.size() - told);
   for (const FireSeen& fire : verdict.logged.lost)
     out += fmt::format("  kick {} is in no log; {}\n", fire.kick_id, circumstances(verdict, fire.arrival_ns));
   for (const std::string& log : verdict.unreadable) out += fmt::format("  {}\n", log);
