@@ -8,6 +8,7 @@
 
 #include "bus/entity.hpp"
 #include "bus/error.hpp"
+#include "bus/resources.hpp"
 
 namespace trivela::bus {
 
@@ -45,6 +46,7 @@ struct Participant::State {
 };
 
 Participant::Participant(const DomainConfig& config) {
+  require_resources();
   auto domain = join(config);
   const auto handle = checked(dds_create_participant(config.domain_id, nullptr, nullptr), "dds_create_participant",
                               fmt::format("domain {}", config.domain_id));

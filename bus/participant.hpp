@@ -11,8 +11,8 @@ namespace trivela::bus {
 /// Set the scheduling first (bus/scheduling.hpp): Cyclone's threads inherit it from the first participant's creator.
 class Participant {
  public:
-  /// Joins the domain. Throws Error if Cyclone refuses the configuration, no port is free, or this process is in the
-  /// domain already with another configuration.
+  /// Joins the domain. Throws Error if Cyclone refuses the configuration, no port is free, this process is in the
+  /// domain already with another configuration, or is short of file descriptors or threads.
   explicit Participant(const DomainConfig& config);
 
   /// Cyclone's handle, for bus/ alone.

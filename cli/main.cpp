@@ -6,6 +6,7 @@
 
 #include "cli/finite_numbers.hpp"
 #include "cli/verbs.hpp"
+#include "nodes/runtime/standard_streams.hpp"
 
 namespace cli = trivela::cli;
 
@@ -71,6 +72,7 @@ bool is_written() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  trivela::nodes::secure_standard_streams();
   const int exit_code = run_or_say_why_not(argc, argv);
   return is_written() ? exit_code : cli::kFailed;
 }

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -30,9 +32,13 @@ TomlSource parse_text(std::string_view text, std::string name) {
 }
 
 TomlSource parse_file(const std::filesystem::path& path) {
+  errno = 0;
   std::ifstream in{path, std::ios::binary};
   const std::string text{std::istreambuf_iterator<char>{in}, {}};
-  if (!in || in.bad()) throw Error{fmt::format("{}: cannot read the configuration", path.string())};
+  if (!in || in.bad()) {
+    throw Error{fmt::format("{}: cannot read the configuration: {}", path.string(),
+                            errno == 0 ? "not a file" : std::strerror(errno))};
+  }
   return parse_text(text, path.string());
 }
 

@@ -47,6 +47,11 @@ ChildProcess::ChildProcess(std::string name, const std::filesystem::path& progra
   if (pid_ < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", name_, std::strerror(errno))};
   if (pid_ == 0) become(program, arguments, output, launcher);
   pid_fd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
+  if (pid_fd_ >= 0) return;
+  const int reason = errno;
+  kill(pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+  throw std::runtime_error{fmt::format("cannot start {}: {}", name_, std::strerror(reason))};
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <stdexcept>
 #include <vector>
@@ -24,7 +26,8 @@ constexpr std::chrono::seconds kPatience{10};
 class ProgressPipe {
  public:
   ProgressPipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw std::runtime_error{"no pipe for the progress"};
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0)
+      throw std::runtime_error{fmt::format("no pipe for the progress: {}", std::strerror(errno))};
     fcntl(ends_[0], F_SETFL, O_NONBLOCK);
   }
   ProgressPipe(const ProgressPipe&) = delete;
@@ -63,12 +66,12 @@ class ProgressPipe {
 /// Where nobody reads.
 class Nowhere {
  public:
-  Nowhere() : descriptor_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {}
+  Nowhere() : descriptor_(open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw std::runtime_error{fmt::format("cannot open /dev/null: {}", std::strerror(errno))};
+  }
   Nowhere(const Nowhere&) = delete;
   Nowhere& operator=(const Nowhere&) = delete;
-  ~Nowhere() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
+  ~Nowhere() { close(descriptor_); }
   int descriptor() const { return descriptor_; }
 
  private:

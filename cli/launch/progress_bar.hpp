@@ -14,7 +14,7 @@ namespace trivela::cli {
 class ProgressBar {
  public:
   ~ProgressBar() {
-    if (drawn_) fmt::print(stderr, "\n");
+    if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
   }
 
   /// `done` of `total` in whatever unit; `what` stands behind the bar.

@@ -44,7 +44,7 @@ config::Settings lockstep_settings(config::Settings settings, int domain, const 
 
 int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
   settings = lockstep_settings(std::move(settings), domain, out);
-  SignalInbox signals;  // before the files, which a signal must not leave behind
+  SignalInbox signals;
   const LogClaim log{out};
   const ConfigFile config{config::to_toml_text(settings)};
   const MatchResult result = run_match(feeder, config.path(), signals, more_nodes(settings));

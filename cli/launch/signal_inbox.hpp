@@ -3,19 +3,26 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <system_error>
 
 namespace trivela::cli {
 
 /// SIGINT, SIGTERM and SIGCHLD as something to poll; they do not interrupt anything else while it lives.
 class SignalInbox {
  public:
+  /// Throws std::system_error where no file descriptor is free.
   SignalInbox() {
     sigset_t ours;
     sigemptyset(&ours);
     for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&ours, signal);
     sigprocmask(SIG_BLOCK, &ours, &before_);
     descriptor_ = signalfd(-1, &ours, SFD_NONBLOCK | SFD_CLOEXEC);
+    if (descriptor_ >= 0) return;
+    const int reason = errno;
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+    throw std::system_error{reason, std::generic_category(), "cannot wait for signals"};
   }
   SignalInbox(const SignalInbox&) = delete;
   SignalInbox& operator=(const SignalInbox&) = delete;

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/scan/scanner_session.hpp"
@@ -20,7 +21,7 @@ constexpr std::chrono::milliseconds kLook{200};  // between two looks at the sig
 class StatusLine {
  public:
   ~StatusLine() {
-    if (drawn_) fmt::print(stderr, "\n");
+    if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
   }
   void show(const std::string& text) {
     if (!terminal_ || Clock::now() < next_) return;

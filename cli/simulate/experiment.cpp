@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <chrono>
+#include <system_error>
 #include <thread>
 
 #include "cli/launch/progress_bar.hpp"
@@ -90,26 +91,37 @@ class Sessions {
 /// Threads that play matches, and write them in order, until none is left.
 class Workers {
  public:
+  /// Throws std::runtime_error where so many threads cannot be started.
   Workers(const ExperimentPlan& plan, MatchQueue<std::vector<Played>>& queue, unsigned jobs, auto write)
       : queue_(queue) {
-    for (unsigned i = 0; i < jobs; ++i) {
-      threads_.emplace_back([&plan, &queue, write] {
-        try {
-          while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id), write);
-        } catch (...) {
-          queue.fail(std::current_exception());
-        }
-      });
+    try {
+      for (unsigned i = 0; i < jobs; ++i) {
+        threads_.emplace_back([&plan, &queue, write] {
+          try {
+            while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id), write);
+          } catch (...) {
+            queue.fail(std::current_exception());
+          }
+        });
+      }
+    } catch (const std::system_error& error) {
+      const std::size_t started = threads_.size();
+      end();
+      throw std::runtime_error{fmt::format("{} of {} threads can be started: {}; choose fewer --jobs", started, jobs,
+                                           error.code().message())};
     }
   }
-  ~Workers() {
-    queue_.close();
-    for (std::thread& thread : threads_) thread.join();
-  }
+  ~Workers() { end(); }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
  private:
+  void end() {
+    queue_.close();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
   MatchQueue<std::vector<Played>>& queue_;
   std::vector<std::thread> threads_;
 };

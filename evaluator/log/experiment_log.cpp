@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBusyTimeout_ms = 5000;
+constexpr int kOtherRunTimeout_ms = 5000;
 constexpr std::chrono::milliseconds kGroup{200};  // of matches in one transaction
 
 std::runtime_error against(const fs::path& path, const std::string& why) {
@@ -66,7 +66,7 @@ void check(SQLite::Database& database, const fs::path& path, const Experiment& e
 std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment& experiment) {
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
-                                                       kBusyTimeout_ms);
+                                                       kOtherRunTimeout_ms);
     if (is_blank(*database)) throw against(path, "another run writes to it, or was killed when it had just begun");
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;

@@ -12,6 +12,7 @@ bool RowQueue::push(Row row) {
   {
     const std::lock_guard lock(mutex_);
     if (closed_ || rows_.size() >= capacity_) return false;
+    if (rows_.empty()) first_push_ = std::chrono::steady_clock::now();
     rows_.push_back(std::move(row));
     ++pushed_;
     high_water_ = std::max(high_water_, rows_.size());
@@ -21,12 +22,15 @@ bool RowQueue::push(Row row) {
   return true;
 }
 
-bool RowQueue::take(std::vector<Row>& group, std::chrono::duration<double> span) {
+std::optional<std::chrono::steady_clock::time_point> RowQueue::take(std::vector<Row>& group,
+                                                                    std::chrono::steady_clock::duration wait) {
   std::unique_lock lock(mutex_);
   work_.wait(lock, [&] { return !rows_.empty() || closed_; });
-  work_.wait_for(lock, span, [&] { return closed_ || flushing_ > 0 || 2 * rows_.size() >= capacity_; });
+  if (rows_.empty()) return std::nullopt;
+  const auto first_push = first_push_;
+  work_.wait_until(lock, first_push + wait, [&] { return closed_ || flushing_ > 0 || 2 * rows_.size() >= capacity_; });
   group.swap(rows_);
-  return !group.empty() || !closed_;
+  return first_push;
 }
 
 void RowQueue::wait_to_retry(std::chrono::duration<double> span) {

@@ -26,9 +26,10 @@ class RowQueue {
   /// False: full or closed. Waits for nothing but other pushes.
   bool push(Row row);
 
-  /// Moves all rows to the empty `group`, once `span` has passed since the first one came, or at once where the queue
-  /// is half full, closed or flushed. False: closed and nothing left.
-  bool take(std::vector<Row>& group, std::chrono::duration<double> span);
+  /// Moves all rows to the empty `group`, once `wait` has passed since the first one was pushed, or at once where the
+  /// queue is half full, closed or flushed. Returns when that was; none: closed and nothing left.
+  std::optional<std::chrono::steady_clock::time_point> take(std::vector<Row>& group,
+                                                            std::chrono::steady_clock::duration wait);
 
   /// Waits `span` before a refused group is tried again, less where the queue is closed or flushed.
   void wait_to_retry(std::chrono::duration<double> span);
@@ -53,6 +54,7 @@ class RowQueue {
   std::condition_variable work_;     // for the writing thread
   std::condition_variable settled_;  // for those who flush
   std::vector<Row> rows_;
+  std::chrono::steady_clock::time_point first_push_;  // of rows_
   std::size_t high_water_ = 0;
   std::uint64_t pushed_ = 0;
   std::uint64_t committed_ = 0;

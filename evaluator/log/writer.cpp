@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <deque>
 #include <mutex>
 #include <set>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "evaluator/log/commit_pace.hpp"
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/session_writer.hpp"
 
@@ -35,6 +37,7 @@ struct Writer::Impl {
       : path(file.string()),
         options(std::move(chosen)),
         queue(options.queue_capacity),
+        pace(options.group_commit_s),
         connection(file, log),
         thread([this] { run(); }) {}
 
@@ -42,7 +45,7 @@ struct Writer::Impl {
     if (options.warn) {
       options.warn(sentence);
     } else {
-      fmt::print(stderr, "{}: {}\n", connection.kind().name, sentence);
+      std::fputs(fmt::format("{}: {}\n", connection.kind().name, sentence).c_str(), stderr);
     }
   }
 
@@ -59,8 +62,9 @@ struct Writer::Impl {
     return tables;
   }
 
-  // Commits the group. False: the disk refused it.
-  bool try_commit(const std::vector<Row>& group) {
+  // Commits the group whose first row was pushed then. False: the disk refused it.
+  bool try_commit(const std::vector<Row>& group, Clock::time_point first) {
+    const auto begun = Clock::now();
     try {
       const GroupResult result = connection.commit(group, registered(), book);
       for (const Loss& loss : result.counters) book.add(loss);
@@ -68,7 +72,11 @@ struct Writer::Impl {
       rows_written += result.written;
       rows_missing += static_cast<std::int64_t>(group.size()) - result.written;
       ++commits;
-      last_commit = Clock::now();
+      const auto now = Clock::now();
+      last_commit = now;
+      const auto late = pace.committed(now - begun, now - first, now);
+      oldest_row = pace.oldest();
+      if (late && options.warn_late) warn(*late);
       queue.settle(group.size(), std::nullopt);
       return true;
     } catch (const std::exception& error) {
@@ -83,11 +91,11 @@ struct Writer::Impl {
   void run() {
     const std::chrono::duration<double> span(options.group_commit_s);
     std::vector<Row> group;
-    while (queue.take(group, span)) {
+    while (const auto first = queue.take(group, pace.wait())) {
       bool given_up = false;
       while (!group.empty() && !given_up) {
         const bool last_try = queue.closed();
-        if (try_commit(group)) {
+        if (try_commit(group, *first)) {
           group.clear();
         } else if (last_try) {
           given_up = true;
@@ -115,6 +123,7 @@ struct Writer::Impl {
   const std::string path;
   const WriterOptions options;
   RowQueue queue;
+  CommitPace pace;  // of the thread
   LossBook book;
   std::mutex mutex;  // of the next three
   std::deque<RowTable> tables;
@@ -125,6 +134,7 @@ struct Writer::Impl {
   std::atomic<std::int64_t> commits = 0;
   std::atomic<Clock::time_point> first_push = Clock::time_point{};
   std::atomic<Clock::time_point> last_commit = Clock::time_point{};
+  std::atomic<Clock::duration> oldest_row = Clock::duration{0};
   bool finalised = false;
   std::thread thread;  // last: everything that it uses exists
 };
@@ -179,7 +189,8 @@ Stats Writer::stats() const {
           .rows_missing = impl_->rows_missing,
           .commits = impl_->commits,
           .rows_per_s = written > 0 && busy.count() > 0.0 ? static_cast<double>(written) / busy.count() : 0.0,
-          .queue_high_water = impl_->queue.high_water()};
+          .queue_high_water = impl_->queue.high_water(),
+          .oldest_row_s = std::chrono::duration<double>(impl_->oldest_row.load()).count()};
 }
 
 std::size_t Writer::waiting() const { return impl_->queue.waiting(); }

@@ -18,7 +18,8 @@ namespace trivela::evaluator::log {
 
 struct WriterOptions {
   std::size_t queue_capacity = 65536;  ///< rows that may wait for the disk
-  double group_commit_s = 0.1;         ///< rows of this span share one fsync; a power cut loses at most one span
+  double group_commit_s = 0.1;  ///< a row is committed at most this long after its push, with others, in one fsync
+  bool warn_late = false;       ///< say it where the disk takes longer than that
   std::function<void(const std::string&)> warn;  ///< one line an event, called from any thread; none: standard error
 };
 
@@ -35,6 +36,7 @@ struct Stats {
   std::int64_t commits = 0;       ///< groups of rows
   double rows_per_s = 0.0;        ///< committed rows over the wall time from the first push to the last commit
   std::size_t queue_high_water = 0;
+  double oldest_row_s = 0.0;  ///< longest from a push to the end of its commit
 };
 
 /// Records one session to a new log (SQLite, WAL, synchronous FULL) from one thread of its own.

@@ -12,6 +12,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -43,7 +44,9 @@ struct Emulator::Impl {
         socket(open_socket(config)),
         scanner(config.identity, parameters_for(config.geometry, config.first_step, config.identity.product)),
         playback(config, std::move(source), Clock::now()),
-        wake(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+        wake(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    if (!wake) throw std::runtime_error{"SCIP emulator: cannot be woken: " + system_error(errno)};
+  }
 
   void run();
   void change_cable();

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     evaluator::log::WriterOptions options;
     options.queue_capacity = settings.queue_capacity;
     options.group_commit_s = settings.group_commit_s;
+    options.warn_late = !context.settings.run.lockstep;  // where nobody looks at a clock
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
     evaluator::log::Writer log{settings.log, nodes::session_of(context), options};
     nodes::RecorderNode node{context, log};

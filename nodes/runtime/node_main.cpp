@@ -7,12 +7,16 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <vector>
 
 #include "bus/domain.hpp"
 #include "bus/executor.hpp"
+#include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
+#include "nodes/runtime/standard_streams.hpp"
 
 namespace trivela::nodes {
 
@@ -42,6 +46,8 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
 }  // namespace
 
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body) {
+  secure_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
   CLI::App app{fmt::format("Trivela's {} node", name)};
   std::string config_file;
   std::vector<std::string> overrides;
@@ -58,6 +64,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     return 2;
   }
   try {
+    bus::require_resources();
     bus::Stop stop;
     const bus::StopOnSignals on_signals{stop};
     config::Settings settings = config::load_settings(config_file);
@@ -73,7 +80,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    std::fprintf(stderr, "%s: %s\n", name, error.what());  // which does not throw where nobody listens
     return 1;
   }
 }

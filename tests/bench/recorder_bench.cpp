@@ -247,8 +247,10 @@ void print(const Plan& plan, const Result& result) {
              static_cast<double>(result.sent.decisions) / result.sent.wall_s, result.sent.decisions,
              result.sent.decisions - result.recorded, result.stats.queue_high_water, result.gaps, result.overflow,
              result.refused, percent(result.cpu_s), percent(result.sent.cpu_s));
-  fmt::print("{} rows in the log (decisions and shadows), {:.0f} a second in {} groups\n", result.stats.rows_written,
-             result.stats.rows_per_s, result.stats.commits);
+  fmt::print(
+      "{} rows in the log (decisions and shadows), {:.0f} a second in {} groups, none committed later than {:.3f} s "
+      "after its push\n",
+      result.stats.rows_written, result.stats.rows_per_s, result.stats.commits, result.stats.oldest_row_s);
 }
 
 }  // namespace

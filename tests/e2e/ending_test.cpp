@@ -1,5 +1,8 @@
 // Matches that end before they are over.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
+
+#include <random>
 
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/running_match.hpp"
@@ -55,7 +58,7 @@ TEST(Ending, SigtermIsAsGood) {
 TEST(Ending, CtrlCBeforeTheFirstCycleLeavesNoProcess) {
   const Folder folder;
   Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
-  // The configuration is there before the first node, whenever that comes.
+  // The recorder, which is the first node, makes the log.
   ASSERT_TRUE(wait_for_change(folder.path(), match.watch(), [&] { return children_of(match.id()).size() >= 1; }));
   std::vector<ProcessWatch> nodes;
   for (const pid_t child : children_of(match.id())) nodes.emplace_back(child);
@@ -65,6 +68,11 @@ TEST(Ending, CtrlCBeforeTheFirstCycleLeavesNoProcess) {
   EXPECT_THAT(match.errors(), HasSubstr("interrupted"));
   EXPECT_THAT(match.errors(), Not(HasSubstr("did not stop")));
   EXPECT_THAT(folder.files(".toml"), IsEmpty());
+}
+
+// Whether the process ends soon.
+bool ended(pid_t id) try { return ProcessWatch{id}.ended(kSoon); } catch (const std::runtime_error&) {
+  return true;  // it has
 }
 
 class KilledNode : public testing::TestWithParam<const char*> {};
@@ -103,6 +111,31 @@ TEST(Ending, AKilledMatchLeavesNoNodeBehind) {
   EXPECT_EQ(match.program().wait(), 128 + SIGKILL);
   EXPECT_THAT(match.nodes_left(kSoon), IsEmpty());
   expect_finalised(match.log());
+}
+
+TEST(Ending, AKilledMatchLeavesNoFileAndNoProcessWheneverThatHappens) {
+  std::mt19937 random{20261122};
+  for (int kill = 0; kill < 24; ++kill) {
+    const Folder folder;
+    Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
+    // Most of what may be left behind is made in the first tenth of a second.
+    const std::chrono::milliseconds moment{random() % (kill % 2 == 0 ? 100 : 1000)};
+    SCOPED_TRACE(fmt::format("killed after {} ms", moment.count()));
+    ASSERT_FALSE(match.watch().ended(moment)) << match.errors();
+    match.signal(SIGKILL);
+    EXPECT_EQ(match.wait(), 128 + SIGKILL);
+    for (auto left = processes_in(folder.path()); !left.empty(); left = processes_in(folder.path())) {
+      for (const pid_t id : left) ASSERT_TRUE(ended(id)) << program_of(id);
+    }
+    std::vector<std::string> files = folder.files("");
+    std::erase_if(files, [](const std::string& file) { return file == "trivela.0.out" || file == "trivela.0.err"; });
+    if (files.empty()) continue;
+    // A recorder that had begun closes its log.
+    EXPECT_THAT(files, testing::ElementsAre("match.db"));
+    const Reader log{folder / "match.db"};
+    ASSERT_EQ(log.sessions().size(), 1u);
+    EXPECT_TRUE(log.sessions()[0].closed_t_ns);
+  }
 }
 
 }  // namespace

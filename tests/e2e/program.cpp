@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -35,14 +36,15 @@ fs::path fresh(const fs::path& folder, const std::string& name, const char* suff
 }
 
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder,
-                         const fs::path& output, const fs::path& errors) {
+                         const fs::path& output, const fs::path& errors, const std::function<void()>& prepare) {
   setenv("TMPDIR", folder.c_str(), 1);
   if (chdir(folder.c_str()) != 0) _exit(126);
-  dup2(open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDOUT_FILENO);
-  dup2(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDERR_FILENO);
+  dup2(open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644), STDOUT_FILENO);
+  dup2(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644), STDERR_FILENO);
   std::vector<char*> argv{const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  prepare();
   execv(program.c_str(), argv.data());
   _exit(127);
 }
@@ -66,12 +68,13 @@ bool ProcessWatch::ended(std::chrono::milliseconds timeout) const {
   return poll(&end, 1, static_cast<int>(timeout.count())) == 1;
 }
 
-Program::Program(const std::string& name, std::vector<std::string> arguments, const fs::path& folder)
+Program::Program(const std::string& name, std::vector<std::string> arguments, const fs::path& folder,
+                 const std::function<void()>& prepare)
     : output_(fresh(folder, name, "out")), errors_(fresh(folder, name, "err")) {
   const std::string program = std::string{TRIVELA_BINARY_DIR} + "/" + name;
   const pid_t id = fork();
   if (id < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", name, std::strerror(errno))};
-  if (id == 0) become(program, arguments, folder, output_, errors_);
+  if (id == 0) become(program, arguments, folder, output_, errors_, prepare);
   watch_.emplace(id);
 }
 
@@ -106,11 +109,26 @@ std::vector<pid_t> children_of(pid_t parent) {
   return found;
 }
 
-std::string program_of(pid_t id) {
+std::vector<pid_t> processes_in(const fs::path& folder) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator{"/proc"}) {
+    std::error_code gone;
+    const pid_t id = std::atoi(entry.path().filename().c_str());
+    if (id > 0 && fs::read_symlink(entry.path() / "cwd", gone) == folder) found.push_back(id);
+  }
+  return found;
+}
+
+std::vector<std::string> command_of(pid_t id) {
   std::ifstream in{fmt::format("/proc/{}/cmdline", id)};
-  std::string program;
-  std::getline(in, program, '\0');
-  return fs::path{program}.filename().string();
+  std::vector<std::string> words;
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+  return words;
+}
+
+std::string program_of(pid_t id) {
+  const std::vector<std::string> words = command_of(id);
+  return words.empty() ? "" : fs::path{words.front()}.filename().string();
 }
 
 bool wait_for_change(const fs::path& folder, const ProcessWatch& process, const std::function<bool()>& condition) {

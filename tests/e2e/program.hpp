@@ -39,8 +39,10 @@ class ProcessWatch {
 /// says is kept in files there.
 class Program {
  public:
-  /// Starts `name` of the build folder.
-  Program(const std::string& name, std::vector<std::string> arguments, const std::filesystem::path& folder);
+  /// Starts `name` of the build folder. `prepare`: what its process does last before, e.g. sets limits.
+  Program(
+      const std::string& name, std::vector<std::string> arguments, const std::filesystem::path& folder,
+      const std::function<void()>& prepare = [] {});
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
@@ -67,6 +69,12 @@ class Program {
 
 /// The living children of a process.
 std::vector<pid_t> children_of(pid_t parent);
+
+/// The living processes that work in the folder.
+std::vector<pid_t> processes_in(const std::filesystem::path& folder);
+
+/// How the process was started, its program first; empty if it is gone.
+std::vector<std::string> command_of(pid_t id);
 
 /// The program's name, as it was started; empty if the process is gone.
 std::string program_of(pid_t id);

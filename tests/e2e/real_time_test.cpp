@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include "config/settings.hpp"
@@ -31,40 +32,91 @@ config::Settings settings_for(const Folder& folder) {
   return settings;
 }
 
-TEST(RealTime, NodesThatAreStartedOneByOneRecordAMatchAndStopOnSigterm) {
-  const Folder folder;
-  std::ofstream{folder / "nodes.toml"} << config::to_toml_text(settings_for(folder));
-  const std::vector<std::string> arguments{"--config", "nodes.toml"};
-  Program recorder{"trivela-recorder", arguments, folder.path()};
-  std::deque<Program> nodes;
-  for (const char* const node : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"}) {
-    nodes.emplace_back("trivela-" + std::string{node}, arguments, folder.path());
+/// The nodes of a robot, started one by one; the simulator is the test's.
+class RealTime : public testing::Test {
+ protected:
+  RealTime() : settings_(settings_for(folder_)) {}
+
+  void start() {
+    std::ofstream{folder_ / "nodes.toml"} << config::to_toml_text(settings_);
+    recorder_.emplace("trivela-recorder", kArguments, folder_.path());
+    for (const char* const node : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"}) {
+      nodes_.emplace_back("trivela-" + std::string{node}, kArguments, folder_.path());
+    }
+    // A node says that it is there, and the recorder makes the log.
+    for (const Program& node : nodes_) {
+      ASSERT_TRUE(wait_for_change(folder_.path(), node.watch(), [&] { return !node.errors().empty(); }));
+    }
+    ASSERT_TRUE(wait_for_change(folder_.path(), recorder_->watch(), [&] { return exists(folder_ / "match.db"); }));
   }
-  // A node says that it is there, and the recorder makes the log.
-  for (const Program& node : nodes) {
-    ASSERT_TRUE(wait_for_change(folder.path(), node.watch(), [&] { return !node.errors().empty(); }));
+
+  void stop() {
+    for (Program& node : nodes_) {
+      node.signal(SIGTERM);
+      EXPECT_EQ(node.wait(), 0) << node.errors();
+    }
+    recorder_->signal(SIGTERM);
+    EXPECT_EQ(recorder_->wait(), 0) << recorder_->errors();
   }
-  ASSERT_TRUE(wait_for_change(folder.path(), recorder.watch(), [&] { return exists(folder / "match.db"); }));
+
+  /// Kicks that the driver says it has fired.
+  std::size_t fired() const {
+    const std::string said = nodes_[3].errors();
+    std::size_t kicks = 0;
+    for (std::size_t at = said.find(" fired with power"); at != said.npos; at = said.find(" fired with power", at + 1))
+      ++kicks;
+    return kicks;
+  }
+
+  const std::vector<std::string> kArguments{"--config", "nodes.toml"};
+  const Folder folder_;
+  config::Settings settings_;
+  std::optional<Program> recorder_;
+  std::deque<Program> nodes_;
+};
+
+TEST_F(RealTime, NodesThatAreStartedOneByOneRecordAMatchAndStopOnSigterm) {
+  start();
   const auto started = std::chrono::steady_clock::now();
-  Program simulator{"trivela-simulator", arguments, folder.path()};
+  Program simulator{"trivela-simulator", kArguments, folder_.path()};
   EXPECT_EQ(simulator.wait(), 0) << simulator.errors();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
   EXPECT_GE(took.count(), 6.0) << "that is not real time";
-  for (Program& node : nodes) {
-    node.signal(SIGTERM);
-    EXPECT_EQ(node.wait(), 0) << node.errors();
-  }
-  recorder.signal(SIGTERM);
-  EXPECT_EQ(recorder.wait(), 0) << recorder.errors();
+  stop();
 
-  EXPECT_THAT(loose_ends_of(folder / "match.db"), IsEmpty());
-  const Reader log{folder / "match.db"};
+  EXPECT_THAT(loose_ends_of(folder_ / "match.db"), IsEmpty());
+  const Reader log{folder_ / "match.db"};
   EXPECT_GE(number_of(log, "SELECT count(*) FROM referee"), 250);
   EXPECT_GE(number_of(log, "SELECT count(*) FROM world_states"), 200);
   EXPECT_GT(number_of(log, "SELECT count(*) FROM kick_decisions"), 20);
   EXPECT_EQ(number_of(log, "SELECT count(*) FROM kick_decisions WHERE policy <> 'moving'"), 0);
   // A fired decision is ordered and answered here as well.
   EXPECT_EQ(number_of(log, "SELECT count(*) FROM kicks WHERE order_seq IS NULL OR accepted IS NULL"), 0);
+}
+
+TEST_F(RealTime, ASimulatorThatIsStartedAnewIsPlayedWithAtOnce) {
+  settings_.simulator.half_minutes = 10.0;
+  start();
+  std::size_t before = 0;
+  for (const int run : {1, 2}) {
+    Program simulator{"trivela-simulator", kArguments, folder_.path()};
+    ASSERT_TRUE(wait_for_change(folder_.path(), simulator.watch(), [&] { return fired() >= before + 3; }));
+    before = fired();
+    simulator.signal(run == 1 ? SIGKILL : SIGTERM);
+    simulator.wait();
+  }
+  stop();
+  // Instants go on over the restart: they are the machine's, not the simulator's.
+  const Reader log{folder_ / "match.db"};
+  EXPECT_EQ(number_of(log,
+                      "SELECT count(*) FROM referee AS a JOIN referee AS b USING (session_id, robot_id) "
+                      "WHERE b.seq = a.seq + 1 AND b.t_ns <= a.t_ns"),
+            0);
+  EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_receipts WHERE accepted"), 6);
+  EXPECT_EQ(number_of(log,
+                      "SELECT count(*) FROM kick_receipts WHERE accepted AND (received_steady_ns < order_t_ns OR "
+                      "fired_steady_ns < received_steady_ns OR t_ns > order_t_ns + 100000000)"),
+            0);
 }
 
 }  // namespace

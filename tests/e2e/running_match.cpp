@@ -1,5 +1,8 @@
 #include "tests/e2e/running_match.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <stdexcept>
 
 #include "tests/e2e/log_rows.hpp"
@@ -44,9 +47,12 @@ bool RunningMatch::wait_until_recorded(std::uintmax_t bytes) const {
 }
 
 fs::path RunningMatch::config() const {
-  const auto files = folder_.files(".toml");
-  if (files.size() != 1) throw std::runtime_error{"the match has no one configuration"};
-  return folder_ / files.front();
+  const pid_t recorder = node("trivela-recorder").id();
+  const std::vector<std::string> words = command_of(recorder);
+  const auto flag = std::ranges::find(words, "--config");
+  if (words.end() - flag < 2) throw std::runtime_error{"the recorder has no configuration"};
+  // The name of an open file of that process.
+  return fmt::format("/proc/{}/fd/{}", recorder, fs::path{flag[1]}.filename().string());
 }
 
 std::vector<std::string> RunningMatch::nodes_left(std::chrono::milliseconds timeout) const {

@@ -21,7 +21,7 @@ class RunningMatch {
   const Folder& folder() const { return folder_; }
   std::filesystem::path log() const { return folder_ / "match.db"; }
 
-  /// The configuration that all nodes read.
+  /// The configuration that all nodes read, while the recorder lives.
   std::filesystem::path config() const;
 
   /// The node processes by program, e.g. "trivela-recorder".
