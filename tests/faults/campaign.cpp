@@ -172,9 +172,9 @@ class Campaign {
         wait(fault.lasts_s);
         return stack_.start(fault.node);
       case FaultKind::kSilence:
-        node.signal(SIGUSR1);
+        node.tell(1);
         wait(fault.lasts_s);
-        return node.signal(SIGUSR2);
+        return node.tell(0);
       default:
         return start_twin(fault, trial);
     }

@@ -1,6 +1,6 @@
 // fault_client DOMAIN_ID: somebody else's decision loop that insists: an order every 60 ms, each fresh and lawful by
 // itself, with more strength than kick_decision's, so that the driver always has one before it, whatever befalls the
-// chain behind it. SIGUSR1: begins; SIGUSR2: leaves off, as it is at first. Its clock is that of world_state.
+// chain behind it. SIGRTMIN with a value: 1 begins, 0 leaves off, as it is at first. Its clock is that of world_state.
 #include <dds/dds.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -103,8 +103,7 @@ int main(int argc, char** argv) {
   }
   sigset_t ours;
   sigemptyset(&ours);
-  sigaddset(&ours, SIGUSR1);
-  sigaddset(&ours, SIGUSR2);
+  sigaddset(&ours, SIGRTMIN);           // of several, the first one comes first
   sigprocmask(SIG_BLOCK, &ours, NULL);  // before the bus's threads exist, which inherit it
   const dds_entity_t participant = checked(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL), "bus");
   const dds_entity_t topic =
@@ -113,10 +112,11 @@ int main(int argc, char** argv) {
   const struct timespec period = {.tv_nsec = kPeriod_ms * 1000000L};
   dds_entity_t writer = 0;
   for (uint64_t seq = 0;;) {
-    const int signal = sigtimedwait(&ours, NULL, &period);
-    if (signal == SIGUSR1 && writer == 0) {
+    siginfo_t told;
+    const bool asked = sigtimedwait(&ours, &told, &period) == SIGRTMIN;
+    if (asked && told.si_value.sival_int == 1 && writer == 0) {
       writer = order_writer(participant, topic);
-    } else if (signal == SIGUSR2 && writer > 0) {
+    } else if (asked && told.si_value.sival_int == 0 && writer > 0) {
       dds_delete(writer);
       writer = 0;
     } else if (writer > 0) {

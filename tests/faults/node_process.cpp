@@ -79,6 +79,10 @@ void NodeProcess::signal(int number) const {
   if (!status_) kill(pid_, number);
 }
 
+void NodeProcess::tell(int value) const {
+  if (!status_) sigqueue(pid_, SIGRTMIN, sigval{.sival_int = value});
+}
+
 bool NodeProcess::ended() {
   int status = 0;
   if (!status_ && waitpid(pid_, &status, WNOHANG) == pid_) status_ = status;

@@ -32,6 +32,9 @@ class NodeProcess {
 
   void signal(int number) const;
 
+  /// SIGRTMIN with a value; several come one after the other.
+  void tell(int value) const;
+
   /// Readable when it has ended.
   int file_descriptor() const { return pid_fd_; }
 

@@ -1,8 +1,8 @@
 // fault_referee DOMAIN_ID: a referee box on a machine of its own. It says what the simulator's referee says, with a
 // writer of its own, so that the referee can be killed, paused and cut off while the rest of the world goes on. On
 // standard output: "writer GUID" for each writer of the simulator's words, in hexadecimal digits, for the hub that
-// keeps those words from everybody else. SIGUSR1: silent from now on; SIGUSR2: no longer. SIGTERM: deletes its writer
-// and ends.
+// keeps those words from everybody else. SIGRTMIN with a value: 1 silent from now on, 0 no longer. SIGTERM: deletes its
+// writer and ends.
 #include <dds/dds.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -62,8 +62,7 @@ int main(int argc, char** argv) {
   }
   sigset_t ours;
   sigemptyset(&ours);
-  sigaddset(&ours, SIGUSR1);
-  sigaddset(&ours, SIGUSR2);
+  sigaddset(&ours, SIGRTMIN);
   sigaddset(&ours, SIGTERM);
   sigprocmask(SIG_BLOCK, &ours, NULL);  // before the bus's threads exist, which inherit it
   const dds_entity_t participant = checked(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL), "bus");
@@ -79,7 +78,11 @@ int main(int argc, char** argv) {
   g_writer = checked(dds_create_writer(participant, topic, qos, NULL), "writer");
   dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_INFINITY);
   checked(dds_create_reader(participant, topic, qos, listener), "reader");
-  for (int signal = 0; sigwait(&ours, &signal) == 0 && signal != SIGTERM;) atomic_store(&g_silent, signal == SIGUSR1);
+  siginfo_t told;
+  for (int signal = 0; signal != SIGTERM;) {
+    signal = sigwaitinfo(&ours, &told);  // -1 after a pause
+    if (signal == SIGRTMIN) atomic_store(&g_silent, told.si_value.sival_int == 1);
+  }
   dds_delete(participant);
   return 0;
 }
