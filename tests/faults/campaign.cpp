@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <stdexcept>
 
 namespace trivela::faults {
@@ -29,6 +30,11 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<do
 
 std::chrono::nanoseconds nanoseconds(double time_s) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds{time_s});
+}
+
+bool garbles_driver(const Fault& fault) {
+  const std::size_t driver = node_index("kicker_driver");
+  return fault.kind == FaultKind::kGarble && (fault.node == driver || !fault.other || fault.other == driver);
 }
 
 /// Whether the chain is whole, from what comes after an instant.
@@ -137,6 +143,8 @@ class Campaign {
     }
     recover(trial);
     stack_.insist(false);
+    trial.whole_ns = now_ns();
+    if (garbles_driver(trial.fault)) stack_.renew_device_witness();
     return trial;
   }
 
@@ -221,6 +229,18 @@ class Campaign {
 };
 
 }  // namespace
+
+Testimony with_garbled_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials) {
+  for (const Trial& trial : trials) {
+    if (!garbles_driver(trial.fault)) continue;
+    std::copy_if(wire.words.begin(), wire.words.end(), std::back_inserter(device.words), [&](const WordSeen& word) {
+      return word.arrival_ns >= trial.began_ns && word.arrival_ns <= trial.whole_ns;
+    });
+  }
+  std::stable_sort(device.words.begin(), device.words.end(),
+                   [](const WordSeen& a, const WordSeen& b) { return a.arrival_ns < b.arrival_ns; });
+  return device;
+}
 
 std::vector<Trial> run_campaign(Stack& stack, const std::vector<Fault>& faults, const Watch& watch) {
   Campaign campaign{stack, watch};

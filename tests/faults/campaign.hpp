@@ -15,6 +15,7 @@ struct Trial {
   Fault fault;
   std::int64_t began_ns = 0;  ///< CLOCK_MONOTONIC
   std::int64_t ended_ns = 0;  ///< the node runs again, the link is sound again
+  std::int64_t whole_ns = 0;  ///< the chain is whole again, or was started anew
   bool recovered = false;
   double streams_s = 0.0;  ///< from ended_ns until every periodic topic was heard again
   double kick_s = 0.0;     ///< ... and until a new order was fired
@@ -27,6 +28,11 @@ struct Watch {
   std::function<void(std::size_t done, const Fault&)> progress;  ///< before each fault
   std::function<void()> look;                                    ///< every 20 ms; may throw to end the campaign
 };
+
+/// The device's witness under garbled words: its reader may grow deaf for good like anybody's, while the driver's does
+/// not. What the referee really said, as the wire's witness heard it, is added to its words for as long as such a fault
+/// on the driver's cable lasted.
+Testimony with_garbled_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials);
 
 /// Makes one fault after the other and waits each time until the chain is whole: every periodic topic is heard, a new
 /// order is fired, the recorder writes, and where the observer was hit, an outcome is told. A chain that does not come

@@ -92,8 +92,9 @@ Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_l
   stack.stop_all();
   verdict.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   verdict.orders = stack.wire().orders.size();
-  verdict.fires = fires_carried_out(stack.device(), stack.wire(), rules);
-  verdict.findings = judge(stack.device(), stack.wire(), rules);
+  const Testimony device = with_garbled_words(stack.device(), stack.wire(), verdict.trials);
+  verdict.fires = fires_carried_out(device, stack.wire(), rules);
+  verdict.findings = judge(device, stack.wire(), rules);
   verdict.forged = take_forged(verdict.findings, stack.garbled_to_driver());
   const KickRows rows = read_kick_rows(stack.logs());
   verdict.logged = look_up(verdict.fires, rows, rules.steady_t_ns);

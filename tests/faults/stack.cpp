@@ -85,14 +85,17 @@ Stack::Stack(const StackPlan& plan) : plan_(plan) {
     hub_ = std::make_unique<Hub>(std::move(cables), plan_.seed);
     hub_->keep_garbled(node_index("kicker_driver"));
   }
-  const auto network = [&](std::size_t host) { return hosts_.empty() ? -1 : hosts_[host].network(); };
-  start_witness(device_, "witness_device", network(node_index("kicker_driver")));
+  renew_device_witness();
   start_witness(wire_, "witness_wire", network(kNodes.size()));
   ProcessPlan client = foreign_plan(plan_, "fault_client");
   client.says = plan_.folder / "client.txt";
   client.network = network(node_index("kick_decision"));
   client_ = std::make_unique<NodeProcess>(client);
 }
+
+int Stack::network(std::size_t host) const { return hosts_.empty() ? -1 : hosts_[host].network(); }
+
+void Stack::renew_device_witness() { start_witness(device_, "witness_device", network(node_index("kicker_driver"))); }
 
 void Stack::write_configuration() const {
   std::ofstream{plan_.folder / "cyclonedds.xml"}
@@ -103,12 +106,14 @@ void Stack::write_configuration() const {
 }
 
 void Stack::start_witness(Witness& witness, const char* name, int network) {
+  witness.process.reset();
+  witness.words = std::make_unique<LinePipe>();
   ProcessPlan plan = foreign_plan(plan_, "fault_witness");
   plan.says = plan_.folder / fmt::format("{}.txt", name);
   plan.network = network;
-  plan.output = witness.words.write_end();
+  plan.output = witness.words->write_end();
   witness.process = std::make_unique<NodeProcess>(plan);
-  witness.words.close_write_end();
+  witness.words->close_write_end();
 }
 
 /// What the simulator's referee says comes to ours alone, which says it again.
@@ -117,7 +122,7 @@ void Stack::start_referee() {
   referee_words_ = std::make_unique<LinePipe>();
   ProcessPlan plan = foreign_plan(plan_, "fault_referee");
   plan.says = plan_.folder / "referee.txt";
-  plan.network = hosts_[place].network();
+  plan.network = network(place);
   plan.output = referee_words_->write_end();
   nodes_[place].reset();
   nodes_[place] = std::make_unique<NodeProcess>(plan);
@@ -129,7 +134,7 @@ ProcessPlan Stack::plan_of(std::size_t node) {
   plan.program = plan_.programs / fmt::format("trivela-{}", kNodes[node]);
   plan.arguments = {"--config", (plan_.folder / "nodes.toml").string()};
   plan.says = plan_.folder / fmt::format("{}.txt", kNodes[node]);
-  plan.network = hosts_.empty() ? -1 : hosts_[node].network();
+  plan.network = network(node);
   return plan;
 }
 
@@ -192,7 +197,7 @@ void Stack::sound() {
 }
 
 void Stack::hear(Witness& witness) {
-  if (!witness.words.hear([&](const std::string& line) { witness.testimony.note(line); }))
+  if (!witness.words->hear([&](const std::string& line) { witness.testimony.note(line); }))
     throw std::runtime_error{"a witness is gone"};
 }
 
@@ -216,8 +221,8 @@ bool Stack::listen(std::chrono::nanoseconds timeout, const std::function<bool()>
     if (done()) return true;
     const auto left = deadline - Clock::now();
     if (left <= left.zero()) return false;
-    std::array<pollfd, 3> sources{pollfd{device_.words.file_descriptor(), POLLIN, 0},
-                                  pollfd{wire_.words.file_descriptor(), POLLIN, 0},
+    std::array<pollfd, 3> sources{pollfd{device_.words->file_descriptor(), POLLIN, 0},
+                                  pollfd{wire_.words->file_descriptor(), POLLIN, 0},
                                   pollfd{referee_words_ ? referee_words_->file_descriptor() : -1, POLLIN, 0}};
     if (referee_words_ && !running(node_index("referee"))) sources[2].fd = -1;  // it would be readable for ever
     const auto wait = std::min<std::chrono::nanoseconds>(left, kGlance);

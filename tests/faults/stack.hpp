@@ -63,6 +63,9 @@ class Stack {
   /// at least every 20 ms. Throws std::runtime_error if a witness is gone.
   bool listen(std::chrono::nanoseconds timeout, const std::function<bool()>& done);
 
+  /// A new witness on the driver's host goes on with the testimony.
+  void renew_device_witness();
+
   const Testimony& device() const { return device_.testimony; }
   const Testimony& wire() const { return wire_.testimony; }
 
@@ -75,10 +78,11 @@ class Stack {
  private:
   struct Witness {
     Testimony testimony;
-    LinePipe words;
+    std::unique_ptr<LinePipe> words;
     std::unique_ptr<NodeProcess> process;
   };
 
+  int network(std::size_t host) const;
   void write_configuration() const;
   ProcessPlan plan_of(std::size_t node);
   void start_witness(Witness& witness, const char* name, int network);
