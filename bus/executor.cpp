@@ -1,14 +1,23 @@
 #include "bus/executor.hpp"
 
+#include <poll.h>
 #include <pthread.h>
 
 #include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "bus/hearing.hpp"
+#include "bus/renewal.hpp"
 
 namespace trivela::bus {
 namespace {
 
 // How long a device may keep an executor from stopping.
 constexpr std::chrono::milliseconds kDeviceTimeout{50};
+
+// How often it is looked, in real time, whether a topic has fallen silent.
+constexpr std::chrono::milliseconds kGlance{100};
 
 void name_this_thread(const std::string& name) { pthread_setname_np(pthread_self(), name.substr(0, 15).c_str()); }
 
@@ -29,7 +38,7 @@ void Executor::run() {
     open_readers();
     if (kind_ == kListener) catch_up();
     start_threads();
-    stop_.wait();
+    wait_for_stop();
   });
   finish();
   if (failure_) std::rethrow_exception(failure_);
@@ -76,9 +85,43 @@ void Executor::start_threads() {
     for (const auto& slot : node->slots_) {
       has_topics = has_topics || slot->reader;
       if (slot->poll) threads_.emplace_back([this, &slot = *slot] { serve_device(slot); });
+      if (slot->tick) threads_.emplace_back([this, &slot = *slot] { serve_timer(slot); });
     }
     if (has_topics && kind_ == kWaitset) threads_.emplace_back([this, node] { serve_topics(*node); });
   }
+}
+
+bool Executor::in_real_time() const {
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [](const Node* node) { return node->participant().hearing() != nullptr; });
+}
+
+void Executor::wait_for_stop() {
+  if (!in_real_time()) return stop_.wait();
+  pollfd stop{stop_.file_descriptor(), POLLIN, 0};
+  while (!stop_.requested()) {
+    poll(&stop, 1, static_cast<int>(kGlance.count()));
+    for (Node* node : nodes_) {
+      const auto deaf = node->participant().hearing() ? node->participant().hearing()->deaf() : std::nullopt;
+      if (deaf) return give_up(*deaf);
+      for (const auto& mailbox : node->mailboxes_) mailbox();
+      if (kind_ == kListener)
+        for (const auto& slot : node->slots_) keep_hearing(*slot);
+    }
+  }
+}
+
+// Ends this run, but not what the stop is for: who made the executor may make another.
+void Executor::give_up(const Deaf& deaf) {
+  const std::lock_guard lock(failure_mutex_);
+  if (!failure_) failure_ = std::make_exception_ptr(deaf);
+  over_ = true;
+}
+
+bool Executor::keep_hearing(Slot& slot) {
+  if (!slot.reader || !renew_if_silent(*slot.reader, slot.running, [] {})) return false;
+  react(slot);  // what came before it was in its place
+  return true;
 }
 
 void Executor::finish() noexcept {
@@ -100,11 +143,18 @@ void Executor::serve_topics(Node& node) {
     name_this_thread(node.name());
     Waitset waitset(node.participant());
     waitset.attach(node.interrupt_->condition(), -1);
+    const auto attach = [&](std::size_t i) {
+      waitset.attach(node.slots_[i]->reader->condition(), static_cast<std::intptr_t>(i));
+    };
     for (std::size_t i = 0; i < node.slots_.size(); ++i)
-      if (node.slots_[i]->reader) waitset.attach(node.slots_[i]->reader->condition(), static_cast<std::intptr_t>(i));
-    while (!stop_.requested()) {
-      for (const std::intptr_t i : waitset.wait(std::chrono::nanoseconds::max()))
+      if (node.slots_[i]->reader) attach(i);
+    const bool real_time = node.participant().hearing() != nullptr;
+    while (!over()) {
+      for (const std::intptr_t i : waitset.wait(real_time ? kGlance : std::chrono::nanoseconds::max()))
         if (i >= 0) react(*node.slots_[static_cast<std::size_t>(i)]);
+      if (!real_time) continue;
+      for (std::size_t i = 0; i < node.slots_.size(); ++i)
+        if (keep_hearing(*node.slots_[i])) attach(i);
     }
   });
 }
@@ -113,12 +163,24 @@ void Executor::serve_device(Slot& slot) {
   guarded([&] {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
-    while (!stop_.requested()) slot.poll(kDeviceTimeout);
+    while (!over()) slot.poll(kDeviceTimeout);
+  });
+}
+
+void Executor::serve_timer(Slot& slot) {
+  guarded([&] {
+    name_this_thread(slot.reaction.name);
+    const ReactionScope scope(slot.reaction, false);
+    auto next = std::chrono::steady_clock::now() + slot.period;
+    while (!stop_.wait_until(next) && !over()) {
+      slot.tick();
+      next = std::max(next + slot.period, std::chrono::steady_clock::now());
+    }
   });
 }
 
 void Executor::react(Slot& slot) noexcept {
-  if (!stop_.requested()) take(slot);
+  if (!over()) take(slot);
 }
 
 void Executor::take(Slot& slot) noexcept {

@@ -11,7 +11,8 @@
 
 namespace trivela::bus {
 
-/// Runs the reactions of one or more nodes. Devices always have a thread each; topics come in one of two ways:
+/// Runs the reactions of one or more nodes. Devices and timers always have a thread each; topics come in one of two
+/// ways:
 ///
 /// kWaitset: each node has one thread that waits for its topics and runs its reactions one after the other. They may
 /// wait, e.g. in Mailbox::await.
@@ -31,7 +32,8 @@ class Executor {
 
   /// Runs until the stop is requested; what has then arrived for a reaction with ReaderOptions::keep_all is still
   /// delivered. Throws Error naming the topics if the reactions form a cycle (kListener), and
-  /// rethrows the first exception of a reaction, which ends the run.
+  /// rethrows the first exception of a reaction, which ends the run; Deaf, where a participant in real time does not
+  /// hear what its nodes need and making readers anew does not help.
   void run();
 
  private:
@@ -40,11 +42,17 @@ class Executor {
   void open_readers();
   void catch_up();
   void start_threads();
+  void wait_for_stop();
+  bool in_real_time() const;
+  void give_up(const class Deaf& deaf);
+  bool over() const { return over_ || stop_.requested(); }
   void finish() noexcept;
   void serve_topics(Node& node);
   void serve_device(Slot& slot);
+  void serve_timer(Slot& slot);
   void react(Slot& slot) noexcept;
   void take(Slot& slot) noexcept;
+  bool keep_hearing(Slot& slot);
   bool failed();
   static void on_data(void* slot) noexcept;
   template <class F>
@@ -54,6 +62,7 @@ class Executor {
   Stop& stop_;
   std::vector<Node*> nodes_;
   std::atomic<bool> listening_ = false;
+  std::atomic<bool> over_ = false;
   std::vector<std::thread> threads_;
   std::mutex failure_mutex_;
   std::exception_ptr failure_;

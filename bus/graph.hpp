@@ -10,7 +10,7 @@ namespace trivela::bus {
 /// One edge set of the graph: what arrives, and which topics are written because of it.
 struct Reaction {
   std::string name;                  // "node/topic" or "node/device"
-  std::string input;                 // topic, or "device:..." (which nobody writes)
+  std::string input;                 // topic, or "device:..." or "timer:..." (which nobody writes)
   std::vector<std::string> outputs;  // topics
 };
 

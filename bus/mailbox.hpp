@@ -7,8 +7,10 @@
 #include <optional>
 
 #include "bus/error.hpp"
+#include "bus/last_heard.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
+#include "bus/renewal.hpp"
 #include "bus/waitset.hpp"
 
 namespace trivela::bus {
@@ -50,12 +52,28 @@ class Mailbox {
     }
   }
 
+  /// When a sample was taken last (LastHeard::ns()). Where that was before `before_ns`, takes what has arrived, unless
+  /// another thread is at it.
+  std::int64_t heard_ns(std::int64_t before_ns) {
+    if (heard_.ns() >= before_ns) return heard_.ns();
+    if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) take();
+    return heard_.ns();
+  }
+
   AnyReader& reader() { return reader_; }
+
+  /// In real time, to be called now and then, but by no listener: makes a reader anew that has heard nothing for too
+  /// long. A node's executor does it.
+  void keep_hearing() {
+    renew_if_silent(reader_, mutex_, [this] { waitset_.attach(reader_.condition(), 0); });
+  }
 
  private:
   void take() {
     reader_.take([this](const T& sample) {
-      if (!robot_id_ || sample.robot_id == *robot_id_) latest_ = sample;
+      if (robot_id_ && sample.robot_id != *robot_id_) return;
+      latest_ = sample;
+      heard_.now();
     });
   }
 
@@ -65,6 +83,7 @@ class Mailbox {
   std::shared_ptr<const Guard> interrupt_;
   Waitset waitset_;
   std::optional<T> latest_;
+  LastHeard heard_;
 };
 
 }  // namespace trivela::bus

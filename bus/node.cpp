@@ -18,6 +18,16 @@ Node::Slot& Node::add(const std::string& what, std::string input, std::vector<st
   return *slot;
 }
 
+void Node::add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> heard_ns) {
+  inputs_.push_back({std::move(name), period_s, std::move(heard_ns)});
+}
+
+std::shared_ptr<LastHeard> Node::listen(std::string input, double period_s) {
+  auto heard = std::make_shared<LastHeard>();
+  add_input(std::move(input), period_s, [heard](std::int64_t) { return heard->ns(); });
+  return heard;
+}
+
 std::vector<Reaction> Node::reactions() const {
   std::vector<Reaction> reactions;
   for (const auto& slot : slots_) reactions.push_back(slot->reaction);

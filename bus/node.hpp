@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus/graph.hpp"
+#include "bus/last_heard.hpp"
 #include "bus/mailbox.hpp"
 #include "bus/messages.hpp"
 #include "bus/reaction_scope.hpp"
@@ -70,7 +71,16 @@ class Node {
   template <Message T>
   std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}) {
     stored_.emplace_back(meta<T>::topic);
-    return std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+    auto mailbox = std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+    // The mailbox goes with its owner, whom its reader may call.
+    add_input(std::string(meta<T>::topic), meta<T>::period_s, [weak = std::weak_ptr(mailbox)](std::int64_t before_ns) {
+      const auto owned = weak.lock();
+      return owned ? owned->heard_ns(before_ns) : std::int64_t{0};
+    });
+    mailboxes_.push_back([weak = std::weak_ptr(mailbox)] {
+      if (const auto owned = weak.lock()) owned->keep_hearing();
+    });
+    return mailbox;
   }
 
   /// Calls react(sample) or react(sample, info) for each T that arrives; react may write the declared outputs only.
@@ -81,9 +91,11 @@ class Node {
     slot.open = [this, options](AnyReader::DataListener listener, void* context) -> std::unique_ptr<AnyReader> {
       return std::make_unique<Reader<T>>(participant_, options, listener, context);
     };
-    slot.take = [react = std::move(react), robot_id = robot_id_](AnyReader& reader) mutable {
+    const auto heard = listen(std::string(meta<T>::topic), meta<T>::period_s);
+    slot.take = [react = std::move(react), robot_id = robot_id_, heard](AnyReader& reader) mutable {
       static_cast<Reader<T>&>(reader).take([&](const T& sample, const SampleInfo& info) {
         if (robot_id && sample.robot_id != *robot_id) return;
+        heard->now();
         if constexpr (std::is_invocable_v<F&, const T&, const SampleInfo&>)
           react(sample, info);
         else
@@ -97,13 +109,29 @@ class Node {
   template <class Source, class F>
   void on_device(const std::string& device, Source source, F react, std::vector<std::string> outputs = {}) {
     Slot& slot = add(device, "device:" + device, std::move(outputs));
-    slot.poll = [source = std::move(source), react = std::move(react)](std::chrono::nanoseconds timeout) mutable {
-      if (auto value = source(timeout)) react(*value);
+    const auto heard = listen(slot.reaction.input, 0.0);
+    slot.poll = [source = std::move(source), react = std::move(react),
+                 heard](std::chrono::nanoseconds timeout) mutable {
+      auto value = source(timeout);
+      if (!value) return;
+      heard->now();
+      react(*value);
     };
+  }
+
+  /// Calls react() again and again, a period apart, in a thread of its own; one that comes late puts off the next ones.
+  template <class F>
+  void every(std::chrono::nanoseconds period, const std::string& name, F react, std::vector<std::string> outputs = {}) {
+    Slot& slot = add(name, "timer:" + name, std::move(outputs));
+    slot.period = period;
+    slot.tick = std::move(react);
   }
 
   /// What was declared: the node's part of the graph.
   std::vector<Reaction> reactions() const;
+
+  /// What comes to the node, with the instant at which it came last.
+  const std::vector<Input>& inputs() const { return inputs_; }
 
   /// The topics that are merely stored.
   const std::vector<std::string>& stored() const { return stored_; }
@@ -114,13 +142,15 @@ class Node {
  private:
   friend class Executor;
 
-  // A reaction with what runs it: open and take for a topic, poll for a device.
+  // A reaction with what runs it: open and take for a topic, poll for a device, tick for a timer.
   struct Slot {
     Reaction reaction;
     std::function<std::unique_ptr<AnyReader>(AnyReader::DataListener, void*)> open;
     std::function<void(AnyReader&)> take;
     std::function<void(std::chrono::nanoseconds)> poll;
-    bool to_the_last = false;  // what has arrived when the run ends still counts
+    std::function<void()> tick;
+    std::chrono::nanoseconds period{};  // of a timer
+    bool to_the_last = false;           // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
     class Executor* executor = nullptr;
@@ -128,6 +158,8 @@ class Node {
 
   std::string owner() const;
   Slot& add(const std::string& what, std::string input, std::vector<std::string> outputs);
+  void add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> heard_ns);
+  std::shared_ptr<LastHeard> listen(std::string input, double period_s);
 
   Participant participant_;
   std::string name_;
@@ -135,6 +167,8 @@ class Node {
   std::shared_ptr<Guard> interrupt_;
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
+  std::vector<Input> inputs_;
+  std::vector<std::function<void()>> mailboxes_;  // each call looks whether one has fallen silent
 };
 
 }  // namespace trivela::bus

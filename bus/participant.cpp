@@ -3,11 +3,13 @@
 #include <dds/dds.h>
 #include <fmt/core.h>
 
+#include <chrono>
 #include <map>
 #include <mutex>
 
 #include "bus/entity.hpp"
 #include "bus/error.hpp"
+#include "bus/hearing.hpp"
 #include "bus/resources.hpp"
 
 namespace trivela::bus {
@@ -42,16 +44,30 @@ std::shared_ptr<const Domain> join(const DomainConfig& config) {
 
 struct Participant::State {
   std::shared_ptr<const Domain> domain;  // outlives the participant
+  std::unique_ptr<Hearing> hearing;
   Entity entity;
 };
 
-Participant::Participant(const DomainConfig& config) {
+Participant::Participant(const DomainConfig& config) : Participant(config, nullptr) {}
+
+Participant::Participant(const DomainConfig& config, RealTime real_time)
+    : Participant(config, std::make_unique<Hearing>(std::move(real_time))) {}
+
+Participant::Participant(const DomainConfig& config, std::unique_ptr<Hearing> hearing) {
   require_resources();
   auto domain = join(config);
   const auto handle = checked(dds_create_participant(config.domain_id, nullptr, nullptr), "dds_create_participant",
                               fmt::format("domain {}", config.domain_id));
-  state_ = std::make_shared<const State>(State{std::move(domain), Entity(handle)});
+  state_ = std::make_shared<const State>(State{std::move(domain), std::move(hearing), Entity(handle)});
 }
+
+bool Participant::believes(std::int64_t t_ns) const {
+  constexpr std::chrono::seconds kFarthestAhead{1};
+  const auto latest = std::chrono::steady_clock::now().time_since_epoch() + kFarthestAhead;
+  return !state_->hearing || (t_ns >= 0 && std::chrono::nanoseconds{t_ns} <= latest);
+}
+
+Hearing* Participant::hearing() const { return state_->hearing.get(); }
 
 std::int32_t Participant::handle() const { return state_->entity.handle(); }
 

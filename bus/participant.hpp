@@ -1,10 +1,24 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "bus/domain.hpp"
 
 namespace trivela::bus {
+
+class Hearing;
+
+/// Real time: nobody waits for anybody, and every t_ns is the machine's steady clock.
+struct RealTime {
+  /// One line an event, on any thread.
+  std::function<void(const std::string&)> warn = {};
+  /// A member gives up (Deaf) no sooner than this after it joined.
+  std::chrono::seconds stay{5};
+};
 
 /// A member of a DDS domain; copies are the same member. Readers and writers keep it alive. The participants of one
 /// process with the same domain id share one configuration.
@@ -15,11 +29,22 @@ class Participant {
   /// domain already with another configuration, or is short of file descriptors or threads.
   explicit Participant(const DomainConfig& config);
 
+  /// The same for a run in real time: readers of topics with a period that hear nothing are made anew.
+  Participant(const DomainConfig& config, RealTime real_time);
+
+  /// False where an instant cannot be true: in real time, below 0 or over a second ahead of the steady clock.
+  bool believes(std::int64_t t_ns) const;
+
+  /// What the readers of this member miss; nullptr where this is no run in real time. For bus/ alone.
+  Hearing* hearing() const;
+
   /// Cyclone's handle, for bus/ alone.
   std::int32_t handle() const;
 
  private:
   struct State;
+  Participant(const DomainConfig& config, std::unique_ptr<Hearing> hearing);
+
   std::shared_ptr<const State> state_;
 };
 

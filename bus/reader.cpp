@@ -1,16 +1,23 @@
 #include "bus/reader.hpp"
 
 #include <dds/dds.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "bus/error.hpp"
+#include "bus/hearing.hpp"
 #include "bus/qos.hpp"
 
 namespace trivela::bus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// A reader without a period is made anew no more often than this.
+constexpr std::chrono::seconds kPause{2};
 
 struct DeleteListener {
   void operator()(dds_listener_t* listener) const noexcept { dds_delete_listener(listener); }
@@ -53,28 +60,83 @@ struct AnyReader::Callbacks {
 void AnyReader::DeleteCallbacks::operator()(Callbacks* callbacks) const noexcept { delete callbacks; }
 
 AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
-                     Profile profile, const ReaderOptions& options, DataListener listener, void* context)
-    : participant_(participant), topic_(topic), callbacks_(new Callbacks{listener, context, options.on_liveliness}) {
+                     Profile profile, std::chrono::nanoseconds period, const ReaderOptions& options,
+                     DataListener listener, void* context)
+    : participant_(participant),
+      topic_(topic),
+      profile_(profile),
+      options_(options),
+      callbacks_(new Callbacks{listener, context, options.on_liveliness}) {
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
+  if (const Hearing* hearing = participant_.hearing()) {
+    if (period > period.zero()) silence_.emplace(period, Clock::now());
+    renewals_seen_ = hearing->renewals();
+  }
+  reader_ = open();
+}
+
+Entity AnyReader::open() const {
   // Given at creation: a listener set later is not called for what arrived before.
   const std::unique_ptr<dds_listener_t, DeleteListener> listeners(dds_create_listener(callbacks_.get()));
-  if (listener != nullptr) {
+  if (callbacks_->data != nullptr) {
     dds_lset_data_available(listeners.get(), [](dds_entity_t, void* arg) noexcept {
       const auto& callbacks = *static_cast<const Callbacks*>(arg);
       callbacks.data(callbacks.context);
     });
   }
-  if (options.on_liveliness) {
+  if (callbacks_->liveliness) {
     dds_lset_liveliness_changed(
         listeners.get(), [](dds_entity_t, dds_liveliness_changed_status_t status, void* arg) noexcept {
           static_cast<const Callbacks*>(arg)->liveliness({status.alive_count, status.not_alive_count});
         });
   }
-  const Qos qos = reader_qos(profile, options);
-  reader_ = Entity(checked(dds_create_reader(participant.handle(), topic_entity_.handle(), qos.get(), listeners.get()),
-                           "dds_create_reader", topic_));
-  checked(dds_set_status_mask(reader_.handle(), DDS_SUBSCRIPTION_MATCHED_STATUS), "dds_set_status_mask", topic_);
+  const Qos qos = reader_qos(profile_, options_);
+  Entity reader(checked(dds_create_reader(participant_.handle(), topic_entity_.handle(), qos.get(), listeners.get()),
+                        "dds_create_reader", topic_));
+  checked(dds_set_status_mask(reader.handle(), DDS_SUBSCRIPTION_MATCHED_STATUS), "dds_set_status_mask", topic_);
+  return reader;
+}
+
+bool AnyReader::time_to_renew() {
+  Hearing* const hearing = participant_.hearing();
+  if (hearing == nullptr) return false;
+  const auto now = Clock::now();
+  if (!silence_) {
+    if (now - renewed_ < kPause || renewals_seen_ == hearing->renewals()) return false;
+    renewed_ = now;
+    renewals_seen_ = hearing->renewals();
+    return true;
+  }
+  if (!silence_->due(now)) return false;
+  const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
+  const std::uint32_t alive = liveliness().alive;
+  hearing->renewed(
+      fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made anew", topic_, silent_s, alive));
+  // A writer that stands still or is gone lapses; one that is there and not heard lives on.
+  constexpr std::size_t kHelpless = 3;
+  if (alive > 0 && silence_->attempts() > kHelpless)
+    hearing->give_up(
+        topic_, fmt::format("silent for {:.1f} s with {} live writers, and the reader was made anew {} times", silent_s,
+                            alive, kHelpless));
+  return true;
+}
+
+AnyReader::Retired AnyReader::replace(Entity anew) {
+  return {std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
+}
+
+// A reader made anew is given the last sample of each writer that still stands.
+bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
+  const auto known =
+      std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) { return newest.writer == writer; });
+  if (known == newest_.end()) {
+    constexpr std::size_t kMost = 64;  // writers come and go
+    if (newest_.size() == kMost) newest_.erase(newest_.begin());
+    newest_.push_back({writer, source_t_ns});
+    return true;
+  }
+  return std::exchange(known->source_t_ns, source_t_ns) != source_t_ns;
 }
 
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
@@ -85,6 +147,10 @@ std::size_t AnyReader::take_raw(Sink sink, void* context) {
     for (std::size_t i = 0; i < count; ++i) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
+      if (silence_) {
+        if (!is_new(info.publication_handle, info.source_timestamp)) continue;
+        silence_->heard(Clock::now());
+      }
       sink(context, loan.sample(i), {info.source_timestamp, info.publication_handle});
       ++taken;
     }

@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "bus/entity.hpp"
 #include "bus/options.hpp"
 #include "bus/participant.hpp"
+#include "bus/silence_watch.hpp"
 #include "bus/waitset.hpp"
 #include "idl/meta.hpp"
 
@@ -48,6 +51,25 @@ class AnyReader {
   ReaderCounts counts() const;
   const std::string& topic() const { return topic_; }
 
+  /// In real time: whether it has heard nothing for so long that it shall be made anew, since what a packet broke in
+  /// Cyclone's picture of a writer stays broken for the readers that it has. To be asked now and then by who takes;
+  /// bus/renewal.hpp does what follows.
+  bool time_to_renew();
+
+  /// What goes when a reader is made anew.
+  struct Retired {
+    Entity reader;
+    Entity condition;
+    std::unique_ptr<Waitset> waitset;
+  };
+
+  /// A second reader like this one, and this one with that in its place; for bus/ alone. A listener may not call them:
+  /// Cyclone waits for it.
+  Entity open() const;
+  [[nodiscard]] Retired replace(Entity anew);
+
+  const Participant& participant() const { return participant_; }
+
   /// Cyclone's handle of the reader; for bus/ alone.
   std::int32_t handle() const { return reader_.handle(); }
 
@@ -57,11 +79,15 @@ class AnyReader {
  protected:
   using Sink = void (*)(void* context, const void* sample, const SampleInfo& info);
 
+  /// period: after which a sample of the topic follows the last, if it has one.
   AnyReader(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
-            Profile profile, const ReaderOptions& options, DataListener listener, void* context);
+            Profile profile, std::chrono::nanoseconds period, const ReaderOptions& options, DataListener listener,
+            void* context);
   std::size_t take_raw(Sink sink, void* context);
 
  private:
+  bool is_new(std::uint64_t writer, std::int64_t source_t_ns);
+
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
   struct DeleteCallbacks {
     void operator()(Callbacks* callbacks) const noexcept;
@@ -69,12 +95,30 @@ class AnyReader {
 
   Participant participant_;
   std::string topic_;
+  Profile profile_;
+  ReaderOptions options_;
   std::unique_ptr<Callbacks, DeleteCallbacks> callbacks_;
   Entity topic_entity_;
   Entity reader_;
   Entity condition_;
   std::unique_ptr<Waitset> waitset_;
+
+  // The newest sample of each writer, who speaks for one robot: a reader made anew is given it once more.
+  struct Newest {
+    std::uint64_t writer;
+    std::int64_t source_t_ns;
+  };
+  std::vector<Newest> newest_;
+  std::optional<SilenceWatch> silence_;  // in real time, of a topic with a period
+  std::uint64_t renewals_seen_ = 0;      // of the participant's readers that have a period
+  std::chrono::steady_clock::time_point renewed_{};
 };
+
+/// The period of T's topic; zero: it has none.
+template <Message T>
+constexpr std::chrono::nanoseconds period_of() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(meta<T>::period_s));
+}
 
 /// Receives T from its topic with its profile.
 template <Message T>
@@ -84,7 +128,8 @@ class Reader : public AnyReader {
   /// writer's in this process. Throws Error if Cyclone refuses.
   explicit Reader(const Participant& participant, const ReaderOptions& options = {}, DataListener listener = nullptr,
                   void* context = nullptr)
-      : AnyReader(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, options, listener, context) {}
+      : AnyReader(participant, meta<T>::descriptor(), meta<T>::topic, meta<T>::profile, period_of<T>(), options,
+                  listener, context) {}
 
   /// Hands everything that has arrived to f(sample, info) or f(sample) and returns how many samples that were. An
   /// exception of f passes through; what was taken with its sample is gone.

@@ -47,6 +47,18 @@ void Stop::wait() const {
   }
 }
 
+bool Stop::wait_until(std::chrono::steady_clock::time_point end) const {
+  pollfd event{event_, POLLIN, 0};
+  while (!requested()) {
+    const std::chrono::nanoseconds left = end - std::chrono::steady_clock::now();
+    if (left <= left.zero()) return false;
+    const timespec timeout{static_cast<time_t>(left.count() / 1'000'000'000),
+                           static_cast<long>(left.count() % 1'000'000'000)};
+    if (ppoll(&event, 1, &timeout, nullptr) < 0 && errno != EINTR) throw Error("poll", "stop", std::strerror(errno));
+  }
+  return true;
+}
+
 StopOnSignals::StopOnSignals(Stop& stop) {
   [[maybe_unused]] Stop* before = g_stop.exchange(&stop);
   assert(before == nullptr);

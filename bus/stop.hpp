@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 
 namespace trivela::bus {
 
@@ -18,6 +19,9 @@ class Stop {
 
   /// Blocks until it is requested.
   void wait() const;
+
+  /// Blocks until it is requested, no longer than until `end`. True: it is requested.
+  bool wait_until(std::chrono::steady_clock::time_point end) const;
 
   /// Readable once it is requested, for poll().
   int file_descriptor() const noexcept { return event_; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace trivela::evaluator::log {
@@ -27,6 +28,14 @@ struct Loss {
 
   /// Samples that are not in the log. What the bus reports as lost shows as a gap too, so the larger of the two counts.
   std::int64_t missing() const { return (lost > gaps ? lost : gaps) + overflow + nan_refused + rejected; }
+};
+
+/// A stream of one robot that said nothing for too long; row of table `losses` with counters of 0.
+struct Silence {
+  std::string stream;  ///< name of the table that the samples are for
+  int robot_id = 0;
+  std::int64_t from_t_ns = 0;             ///< last sample before it
+  std::optional<std::int64_t> to_t_ns{};  ///< first sample after it; none: it lasts
 };
 
 }  // namespace trivela::evaluator::log

@@ -72,7 +72,8 @@ std::vector<RecordedSession> Reader::sessions() const {
   std::vector<RecordedSession> sessions;
   query(
       "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config.text, "
-      "config_sha256, seed, software_version, scenario, simulated, idl.text, arm, kicker_table, match_id "
+      "config_sha256, seed, software_version, scenario, simulated, idl.text, arm, kicker_table, match_id, "
+      "continues_uuid "
       "FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
       "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 ORDER BY started_t_ns, session_id",
       [&](std::span<const Value> row) {
@@ -94,6 +95,7 @@ std::vector<RecordedSession> Reader::sessions() const {
         if (!text_of(row[14]).empty()) session.arm = text_of(row[14]);
         if (!text_of(row[15]).empty()) session.kicker_table = text_of(row[15]);
         session.match_id = integer_of(row[16]);
+        session.continues_uuid = text_of(row[17]);
         sessions.push_back(std::move(session));
       });
   for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {

@@ -32,8 +32,8 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
   SQLite::Statement insert(database,
                            "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
                            "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
-                           "idl_sha256, arm, kicker_table, match_id) "
-                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "idl_sha256, arm, kicker_table, match_id, continues_uuid) "
+                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, session_id);
   insert.bind(2, session.uuid);
   if (session.robot_id) insert.bind(3, *session.robot_id);
@@ -50,8 +50,18 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
   if (session.arm) insert.bind(14, *session.arm);
   if (session.kicker_table) insert.bind(15, *session.kicker_table);
   if (session.match_id) insert.bind(16, *session.match_id);
+  if (!session.continues_uuid.empty()) insert.bind(17, session.continues_uuid);
   insert.exec();
 
+  for (const DriverCount& driver : session.continued) {
+    SQLite::Statement count(
+        database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)");
+    count.bind(1, session_id);
+    count.bind(2, driver.robot_id);
+    count.bind(3, driver.orders_handled);
+    count.bind(4, driver.orders_refused);
+    count.exec();
+  }
   for (const HalfPolicy& half : session.policies) {
     SQLite::Statement policy(database, "INSERT INTO session_policies (session_id, half, policy) VALUES (?, ?, ?)");
     policy.bind(1, session_id);

@@ -13,6 +13,13 @@ struct HalfPolicy {
   std::string policy;
 };
 
+/// How many orders a kicker's driver had handled and refused where a session ends.
+struct DriverCount {
+  int robot_id = 0;
+  std::int64_t orders_handled = 0;
+  std::int64_t orders_refused = 0;
+};
+
 /// What a recording says about itself; becomes the row of table `sessions`.
 struct Session {
   std::string uuid;                     ///< version 4; empty: the writer makes one
@@ -30,6 +37,8 @@ struct Session {
   std::optional<std::string> arm{};           ///< of an experiment
   std::optional<std::string> kicker_table{};  ///< of the arm: "new" or "old"
   std::optional<std::int64_t> match_id{};     ///< where it is the same, possessions are the same situations
+  std::string continues_uuid{};               ///< session that this one goes on from; empty: none
+  std::vector<DriverCount> continued{};       ///< where that one ends, by robot
 };
 
 }  // namespace trivela::evaluator::log

@@ -45,6 +45,25 @@ RowTable SessionWriter::describe(std::string_view name, const std::vector<std::s
   return table;
 }
 
+RowTable silence_rows() {
+  return {.name = "losses",
+          .not_null = {true, true, true, false},
+          .t_ns = {},
+          .insert_sql =
+              "INSERT OR REPLACE INTO losses (session_id, stream, robot_id, from_t_ns, to_t_ns, received, lost, "
+              "gaps, overflow, nan_refused, rejected, out_of_order) "
+              "VALUES (?, ?, ?, ?, ?, 0, 0, 0, 0, 0, 0, 0)",
+          .counted = false};
+}
+
+RowTable withdrawn_silence_rows() {
+  return {.name = "losses",
+          .not_null = {true, true, true},
+          .t_ns = {},
+          .insert_sql = "DELETE FROM losses WHERE session_id = ? AND stream = ? AND robot_id = ? AND from_t_ns = ?",
+          .counted = false};
+}
+
 SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table, SQLite::Statement& statement) {
   if (row.values.size() != table.not_null.size()) return Fate::kRejected;
   statement.tryReset();
@@ -86,7 +105,7 @@ GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::dequ
     auto& statement = statements_[row.table];
     if (!statement) statement = std::make_unique<SQLite::Statement>(*database_, table.insert_sql);
     Loss& loss = counters.try_emplace(row.table, Loss{.stream = table.name}).first->second;
-    ++loss.received;
+    if (table.counted) ++loss.received;
     const Fate fate = insert(row, table, *statement);
     if (fate == Fate::kNan && ++loss.nan_refused == 1) {
       result.reasons.push_back(fmt::format("{}: NaN, infinity or nothing where a number must be", table.name));
@@ -109,6 +128,7 @@ GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::dequ
   LossBook sums;
   for (const Loss& loss : book.all()) sums.add(loss);
   for (const auto& [table, loss] : counters) {
+    if (!tables[table].counted && loss.missing() == 0) continue;
     sums.add(loss);
     result.counters.push_back(loss);
   }

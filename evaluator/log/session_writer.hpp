@@ -34,7 +34,14 @@ struct RowTable {
   std::vector<bool> not_null;       ///< by column of the rows
   std::optional<std::size_t> t_ns;  ///< place of the column t_ns
   std::string insert_sql;           ///< session_id is its first parameter
+  bool counted = true;              ///< each row is a sample, for the counters of the stream
 };
+
+/// Silences as rows (stream, robot_id, from_t_ns, to_t_ns): a later one with the same beginning replaces the earlier.
+RowTable silence_rows();
+
+/// Silences (stream, robot_id, from_t_ns) that are taken back.
+RowTable withdrawn_silence_rows();
 
 /// Rows that a group could not write, by stream, with the first reason of each kind.
 struct GroupResult {

@@ -62,6 +62,16 @@ struct Writer::Impl {
     return tables;
   }
 
+  // Place of a kind of rows that is registered when it is needed.
+  std::size_t place(std::optional<std::size_t>& place, RowTable (*make)()) {
+    const std::lock_guard lock(mutex);
+    if (!place) {
+      tables.push_back(make());
+      place = tables.size() - 1;
+    }
+    return *place;
+  }
+
   // Commits the group whose first row was pushed then. False: the disk refused it.
   bool try_commit(const std::vector<Row>& group, Clock::time_point first) {
     const auto begun = Clock::now();
@@ -125,8 +135,10 @@ struct Writer::Impl {
   RowQueue queue;
   CommitPace pace;  // of the thread
   LossBook book;
-  std::mutex mutex;  // of the next three
+  std::mutex mutex;  // of the next five
   std::deque<RowTable> tables;
+  std::optional<std::size_t> silences;
+  std::optional<std::size_t> withdrawn_silences;
   std::set<std::string> warned;
   SessionWriter connection;  // of the thread, after its end of finalise; `describe` under the mutex
   std::atomic<std::int64_t> rows_written = 0;
@@ -174,6 +186,17 @@ void Writer::add_loss(std::string_view stream, LossKind kind, std::int64_t n) {
   Loss delta{.stream = std::string(stream)};
   counter(delta, kind) = n;
   impl_->book.add(delta);
+}
+
+void Writer::silence(const Silence& silence) {
+  const Value end = silence.to_t_ns ? Value(*silence.to_t_ns) : Value();
+  push({impl_->place(impl_->silences, silence_rows)},
+       {silence.stream, std::int64_t{silence.robot_id}, silence.from_t_ns, end});
+}
+
+void Writer::withdraw(const Silence& silence) {
+  push({impl_->place(impl_->withdrawn_silences, withdrawn_silence_rows)},
+       {silence.stream, std::int64_t{silence.robot_id}, silence.from_t_ns});
 }
 
 void Writer::flush() {

@@ -69,6 +69,12 @@ class Writer {
   /// Adds n to a counter of the stream, which is named like its table.
   void add_loss(std::string_view stream, LossKind kind, std::int64_t n = 1);
 
+  /// A row for a silence, written among the rows as they come; the same once more with its end replaces it.
+  void silence(const Silence& silence);
+
+  /// It was none: its row goes.
+  void withdraw(const Silence& silence);
+
   /// Waits until everything pushed so far is committed. Throws std::runtime_error where the disk refuses.
   void flush();
 

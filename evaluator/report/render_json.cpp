@@ -30,6 +30,7 @@ Json session_json(const log::RecordedSession& session) {
           {"software_version", session.software_version},
           {"config_sha256", session.config_sha256},
           {"closed", session.closed_t_ns.has_value()},
+          {"continues", session.continues_uuid.empty() ? Json() : Json(session.continues_uuid)},
           {"policies", policies}};
 }
 
@@ -45,6 +46,25 @@ Json loss_json(const log::Loss& loss) {
           {"out_of_order", loss.out_of_order}};
 }
 
+Json silence_json(const RecordedSilence& silence) {
+  return {{"session_id", silence.session_id},    {"stream", silence.stream},
+          {"robot_id", silence.robot_id},        {"from_t_ns", silence.from_t_ns},
+          {"to_t_ns", json_of(silence.to_t_ns)}, {"from_s", silence.from_s()},
+          {"to_s", json_of(silence.to_s())},     {"counts", silence.counts}};
+}
+
+Json unrecorded_json(const UnrecordedOrders& orders) {
+  return {{"session_id", orders.session_id},
+          {"robot_id", orders.robot_id},
+          {"continues", orders.continues},
+          {"restarted_before", orders.restarted_before},
+          {"orders_before", orders.orders_before},
+          {"kicks_before", orders.kicks_before},
+          {"orders_within", orders.orders_within},
+          {"kicks_within", orders.kicks_within},
+          {"counts", orders.counts()}};
+}
+
 Json quality_json(const Report& report) {
   Json quality = {{"data_lost", report.data_lost()},
                   {"rows_missing", report.rows_missing()},
@@ -52,7 +72,9 @@ Json quality_json(const Report& report) {
                   {"warnings", report.warnings},
                   {"streams", Json::array()},
                   {"unclosed_kicks", Json::array()},
-                  {"refused_orders", Json::array()}};
+                  {"refused_orders", Json::array()},
+                  {"silences", Json::array()},
+                  {"unrecorded_orders", Json::array()}};
   for (const log::Loss& loss : report.losses) quality["streams"].push_back(loss_json(loss));
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     quality["unclosed_kicks"].push_back({{"session_id", kick.session_id},
@@ -67,6 +89,10 @@ Json quality_json(const Report& report) {
   for (const RefusedOrders& refused : report.refused_orders) {
     quality["refused_orders"].push_back(
         {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});
+  }
+  for (const RecordedSilence& silence : report.silences) quality["silences"].push_back(silence_json(silence));
+  for (const UnrecordedOrders& orders : report.unrecorded_orders) {
+    quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
   if (report.compared_with_truth > 0) {
     quality["truth"] = {{"compared", report.compared_with_truth}, {"alike", report.alike_with_truth}};

@@ -27,6 +27,7 @@ std::string heading(const Report& report) {
     if (session.robot_id) text += fmt::format(", robot {}", *session.robot_id);
     for (const auto& half : session.policies) text += fmt::format(", half {} {}", half.half, half.policy);
     text += fmt::format(", version {}, configuration {:.12}\n", session.software_version, session.config_sha256);
+    if (!session.continues_uuid.empty()) text += fmt::format("  it continues session {}\n", session.continues_uuid);
   }
   return text;
 }
@@ -71,6 +72,8 @@ std::string lost_rows(const Report& report) {
 std::string quality(const Report& report) {
   std::string text = "\nData quality\n" + lost_rows(report);
   for (const std::string& warning : report.warnings) text += fmt::format("  warning: {}\n", warning);
+  for (const std::string& line : silence_lines(report.silences)) text += fmt::format("  {}\n", line);
+  for (const std::string& line : order_lines(report.unrecorded_orders)) text += fmt::format("  {}\n", line);
   for (const RefusedOrders& refused : report.refused_orders) {
     text += fmt::format("  refused orders, no kicks: {} x {} ({})\n", refused.orders, words(refused.refusal),
                         refused.policy);

@@ -69,12 +69,19 @@ std::int64_t Report::simulated_sessions() const {
   return std::ranges::count_if(sessions, &log::RecordedSession::simulated);
 }
 
+bool Report::data_lost() const {
+  return rows_missing() > 0 || unclosed_sessions() > 0 || std::ranges::any_of(silences, &RecordedSilence::counts) ||
+         std::ranges::any_of(unrecorded_orders, &UnrecordedOrders::counts);
+}
+
 Report make_report(const log::Reader& reader) {
   Report report{.sessions = reader.sessions(),
                 .policies = policy_rows(reader),
                 .losses = reader.losses(),
                 .unclosed_kicks = {},
                 .refused_orders = {},
+                .silences = silences_of(reader),
+                .unrecorded_orders = unrecorded_orders_of(reader),
                 .warnings = reader.warnings()};
   for (const log::RecordedSession& session : report.sessions) {
     if (!session.scenario.starts_with("replay of ")) continue;

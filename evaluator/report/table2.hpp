@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/recording_gaps.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
 
@@ -61,6 +62,8 @@ struct Report {
   std::vector<log::Loss> losses;    ///< by stream
   std::vector<UnclosedKick> unclosed_kicks;
   std::vector<RefusedOrders> refused_orders;
+  std::vector<RecordedSilence> silences;
+  std::vector<UnrecordedOrders> unrecorded_orders;
   std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
   std::int64_t compared_with_truth = 0;  ///< kicks whose outcome and truth are both known
   std::int64_t alike_with_truth = 0;
@@ -69,8 +72,8 @@ struct Report {
   std::int64_t unclosed_sessions() const;
   std::int64_t simulated_sessions() const;
 
-  /// Rows are missing, or may be since a session was not closed.
-  bool data_lost() const { return rows_missing() > 0 || unclosed_sessions() > 0; }
+  /// Rows are missing, or may be since a session was not closed; a stream was silent, or kicks stand in no log.
+  bool data_lost() const;
 };
 
 /// Counts what is in the log. Throws std::runtime_error where it cannot be read.

@@ -4,10 +4,13 @@
 #include <iterator>
 #include <utility>
 
+#include "bus/renewal.hpp"
+
 namespace trivela::hal {
 namespace {
 
 constexpr std::chrono::seconds kLongest{1};
+constexpr std::uint64_t kMostSkipped = 10'000;  // minutes of scans; a number farther ahead is not a true one
 
 }  // namespace
 
@@ -15,6 +18,7 @@ SimRangeFinder::SimRangeFinder(const bus::Participant& participant, std::uint8_t
     : robot_id_(robot_id), reader_(participant, {.period = {}, .keep_all = true, .on_liveliness = {}}) {}
 
 void SimRangeFinder::take() {
+  bus::renew_if_silent(reader_);
   reader_.take([this](const msg::SimScan& sample) {
     if (sample.robot_id != robot_id_) return;
     geometry_ = {.beams = std::min<std::size_t>(sample.beam_count, std::size(sample.range_mm)),
@@ -25,7 +29,8 @@ void SimRangeFinder::take() {
                  .min_range_m = sample.min_range_m,
                  .max_range_m = sample.max_range_m};
     waiting_.push_back({sample.t_ns, {std::begin(sample.range_mm), std::begin(sample.range_mm) + geometry_.beams}});
-    if (counters_.scans > 0 && sample.seq > seq_ + 1) counters_.lost_scans += sample.seq - seq_ - 1;
+    const std::uint64_t skipped = counters_.scans > 0 && sample.seq > seq_ ? sample.seq - seq_ - 1 : 0;
+    if (skipped <= kMostSkipped) counters_.lost_scans += skipped;
     seq_ = sample.seq;
     ++counters_.scans;
   });

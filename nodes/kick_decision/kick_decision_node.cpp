@@ -46,6 +46,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
     expect_readers(drive_out_, 2);     // odometry, recorder
   });
   stay_alive();
+  if (!context_.participant.believes(world.t_ns)) return;
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
   const CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));

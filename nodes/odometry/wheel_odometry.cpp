@@ -7,13 +7,15 @@ namespace trivela::nodes {
 
 std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::span<const double> wheel_radps,
                                                       const std::optional<double>& gyro_radps) {
-  const bool finite = std::all_of(wheel_radps.begin(), wheel_radps.end(), [](double w) { return std::isfinite(w); });
-  if (!finite || wheel_radps.size() < static_cast<std::size_t>(kinematics_.wheel_count())) return std::nullopt;
+  constexpr double kFastest_radps = 1e3;  // beyond any motor; what came of more would stay in the pose
+  const auto sound = [](double w) { return std::abs(w) <= kFastest_radps; };
+  const bool all_sound = std::all_of(wheel_radps.begin(), wheel_radps.end(), sound);
+  if (!all_sound || wheel_radps.size() < static_cast<std::size_t>(kinematics_.wheel_count())) return std::nullopt;
   if (last_t_ns_ && t_ns <= *last_t_ns_) return std::nullopt;
 
   kicking::Twist twist = kinematics_.twist(wheel_radps);
   double var_omega = variance_.z();
-  if (gyro_radps && std::isfinite(*gyro_radps)) {
+  if (gyro_radps && sound(*gyro_radps)) {
     const double var_gyro = noise_.gyro_sd_radps * noise_.gyro_sd_radps;
     twist.omega_radps = (twist.omega_radps * var_gyro + *gyro_radps * var_omega) / (var_gyro + var_omega);
     var_omega = var_omega * var_gyro / (var_gyro + var_omega);

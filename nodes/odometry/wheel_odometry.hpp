@@ -31,8 +31,8 @@ class WheelOdometry {
   WheelOdometry(const config::WheelBase& base, const config::Odometry& noise)
       : kinematics_(base), noise_(noise), variance_(kinematics_.twist_variance(noise.wheel_sd_radps)) {}
 
-  /// Takes the samples of instant `t_ns`; the first one sets the clock and moves nothing. Samples that are not finite
-  /// or not newer than the last one are ignored (nullopt).
+  /// Takes the samples of instant `t_ns`; the first one sets the clock and moves nothing. Samples that are not finite,
+  /// faster than 1000 rad/s or not newer than the last one are ignored (nullopt).
   std::optional<OdometryEstimate> update(std::int64_t t_ns, std::span<const double> wheel_radps,
                                          const std::optional<double>& gyro_radps);
 

@@ -1,9 +1,11 @@
 #include "nodes/recorder/recorder_node.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 
 #include "nodes/recorder/message_row.hpp"
+#include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -16,6 +18,10 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
       log_(log),
       node_(context.participant, "recorder"),
       step_done_(step_done_writer(context, node_)) {
+  if (!context.settings.run.lockstep) {
+    silences_.emplace(context, log);
+    node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
+  }
   record<msg::Odometry>("odometry");
   record<msg::VisionFrame>("vision_frames");
   record<msg::FlightFrame>("flight_frames");
@@ -31,10 +37,24 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log)
   record_decisions();
 }
 
+void RecorderNode::note_silences() {
+  if (silences_) silences_->look(now_ns(std::chrono::steady_clock::now()));
+}
+
 template <class T>
-std::int64_t RecorderNode::store(const std::string& table, TableId id, SequenceWatch& watch, T sample,
-                                 std::uint64_t writer) {
-  const auto finding = watch.see(sample.robot_id, sample.seq, writer);
+std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableId id, Watch& watch, T sample,
+                                                std::uint64_t writer) {
+  SequenceWatch::Finding finding{.believed = false};
+  if (context_.settings.run.lockstep) {
+    finding = watch.numbers.see(sample.robot_id, sample.seq, writer);
+  } else if (context_.participant.believes(sample.t_ns) && watch.instants.believes(writer, sample.t_ns)) {
+    const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+    finding = watch.numbers.see(sample.robot_id, sample.seq, writer, now.count());
+  }
+  if (!finding.believed) {
+    log_.add_loss(table, LossKind::kRejected);
+    return std::nullopt;
+  }
   if (finding.gap > 0) log_.add_loss(table, LossKind::kGaps, finding.gap);
   if (finding.out_of_order) log_.add_loss(table, LossKind::kOutOfOrder);
   sample.seq = static_cast<std::uint64_t>(finding.seq);
@@ -50,10 +70,13 @@ void RecorderNode::record(const std::string& table) {
   // State streams have a sample a cycle.
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
+  std::optional<std::size_t> voice;
+  if (silences_ && bus::meta<T>::period_s > 0.0) voice = silences_->add(table, bus::meta<T>::period_s);
   node_.on<T>(
-      [this, table, id, cycle_stream, watch = SequenceWatch{}](const T& sample, const bus::SampleInfo& info) mutable {
-        store(table, id, watch, sample, info.writer);
-        if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
+      [this, table, id, cycle_stream, voice, watch = Watch{}](const T& sample, const bus::SampleInfo& info) mutable {
+        const bool stored = store(table, id, watch, sample, info.writer).has_value();
+        if (stored && voice) silences_->heard(*voice, sample.robot_id, sample.t_ns);
+        if (stored && cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
 }
@@ -77,17 +100,18 @@ void RecorderNode::record_decisions() {
   bus::ReaderOptions everything;
   everything.keep_all = true;
   node_.on<msg::KickDecision>(
-      [this, decisions, shadows, assignments, watch = SequenceWatch{}](const msg::KickDecision& decision,
-                                                                       const bus::SampleInfo& info) mutable {
+      [this, decisions, shadows, assignments, watch = Watch{}](const msg::KickDecision& decision,
+                                                               const bus::SampleInfo& info) mutable {
+        const auto seq = store("kick_decisions", decisions, watch, decision, info.writer);
+        if (!seq) return;
         if (assigned_.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
           log_.push(assignments,
                     {std::int64_t{decision.robot_id}, std::int64_t{decision.half}, std::int64_t{decision.possession_id},
                      std::string{bus::label(decision.policy)}, decision.assignment_probability});
         }
-        const std::int64_t seq = store("kick_decisions", decisions, watch, decision, info.writer);
         const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
         for (std::int64_t i = 0; i < count; ++i) {
-          std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, seq, i};
+          std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, *seq, i};
           for (auto& value : row_of(decision.shadows[i])) row.push_back(std::move(value));
           log_.push(shadows, std::move(row));
         }

@@ -6,6 +6,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -14,8 +15,12 @@
 
 #include "bus/domain.hpp"
 #include "bus/executor.hpp"
+#include "bus/hearing.hpp"
+#include "bus/library_log.hpp"
 #include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
+#include "nodes/runtime/input_watch.hpp"
+#include "nodes/runtime/limited_sink.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace trivela::nodes {
@@ -37,10 +42,36 @@ bus::DomainConfig domain_of(const config::Domain& domain) {
 }
 
 std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string& level) {
-  auto logger = spdlog::stderr_logger_mt(name);
+  const auto errors = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  auto logger = std::make_shared<spdlog::logger>(name, std::make_shared<LimitedSink>(errors));
   logger->set_level(spdlog::level::from_str(level));
   logger->set_pattern("%H:%M:%S.%e %n %l: %v");
   return logger;
+}
+
+bus::Participant join(const config::Settings& settings, const std::shared_ptr<spdlog::logger>& logger,
+                      std::chrono::seconds stay) {
+  if (settings.run.lockstep) return bus::Participant{domain_of(settings.domain)};
+  return {domain_of(settings.domain),
+          {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
+}
+
+/// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know
+/// anew. Should that not help either, since the other side is silent, each stays longer than the one before.
+void run_as_member(const config::Settings& settings, const config::Robot& robot,
+                   const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
+                   const std::function<void(NodeContext&)>& body) {
+  constexpr std::chrono::seconds kShortestStay{5};
+  constexpr std::chrono::seconds kLongestStay{60};
+  for (auto stay = kShortestStay;; stay = std::min(2 * stay, kLongestStay)) {
+    try {
+      NodeContext context{settings, robot, join(settings, logger, stay), logger, stop};
+      logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
+      return body(context);
+    } catch (const bus::Deaf& deaf) {
+      logger->error("{}: joins the bus anew", deaf.what());
+    }
+  }
 }
 
 }  // namespace
@@ -74,9 +105,10 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {
       logger->warn("real-time scheduling was not permitted");
     }
-    NodeContext context{settings, robot, bus::Participant{domain_of(settings.domain)}, logger, stop};
-    logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
-    body(context);
+    const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
+      logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
+    }};
+    run_as_member(settings, robot, logger, stop, body);
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {
@@ -87,6 +119,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
 
 void run(NodeContext& context, bus::Node& node) {
   const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
+  InputWatch silences{context, node};
   bus::Executor{kind, context.stop, {&node}}.run();
 }
 

@@ -12,7 +12,7 @@ namespace trivela::nodes {
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body);
 
 /// Runs one node until the stop: in listeners where the settings allow it, in a waitset thread in lockstep, where
-/// reactions wait for the other inputs of a cycle.
+/// reactions wait for the other inputs of a cycle. In real time an InputWatch warns of inputs that fall silent.
 void run(NodeContext& context, bus::Node& node);
 
 }  // namespace trivela::nodes

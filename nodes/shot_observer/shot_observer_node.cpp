@@ -19,6 +19,7 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
 }
 
 void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
+  if (!context_.participant.believes(receipt.release_t_ns)) return;
   const std::lock_guard lock{mutex_};
   publish(observer_.receipt(receipt, context_.robot.model));
 }
@@ -27,7 +28,9 @@ void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
   first_.once([this] {
     expect_readers(outcome_out_, 2);  // kick_decision, recorder
   });
-  const auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
+  auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
+  if (!context_.participant.believes(frame.t_exposure_ns)) return;
+  if (referee && !context_.participant.believes(referee->t_ns)) referee.reset();
   {
     const std::lock_guard lock{mutex_};
     publish(observer_.frame(frame, referee));

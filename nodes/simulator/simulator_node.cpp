@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "bus/renewal.hpp"
 #include "config/scenario.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/simulator/sim_messages.hpp"
@@ -135,6 +136,8 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
 
 std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
+  bus::renew_if_silent(fire_);
+  drive_.keep_hearing();
   const auto take_fires = [&] {
     fire_.take([&](const msg::SimFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;

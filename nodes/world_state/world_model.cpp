@@ -1,6 +1,8 @@
 #include "nodes/world_state/world_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/none.hpp"
@@ -13,10 +15,16 @@ namespace {
 
 const TurnedPose kOrigin;
 
-bool finite(const msg::Odometry& odometry) {
-  // A sum is finite only if every term is.
-  return std::isfinite(odometry.vx_mps + odometry.vy_mps + odometry.omega_radps + odometry.x_m + odometry.y_m +
-                       odometry.heading_rad + odometry.var_position_m2 + odometry.var_heading_rad2);
+/// Neither NaN nor farther from 0 than any robot comes.
+bool sound(const msg::Odometry& odometry) {
+  constexpr double kFastest = 1e3;   // m/s, rad/s
+  constexpr double kFarthest = 1e6;  // m, rad, and their variances
+  const auto within = [](double limit, std::initializer_list<double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [limit](double x) { return std::abs(x) <= limit; });
+  };
+  return within(kFastest, {odometry.vx_mps, odometry.vy_mps, odometry.omega_radps}) &&
+         within(kFarthest, {odometry.x_m, odometry.y_m, odometry.heading_rad, odometry.var_position_m2,
+                            odometry.var_heading_rad2});
 }
 
 }  // namespace
@@ -71,8 +79,8 @@ void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::W
 
 msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
                                    const msg::Referee* referee) {
-  const bool sound = finite(odometry);
-  if (sound) {
+  const bool believed = sound(odometry);
+  if (believed) {
     filter_velocity(odometry);
     pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
                   odometry.var_heading_rad2);
@@ -86,7 +94,7 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   out.half = referee ? referee->half : 0;
   out.possession_id = referee ? referee->possession_id : 0;
   const TurnedPose* const localised = pose_.pose();
-  out.playing = sound && localised && referee && referee->playing;
+  out.playing = believed && localised && referee && referee->playing;
   const TurnedPose& pose = localised ? *localised : kOrigin;
   out.x_m = pose.x_m;
   out.y_m = pose.y_m;

@@ -23,7 +23,10 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
   first_.once([this] {
     expect_readers(world_out_, 2);  // kick_decision, recorder
   });
-  const auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
+  if (!context_.participant.believes(odometry.t_ns)) return;
+  auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
+  // It would make all pictures old that follow.
+  if (frame && !context_.participant.believes(frame->t_exposure_ns)) frame.reset();
   auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
   if (!context_.settings.run.lockstep) trust_no_silence(referee);
   msg::WorldState world = model_.update(odometry, frame ? &*frame : nullptr, referee ? &*referee : nullptr);

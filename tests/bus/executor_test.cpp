@@ -336,5 +336,82 @@ TEST(ExecutorTest, ANodesReactionsCanBeReadWithoutRunningIt) {
   EXPECT_EQ(chain.odometry.reactions()[0].input, "device:wheels");
 }
 
+TEST(ExecutorTest, ATimerTicksAPeriodApartAndEndsWithTheStop) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  Stop stop;
+  std::vector<std::chrono::steady_clock::time_point> ticks;
+  node.every(milliseconds(5), "clock", [&] {
+    ticks.push_back(std::chrono::steady_clock::now());
+    if (ticks.size() == 20) stop.request();
+  });
+  Executor(Executor::kListener, stop, {&node}).run();
+  ASSERT_EQ(ticks.size(), 20u) << "no tick after the stop";
+  // One that is late puts the next off, so that they never come in a burst.
+  EXPECT_GE(ticks.back() - ticks.front(), milliseconds(5 * 19 / 2));
+}
+
+TEST(ExecutorTest, ALongPeriodDoesNotHoldUpTheStop) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  Stop stop;
+  node.every(std::chrono::hours(1), "clock", [] { FAIL() << "an hour is not over"; });
+  node.every(milliseconds(5), "stopper", [&] { stop.request(); });
+  Executor(Executor::kWaitset, stop, {&node}).run();
+}
+
+TEST(ExecutorTest, WhatATimerThrowsEndsTheRun) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  Stop stop;
+  node.every(milliseconds(1), "clock", [] { throw std::runtime_error("out of order"); });
+  EXPECT_THROW(Executor(Executor::kListener, stop, {&node}).run(), std::runtime_error);
+}
+
+TEST(ExecutorTest, AMailboxGoesWithItsOwnerAndNotWithTheNode) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  std::weak_ptr<Mailbox<msg::Referee>> mailbox;
+  {
+    const auto owned = node.stores<msg::Referee>();
+    mailbox = owned;
+  }
+  EXPECT_TRUE(mailbox.expired());
+  EXPECT_EQ(node.inputs().at(0).heard_ns(0), 0);
+}
+
+TEST(ExecutorTest, ANodeKnowsWhenItsInputsCameLast) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node", 1);
+  const auto mailbox = node.stores<msg::Referee>();
+  node.on<msg::Odometry>([](const msg::Odometry&) {});
+  Feed feed;
+  node.on_device(
+      "wheels", [&](nanoseconds timeout) { return feed.get(timeout); }, [](std::int64_t) {});
+  ASSERT_EQ(node.inputs().size(), 3u);
+  const auto heard = [&](std::size_t i) { return node.inputs()[i].heard_ns(INT64_MAX); };
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(heard(i), 0) << node.inputs()[i].name;
+  EXPECT_EQ(node.inputs()[0].period_s, meta<msg::Referee>::period_s);
+  EXPECT_EQ(node.inputs()[2].name, "device:wheels");
+  Writer<msg::Referee> referee(participant);
+  Writer<msg::Odometry> odometry(participant);
+  Stop stop;
+  const auto write = [](auto& writer, auto sample, std::uint8_t robot_id) {
+    sample.robot_id = robot_id;
+    writer.write(sample);
+  };
+  feed.put(1);
+  node.every(milliseconds(2), "looks", [&] {
+    write(referee, msg::Referee{}, 2);
+    write(odometry, msg::Odometry{}, 2);
+    EXPECT_EQ(heard(0), 0) << "another robot's";
+    EXPECT_EQ(heard(1), 0) << "another robot's";
+    if (heard(2) > 0) stop.request();
+  });
+  Executor(Executor::kListener, stop, {&node}).run();
+  write(referee, msg::Referee{}, 1);
+  EXPECT_GT(heard(0), 0);
+}
+
 }  // namespace
 }  // namespace trivela::bus

@@ -19,6 +19,17 @@ TEST(Stop, WaitReturnsOnceItIsRequested) {
   stop.wait();  // stays requested
 }
 
+TEST(Stop, AWaitWithAnEndIsOverThenOrOnceItIsRequested) {
+  Stop stop;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  EXPECT_FALSE(stop.wait_until(end));
+  EXPECT_GE(std::chrono::steady_clock::now(), end);
+  EXPECT_FALSE(stop.wait_until(end)) << "in the past";
+  std::thread requester([&] { stop.request(); });
+  EXPECT_TRUE(stop.wait_until(std::chrono::steady_clock::now() + std::chrono::hours(1)));
+  requester.join();
+}
+
 TEST(Stop, ASignalRequestsItFromItsHandler) {
   for (const int signal : {SIGTERM, SIGINT}) {
     Stop stop;

@@ -33,7 +33,10 @@ class MatchLog {
         truths_(writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                               "x_cross_m", "release_t_ns", "release_x_m", "release_y_m",
                                               "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved"})),
-        referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
+        referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})),
+        statuses_(
+            writer_.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault",
+                                            "last_kick_id", "last_accepted", "orders_handled", "orders_refused"})) {}
 
   /// A decision that fires; returns its kick_id. Half 1 is played stopped, half 2 moving.
   Int decide(Int half) {
@@ -82,6 +85,11 @@ class MatchLog {
     writer_.push(referee_, {robot_id, ++seq_, static_cast<Int>(at_s * 1e9), half, Int{playing}, Int{0}});
   }
 
+  /// What the kicker's driver has counted so far.
+  void status(Int handled, Int refused) {
+    writer_.push(statuses_, {robot_id, ++seq_, t_ns(), 1.0, Int{1}, Int{1}, "none", Int{0}, Int{0}, handled, refused});
+  }
+
   log::Writer& writer() { return writer_; }
   void close() { writer_.finalise(); }
 
@@ -91,7 +99,7 @@ class MatchLog {
   Int t_ns() const { return seq_ * 20'000'000; }
 
   log::Writer writer_;
-  log::TableId decisions_, orders_, receipts_, outcomes_, truths_, referee_;
+  log::TableId decisions_, orders_, receipts_, outcomes_, truths_, referee_, statuses_;
   Int seq_ = 0;
   Int kicks_ = 0;
 };

@@ -18,9 +18,10 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr std::array<const char*, 7> kPeriodic{"referee", "vision",        "odometry", "world_state",
                                                "drive",   "kicker_status", "sim/drive"};
-constexpr double kStart_s = 90.0;                  // for the whole chain, on a busy machine
-constexpr double kRefusal_s = 20.0;                // for a twin
-constexpr double kPlay_s = 5.0;                    // longest stop, with what a busy machine adds
+constexpr double kStart_s = 90.0;    // for the whole chain, on a busy machine
+constexpr double kRefusal_s = 20.0;  // for a twin
+constexpr double kPlay_s = 5.0;      // longest stop, with what a busy machine adds
+constexpr double kBeside_s = 2.0;
 constexpr double kEnd_s = 10.0;                    // for a node after SIGTERM
 constexpr std::int64_t kFresh_ns = 300'000'000;    // a periodic topic that lives was heard so lately
 constexpr std::chrono::milliseconds kCommit{150};  // a recorder that lives writes within
@@ -190,10 +191,19 @@ class Campaign {
 
   void start_twin(const Fault& fault, Trial& trial) {
     const auto twin = stack_.twin(fault.node);
+    if (kNodes[fault.node] == "recorder") return record_beside(*twin, trial);
     if (!wait(kRefusal_s, [&] { return twin->ended(); }))
       trial.complaint = fmt::format("a second {} did not refuse within {} s", kNodes[fault.node], kRefusal_s);
     else if (twin->code() != 1)
       trial.complaint = fmt::format("a second {} ended with {}", kNodes[fault.node], *twin->code());
+  }
+
+  /// A second recorder writes a file of its own, and so loses nothing.
+  void record_beside(NodeProcess& twin, Trial& trial) {
+    wait(kBeside_s, [&] { return twin.ended(); });
+    twin.signal(SIGTERM);
+    if (!wait(kEnd_s, [&] { return twin.ended(); }) || twin.code() != 0)
+      trial.complaint = fmt::format("a second recorder ended with {}", twin.code().value_or(-1));
   }
 
   void recover(Trial& trial) {

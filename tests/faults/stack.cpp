@@ -58,6 +58,8 @@ dds_file = "{1}/cyclonedds.xml"
 [kick_decision]
 policy_by_half = ["moving"]
 order_validity_s = 0.05
+[recorder]
+log = "{1}/match.db"
 [simulator]
 halves = 1
 half_minutes = 1000.0
@@ -142,10 +144,6 @@ void Stack::start(std::size_t node) {
   if (!has(node)) return;
   if (kNodes[node] == "referee") return start_referee();
   ProcessPlan plan = plan_of(node);
-  if (kNodes[node] == "recorder") {
-    const fs::path log = plan_.folder / fmt::format("match-{:04}.db", ++recorders_);
-    plan.arguments.insert(plan.arguments.end(), {"--set", fmt::format("recorder.log=\"{}\"", log.string())});
-  }
   if (kNodes[node] == "simulator")
     plan.arguments.insert(plan.arguments.end(),
                           {"--set", fmt::format("simulator.seed={}", plan_.seed % 100000 * 1000 + ++simulators_)});
@@ -168,10 +166,6 @@ void Stack::stop_all() {
 
 std::unique_ptr<NodeProcess> Stack::twin(std::size_t node) {
   ProcessPlan plan = plan_of(node);
-  if (kNodes[node] == "recorder") {
-    const fs::path log = plan_.folder / fmt::format("match-{:04}.db", recorders_);
-    plan.arguments.insert(plan.arguments.end(), {"--set", fmt::format("recorder.log=\"{}\"", log.string())});
-  }
   plan.says = plan_.folder / fmt::format("{}_twin.txt", kNodes[node]);
   return std::make_unique<NodeProcess>(plan);
 }

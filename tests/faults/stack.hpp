@@ -94,7 +94,6 @@ class Stack {
   std::vector<NetworkHost> hosts_;  // of the nodes, then of the wire's witness
   std::unique_ptr<Hub> hub_;
   std::vector<std::unique_ptr<NodeProcess>> nodes_{kNodes.size()};
-  std::size_t recorders_ = 0;
   std::size_t simulators_ = 0;
   Witness device_;
   Witness wire_;

@@ -36,6 +36,14 @@ class LogLines : public spdlog::sinks::base_sink<std::mutex> {
     });
   }
 
+  /// Lines so far that contain the text.
+  std::size_t count(const std::string& text) {
+    const std::lock_guard lock{lines_mutex_};
+    std::size_t n = 0;
+    for (const auto& line : lines_) n += line.find(text) != std::string::npos ? 1 : 0;
+    return n;
+  }
+
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
     const std::lock_guard lock{lines_mutex_};

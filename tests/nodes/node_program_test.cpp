@@ -154,7 +154,19 @@ TEST_F(NodeProgramTest, AReplayWithoutALogNamesIt) {
   EXPECT_THAT(node.said(), HasSubstr("nothing.db"));
 }
 
-TEST_F(NodeProgramTest, ARecorderNeverWritesOverAMatch) {
+TEST_F(NodeProgramTest, ARecorderNeverWritesOverAMatchAndRecordsBesideIt) {
+  std::ofstream{folder / "out.db"} << "something else";
+  bus::Writer<msg::KickTruth> writer{participant};
+  Spawned node{program("recorder"), arguments()};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+  node.send(SIGTERM);
+  EXPECT_EQ(node.exit_code(), 0) << node.said();
+  EXPECT_THAT(node.said(), AllOf(HasSubstr("out.db exists already"), HasSubstr("recording to "), HasSubstr("out-r1-")));
+  EXPECT_EQ(std::filesystem::file_size(folder / "out.db"), 14u);
+}
+
+TEST_F(NodeProgramTest, InLockstepARecorderRefusesAFileThatExists) {
+  write_config("lockstep = true\n");
   std::ofstream{folder / "out.db"} << "something else";
   Spawned node{program("recorder"), arguments()};
   EXPECT_EQ(node.exit_code(), 1);

@@ -1,5 +1,7 @@
 #include "nodes/recorder/recorder_node.hpp"
 
+#include <fmt/core.h>
+
 #include <iterator>
 #include <limits>
 
@@ -210,6 +212,55 @@ TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   ASSERT_EQ(session.policies.size(), 2u);
   EXPECT_EQ(session.policies[0].policy, "stopped");
   EXPECT_EQ(session.policies[1].policy, "moving");
+}
+
+/// The rows of silences, as "stream robot from to".
+std::vector<std::string> silences(const evaluator::log::Reader& reader) {
+  std::vector<std::string> rows;
+  reader.query(
+      "SELECT stream, robot_id, from_t_ns, to_t_ns FROM losses WHERE robot_id > 0 ORDER BY from_t_ns",
+      [&](std::span<const Value> row) {
+        const auto to = evaluator::log::integer_if_any(row[3]);
+        rows.push_back(fmt::format("{} {} {} {}", evaluator::log::text_if_any(row[0]), std::get<std::int64_t>(row[1]),
+                                   std::get<std::int64_t>(row[2]), to ? std::to_string(*to) : "-"));
+      });
+  return rows;
+}
+
+TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
+  start(Executor::kWaitset);
+  Says<msg::Odometry> odometry{participant, 3};
+  odometry.expect_reader();
+  constexpr std::int64_t kMs = 1'000'000;
+  odometry({.t_ns = 1000 * kMs});
+  odometry({.t_ns = 1020 * kMs});
+  EXPECT_TRUE(log_lines->wait_for("no odometry of robot 3 for"));
+  log->flush();  // as a killed recorder leaves it
+  EXPECT_THAT(silences(evaluator::log::Reader{folder / "match.db"}), testing::ElementsAre("odometry 3 1020000000 -"));
+  odometry({.t_ns = 2260 * kMs});
+  EXPECT_TRUE(log_lines->wait_for("odometry of robot 3 back after 1.24 s"));
+  EXPECT_THAT(silences(read()), testing::Contains("odometry 3 1020000000 2260000000"));
+}
+
+TEST_F(RecorderNodeTest, WhatMerelyCameLateIsNoSilence) {
+  start(Executor::kWaitset);
+  Says<msg::Odometry> odometry{participant};
+  odometry.expect_reader();
+  odometry({.t_ns = 1'000'000'000});
+  EXPECT_TRUE(log_lines->wait_for("no odometry of robot 1 for"));
+  odometry({.t_ns = 1'020'000'000});
+  EXPECT_TRUE(log_lines->wait_for("odometry of robot 1 back after 0.02 s"));
+  EXPECT_THAT(silences(read()), testing::Not(testing::Contains(HasSubstr(" 1000000000 "))));
+}
+
+TEST_F(RecorderNodeTest, InLockstepNobodyIsSilent) {
+  context.settings.run.lockstep = true;
+  start(Executor::kWaitset);
+  Says<msg::Odometry> odometry{participant};
+  odometry.expect_reader();
+  odometry({.t_ns = 0});
+  odometry({.t_ns = 1'000'000'000});
+  EXPECT_THAT(silences(read()), testing::IsEmpty());
 }
 
 }  // namespace

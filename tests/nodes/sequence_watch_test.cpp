@@ -67,6 +67,44 @@ TEST(SequenceWatch, AWriterThatStartsAgainGoesOnCountingUp) {
   EXPECT_EQ(watch.see(1, 1, 9).seq, 16);
 }
 
+TEST(SequenceWatch, DoesNotBelieveANumberThatNobodyCanHaveComeTo) {
+  SequenceWatch watch;
+  double now_s = 100.0;
+  for (std::uint64_t seq = 1; seq <= 50; ++seq) EXPECT_TRUE(watch.see(1, seq, 7, now_s += 0.02).believed);
+  for (const std::uint64_t forged : {71776119061217107u, 1ul << 63, 1ul << 35, 1000ul})
+    EXPECT_FALSE(watch.see(1, forged, 7, now_s).believed) << forged;
+  const auto next = watch.see(1, 51, 7, now_s + 0.02);
+  EXPECT_TRUE(next.believed);
+  EXPECT_EQ(next.gap, 0);
+  EXPECT_FALSE(next.out_of_order);
+}
+
+TEST(SequenceWatch, BelievesAJumpThatItsSuccessorConfirms) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7, 100.0);
+  EXPECT_FALSE(watch.see(1, 5000, 7, 100.1).believed);
+  const auto confirmed = watch.see(1, 5002, 7, 100.12);
+  EXPECT_TRUE(confirmed.believed);
+  EXPECT_EQ(confirmed.gap, 1) << "the jump itself is no loss";
+  EXPECT_EQ(watch.see(1, 5003, 7, 100.14).gap, 0);
+}
+
+TEST(SequenceWatch, ALongSilenceMayHideMany) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7, 100.0);
+  const auto later = watch.see(1, 502, 7, 110.0);
+  EXPECT_TRUE(later.believed);
+  EXPECT_EQ(later.gap, 500);
+}
+
+TEST(SequenceWatch, AWriterSpeaksForOneRobot) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7);
+  EXPECT_FALSE(watch.see(33, 2, 7).believed);
+  EXPECT_FALSE(watch.see(0, 1, 8).believed) << "no robot has the number 0";
+  EXPECT_EQ(watch.see(1, 2, 7).gap, 0);
+}
+
 TEST(SequenceWatch, NumbersStayUniqueHoweverOftenWritersRestart) {
   SequenceWatch watch;
   std::mt19937_64 random{1};

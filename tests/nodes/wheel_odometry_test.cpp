@@ -46,6 +46,19 @@ TEST(WheelOdometry, DrivesStraightByHand) {
   EXPECT_NEAR(estimate->pose.heading_rad, 0.0, 1e-12);
 }
 
+TEST(WheelOdometry, ForgedSpeedsLeaveNoTrace) {
+  Driven driven;
+  driven.cycle({0.5, 1.0, 0.0});
+  for (const double forged : {1e4, 1e300, -1e308}) {
+    const std::vector<double> wheels(4, forged);
+    EXPECT_FALSE(driven.odometry.update(driven.t_ns, wheels, {}));
+    EXPECT_TRUE(driven.cycle({0.5, 1.0, 0.0}, forged)) << "the gyro alone is passed over";
+  }
+  const auto estimate = driven.cycle({0.5, 1.0, 0.0});
+  EXPECT_NEAR(estimate->pose.y_m, 4 * 0.02 * 1.0, 1e-12);
+  EXPECT_NEAR(estimate->pose.heading_rad, 0.0, 1e-12);
+}
+
 TEST(WheelOdometry, ACircleCloses) {
   constexpr int kCycles = 200;  // 4 s
   const Twist twist{0.3, 1.0, 2.0 * std::numbers::pi / (kCycles * 0.02)};

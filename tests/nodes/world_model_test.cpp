@@ -183,6 +183,24 @@ TEST(WorldModel, TakesAFrameOnceHoweverOftenItIsShown) {
   EXPECT_GE(play.cycle().sd_position_m, sd_m) << "the same picture is no new knowledge";
 }
 
+TEST(WorldModel, ForgedOdometryLeavesNoTrace) {
+  for (const double forged : {1e7, 1e300, -1e308, kNaN, HUGE_VAL}) {
+    for (double msg::Odometry::*field :
+         {&msg::Odometry::x_m, &msg::Odometry::heading_rad, &msg::Odometry::vy_mps, &msg::Odometry::var_position_m2}) {
+      Play play;
+      play.cycle(20);
+      msg::Odometry odometry = play.wheels();
+      odometry.t_ns += 1000;
+      odometry.*field = forged;
+      EXPECT_FALSE(play.model.update(odometry, nullptr, &*play.referee).playing);
+      const auto world = play.cycle(20);
+      EXPECT_TRUE(world.playing) << forged;
+      EXPECT_NEAR(world.x_m, play.truth.x_m, 1e-3) << forged;
+      EXPECT_NEAR(world.y_m, play.truth.y_m, 1e-3) << forged;
+    }
+  }
+}
+
 TEST(WorldModel, GoesOnWithoutAnyCamera) {
   Play play;
   play.cycle(5);

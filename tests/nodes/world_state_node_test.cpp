@@ -45,6 +45,31 @@ class WorldStateNodeTest : public NodeTest {
   Says<msg::Referee> referee_says{participant};
 };
 
+TEST_F(WorldStateNodeTest, AForgedFutureInRealTimeSilencesNoPictureThatFollows) {
+  const bus::Participant own_participant{bus::fresh_domain(), bus::RealTime{}};
+  bus::Stop own_stop;
+  NodeContext own{context.settings, context.robot, own_participant, context.logger, own_stop};
+  Heard<msg::WorldState> heard{own_participant};
+  Says<msg::Odometry> wheels_tell{own_participant};
+  Says<msg::VisionFrame> camera_tells{own_participant};
+  WorldStateNode node{own};
+  const Running running{Executor::kListener, own_stop, {&node.node()}};
+  wheels_tell.expect_reader();
+  auto forged = vision(1);
+  forged.t_exposure_ns = std::numeric_limits<std::int64_t>::max() / 2;
+  forged.x_m = 100.0;
+  camera_tells(forged);
+  wheels_tell(odometry(1));
+  EXPECT_NE(heard.nth(1).x_m, 100.0);
+  auto far_odometry = odometry(1);
+  far_odometry.t_ns = std::numeric_limits<std::int64_t>::max() / 2;
+  wheels_tell(far_odometry);  // no answer
+  camera_tells(vision(2));
+  wheels_tell(odometry(2));
+  EXPECT_EQ(heard.nth(2).t_ns, 2 * kCycle_ns);
+  EXPECT_NEAR(heard.nth(2).x_m, 1.0, 1e-9);
+}
+
 TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
   for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
     bus::Stop own_stop;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+namespace trivela::bus {
+
+/// Knows when a reader that hears nothing is to be made anew: after half a second of silence (or 25 periods, if that is
+/// longer), then each time after twice as long, up to ten seconds.
+class SilenceWatch {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  SilenceWatch(std::chrono::nanoseconds period, Time now)
+      : first_(std::max<std::chrono::nanoseconds>(kFirst, 25 * period)), patience_(first_), since_(now), heard_(now) {}
+
+  void heard(Time now) {
+    heard_ = since_ = now;
+    patience_ = first_;
+    attempts_ = 0;
+  }
+
+  /// True once it is time to make the reader anew; begins the next wait.
+  bool due(Time now) {
+    if (now - since_ < patience_) return false;
+    since_ = now;
+    patience_ = std::min<std::chrono::nanoseconds>(2 * patience_, kLongest);
+    ++attempts_;
+    return true;
+  }
+
+  /// How often it was made anew since something was heard.
+  std::size_t attempts() const { return attempts_; }
+  std::chrono::nanoseconds silent_for(Time now) const { return now - heard_; }
+
+ private:
+  static constexpr std::chrono::milliseconds kFirst{500};
+  static constexpr std::chrono::seconds kLongest{10};
+  std::chrono::nanoseconds first_;
+  std::chrono::nanoseconds patience_;
+  Time since_;
+  Time heard_;
+  std::size_t attempts_ = 0;
+};
+
+}  // namespace trivela::bus

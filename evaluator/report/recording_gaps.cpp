@@ -1,0 +1,100 @@
+#include "evaluator/report/recording_gaps.hpp"
+
+#include <fmt/format.h>
+
+#include "evaluator/metrics/silences.sql.hpp"
+#include "evaluator/metrics/unrecorded_orders.sql.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using Cells = std::span<const log::Value>;
+using log::integer;
+
+constexpr std::size_t kMostLines = 8;
+
+std::string sentence(const RecordedSilence& silence) {
+  const std::string what =
+      fmt::format("{} of robot {} silent from {:.2f} s to ", silence.stream, silence.robot_id, silence.from_s());
+  if (const auto to_s = silence.to_s())
+    return what + fmt::format("{:.2f} s ({:.2f} s)", *to_s, *to_s - silence.from_s());
+  return what + (silence.counts ? "the end" : "the end, as all of that robot");
+}
+
+std::string counted(std::int64_t orders, std::int64_t kicks) {
+  return fmt::format("{} {}, {} of them {}", orders, orders == 1 ? "order" : "orders", kicks,
+                     kicks == 1 ? "a kick" : "kicks");
+}
+
+std::string before(const UnrecordedOrders& o) {
+  const std::string what = counted(o.orders_before, o.kicks_before);
+  if (!o.continues) return fmt::format("robot {}: before this log began its driver had handled {}", o.robot_id, what);
+  return fmt::format(
+      "robot {}: between the session that this one continues and this one its driver handled {}{}: in no log{}",
+      o.robot_id, o.restarted_before ? "at least " : "", what,
+      o.restarted_before ? "; it was started anew meanwhile" : "");
+}
+
+}  // namespace
+
+std::optional<double> RecordedSilence::to_s() const {
+  if (!to_t_ns) return std::nullopt;
+  return 1e-9 * static_cast<double>(*to_t_ns - started_t_ns);
+}
+
+std::vector<RecordedSilence> silences_of(const log::Reader& reader) {
+  std::vector<RecordedSilence> silences;
+  reader.query(kSilencesSql, [&](Cells row) {
+    RecordedSilence silence;
+    silence.session_id = integer(row[0]);
+    silence.stream = log::text_if_any(row[1]);
+    silence.robot_id = static_cast<int>(integer(row[2]));
+    silence.from_t_ns = integer(row[3]);
+    silence.to_t_ns = log::integer_if_any(row[4]);
+    silence.started_t_ns = integer(row[5]);
+    silence.counts = integer(row[6]) != 0;
+    silences.push_back(std::move(silence));
+  });
+  return silences;
+}
+
+std::vector<UnrecordedOrders> unrecorded_orders_of(const log::Reader& reader) {
+  std::vector<UnrecordedOrders> orders;
+  reader.query(kUnrecordedOrdersSql, [&](Cells row) {
+    orders.push_back({.session_id = integer(row[0]),
+                      .robot_id = static_cast<int>(integer(row[1])),
+                      .continues = integer(row[2]) != 0,
+                      .restarted_before = integer(row[3]) != 0,
+                      .orders_before = integer(row[4]),
+                      .kicks_before = integer(row[5]),
+                      .orders_within = integer(row[6]),
+                      .kicks_within = integer(row[7])});
+  });
+  return orders;
+}
+
+std::vector<std::string> silence_lines(const std::vector<RecordedSilence>& silences) {
+  std::vector<std::string> lines;
+  for (const RecordedSilence& silence : silences) {
+    if (lines.size() == kMostLines) {
+      lines.push_back(fmt::format("and {} more silences (--json has them all)", silences.size() - kMostLines));
+      break;
+    }
+    lines.push_back(sentence(silence));
+  }
+  return lines;
+}
+
+std::vector<std::string> order_lines(const std::vector<UnrecordedOrders>& orders) {
+  std::vector<std::string> lines;
+  for (const UnrecordedOrders& o : orders) {
+    if (o.orders_before > 0 || o.kicks_before > 0 || o.restarted_before) lines.push_back(before(o));
+    if (o.orders_within == 0 && o.kicks_within == 0) continue;
+    lines.push_back(
+        fmt::format("robot {}: while this log was recorded its driver handled {} that the log has no receipt of",
+                    o.robot_id, counted(o.orders_within, o.kicks_within)));
+  }
+  return lines;
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,41 @@
+#include "nodes/recorder/silence_record.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trivela::nodes {
+
+std::size_t SilenceRecord::add(const std::string& table, double period_s) {
+  const double longest_s = std::max(period_s, context_.settings.run.cycle_s);
+  const std::lock_guard lock{mutex_};
+  tables_.push_back(table);
+  return watch_.add(static_cast<std::int64_t>(std::llround(longest_s * 1e9)));
+}
+
+void SilenceRecord::heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns) {
+  if (robot_id == 0) return;  // there is no such robot; in the log it stands for all of them
+  const std::lock_guard lock{mutex_};
+  watch_.heard(stream, robot_id, t_ns);
+}
+
+void SilenceRecord::look(std::int64_t now_ns) {
+  const std::lock_guard lock{mutex_};
+  for (const SilenceEdge& edge : watch_.look(now_ns)) {
+    write(edge);
+    lines_.note(edge, fmt::format("{} of robot {}", tables_[edge.stream], edge.robot_id));
+  }
+  for (const std::string& line : lines_.due(now_ns)) context_.logger->warn("{}", line);
+}
+
+void SilenceRecord::write(const SilenceEdge& edge) {
+  const evaluator::log::Silence silence{tables_[edge.stream], edge.robot_id, edge.from_ns, edge.to_ns};
+  if (edge.was_delay()) {
+    log_.withdraw(silence);
+  } else {
+    log_.silence(silence);
+  }
+}
+
+}  // namespace trivela::nodes

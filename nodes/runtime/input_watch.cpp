@@ -1,0 +1,66 @@
+#include "nodes/runtime/input_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/runtime/now_ns.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+constexpr std::int64_t kStep_ns = 20'000'000;
+constexpr std::int64_t kUnheard_ns = 5'000'000'000;   // after the start
+constexpr std::int64_t kStoodStill_ns = 500'000'000;  // beyond this it is worth a line
+constexpr double kDevicePeriod_s = 0.02;              // of one that is slower the cycle is, too
+constexpr std::string_view kDevice = "device:";
+
+}  // namespace
+
+InputWatch::InputWatch(const NodeContext& context, bus::Node& node) : context_(context), watch_(kStep_ns) {
+  if (context.settings.run.lockstep) return;
+  for (const bus::Input& input : node.inputs()) add(input);
+  if (inputs_.empty()) return;
+  node.every(std::chrono::nanoseconds{kStep_ns}, "silence", [this] { look(now_ns(std::chrono::steady_clock::now())); });
+}
+
+void InputWatch::add(const bus::Input& input) {
+  const bool device = input.name.starts_with(kDevice);
+  if (!device && input.period_s <= 0.0) return;
+  const std::string name = device ? input.name.substr(kDevice.size()) : input.name;
+  const auto known = std::ranges::find(inputs_, name, &Watched::name);
+  if (known != inputs_.end()) {
+    known->heard_ns.push_back(input.heard_ns);
+    return;
+  }
+  const double period_s = std::max(device ? kDevicePeriod_s : input.period_s, context_.settings.run.cycle_s);
+  const auto period_ns = static_cast<std::int64_t>(std::llround(period_s * 1e9));
+  inputs_.push_back({name, watch_.add(period_ns), period_ns, {input.heard_ns}});
+}
+
+void InputWatch::look(std::int64_t now_ns) {
+  if (!started_ns_) started_ns_ = looked_ns_ = now_ns;
+  if (now_ns - *looked_ns_ > kStoodStill_ns)
+    context_.logger->warn("this process stood still for {:.2f} s", static_cast<double>(now_ns - *looked_ns_) * 1e-9);
+  looked_ns_ = now_ns;
+  const std::uint8_t robot_id = context_.robot_id();
+  for (Watched& input : inputs_) {
+    std::int64_t heard_ns = 0;
+    for (const auto& way : input.heard_ns) heard_ns = std::max(heard_ns, way(now_ns - input.period_ns));
+    if (heard_ns == input.last_ns) continue;
+    watch_.heard(input.stream, robot_id, heard_ns);
+    input.last_ns = heard_ns;
+  }
+  for (const SilenceEdge& edge : watch_.look(now_ns)) lines_.note(edge, inputs_[edge.stream].name);
+  for (const std::string& line : lines_.due(now_ns)) context_.logger->warn("{}", line);
+  look_for_the_unheard(now_ns);
+}
+
+void InputWatch::look_for_the_unheard(std::int64_t now_ns) {
+  if (unheard_said_ || now_ns - *started_ns_ < kUnheard_ns) return;
+  unheard_said_ = true;
+  for (const Watched& input : inputs_)
+    if (input.last_ns == 0)
+      context_.logger->warn("{} not heard yet, {} s after the start", input.name, kUnheard_ns / 1'000'000'000);
+}
+
+}  // namespace trivela::nodes

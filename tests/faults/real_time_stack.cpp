@@ -1,0 +1,94 @@
+#include "tests/faults/real_time_stack.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+#include <stdexcept>
+
+#include "tests/e2e/log_rows.hpp"
+
+namespace trivela::faults {
+namespace {
+
+config::Settings settings_for(const e2e::Folder& folder, double minutes) {
+  config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
+  std::random_device random;
+  settings.run.lockstep = false;
+  settings.domain.domain_id = 1 + random() % 100;
+  settings.domain.tag = fmt::format("faults-{}-{:08x}", getpid(), random());
+  settings.simulator.halves = 1;
+  settings.simulator.half_minutes = minutes;
+  settings.recorder.log = folder / "match.db";
+  return settings;
+}
+
+std::string last_of(const std::string& text) {
+  return text.substr(text.size() - std::min<std::size_t>(text.size(), 500));
+}
+
+}  // namespace
+
+RealTimeStack::RealTimeStack(double minutes) : settings_(settings_for(folder_, minutes)) {
+  std::ofstream{folder_ / "nodes.toml"} << config::to_toml_text(settings_);
+  for (const char* node : {"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"})
+    start(node);
+  for (const auto& [node, program] : programs_) {
+    if (!e2e::wait_for_change(folder_.path(), program.watch(), [&] { return !program.errors().empty(); }))
+      throw std::runtime_error{node + " says nothing"};
+  }
+  const auto& recorder = programs_.front().second;
+  if (!e2e::wait_for_change(folder_.path(), recorder.watch(), [&] { return exists(log()); }))
+    throw std::runtime_error{"no log: " + recorder.errors()};
+  start("simulator");
+  const auto recorded = [this] {
+    try {
+      return e2e::number_of(e2e::Reader{log()}, "SELECT count(*) FROM drive_commands") > 50;
+    } catch (const std::exception&) {
+      return false;  // the log is being made
+    }
+  };
+  if (!e2e::wait_for_change(folder_.path(), recorder.watch(), recorded))
+    throw std::runtime_error{"nothing is recorded: " + recorder.errors()};
+}
+
+void RealTimeStack::start(const std::string& node) {
+  programs_.emplace_back(
+      std::piecewise_construct, std::forward_as_tuple(node),
+      std::forward_as_tuple("trivela-" + node, std::vector<std::string>{"--config", "nodes.toml"}, folder_.path()));
+}
+
+std::string RealTimeStack::casualties() {
+  std::string found;
+  for (auto& [node, program] : programs_) {
+    if (program.watch().ended(std::chrono::milliseconds{0}))
+      found += fmt::format("{} ended with {}: {}\n", node, program.wait(), last_of(program.errors()));
+  }
+  return found;
+}
+
+std::map<std::string, int> RealTimeStack::stop() {
+  std::map<std::string, int> codes;
+  while (!programs_.empty()) {
+    auto& [node, program] = programs_.back();
+    program.signal(SIGTERM);
+    codes[node] = program.wait();
+    programs_.pop_back();
+  }
+  return codes;
+}
+
+std::map<std::string, std::size_t> RealTimeStack::said() const {
+  std::map<std::string, std::size_t> bytes;
+  for (const auto& [node, program] : programs_) bytes[node] = program.errors().size();
+  return bytes;
+}
+
+std::string RealTimeStack::errors_of(const std::string& node) const {
+  for (const auto& [name, program] : programs_)
+    if (name == node) return program.errors();
+  return {};
+}
+
+}  // namespace trivela::faults

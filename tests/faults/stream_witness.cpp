@@ -1,0 +1,66 @@
+#include "tests/faults/stream_witness.hpp"
+
+#include <map>
+
+#include "bus/messages.hpp"
+#include "bus/reader.hpp"
+
+namespace trivela::faults {
+namespace {
+
+bus::ReaderOptions everything() { return {.period = {}, .keep_all = true, .on_liveliness = {}}; }
+
+}  // namespace
+
+struct StreamWitness::Ears {
+  explicit Ears(const config::Settings& settings)
+      : participant(bus::loopback(settings.domain.domain_id, settings.domain.tag)),
+        wheels(participant, everything()),
+        odometry(participant, everything()),
+        world(participant, everything()),
+        drive(participant, everything()),
+        status(participant, everything()),
+        decisions(participant, everything()) {}
+
+  bus::Participant participant;
+  bus::Reader<msg::SimWheels> wheels;
+  bus::Reader<msg::Odometry> odometry;
+  bus::Reader<msg::WorldState> world;
+  bus::Reader<msg::DriveCommand> drive;
+  bus::Reader<msg::KickerStatus> status;
+  bus::Reader<msg::KickDecision> decisions;
+};
+
+StreamWitness::StreamWitness(const config::Settings& settings) : ears_(std::make_unique<Ears>(settings)) {}
+StreamWitness::~StreamWitness() = default;
+
+std::vector<std::string> StreamWitness::deaf_within(std::chrono::milliseconds span) {
+  const auto until = std::chrono::steady_clock::now() + span;
+  std::map<std::string, int> heard{{"odometry hears sim/wheels", 0},      {"world_state hears odometry", 0},
+                                   {"world_state hears vision", 0},       {"kick_decision hears world_state", 0},
+                                   {"kicker_driver hears sim/kicker", 0}, {"kick_decision hears kicker_status", 0},
+                                   {"the witness hears the simulator", 0}};
+  int decided = 0;
+  while (std::chrono::steady_clock::now() < until) {
+    ears_->wheels.wait(std::chrono::milliseconds{50});
+    ears_->wheels.take([&](const msg::SimWheels&) { ++heard["the witness hears the simulator"]; });
+    ears_->odometry.take([&](const msg::Odometry&) { ++heard["odometry hears sim/wheels"]; });
+    ears_->world.take([&](const msg::WorldState& world) {
+      ++heard["world_state hears odometry"];
+      if (world.ball_known && world.ball_age_s < 0.3) ++heard["world_state hears vision"];
+    });
+    ears_->drive.take([&](const msg::DriveCommand&) { ++heard["kick_decision hears world_state"]; });
+    ears_->status.take([&](const msg::KickerStatus&) { ++heard["kicker_driver hears sim/kicker"]; });
+    ears_->decisions.take([&](const msg::KickDecision& decision) {
+      ++decided;
+      if (decision.reason != msg::REASON_STALE_STATE) ++heard["kick_decision hears kicker_status"];
+    });
+  }
+  if (decided == 0) heard.erase("kick_decision hears kicker_status");
+  std::vector<std::string> deaf;
+  for (const auto& [stream, samples] : heard)
+    if (samples < 10) deaf.push_back(stream);
+  return deaf;
+}
+
+}  // namespace trivela::faults
