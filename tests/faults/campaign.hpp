@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/faults/schedule.hpp"
+#include "tests/faults/stack.hpp"
+
+namespace trivela::faults {
+
+/// A fault that was made, and what it took until the chain was whole again.
+struct Trial {
+  Fault fault;
+  std::int64_t began_ns = 0;  ///< CLOCK_MONOTONIC
+  std::int64_t ended_ns = 0;  ///< the node runs again, the link is sound again
+  std::int64_t whole_ns = 0;  ///< the chain is whole again, or was started anew
+  bool recovered = false;
+  double streams_s = 0.0;  ///< from ended_ns until every periodic topic was heard again
+  double kick_s = 0.0;     ///< ... and until a new order was fired
+  std::string complaint;   ///< what should not have been, e.g. who ended by itself; empty: nothing
+};
+
+/// How a campaign is watched and ended.
+struct Watch {
+  double limit_s = 30.0;                                         ///< to be whole again
+  std::function<void(std::size_t done, const Fault&)> progress;  ///< before each fault
+  std::function<void()> look;                                    ///< every 20 ms; may throw to end the campaign
+};
+
+/// The device's witness under garbled words: its reader may grow deaf for good like anybody's, while the driver's does
+/// not. What the referee really said, as the wire's witness heard it, is added to its words for as long as such a fault
+/// on the driver's cable lasted.
+Testimony with_garbled_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials);
+
+/// Makes one fault after the other and waits each time until the chain is whole: every periodic topic is heard, a new
+/// order is fired, the recorder writes, and where the observer was hit, an outcome is told. A chain that does not come
+/// back within the limit is started anew. Throws std::runtime_error if it does not even start.
+std::vector<Trial> run_campaign(Stack& stack, const std::vector<Fault>& faults, const Watch& watch);
+
+}  // namespace trivela::faults

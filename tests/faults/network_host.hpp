@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace trivela::faults {
+
+/// A computer of its own as far as the network goes: a network namespace with a loopback and one Ethernet interface
+/// `tap0` (10.77.0.N/24), whose cable ends in our hands. It lives as long as the object and the processes in it.
+class NetworkHost {
+ public:
+  /// `number`: 1..250, the last byte of address and MAC. Throws std::runtime_error naming the step that the kernel
+  /// refuses.
+  explicit NetworkHost(std::uint8_t number);
+  NetworkHost(NetworkHost&& other) noexcept;
+  NetworkHost& operator=(NetworkHost&&) = delete;
+  ~NetworkHost();
+
+  /// What stands in the way of hosts on this machine; empty: nothing.
+  static std::string obstacle();
+
+  /// The end of the cable: a read is a frame that the host sends, a write one that it receives. Does not block.
+  int cable() const { return cable_; }
+
+  /// For setns() of a process that shall run on this host.
+  int network() const { return network_; }
+
+ private:
+  int cable_ = -1;
+  int network_ = -1;
+};
+
+}  // namespace trivela::faults
