@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/log_file.hpp"
-#include "evaluator/log/version_1.sql.hpp"
-#include "evaluator/log/version_2.sql.hpp"
+#include "evaluator/log/soundness.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -36,15 +35,36 @@ std::optional<Crossing> crossing_of(const Value& outcome, const Value& x_cross_m
 }  // namespace
 
 struct Reader::Impl {
+  Impl(const std::filesystem::path& path, Check check) : file(path, kMatchLog, check) {
+    create_reading_views(file.database(), file.version());
+    file.query("BEGIN", [](auto) {});  // a log may grow meanwhile
+    check_texts(file);
+    verification = file.looks_at_everything() ? verify(file) : unverified(file);
+    file.query("COMMIT", [](auto) {});
+  }
+
   LogFile file;
+  Verification verification;
 };
 
-Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {
-  const int version = impl_->file.version();
-  if (version == 1) impl_->file.database().exec(kVersion1Sql);
-  if (version == 2) impl_->file.database().exec(kVersion2Sql);
-}
+Reader::Reader(const std::filesystem::path& path, Check check) : impl_(std::make_unique<Impl>(path, check)) {}
 Reader::~Reader() = default;
+
+int Reader::version() const { return impl_->file.version(); }
+
+const Verification& Reader::verification() const { return impl_->verification; }
+
+std::optional<std::string> Reader::doubt() const {
+  const Verification& found = impl_->verification;
+  if (impl_->file.version() < kMatchLog.version)
+    return fmt::format("not verified: a match log of version {} has no digests", impl_->file.version());
+  if (!found.compared && found.rows > 0) return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
+  if (found.without_digest > 0)
+    return fmt::format("not verified: {} that never ended and so {} no digest",
+                       found.without_digest == 1 ? "a session" : fmt::format("{} sessions", found.without_digest),
+                       found.without_digest == 1 ? "has" : "have");
+  return std::nullopt;
+}
 
 void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 

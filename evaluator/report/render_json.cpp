@@ -68,6 +68,8 @@ Json quality_json(const Report& report) {
     quality["refused_orders"].push_back(
         {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});
   }
+  quality["verification"] = {{"verified_rows", report.verified_rows},
+                             {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
     quality["truth"] = {{"compared", report.compared_with_truth}, {"alike", report.alike_with_truth}};
   }
@@ -85,7 +87,7 @@ std::string to_json(const Report& report) {
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside, and inside"};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace trivela::evaluator

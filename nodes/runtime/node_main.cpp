@@ -13,6 +13,7 @@
 #include "bus/domain.hpp"
 #include "bus/executor.hpp"
 #include "bus/scheduling.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::nodes {
 
@@ -73,7 +74,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", name, error.what());
+    fmt::print(stderr, "{}: {}\n", name, kicking::printable_lines(error.what()));
     return 1;
   }
 }
