@@ -231,7 +231,8 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     }
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (kicking::first_unprintable(cells[i])) throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
+    if (kicking::first_unprintable(cells[i]))
+      throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
   }
   std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));
   std::ostringstream out;

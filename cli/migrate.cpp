@@ -34,8 +34,8 @@ void add_migrate(CLI::App& app, int& exit_code) {
         bar.show(static_cast<double>(rows), static_cast<double>(total), fmt::format("{} of {} rows", rows, total));
       });
     }();
-    say(fmt::format("{}: {} rows of version {}, {} new digest{}\n", arguments->out, migrated.rows, migrated.from_version,
-                    migrated.sessions, migrated.sessions == 1 ? "" : "s"));
+    say(fmt::format("{}: {} rows of version {}, {} new digest{}\n", arguments->out, migrated.rows,
+                    migrated.from_version, migrated.sessions, migrated.sessions == 1 ? "" : "s"));
     exit_code = kDone;
   });
 }

@@ -25,8 +25,9 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("log", arguments->log, "Match log, such as out/match.db")->required();
   auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
   verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
-  verb->add_flag("--verify", arguments->verify,
-                 "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
+  verb->add_flag(
+      "--verify", arguments->verify,
+      "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
     using evaluator::log::Check;
     const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);

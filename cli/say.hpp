@@ -8,8 +8,8 @@
 
 namespace trivela::cli {
 
-/// Lines for people, on standard output. Names in a log, a table or a path come from anybody: what a terminal could obey
-/// is written as \xNN.
+/// Lines for people, on standard output. Names in a log, a table or a path come from anybody: what a terminal could
+/// obey is written as \xNN.
 inline void say(std::string_view lines) { fmt::print("{}", kicking::printable_lines(lines)); }
 
 /// A sentence on standard error, by the same rule.

@@ -12,11 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLongestCell_B = 16 << 20;         // of a text or a blob
-constexpr std::int64_t kMemory_B = 1LL << 30;    // of SQLite in this program
-constexpr int kStepsACall = 100'000;             // of SQLite's machine between two looks at the budget
-constexpr std::int64_t kSteps = 300'000'000;     // that any statement may take: some seconds
-constexpr std::int64_t kStepsAByte = 20;         // of the file, on top; scanning takes far below one
+constexpr int kLongestCell_B = 16 << 20;       // of a text or a blob
+constexpr std::int64_t kMemory_B = 1LL << 30;  // of SQLite in this program
+constexpr int kStepsACall = 100'000;           // of SQLite's machine between two looks at the budget
+constexpr std::int64_t kSteps = 300'000'000;   // that any statement may take: some seconds
+constexpr std::int64_t kStepsAByte = 20;       // of the file, on top; scanning takes far below one
 
 /// The file's size with what lies in its write-ahead log.
 std::uintmax_t size_of(const std::string& path) {

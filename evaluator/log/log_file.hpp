@@ -16,8 +16,8 @@ namespace trivela::evaluator::log {
 /// The value of a column of the row that the statement stands at.
 Value value_of(const SQLite::Column& column);
 
-/// A finished or growing log, open for reading only. It may come from anybody: no view, trigger or index of its own plays
-/// a part, and what reading costs is bounded by its size.
+/// A finished or growing log, open for reading only. It may come from anybody: no view, trigger or index of its own
+/// plays a part, and what reading costs is bounded by its size.
 class LogFile {
  public:
   /// Throws std::runtime_error naming the path where it does not exist, is no log of this kind, is of a newer version,

@@ -52,7 +52,7 @@ std::int64_t rows_of(const Reader& reader) {
 }
 
 void copy_rows(const Reader& reader, SQLite::Database& database, std::string_view table, const TextNames& names,
-                       const std::function<void()>& copied) {
+               const std::function<void()>& copied) {
   std::vector<std::string> columns;
   for (const Column& column : *columns_of(database, table)) columns.push_back(column.name);
   const std::vector<std::string> places(columns.size(), "?");

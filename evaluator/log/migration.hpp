@@ -14,9 +14,9 @@ struct Migrated {
 };
 
 /// Copies a match log of any version to a new one of kMatchLog.version, with a new digest for each session that had
-/// ended. The old log is verified first, and never changed; what the old version did not have is empty, NULL or what was
-/// true then. Tables of somebody else do not come along. `progress` is told the rows so far, and all. Throws std::runtime_error as
-/// Reader does, and where `to` exists or cannot be written: nothing is left behind then.
+/// ended. The old log is verified first, and never changed; what the old version did not have is empty, NULL or what
+/// was true then. Tables of somebody else do not come along. `progress` is told the rows so far, and all. Throws
+/// std::runtime_error as Reader does, and where `to` exists or cannot be written: nothing is left behind then.
 Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
                  const std::function<void(std::int64_t, std::int64_t)>& progress);
 

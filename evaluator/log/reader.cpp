@@ -58,7 +58,8 @@ std::optional<std::string> Reader::doubt() const {
   const Verification& found = impl_->verification;
   if (impl_->file.version() < kMatchLog.version)
     return fmt::format("not verified: a match log of version {} has no digests", impl_->file.version());
-  if (!found.compared && found.rows > 0) return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
+  if (!found.compared && found.rows > 0)
+    return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
   if (found.without_digest > 0)
     return fmt::format("not verified: {} that never ended and so {} no digest",
                        found.without_digest == 1 ? "a session" : fmt::format("{} sessions", found.without_digest),
@@ -91,10 +92,9 @@ void Reader::for_each_row(std::string_view table, const std::vector<std::string>
 std::vector<RecordedSession> Reader::sessions() const {
   std::vector<RecordedSession> sessions;
   query(
-      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config.text, "
-      "config_sha256, seed, software_version, scenario, simulated, idl.text, arm, kicker_table, match_id "
-      "FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
-      "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 ORDER BY started_t_ns, session_id",
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, idl_sha256, "
+      "config_sha256, seed, software_version, scenario, simulated, arm, kicker_table, match_id "
+      "FROM sessions ORDER BY started_t_ns, session_id",
       [&](std::span<const Value> row) {
         RecordedSession session;
         session.session_id = *integer_of(row[0]);
@@ -104,16 +104,15 @@ std::vector<RecordedSession> Reader::sessions() const {
         session.closed_t_ns = integer_of(row[4]);
         session.simulated_clock = text_of(row[5]) == "simulated";
         session.realtime_offset_ns = *integer_of(row[6]);
-        session.config_toml = text_of(row[7]);
+        session.idl_sha256 = text_of(row[7]);
         session.config_sha256 = text_of(row[8]);
         session.seed = integer_of(row[9]);
         session.software_version = text_of(row[10]);
         session.scenario = text_of(row[11]);
         session.simulated = *integer_of(row[12]) != 0;
-        session.idl = text_of(row[13]);
-        if (!text_of(row[14]).empty()) session.arm = text_of(row[14]);
-        if (!text_of(row[15]).empty()) session.kicker_table = text_of(row[15]);
-        session.match_id = integer_of(row[16]);
+        if (!text_of(row[13]).empty()) session.arm = text_of(row[13]);
+        if (!text_of(row[14]).empty()) session.kicker_table = text_of(row[14]);
+        session.match_id = integer_of(row[15]);
         sessions.push_back(std::move(session));
       });
   for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {
@@ -122,6 +121,18 @@ std::vector<RecordedSession> Reader::sessions() const {
     session->policies.push_back({static_cast<int>(*integer_of(row[1])), text_of(row[2])});
   });
   return sessions;
+}
+
+RecordedSession Reader::whole(RecordedSession session) const {
+  query(fmt::format(
+            "SELECT config.text, idl.text FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
+            "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 WHERE session_id = {}",
+            session.session_id),
+        [&](std::span<const Value> row) {
+          session.config_toml = text_of(row[0]);
+          session.idl = text_of(row[1]);
+        });
+  return session;
 }
 
 std::vector<Kick> Reader::kicks() const {

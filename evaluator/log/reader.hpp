@@ -20,6 +20,7 @@ struct RecordedSession : Session {
   std::int64_t session_id = 0;
   std::optional<std::int64_t> closed_t_ns;  ///< none: never finalised
   std::string config_sha256;
+  std::string idl_sha256;
 };
 
 /// What a robot or the simulator says about the end of a kick.
@@ -69,7 +70,11 @@ class Reader {
   /// Sentences on sessions that were not closed and on rows that were lost.
   std::vector<std::string> warnings() const;
 
+  /// Without their long texts, which thousands of sessions may share.
   std::vector<RecordedSession> sessions() const;
+
+  /// The session with its configuration and the definition of its messages.
+  RecordedSession whole(RecordedSession session) const;
 
   /// Every kick by session and time.
   std::vector<Kick> kicks() const;

@@ -16,12 +16,14 @@ RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
     const std::string sql =
         fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
     sqlite3_stmt* select = nullptr;
-    const int code = sqlite3_prepare_v3(database.getHandle(), sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &select, nullptr);
+    const int code =
+        sqlite3_prepare_v3(database.getHandle(), sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &select, nullptr);
     if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
     Rows& rows = tables_.emplace_back();
     rows.select.reset(select);
     rows.head = fmt::format("table {}", table.name);
-    for (int i = 0; i < sqlite3_column_count(select); ++i) rows.head += fmt::format(" {}", sqlite3_column_name(select, i));
+    for (int i = 0; i < sqlite3_column_count(select); ++i)
+      rows.head += fmt::format(" {}", sqlite3_column_name(select, i));
     rows.head += '\n';
   }
 }

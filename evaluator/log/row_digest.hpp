@@ -21,8 +21,8 @@ struct DigestedTable {
 };
 
 /// What is recorded of a session, in the order of the digest. Not `digests`, not `experiments`, which changes while an
-/// experiment goes on, and nothing that is said of a session afterwards. `texts` are covered by the hashes that sessions
-/// name them by. A change of this list, or of a table in it, is another version of the log.
+/// experiment goes on, and nothing that is said of a session afterwards. `texts` are covered by the hashes that
+/// sessions name them by. A change of this list, or of a table in it, is another version of the log.
 inline constexpr std::array kDigestedTables{
     DigestedTable{"sessions", "session_id"},
     DigestedTable{"session_policies", "session_id, half"},

@@ -105,10 +105,13 @@ std::vector<std::string> tables_of(SQLite::Database& database) {
 }
 
 std::optional<std::vector<Column>> columns_of(SQLite::Database& database, std::string_view table) {
-  SQLite::Statement query(database, "SELECT name, \"notnull\" FROM pragma_table_info(?)");
-  query.bind(1, std::string(table));
+  std::string quoted;
+  for (const char c : table) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  // The statement, not the function pragma_table_info(), in whose place a file may have a table.
+  SQLite::Statement query(database, fmt::format("PRAGMA table_info(\"{}\")", quoted));
   std::vector<Column> columns;
-  while (query.executeStep()) columns.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt() != 0});
+  while (query.executeStep())
+    columns.push_back({query.getColumn("name").getString(), query.getColumn("notnull").getInt() != 0});
   if (columns.empty()) return std::nullopt;
   return columns;
 }

@@ -109,7 +109,8 @@ std::vector<std::string> tokens_of(std::string_view sql) {
 
 void check_schema(SQLite::Database& database, const LogKind& kind, int version, const std::string& file) {
   const auto refuse = [&](const std::string& what) {
-    throw std::runtime_error(fmt::format("{} is no {} of version {} that can be trusted: {}", file, kind.name, version, what));
+    throw std::runtime_error(
+        fmt::format("{} is no {} of version {} that can be trusted: {}", file, kind.name, version, what));
   };
   // The text is compared and nothing else: asking SQLite about a table would prepare the views of the file.
   const auto found = objects_of(database);
@@ -129,9 +130,10 @@ void check_schema(SQLite::Database& database, const LogKind& kind, int version, 
     if (object.type != "table") continue;
     for (const std::string& index : indexes_on(database, name)) {
       if (own.contains(index)) continue;
-      refuse(fmt::format("the index {} on its table {} is not of that version and could answer in the table's place; "
-                         "DROP INDEX removes it",
-                         index, name));
+      refuse(
+          fmt::format("the index {} on its table {} is not of that version and could answer in the table's place; "
+                      "DROP INDEX removes it",
+                      index, name));
     }
   }
 }

@@ -9,7 +9,7 @@
 namespace trivela::evaluator::log {
 namespace {
 
-constexpr int kFirstWithTexts = 2;    // versions
+constexpr int kFirstWithTexts = 2;  // versions
 constexpr int kFirstWithDigests = 3;
 
 [[noreturn]] void damaged(const LogFile& file, const std::string& what) {
@@ -67,24 +67,27 @@ void check_texts(const LogFile& file) {
   check_hashes(file, "SELECT sha256, text FROM main.texts", "the text");
   check_hashes(file, "SELECT arguments_sha256, arguments FROM main.experiments", "the experiment's arguments");
   for (const char* const text : {"config_sha256", "idl_sha256"}) {
-    file.query(fmt::format("SELECT uuid FROM main.sessions WHERE {} NOT IN (SELECT sha256 FROM main.texts) LIMIT 1", text),
-               [&](std::span<const Value> row) {
-                 damaged(file, fmt::format("the text that {} of session {} names is not there", text,
-                                           std::get<std::string>(row[0])));
-               });
+    file.query(
+        fmt::format("SELECT uuid FROM main.sessions WHERE {} NOT IN (SELECT sha256 FROM main.texts) LIMIT 1", text),
+        [&](std::span<const Value> row) {
+          damaged(file, fmt::format("the text that {} of session {} names is not there", text,
+                                    std::get<std::string>(row[0])));
+        });
   }
 }
 
 Verification unverified(const LogFile& file) {
   Verification found;
   const bool has_digests = file.version() >= kFirstWithDigests;
-  file.query(has_digests ? "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
-                           "session_id NOT IN (SELECT session_id FROM main.digests))"
-                         : "SELECT 0, count(*) FROM main.sessions",
-             [&](std::span<const Value> row) {
-               found.rows = integer(row[0]);
-               found.without_digest = integer(row[1]);
-             });
+  file.query(
+      has_digests
+          ? "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
+            "session_id NOT IN (SELECT session_id FROM main.digests))"
+          : "SELECT 0, count(*) FROM main.sessions",
+      [&](std::span<const Value> row) {
+        found.rows = integer(row[0]);
+        found.without_digest = integer(row[1]);
+      });
   return found;
 }
 
@@ -95,7 +98,8 @@ Verification verify(const LogFile& file) {
   RowDigests digests(file.database());
   for (const DigestedSession& session : digested_sessions(file)) {
     if (!session.noted && !session.closed) continue;
-    if (!session.noted) damaged(file, fmt::format("session {} has ended, but the digest of its rows is not there", session.uuid));
+    if (!session.noted)
+      damaged(file, fmt::format("session {} has ended, but the digest of its rows is not there", session.uuid));
     const RowDigest is = digests.of(session.session_id);
     if (is == *session.noted) continue;
     damaged(file, fmt::format("the rows of session {} are not those that were recorded ({} rows, digest {:.12}...; "

@@ -11,8 +11,8 @@ void check_texts(const LogFile& file);
 /// The rows that the log's digests cover; nothing is compared.
 Verification unverified(const LogFile& file);
 
-/// Compares each session's rows with their digest. Throws std::runtime_error naming the session whose rows are not those
-/// that were recorded, a session that has ended without a digest, or a table with rows of no session.
+/// Compares each session's rows with their digest. Throws std::runtime_error naming the session whose rows are not
+/// those that were recorded, a session that has ended without a digest, or a table with rows of no session.
 Verification verify(const LogFile& file);
 
 }  // namespace trivela::evaluator::log

@@ -23,13 +23,13 @@ std::string heading(const Report& report) {
     }
   }
   for (const auto& session : report.sessions) {
-    text +=
-        fmt::format("Session {}: {} '{}'", printable(session.uuid), session.simulated ? "scenario" : "match",
+    text += fmt::format("Session {}: {} '{}'", printable(session.uuid), session.simulated ? "scenario" : "match",
                         printable(session.scenario));
     if (session.seed) text += fmt::format(", seed {}", *session.seed);
     if (session.robot_id) text += fmt::format(", robot {}", *session.robot_id);
     for (const auto& half : session.policies) text += fmt::format(", half {} {}", half.half, printable(half.policy));
-    text += fmt::format(", version {}, configuration {:.12}\n", printable(session.software_version), session.config_sha256);
+    text +=
+        fmt::format(", version {}, configuration {:.12}\n", printable(session.software_version), session.config_sha256);
   }
   return text;
 }

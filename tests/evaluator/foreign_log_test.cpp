@@ -88,40 +88,46 @@ TEST_F(ForeignLog, AVirtualTableIsRefused) {
 }
 
 TEST_F(ForeignLog, AGeneratedColumnIsRefused) {
-  exec("UPDATE sqlite_schema SET sql = replace(sql, 'on_target INTEGER NOT NULL CHECK (on_target IN (0, 1)),', "
-       "'on_target INTEGER NOT NULL AS (1) VIRTUAL,') WHERE name = 'kick_outcomes'");
+  exec(
+      "UPDATE sqlite_schema SET sql = replace(sql, 'on_target INTEGER NOT NULL CHECK (on_target IN (0, 1)),', "
+      "'on_target INTEGER NOT NULL AS (1) VIRTUAL,') WHERE name = 'kick_outcomes'");
   EXPECT_THAT(said(), HasSubstr("its table kick_outcomes is not made as in that version"));
 }
 
 TEST_F(ForeignLog, AnotherCollationIsRefused) {
-  exec("UPDATE sqlite_schema SET sql = replace(sql, 'refusal TEXT NOT NULL', 'refusal TEXT NOT NULL COLLATE NOCASE') "
-       "WHERE name = 'kick_receipts'");
+  exec(
+      "UPDATE sqlite_schema SET sql = replace(sql, 'refusal TEXT NOT NULL', 'refusal TEXT NOT NULL COLLATE NOCASE') "
+      "WHERE name = 'kick_receipts'");
   EXPECT_THAT(said(), HasSubstr("its table kick_receipts is not made as in that version"));
 }
 
 TEST_F(ForeignLog, AnIndexOfSomebodyElseOnOurTablesIsRefused) {
-  for (const char* const on : {"kick_outcomes (outcome)", "kick_outcomes (abs(seq))", "kick_outcomes (seq) WHERE seq > 3"}) {
+  for (const char* const on :
+       {"kick_outcomes (outcome)", "kick_outcomes (abs(seq))", "kick_outcomes (seq) WHERE seq > 3"}) {
     exec(std::string("DROP INDEX IF EXISTS mine; CREATE INDEX mine ON ") + on);
     EXPECT_THAT(said(), AllOf(HasSubstr("the index mine on its table kick_outcomes"), HasSubstr("DROP INDEX"))) << on;
   }
 }
 
 TEST_F(ForeignLog, AChangedIndexOfOursIsRefused) {
-  exec("DROP INDEX kick_receipts_kick; CREATE INDEX kick_receipts_kick ON kick_receipts (session_id, robot_id, kick_id) "
-       "WHERE accepted = 1");
+  exec(
+      "DROP INDEX kick_receipts_kick; CREATE INDEX kick_receipts_kick ON kick_receipts (session_id, robot_id, kick_id) "
+      "WHERE accepted = 1");
   EXPECT_THAT(said(), HasSubstr("its index kick_receipts_kick is not made as in that version"));
 }
 
 TEST_F(ForeignLog, AnIndexThatDoesNotSayWhatItsTableSaysIsRefused) {
   exec("UPDATE sqlite_schema SET sql = replace(sql, 'kick_id)', 'seq)') WHERE name = 'kick_outcomes_kick'");
   exec("REINDEX kick_outcomes_kick");
-  exec("UPDATE sqlite_schema SET sql = replace(sql, 'robot_id, seq)', 'robot_id, kick_id)') WHERE name = "
-       "'kick_outcomes_kick'");
+  exec(
+      "UPDATE sqlite_schema SET sql = replace(sql, 'robot_id, seq)', 'robot_id, kick_id)') WHERE name = "
+      "'kick_outcomes_kick'");
   EXPECT_THAT(said(), HasSubstr("is damaged"));
 }
 
 TEST_F(ForeignLog, OtherTablesViewsAndTriggersPlayNoPart) {
-  exec(std::string("CREATE TABLE notes (text); CREATE INDEX notes_text ON notes (text); CREATE VIEW mine AS ") + kEndless +
+  exec(std::string("CREATE TABLE notes (text); CREATE INDEX notes_text ON notes (text); CREATE VIEW mine AS ") +
+       kEndless +
        "; CREATE TABLE pragma_table_info (arg, name, \"notnull\"); CREATE TABLE words (a); CREATE TABLE heard (a);"
        "CREATE TRIGGER t AFTER INSERT ON referee BEGIN INSERT INTO notes VALUES ('x'); END;");
   EXPECT_EQ(said(), report_);
@@ -141,16 +147,18 @@ TEST_F(ForeignLog, ViewsThatDoubleWithEachOtherCostNothing) {
 }
 
 TEST_F(ForeignLog, ChecksOfSomebodyElseAreNotRun) {
-  exec("UPDATE sqlite_schema SET sql = replace(sql, 'CHECK (fire IN (0, 1))', "
-       "'CHECK (length(hex(randomblob(900000000))) > 1)') WHERE name = 'kick_decisions'");
+  exec(
+      "UPDATE sqlite_schema SET sql = replace(sql, 'CHECK (fire IN (0, 1))', "
+      "'CHECK (length(hex(randomblob(900000000))) > 1)') WHERE name = 'kick_decisions'");
   EXPECT_EQ(said(), report_);
 }
 
 TEST_F(ForeignLog, AChangedRowIsRefused) {
   for (const char* const change :
-       {"UPDATE kick_outcomes SET outcome = 'on_target' WHERE outcome = 'over'", "DELETE FROM kick_orders WHERE kick_id = 1",
-        "UPDATE sessions SET scenario = 'another'", "UPDATE losses SET lost = 3 WHERE stream = 'referee'",
-        "UPDATE sessions SET closed_t_ns = NULL", "INSERT INTO continued VALUES ((SELECT session_id FROM sessions), 1, 2, 3)",
+       {"UPDATE kick_outcomes SET outcome = 'on_target' WHERE outcome = 'over'",
+        "DELETE FROM kick_orders WHERE kick_id = 1", "UPDATE sessions SET scenario = 'another'",
+        "UPDATE losses SET lost = 3 WHERE stream = 'referee'", "UPDATE sessions SET closed_t_ns = NULL",
+        "INSERT INTO continued VALUES ((SELECT session_id FROM sessions), 1, 2, 3)",
         "UPDATE digests SET row_count = row_count + 1"}) {
     const auto copy = path("copy.db");
     std::filesystem::copy_file(path(), copy, std::filesystem::copy_options::overwrite_existing);
@@ -232,12 +240,15 @@ TEST_F(ForeignLog, Utf16IsReadRight) {
 TEST_F(ForeignLog, AWriteAheadLogOfAnotherFileIsRefusedOrIgnored) {
   {
     SQLite::Database other(path("other.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    other.exec("PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; CREATE TABLE t (a); "
-               "INSERT INTO t VALUES (zeroblob(9000));");
+    other.exec(
+        "PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0; CREATE TABLE t (a); "
+        "INSERT INTO t VALUES (zeroblob(9000));");
     std::filesystem::copy_file(path("other.db-wal"), path().string() + "-wal");
   }
   const std::string text = said();
-  if (text != report_) EXPECT_THAT(text, testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is not a match log"), HasSubstr("cannot read")));
+  if (text != report_)
+    EXPECT_THAT(text,
+                testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is not a match log"), HasSubstr("cannot read")));
 }
 
 TEST_F(ForeignLog, ATextOfAbsurdLengthIsRefused) {
@@ -284,7 +295,10 @@ TEST_F(ForeignLog, NothingInItReachesATerminalRaw) {
   log::Session session = LogTest::session();
   session.scenario = "red \x1b[31m\nTable 2: \xc2\x9b right-to-left \u202e";
   session.software_version = "0.1\x07\xff";
-  { MatchLog match(other, session, options()); match.kicks(1, "on_target", 1); }
+  {
+    MatchLog match(other, session, options());
+    match.kicks(1, "on_target", 1);
+  }
   const Report report = make_report(Reader(other));
   const std::string text = to_text(report);
   EXPECT_THAT(text, HasSubstr("'red \\x1b[31m\\x0aTable 2: \\xc2\\x9b right-to-left \\xe2\\x80\\xae'"));

@@ -23,7 +23,8 @@ inline SQLite::Database older_file(const std::filesystem::path& path, int applic
   return database;
 }
 
-/// A closed session in a match log of version 1 or 2, with a kick on target of each of two policies, in half a minute each.
+/// A closed session in a match log of version 1 or 2, with a kick on target of each of two policies, in half a minute
+/// each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =
       older_file(path, 0x4B49434B, version, "schema_version_" + std::to_string(version) + ".sql");
@@ -42,7 +43,8 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
                      "scenario, simulated, config_sha256, ") +
              (version == 1 ? "config_toml, idl" : "idl_sha256"),
          "'00000000-0000-000e-8000-000000000000', 1, 0, 60000000000, 'simulated', 0, 3, '0.1', 'default', 1, '" +
-             log::sha256(config) + (version == 1 ? "', '" + config + "', '" + idl + "'" : "', '" + log::sha256(idl) + "'"));
+             log::sha256(config) +
+             (version == 1 ? "', '" + config + "', '" + idl + "'" : "', '" + log::sha256(idl) + "'"));
   insert("losses", "stream, received, lost, gaps, overflow, nan_refused, rejected, out_of_order",
          "'kick_orders', 2, 0, 0, 0, 0, 0, 0");
   for (const int half : {1, 2}) {
@@ -52,8 +54,9 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
     const std::string policy = half == 1 ? "'stopped'" : version == 1 ? "'moving'" : "'predictive'";
     insert("session_policies", "half, policy", n + ", " + policy);
     for (const bool playing : {true, false}) {
-      insert("referee", "robot_id, seq, t_ns, half, playing, possession_id",
-             "1, " + n + (playing ? "0, " : "1, ") + (playing ? start : end) + ", " + n + (playing ? ", 1, 1" : ", 0, 1"));
+      insert(
+          "referee", "robot_id, seq, t_ns, half, playing, possession_id",
+          "1, " + n + (playing ? "0, " : "1, ") + (playing ? start : end) + ", " + n + (playing ? ", 1, 1" : ", 0, 1"));
     }
     insert("kick_decisions",
            "robot_id, seq, t_ns, kick_id, half, possession_id, policy, fire, reason, x_m, y_m, heading_rad, vx_mps, "
@@ -75,8 +78,7 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
     insert("kick_truths",
            "robot_id, seq, t_ns, kick_id, half, possession_id, outcome, x_cross_m, z_cross_m, release_t_ns, "
            "release_x_m, release_y_m, release_vx_mps, release_vy_mps, release_vz_mps, margin_m",
-           "1, " + n + ", " + end + ", " + n + ", " + n + ", 1, 'on_target', 0, 0.7, " + start +
-               ", 0, 3, 0, 6, 4, 0.3",
+           "1, " + n + ", " + end + ", " + n + ", " + n + ", 1, 'on_target', 0, 0.7, " + start + ", 0, 3, 0, 6, 4, 0.3",
            ", saved", ", 0");
   }
   return path;

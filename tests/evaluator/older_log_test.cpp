@@ -30,9 +30,10 @@ TEST_P(OlderLog, SaysWhatItSaid) {
   const Reader reader(log_path);
   const auto sessions = reader.sessions();
   ASSERT_EQ(sessions.size(), 1u);
-  EXPECT_EQ(sessions[0].config_toml, "a = 1");
+  const auto whole = reader.whole(sessions[0]);
+  EXPECT_EQ(whole.config_toml, "a = 1");
   EXPECT_EQ(sessions[0].config_sha256, log::sha256("a = 1"));
-  EXPECT_EQ(sessions[0].idl, "struct X {};");
+  EXPECT_EQ(whole.idl, "struct X {};");
   EXPECT_EQ(sessions[0].seed, 3);
   EXPECT_FALSE(sessions[0].arm || sessions[0].kicker_table || sessions[0].match_id) << "no experiment";
   const auto kicks = reader.kicks();
@@ -109,7 +110,8 @@ using OlderScans = LogTest;
 TEST_F(OlderScans, AreRead) {
   SQLite::Database database = older_file(path("scans.db"), 0x5343414E, 1, "scan_schema_version_1.sql");
   database.exec(
-      "INSERT INTO sessions VALUES (7, '00000000-0000-000e-8000-000000000000', 0, 9, 0, 'SICK', 'TiM', '1', '2', 'CoLa', "
+      "INSERT INTO sessions VALUES (7, '00000000-0000-000e-8000-000000000000', 0, 9, 0, 'SICK', 'TiM', '1', '2', "
+      "'CoLa', "
       "2, 0, 0.01, 0.0001, 0.02, 0.05, 10, 1, 0.5, 0, 0, 1, 'synthetic', '0.1');"
       "INSERT INTO scans VALUES (7, 0, 5, x'D00F02');"
       "INSERT INTO set_points VALUES (7, 0, 1, 20, 3);"
