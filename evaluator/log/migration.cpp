@@ -54,7 +54,8 @@ std::int64_t rows_of(const Reader& reader) {
 void copy_rows(const Reader& reader, SQLite::Database& database, std::string_view table, const TextNames& names,
                const std::function<void()>& copied) {
   std::vector<std::string> columns;
-  for (const Column& column : *columns_of(database, table)) columns.push_back(column.name);
+  const auto schema = columns_of(database, table);
+  for (const Column& column : *schema) columns.push_back(column.name);
   const std::vector<std::string> places(columns.size(), "?");
   SQLite::Statement insert(database, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(columns, ", "),
                                                  fmt::join(places, ", ")));
