@@ -8,6 +8,7 @@
 
 #include "cli/compare_csv.hpp"
 #include "cli/counts_argument.hpp"
+#include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
@@ -122,10 +123,10 @@ void add_compare(CLI::App& app, int& exit_code) {
     if (!arguments->counts.empty()) {
       const auto [older, newer] = parse_two_counts(arguments->counts);
       const auto comparison = evaluator::compare(older, newer, 0.01 * arguments->smallest_effect_points);
-      fmt::print("{}", arguments->json ? evaluator::to_json(comparison) : evaluator::to_text(comparison));
+      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
     } else {
       const auto comparison = compared(*arguments);
-      fmt::print("{}", arguments->json ? evaluator::to_json(comparison) : evaluator::to_text(comparison));
+      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
     }
     exit_code = kDone;
   });

@@ -6,7 +6,7 @@
 
 #include "cli/counts_argument.hpp"
 #include "cli/verbs.hpp"
-#include "config/plain_text.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -32,7 +32,7 @@ evaluator::NamedCounts parse_counts(const std::string& argument) {
   }
   const auto inside = whole_number(std::string_view(argument).substr(equals + 1, slash - equals - 1));
   const auto n = whole_number(std::string_view(argument).substr(slash + 1));
-  if (config::first_unprintable(std::string_view(argument).substr(0, equals)))
+  if (kicking::first_unprintable(std::string_view(argument).substr(0, equals)))
     throw fail("the name is not printable UTF-8");
   if (!inside || !n) throw fail("INSIDE and KICKS must be whole numbers");
   if (*inside < 0 || *n < 0) throw fail("a count cannot be negative");

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/plain_text.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::cli {
 
@@ -53,7 +53,7 @@ class CsvReader {
   [[noreturn]] void fail_on_byte(std::size_t column, const std::string& text, std::size_t place) const {
     const unsigned byte = static_cast<unsigned char>(text[place]);
     fail(line_, column,
-         config::utf8_length(std::string_view(text).substr(place)) == 0
+         kicking::utf8_length(std::string_view(text).substr(place)) == 0
              ? fmt::format("byte 0x{:02X} is not UTF-8", byte)
              : fmt::format("a control character (byte 0x{:02X}) in a cell", byte));
   }
@@ -63,7 +63,7 @@ class CsvReader {
     bool quoted = false, closed = false;  // within quotes; behind the quote that ended the cell
     std::size_t opened_on = 0;
     do {
-      const std::size_t unprintable = config::first_unprintable(text).value_or(text.size());
+      const std::size_t unprintable = kicking::first_unprintable(text).value_or(text.size());
       for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (i == unprintable) fail_on_byte(record.cells.size(), text, i);

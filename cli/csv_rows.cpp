@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "evaluator/report/json_values.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {
@@ -190,7 +191,7 @@ ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file
       code = kFailed;
     }
   }
-  if (format == RowFormat::kJson) out << objects.dump(2) << '\n';
+  if (format == RowFormat::kJson) out << evaluator::json_text(objects);
   out.flush();
   return code;
 }
@@ -230,7 +231,8 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     }
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (config::first_unprintable(cells[i])) throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
+    if (kicking::first_unprintable(cells[i]))
+      throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
   }
   std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));
   std::ostringstream out;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/policy_value.hpp"
 
@@ -35,7 +36,7 @@ void add_evaluate_policy(CLI::App& app, int& exit_code) {
     const bool truth = arguments->outcome == "truth";
     const auto logged = evaluator::read_opportunities({arguments->logs.begin(), arguments->logs.end()}, truth);
     const auto report = evaluator::evaluate_policy(logged, arguments->policy, truth);
-    fmt::print("{}", arguments->json ? evaluator::to_json(report) : evaluator::to_text(report));
+    arguments->json ? fmt::print("{}", evaluator::to_json(report)) : say(evaluator::to_text(report));
     exit_code = kDone;
   });
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/calibrate/robot_update.hpp"
+#include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "cli/write_file.hpp"
 #include "config/learned_model.hpp"
@@ -116,7 +117,7 @@ Json to_json(const LearnedFit& fit, const std::string& written) {
 ExitCode learn(const LearnFlags& flags) {
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
   const auto logged = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
-  for (const std::string& remark : logged.remarks) fmt::print(stderr, "trivela: {}\n", remark);
+  for (const std::string& remark : logged.remarks) warn(remark);
   const LearnedFit fit = evaluator::fit_learned_model(logged.kicks, flags.options);
   const bool better = fit.held_out.better();
   const std::string written = better || flags.anyway ? flags.out : "";
@@ -127,7 +128,7 @@ ExitCode learn(const LearnFlags& flags) {
                            verdict(fit.held_out)) +
                    config::to_toml_text(file_of(fit, flags)));
   }
-  fmt::print("{}", flags.json ? to_json(fit, written).dump(2) + "\n" : text_of(fit));
+  flags.json ? fmt::print("{}", evaluator::json_text(to_json(fit, written))) : say(text_of(fit));
   if (!flags.json && !written.empty()) fmt::print("\nWritten: {}\n", written);
   if (better) return kDone;
   fmt::print(stderr, "trivela: the learned model is {}; {}\n", verdict(fit.held_out),

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/csv_rows.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {
@@ -145,7 +146,7 @@ int run_lob_points(const PointsFlags& flags, const kicking::lob::ScannerPlace& p
   if (flags.centre == "middle") config.centre = kicking::lob::CentreMethod::kMiddleOfLimits;
   config.drag_coefficient = flags.cd;
   const LobRecord lob = kicking::lob::analyse_returns(*returns, place, config);
-  std::cout << (flags.json ? to_json(lob).dump(2) + '\n' : to_text(lob)) << std::flush;
+  std::cout << (flags.json ? evaluator::json_text(to_json(lob)) : to_text(lob)) << std::flush;
   return lob.refusal == kicking::lob::Refusal::kNone ? kDone : kFailed;
 }
 

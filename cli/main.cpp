@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "cli/finite_numbers.hpp"
+#include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
@@ -25,6 +26,7 @@ int run(int argc, char** argv) {
   cli::add_lob(app, exit_code);
   cli::add_calibrate(app, exit_code);
   cli::add_report(app, exit_code);
+  cli::add_migrate(app, exit_code);
   cli::add_compare(app, exit_code);
   cli::add_evaluate_policy(app, exit_code);
   cli::add_learn(app, exit_code);
@@ -47,7 +49,7 @@ int run(int argc, char** argv) {
 }
 
 int failed(const std::exception& error, cli::ExitCode code) {
-  std::fprintf(stderr, "trivela: %s\n", error.what());
+  cli::warn(error.what());
   return code;
 }
 

@@ -29,11 +29,12 @@ std::string section(const std::string& config, const std::string& name, const st
 }
 
 int replay(const ReplayFlags& flags) {
-  const auto sessions = evaluator::log::Reader{flags.log}.sessions();
+  const evaluator::log::Reader reader{flags.log};
+  const auto sessions = reader.sessions();
   if (sessions.size() != 1) {
     throw std::runtime_error{fmt::format("{} holds {} sessions; a replay needs one", flags.log, sessions.size())};
   }
-  const std::string& config = sessions.front().config_toml;
+  const std::string config = reader.whole(sessions.front()).config_toml;
   const ConfigFile settings_file{section(config, "settings", flags.log)};
   const ConfigFile robot_file{section(config, "robot", flags.log)};
   config::Settings settings = config::load_settings(settings_file.path());

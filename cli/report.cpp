@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/render.hpp"
 
@@ -13,6 +14,7 @@ struct ReportArguments {
   std::string log;
   bool json = false;
   bool csv = false;
+  bool verify = false;
 };
 
 }  // namespace
@@ -23,15 +25,22 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("log", arguments->log, "Match log, such as out/match.db")->required();
   auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
   verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
+  verb->add_flag(
+      "--verify", arguments->verify,
+      "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
-    const evaluator::log::Reader reader(arguments->log);
+    using evaluator::log::Check;
+    const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
     const evaluator::Report report = evaluator::make_report(reader);
     const bool plain = !arguments->json && !arguments->csv;
-    fmt::print("{}", arguments->json  ? evaluator::to_json(report)
-                     : arguments->csv ? evaluator::to_csv(report)
-                                      : evaluator::to_text(report));
+    if (arguments->json) {
+      fmt::print("{}", evaluator::to_json(report));
+    } else {
+      say(arguments->csv ? evaluator::to_csv(report) : evaluator::to_text(report));
+    }
     if (!plain) {  // the text has them
-      for (const std::string& warning : report.warnings) fmt::print(stderr, "trivela: {}\n", warning);
+      for (const std::string& warning : report.warnings) warn(warning);
+      if (report.doubt) warn(*report.doubt);
     }
     exit_code = report.data_lost() ? kDoneWithLoss : kDone;
   });

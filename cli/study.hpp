@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "cli/factorial/play.hpp"
+#include "cli/say.hpp"
 #include "cli/simulate/arms.hpp"
 #include "cli/write_file.hpp"
+#include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
 
@@ -40,7 +42,7 @@ template <typename Report>
 void give(const Study& study, const Report& report) {
   if (!study.csv.empty()) write_file(study.csv, to_csv(report));
   if (!study.svg.empty()) write_file(study.svg, to_svg(report));
-  fmt::print("{}", study.json ? to_json(report).dump(2) + "\n" : to_text(report));
+  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
 }
 
 }  // namespace trivela::cli

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "config/plain_text.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::config {
 
@@ -32,17 +32,9 @@ std::string place_of(const TomlSource& source, const toml::table& arm, std::stri
 
 void check_name(const std::string& name, const std::string& place) {
   if (name.empty()) throw Error{fmt::format("{}: arm.name = \"\": an arm needs a name", place)};
-  std::string shown;
-  bool printable = true;
-  for (std::string_view rest = name; !rest.empty();) {
-    const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
-    const bool plain = character != "\t" && !is_control(character);
-    printable = printable && plain;
-    for (const char byte : character)
-      shown += plain ? std::string{byte} : fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
-    rest.remove_prefix(character.size());
-  }
-  if (!printable) throw Error{fmt::format("{}: arm.name = \"{}\": has a control character", place, shown)};
+  const std::string shown = kicking::printable(name);
+  const bool plain = shown == name && name.find('\t') == std::string::npos;
+  if (!plain) throw Error{fmt::format("{}: arm.name = \"{}\": has a control character", place, shown)};
   if (name.size() > kLongestName) {
     throw Error{fmt::format("{}: arm.name = \"{}\": has {} bytes, and {} at most are a name", place, shown, name.size(),
                             kLongestName)};

@@ -7,6 +7,8 @@
 
 #include "cli/calibrate/input_kind.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/say.hpp"
+#include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
 
@@ -57,10 +59,10 @@ void finish_fit(const FitFlags& flags, const char* verb, const std::optional<con
   }
   report.json["warnings"] = report.warnings;
   if (flags.json) {
-    fmt::print("{}\n", report.json.dump(2));
+    fmt::print("{}", evaluator::json_text(report.json));
   } else {
-    fmt::print("{}", report.text);
-    for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
+    say(report.text);
+    for (const std::string& warning : report.warnings) say(fmt::format("warning: {}\n", warning));
   }
 }
 

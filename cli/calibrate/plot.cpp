@@ -7,6 +7,8 @@
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/calibrate/trials.hpp"
+#include "cli/say.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -110,7 +112,7 @@ void print_json(const std::vector<Repeatability>& rows, const PlotFlags& flags,
     Json& point = json["setpoints"].emplace_back(Json{{"power", row.power}, {"trials", row.trials}});
     for (const Cell& cell : cells_of(row)) point[cell.name] = cell.value ? Json(*cell.value) : Json(nullptr);
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}", evaluator::json_text(json));
 }
 
 /// A line a power under a head; `empty` stands for an unknown spread.
@@ -138,7 +140,7 @@ void plot(const PlotFlags& flags) {
   } else {
     fmt::print("{}\nWritten: {}\n", evaluator::text_table(lines_of(rows, "{:.3f}", "-")), flags.out);
   }
-  for (const std::string& warning : trials.warnings) fmt::print(stderr, "trivela: {}\n", warning);
+  for (const std::string& warning : trials.warnings) warn(warning);
 }
 
 }  // namespace

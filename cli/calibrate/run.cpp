@@ -12,6 +12,7 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "sim/team.hpp"
 
 namespace trivela::cli {
@@ -114,7 +115,7 @@ class Report {
     }
     document_["simulator_truth"] = std::move(simulator);
     if (json_) {
-      fmt::print("{}\n", document_.dump(2));
+      fmt::print("{}", evaluator::json_text(document_));
       return;
     }
     fmt::print("\n");

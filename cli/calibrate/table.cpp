@@ -8,6 +8,8 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/calibrate/trials.hpp"
+#include "cli/say.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -121,9 +123,9 @@ ExitCode calibrate_table(const TableFlags& flags) {
     text += fmt::format("\n{} {}:\n  {}\n", replaced ? "Brought up to date:" : "Written:", target.string(),
                         fmt::join(update.changes(), "\n  "));
   }
-  fmt::print("{}", flags.json ? json.dump(2) + "\n" : text);
+  flags.json ? fmt::print("{}", evaluator::json_text(json)) : say(text);
   if (!flags.json) {
-    for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
+    for (const std::string& warning : warnings) say(fmt::format("warning: {}\n", warning));
   }
   if (usable) return kDone;
   fmt::print(stderr, "trivela: {}; nothing is written: kick these again, or pool them with --isotonic\n",

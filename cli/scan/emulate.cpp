@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/launch/signal_inbox.hpp"
+#include "cli/say.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "hal/scip/emulator.hpp"
@@ -76,7 +77,7 @@ int emulate_scanner(const EmulateFlags& flags, const SyntheticFlags& synthetic, 
     try {
       return playback.next();
     } catch (const std::exception& error) {  // the emulator's thread has nobody else to tell
-      fmt::print(stderr, "trivela: {}\n", error.what());
+      warn(error.what());
       failed = true;
       return std::nullopt;
     }

@@ -2,10 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/say.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/calibration/lobs_of_scans.hpp"
 #include "evaluator/calibration/verdicts_file.hpp"
+#include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -74,7 +76,7 @@ ordered_json info_of(const evaluator::log::ScanReader& record, const std::filesy
 void print(const ordered_json& info) {
   const auto& scanner = info["scanner"];
   const auto& geometry = info["geometry"];
-  const auto text = [](const ordered_json& value) { return value.get<std::string>(); };
+  const auto text = [](const ordered_json& value) { return kicking::printable(value.get<std::string>()); };
   fmt::print("{}\n", text(info["file"]));
   if (info["synthetic"].get<bool>()) fmt::print("  {}\n", kSyntheticNotice);
   fmt::print("  scanner    {} {}, serial {}, firmware {}, {}\n", text(scanner["vendor"]), text(scanner["product"]),
@@ -110,7 +112,7 @@ int show_scan_info(const std::filesystem::path& record, bool json) {
   const evaluator::log::ScanReader reader(record);
   const ordered_json info = info_of(reader, record);
   if (json) {
-    fmt::print("{}\n", info.dump(2));
+    fmt::print("{}", evaluator::json_text(info));
   } else {
     print(info);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/launch/signal_inbox.hpp"
+#include "cli/say.hpp"
 #include "cli/scan/scanner_session.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
@@ -71,7 +72,7 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   }
   writer.finalise();
   const hal::LinkCounters counters = finder->counters();
-  fmt::print("{}: {} scans of {} {}\n", out.string(), scans, session.identity.vendor, session.identity.product);
+  say(fmt::format("{}: {} scans of {} {}\n", out.string(), scans, session.identity.vendor, session.identity.product));
   if (session.simulated) fmt::print("{}\n", kSyntheticNotice);
   if (counters.error_ranges > 0) fmt::print("{} beams had an error code in place of a range\n", counters.error_ranges);
   if (counters.lost_scans + refused == 0) return kDone;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/say.hpp"
 #include "cli/simulate/arm_settings.hpp"
 #include "cli/verbs.hpp"
 #include "config/arms.hpp"
@@ -134,7 +135,7 @@ void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<node
     std::string remark = fmt::format("{} robots play with {} robot file{}: {} is taken for all further ones",
                                      nodes::team_size(scenario), files, files == 1 ? "" : "s", arm.robots.back().name);
     if (std::ranges::find(remarks, remark) != remarks.end()) continue;
-    fmt::print(stderr, "trivela: {}\n", remark);
+    warn(remark);
     remarks.push_back(std::move(remark));
   }
 }

@@ -134,7 +134,7 @@ struct ArmSum {
 
 std::map<std::string, ArmSum> sums(const std::string& out) {
   std::map<std::string, ArmSum> arms;
-  const evaluator::log::Reader reader{out};
+  const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
   const auto count = [&](const std::string& rows, std::int64_t ArmSum::*field) {
     reader.query("SELECT arm, count(*) FROM sessions JOIN " + rows + " GROUP BY arm",
                  [&](auto row) { arms[std::get<std::string>(row[0])].*field = std::get<std::int64_t>(row[1]); });

@@ -12,6 +12,8 @@
 namespace trivela::evaluator::log {
 namespace {
 
+const char* const kNone = "SHA-256 is not available in libcrypto";
+
 std::string hexadecimal(std::span<const unsigned char> bytes) {
   std::string text;
   for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
@@ -24,8 +26,34 @@ std::string sha256(std::string_view text) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int size = 0;
   if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error("SHA-256 is not available in libcrypto");
+    throw std::runtime_error(kNone);
   }
+  return hexadecimal(std::span(digest).first(size));
+}
+
+struct RunningSha256::Context {
+  EVP_MD_CTX* handle = EVP_MD_CTX_new();
+  ~Context() { EVP_MD_CTX_free(handle); }
+};
+
+RunningSha256::RunningSha256() : context_(std::make_unique<Context>()) { begin(); }
+RunningSha256::~RunningSha256() = default;
+
+void RunningSha256::begin() {
+  if (context_->handle == nullptr || EVP_DigestInit_ex(context_->handle, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error(kNone);
+  }
+}
+
+void RunningSha256::add(std::span<const unsigned char> bytes) {
+  if (EVP_DigestUpdate(context_->handle, bytes.data(), bytes.size()) != 1) throw std::runtime_error(kNone);
+}
+
+std::string RunningSha256::finish() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_DigestFinal_ex(context_->handle, digest.data(), &size) != 1) throw std::runtime_error(kNone);
+  begin();
   return hexadecimal(std::span(digest).first(size));
 }
 

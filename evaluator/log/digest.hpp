@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,6 +11,26 @@ namespace trivela::evaluator::log {
 
 /// SHA-256 of `text` (FIPS 180-4) as 64 lower case hexadecimal digits.
 std::string sha256(std::string_view text);
+
+/// SHA-256 of bytes that come piece by piece.
+class RunningSha256 {
+ public:
+  /// Throws std::runtime_error where libcrypto has no SHA-256.
+  RunningSha256();
+  ~RunningSha256();
+  RunningSha256(const RunningSha256&) = delete;
+  RunningSha256& operator=(const RunningSha256&) = delete;
+
+  void add(std::span<const unsigned char> bytes);
+
+  /// 64 lower case hexadecimal digits; afterwards it begins anew.
+  std::string finish();
+
+ private:
+  void begin();
+  struct Context;
+  std::unique_ptr<Context> context_;
+};
 
 /// sha256() that remembers: for a few long texts that come again and again.
 class Digests {

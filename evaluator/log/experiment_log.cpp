@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +13,9 @@
 
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/new_file.hpp"
+#include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/schema_check.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -67,10 +70,12 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment&
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
                                                        kOtherRunTimeout_ms);
+    sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);  // it may be somebody else's
     if (is_blank(*database)) throw against(path, "another run writes to it, or was killed when it had just begun");
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
     if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
+    check_schema(*database, kMatchLog, kMatchLog.version, path.string());
     check(*database, path, experiment);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA temp_store = MEMORY;");
     return database;
@@ -119,6 +124,8 @@ struct ExperimentLog::Impl final : RowSink {
   std::unique_ptr<SQLite::Database> database;
   std::vector<Table> tables;
   Digests digests;  // of the arms' configurations
+  RowDigests row_digests{*database};
+  std::vector<std::int64_t> sessions;  // of the match under way
   std::optional<SQLite::Transaction> transaction;
   std::chrono::steady_clock::time_point begun;
   SQLite::Statement* statement = nullptr;  // of the row under way
@@ -160,7 +167,8 @@ void ExperimentLog::begin() {
 
 std::int64_t ExperimentLog::add_session(const Session& session, std::int64_t closed_t_ns) {
   insert_session(*impl_->database, session, closed_t_ns, impl_->digests);
-  return session_id_of(session.uuid);
+  impl_->sessions.push_back(session_id_of(session.uuid));
+  return impl_->sessions.back();
 }
 
 RowSink& ExperimentLog::row(std::size_t table, std::int64_t session_id) {
@@ -181,6 +189,8 @@ void ExperimentLog::end_row() {
 }
 
 void ExperimentLog::end_match() {
+  for (const std::int64_t session_id : impl_->sessions) impl_->row_digests.write(session_id);
+  impl_->sessions.clear();
   ++matches_done_;
   if (std::chrono::steady_clock::now() - impl_->begun >= kGroup) commit();
 }
@@ -198,6 +208,7 @@ void ExperimentLog::commit() {
 
 void ExperimentLog::finish() {
   impl_->tables.clear();
+  impl_->row_digests.close();
   fold(*impl_->database);
 }
 

@@ -5,46 +5,36 @@
 
 #include <stdexcept>
 
+#include "evaluator/log/schema_check.hpp"
+
 namespace trivela::evaluator::log {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Opens and checks; SQLite's own words follow ours.
-std::unique_ptr<SQLite::Database> open(const fs::path& path, const LogKind& kind) {
-  if (!fs::is_regular_file(path)) {
-    throw std::runtime_error(fmt::format("there is no {} {}", kind.name, path.string()));
-  }
-  try {
-    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 5000);
-    database->exec("PRAGMA trusted_schema = OFF; PRAGMA temp_store = MEMORY;");
-    const int application_id = database->execAndGet("PRAGMA application_id").getInt();
-    const int version = database->execAndGet("PRAGMA user_version").getInt();
-    for (const LogKind& other : {kMatchLog, kScanRecord}) {
-      if (application_id != other.application_id || application_id == kind.application_id) continue;
-      throw std::runtime_error(fmt::format("{} is not a {} but a {}", path.string(), kind.name, other.name));
-    }
-    if (application_id != kind.application_id || version < 1) {
-      throw std::runtime_error(fmt::format("{} is not a {}", path.string(), kind.name));
-    }
-    if (version > kind.version) {
-      throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} and older",
-                                           path.string(), kind.name, version, kind.version));
-    }
-    const std::string check = database->execAndGet("PRAGMA quick_check(1)").getString();
-    if (check != "ok") {
-      throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind.name, path.string(), check));
-    }
-    return database;
-  } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() == SQLITE_NOTADB) {
-      throw std::runtime_error(fmt::format("{} is not a {}", path.string(), kind.name));
-    }
-    if (error.getErrorCode() == SQLITE_CORRUPT) {
-      throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind.name, path.string(), error.what()));
-    }
-    throw std::runtime_error(fmt::format("cannot read the {} {}: {}", kind.name, path.string(), error.what()));
-  }
+constexpr int kLongestCell_B = 16 << 20;       // of a text or a blob
+constexpr std::int64_t kMemory_B = 1LL << 30;  // of SQLite in this program
+constexpr int kStepsACall = 100'000;           // of SQLite's machine between two looks at the budget
+constexpr std::int64_t kSteps = 300'000'000;   // that any statement may take: some seconds
+constexpr std::int64_t kStepsAByte = 20;       // of the file, on top; scanning takes far below one
+
+/// The file's size with what lies in its write-ahead log.
+std::uintmax_t size_of(const std::string& path) {
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(path, none);
+  const std::uintmax_t wal = fs::file_size(path + "-wal", none);
+  return size + (none ? 0 : wal);
+}
+
+std::unique_ptr<SQLite::Database> connect(const std::string& path) {
+  auto database = std::make_unique<SQLite::Database>(path, SQLite::OPEN_READONLY, 5000);
+  sqlite3* const handle = database->getHandle();
+  sqlite3_hard_heap_limit64(kMemory_B);
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestCell_B);
+  for (const int off : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_TRIGGER})
+    sqlite3_db_config(handle, off, 0, nullptr);  // views of the connection stay
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  return database;
 }
 
 }  // namespace
@@ -58,13 +48,76 @@ Value value_of(const SQLite::Column& column) {
   return Blob(bytes, bytes + column.getBytes());
 }
 
-LogFile::LogFile(const fs::path& path, const LogKind& kind)
-    : kind_(kind), path_(path.string()), has_wal_(fs::exists(path_ + "-wal")), database_(open(path, kind)) {}
+struct LogFile::Budget {
+  std::int64_t calls = 0;
 
-int LogFile::version() const { return database_->execAndGet("PRAGMA user_version").getInt(); }
+  static int spend(void* budget) { return --static_cast<Budget*>(budget)->calls < 0 ? 1 : 0; }
+};
+
+LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
+    : kind_(kind),
+      path_(path.string()),
+      has_wal_(fs::exists(path_ + "-wal")),
+      whole_(check == Check::kWhole),
+      budget_(std::make_unique<Budget>()) {
+  if (!fs::is_regular_file(path)) throw std::runtime_error(fmt::format("there is no {} {}", kind.name, path_));
+  whole_ = whole_ || (check == Check::kIfShort && size_of(path_) <= kShort_B);
+  try {
+    open();
+    this->check();
+  } catch (const SQLite::Exception& error) {
+    const int code = error.getErrorCode() & 0xFF;
+    if (code == SQLITE_NOTADB) throw std::runtime_error(fmt::format("{} is not a {}", path_, kind.name));
+    if (code == SQLITE_CORRUPT)
+      throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind.name, path_, error.what()));
+    throw std::runtime_error(unreadable(error));
+  }
+}
+
+LogFile::~LogFile() = default;
+LogFile::LogFile(LogFile&&) noexcept = default;
+
+std::string LogFile::unreadable(const SQLite::Exception& error) const {
+  const bool spent = (error.getErrorCode() & 0xFF) == SQLITE_INTERRUPT;
+  return fmt::format("cannot read the {} {}: {}", kind_.name, path_,
+                     spent ? "it asks for more work than a file of its size can hold" : error.what());
+}
+
+void LogFile::allow_steps() const {
+  const auto steps = kSteps + kStepsAByte * static_cast<std::int64_t>(size_of(path_));
+  budget_->calls = steps / kStepsACall;
+}
+
+void LogFile::open() {
+  database_ = connect(path_);
+  sqlite3_progress_handler(database_->getHandle(), kStepsACall, Budget::spend, budget_.get());
+  allow_steps();
+  database_->exec("PRAGMA temp_store = MEMORY; PRAGMA cell_size_check = ON; PRAGMA ignore_check_constraints = ON;");
+  const int application_id = database_->execAndGet("PRAGMA application_id").getInt();
+  version_ = database_->execAndGet("PRAGMA user_version").getInt();
+  for (const LogKind& other : {kMatchLog, kScanRecord}) {
+    if (application_id != other.application_id || application_id == kind_.application_id) continue;
+    throw std::runtime_error(fmt::format("{} is not a {} but a {}", path_, kind_.name, other.name));
+  }
+  if (application_id != kind_.application_id || version_ < 1) {
+    throw std::runtime_error(fmt::format("{} is not a {}", path_, kind_.name));
+  }
+  if (version_ <= kind_.version) return;
+  throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} and older", path_,
+                                       kind_.name, version_, kind_.version));
+}
+
+void LogFile::check() const {
+  check_schema(*database_, kind_, version_, path_);
+  allow_steps();
+  const char* const pages = whole_ ? "PRAGMA main.integrity_check(1)" : "PRAGMA main.quick_check(1)";
+  const std::string said = database_->execAndGet(pages).getString();
+  if (said != "ok") throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind_.name, path_, said));
+}
 
 void LogFile::query(std::string_view sql, const RowFunction& fn) const {
   try {
+    allow_steps();
     SQLite::Statement statement(*database_, std::string(sql));
     std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
     while (statement.executeStep()) {
@@ -72,7 +125,7 @@ void LogFile::query(std::string_view sql, const RowFunction& fn) const {
       fn(row);
     }
   } catch (const SQLite::Exception& error) {
-    throw std::runtime_error(fmt::format("cannot read the {} {}: {}", kind_.name, path_, error.what()));
+    throw std::runtime_error(unreadable(error));
   }
 }
 

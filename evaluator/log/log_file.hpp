@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "evaluator/log/log_check.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/log/value.hpp"
 
@@ -15,29 +16,46 @@ namespace trivela::evaluator::log {
 /// The value of a column of the row that the statement stands at.
 Value value_of(const SQLite::Column& column);
 
-/// A finished or growing log, open for reading only.
+/// A finished or growing log, open for reading only. It may come from anybody: no view, trigger or index of its own
+/// plays a part, and what reading costs is bounded by its size.
 class LogFile {
  public:
   /// Throws std::runtime_error naming the path where it does not exist, is no log of this kind, is of a newer version,
-  /// or is damaged.
-  LogFile(const std::filesystem::path& path, const LogKind& kind);
+  /// has another schema than its version, or is damaged.
+  LogFile(const std::filesystem::path& path, const LogKind& kind, Check check = Check::kIfShort);
+  ~LogFile();
+  LogFile(LogFile&&) noexcept;
 
-  /// Calls `fn` for each row of the result. Throws std::runtime_error naming the path.
+  /// Calls `fn` for each row of the result. Throws std::runtime_error naming the path, also where that takes more steps
+  /// than any query of a file of this size does.
   void query(std::string_view sql, const RowFunction& fn) const;
 
   /// The sentence on a session without an end.
   std::string not_closed() const;
 
   /// Of the file's schema.
-  int version() const;
+  int version() const { return version_; }
+
+  /// Was, or will be, everything looked at?
+  bool looks_at_everything() const { return whole_; }
 
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
 
  private:
+  struct Budget;
+
+  void open();
+  void check() const;
+  void allow_steps() const;
+  std::string unreadable(const SQLite::Exception& error) const;
+
   LogKind kind_;
   std::string path_;
   bool has_wal_;  // before opening, which may make one
+  bool whole_;
+  int version_ = 0;
+  std::unique_ptr<Budget> budget_;  // of the statement under way
   std::unique_ptr<SQLite::Database> database_;
 };
 

@@ -7,8 +7,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/log_file.hpp"
-#include "evaluator/log/version_1.sql.hpp"
-#include "evaluator/log/version_2.sql.hpp"
+#include "evaluator/log/soundness.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -36,15 +35,37 @@ std::optional<Crossing> crossing_of(const Value& outcome, const Value& x_cross_m
 }  // namespace
 
 struct Reader::Impl {
+  Impl(const std::filesystem::path& path, Check check) : file(path, kMatchLog, check) {
+    create_reading_views(file.database(), file.version());
+    file.query("BEGIN", [](auto) {});  // a log may grow meanwhile
+    check_texts(file);
+    verification = file.looks_at_everything() ? verify(file) : unverified(file);
+    file.query("COMMIT", [](auto) {});
+  }
+
   LogFile file;
+  Verification verification;
 };
 
-Reader::Reader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(Impl{LogFile(path, kMatchLog)})) {
-  const int version = impl_->file.version();
-  if (version == 1) impl_->file.database().exec(kVersion1Sql);
-  if (version == 2) impl_->file.database().exec(kVersion2Sql);
-}
+Reader::Reader(const std::filesystem::path& path, Check check) : impl_(std::make_unique<Impl>(path, check)) {}
 Reader::~Reader() = default;
+
+int Reader::version() const { return impl_->file.version(); }
+
+const Verification& Reader::verification() const { return impl_->verification; }
+
+std::optional<std::string> Reader::doubt() const {
+  const Verification& found = impl_->verification;
+  if (impl_->file.version() < kMatchLog.version)
+    return fmt::format("not verified: a match log of version {} has no digests", impl_->file.version());
+  if (!found.compared && found.rows > 0)
+    return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
+  if (found.without_digest > 0)
+    return fmt::format("not verified: {} that never ended and so {} no digest",
+                       found.without_digest == 1 ? "a session" : fmt::format("{} sessions", found.without_digest),
+                       found.without_digest == 1 ? "has" : "have");
+  return std::nullopt;
+}
 
 void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 
@@ -71,11 +92,10 @@ void Reader::for_each_row(std::string_view table, const std::vector<std::string>
 std::vector<RecordedSession> Reader::sessions() const {
   std::vector<RecordedSession> sessions;
   query(
-      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, config.text, "
-      "config_sha256, seed, software_version, scenario, simulated, idl.text, arm, kicker_table, match_id, "
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, idl_sha256, "
+      "config_sha256, seed, software_version, scenario, simulated, arm, kicker_table, match_id, "
       "continues_uuid "
-      "FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
-      "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 ORDER BY started_t_ns, session_id",
+      "FROM sessions ORDER BY started_t_ns, session_id",
       [&](std::span<const Value> row) {
         RecordedSession session;
         session.session_id = *integer_of(row[0]);
@@ -85,17 +105,16 @@ std::vector<RecordedSession> Reader::sessions() const {
         session.closed_t_ns = integer_of(row[4]);
         session.simulated_clock = text_of(row[5]) == "simulated";
         session.realtime_offset_ns = *integer_of(row[6]);
-        session.config_toml = text_of(row[7]);
+        session.idl_sha256 = text_of(row[7]);
         session.config_sha256 = text_of(row[8]);
         session.seed = integer_of(row[9]);
         session.software_version = text_of(row[10]);
         session.scenario = text_of(row[11]);
         session.simulated = *integer_of(row[12]) != 0;
-        session.idl = text_of(row[13]);
-        if (!text_of(row[14]).empty()) session.arm = text_of(row[14]);
-        if (!text_of(row[15]).empty()) session.kicker_table = text_of(row[15]);
-        session.match_id = integer_of(row[16]);
-        session.continues_uuid = text_of(row[17]);
+        if (!text_of(row[13]).empty()) session.arm = text_of(row[13]);
+        if (!text_of(row[14]).empty()) session.kicker_table = text_of(row[14]);
+        session.match_id = integer_of(row[15]);
+        session.continues_uuid = text_of(row[16]);
         sessions.push_back(std::move(session));
       });
   for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {
@@ -104,6 +123,18 @@ std::vector<RecordedSession> Reader::sessions() const {
     session->policies.push_back({static_cast<int>(*integer_of(row[1])), text_of(row[2])});
   });
   return sessions;
+}
+
+RecordedSession Reader::whole(RecordedSession session) const {
+  query(fmt::format(
+            "SELECT config.text, idl.text FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
+            "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 WHERE session_id = {}",
+            session.session_id),
+        [&](std::span<const Value> row) {
+          session.config_toml = text_of(row[0]);
+          session.idl = text_of(row[1]);
+        });
+  return session;
 }
 
 std::vector<Kick> Reader::kicks() const {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluator/log/log_check.hpp"
 #include "evaluator/log/loss.hpp"
 #include "evaluator/log/session.hpp"
 #include "evaluator/log/value.hpp"
@@ -19,6 +20,7 @@ struct RecordedSession : Session {
   std::int64_t session_id = 0;
   std::optional<std::int64_t> closed_t_ns;  ///< none: never finalised
   std::string config_sha256;
+  std::string idl_sha256;
 };
 
 /// What a robot or the simulator says about the end of a kick.
@@ -49,17 +51,30 @@ struct Kick {
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader {
  public:
-  /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of a newer version,
-  /// or is damaged.
-  explicit Reader(const std::filesystem::path& path);
+  /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of a newer version, has
+  /// another schema than its version, holds texts that are not those it names, or is otherwise damaged; as far as
+  /// `check` goes, also where its rows are not those that were recorded.
+  explicit Reader(const std::filesystem::path& path, Check check = Check::kIfShort);
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
+  /// Of the file's schema.
+  int version() const;
+
+  const Verification& verification() const;
+
+  /// A sentence on what was not verified of the rows, and why; none: they are as they were recorded.
+  std::optional<std::string> doubt() const;
+
   /// Sentences on sessions that were not closed and on rows that were lost.
   std::vector<std::string> warnings() const;
 
+  /// Without their long texts, which thousands of sessions may share.
   std::vector<RecordedSession> sessions() const;
+
+  /// The session with its configuration and the definition of its messages.
+  RecordedSession whole(RecordedSession session) const;
 
   /// Every kick by session and time.
   std::vector<Kick> kicks() const;

@@ -2,7 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <regex>
+
+#include "evaluator/log/scan_schema.sql.hpp"
+#include "evaluator/log/scan_schema_version_1.sql.hpp"
 #include "evaluator/log/schema.sql.hpp"
+#include "evaluator/log/schema_version_1.sql.hpp"
+#include "evaluator/log/schema_version_2.sql.hpp"
+#include "evaluator/log/version_1.sql.hpp"
+#include "evaluator/log/version_2.sql.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -18,7 +26,27 @@ const std::string& store(SQLite::Database& database, const std::string& text, Di
   return key;
 }
 
+/// The view `kicks` of a schema as a view of the connection by the name `name`. It asks the file's own tables, also
+/// where a view of the connection stands before one of them.
+std::string own_kicks(std::string_view schema, const std::string& name) {
+  static const std::string head = "CREATE VIEW kicks AS";
+  static const std::regex table("(FROM|JOIN) (kick_[a-z]+)");
+  const std::string body(schema.substr(schema.find(head) + head.size()));
+  return fmt::format("CREATE TEMP VIEW {} AS{}", name, std::regex_replace(body, table, "$1 main.$2"));
+}
+
 }  // namespace
+
+std::string_view schema_of(const LogKind& kind, int version) {
+  if (kind.application_id == kScanRecord.application_id) return version == 1 ? kScanSchemaVersion1Sql : kScanSchemaSql;
+  return version == 1 ? kSchemaVersion1Sql : version == 2 ? kSchemaVersion2Sql : kSchemaSql;
+}
+
+void create_reading_views(SQLite::Database& database, int version) {
+  database.exec(own_kicks(schema_of(kMatchLog, version), version == 1 ? "kicks_of_version_1" : "kicks"));
+  if (version == 1) database.exec(kVersion1Sql);
+  if (version == 2) database.exec(kVersion2Sql);
+}
 
 void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
@@ -87,10 +115,13 @@ std::vector<std::string> tables_of(SQLite::Database& database) {
 }
 
 std::optional<std::vector<Column>> columns_of(SQLite::Database& database, std::string_view table) {
-  SQLite::Statement query(database, "SELECT name, \"notnull\" FROM pragma_table_info(?)");
-  query.bind(1, std::string(table));
+  std::string quoted;
+  for (const char c : table) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  // The statement, not the function pragma_table_info(), in whose place a file may have a table.
+  SQLite::Statement query(database, fmt::format("PRAGMA table_info(\"{}\")", quoted));
   std::vector<Column> columns;
-  while (query.executeStep()) columns.push_back({query.getColumn(0).getString(), query.getColumn(1).getInt() != 0});
+  while (query.executeStep())
+    columns.push_back({query.getColumn("name").getString(), query.getColumn("notnull").getInt() != 0});
   if (columns.empty()) return std::nullopt;
   return columns;
 }

@@ -27,6 +27,13 @@ struct Column {
   bool not_null = false;
 };
 
+/// The statements that made a log of `version`, which is at least 1 and at most kind.version.
+std::string_view schema_of(const LogKind& kind, int version);
+
+/// Views of this connection through which a match log of any version is read as one of kMatchLog.version. Views of the
+/// file are never used. Throws SQLite::Exception.
+void create_reading_views(SQLite::Database& database, int version);
+
 /// Creates the tables of a match log. Throws SQLite::Exception.
 void create_tables(SQLite::Database& database);
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/new_file.hpp"
+#include "evaluator/log/row_digest.hpp"
 
 namespace trivela::evaluator::log {
 SessionWriter::SessionWriter(const std::filesystem::path& path, const NewLog& log)
@@ -168,6 +169,7 @@ void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t>
     close.bind(1, *closed_t_ns);
     close.bind(2, session_id_);
     close.exec();
+    if (schema_.contains("digests")) RowDigests(*database_).write(session_id_);
   }
   transaction.commit();
 }

@@ -27,7 +27,7 @@ CREATE TEMP VIEW kick_truths AS
 SELECT t.*, 0 AS saved FROM main.kick_truths AS t;
 
 CREATE TEMP VIEW kicks AS
-SELECT k.*, 0 AS truth_saved FROM main.kicks AS k;
+SELECT k.*, 0 AS truth_saved FROM kicks_of_version_1 AS k;
 
 CREATE TEMP VIEW continued AS
 SELECT NULL AS session_id, NULL AS robot_id, NULL AS orders_handled, NULL AS orders_refused WHERE 0;

@@ -6,7 +6,7 @@ SELECT d.policy, r.order_t_ns, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, 
   d.target_y_m AS goal_line_y_m, r.power, c.x_cross_m, c.z_cross_m, d.session_id, d.robot_id
 FROM main.kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
-  SELECT min(seq) FROM kick_receipts INDEXED BY kick_receipts_kick
+  SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
 LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
   SELECT max(seq) FROM kick_outcomes INDEXED BY kick_outcomes_kick

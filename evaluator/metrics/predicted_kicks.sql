@@ -9,7 +9,7 @@ SELECT d.policy, d.session_id, d.robot_id,
   d.distance_m, d.vx_mps, d.vy_mps, d.omega_radps, d.power, d.opponent_distance_m, c.outcome = 'on_target' AS on_target
 FROM kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
-  SELECT min(seq) FROM kick_receipts INDEXED BY kick_receipts_kick
+  SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
 JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
   SELECT max(seq) FROM kick_outcomes INDEXED BY kick_outcomes_kick

@@ -52,6 +52,6 @@ Json counts_json(const Comparison& c) {
   return json;
 }
 
-std::string to_json(const Comparison& c) { return counts_json(c).dump(2) + "\n"; }
+std::string to_json(const Comparison& c) { return json_text(counts_json(c)); }
 
 }  // namespace trivela::evaluator

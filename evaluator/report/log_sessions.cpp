@@ -67,6 +67,8 @@ void SessionBook::add_remarks(const log::Reader& reader, const std::string& name
   };
   remark(again, "of its sessions stand in an earlier log, too, and count once");
   remark(replayed, "of its matches were played before with the same seed, arm and configuration, and count once");
+  if (const auto doubt = reader.doubt(); doubt && !reader.verification().compared && reader.verification().rows > 0)
+    logged_.remarks.push_back(fmt::format("{}: {}", name, *doubt));
   remark(open, "sessions were not closed, their last kicks may be missing");
   reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches", [&](SessionCells row) {
     logged_.remarks.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,

@@ -7,7 +7,7 @@
 namespace trivela::evaluator {
 namespace {
 
-Json json_of(stats::Counts counts) { return {{"inside", counts.inside}, {"n", counts.n}}; }
+Json inside_of_n(stats::Counts counts) { return {{"inside", counts.inside}, {"n", counts.n}}; }
 
 // Infinity, which JSON does not have, as null.
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
@@ -23,15 +23,15 @@ Json group_json(const GroupResult& g) {
           {"outside", g.outside},
           {"unknown", g.unknown},
           {"matches", g.matches > 0 ? Json(g.matches) : Json()},
-          {"efficiency", evaluator::json_of(stats::efficiency(g.efficiency()))},
-          {"efficiency_ci95", evaluator::json_of(g.efficiency_ci)},
-          {"efficiency_bounds", g.efficiency_bounds ? evaluator::json_of(*g.efficiency_bounds) : Json()},
+          {"efficiency", json_of(stats::efficiency(g.efficiency()))},
+          {"efficiency_ci95", json_of(g.efficiency_ci)},
+          {"efficiency_bounds", g.efficiency_bounds ? json_of(*g.efficiency_bounds) : Json()},
           {"ci_by_match", g.by_match},
           {"kicks_per_opportunity",
            g.opportunities > 0 ? Json(static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities)) : Json()},
-          {"on_target_per_opportunity", evaluator::json_of(stats::efficiency(g.per_opportunity()))},
-          {"on_target_per_opportunity_ci95", g.opportunities > 0 ? evaluator::json_of(g.per_opportunity_ci) : Json()},
-          {"minutes", evaluator::json_of(g.minutes)},
+          {"on_target_per_opportunity", json_of(stats::efficiency(g.per_opportunity()))},
+          {"on_target_per_opportunity_ci95", g.opportunities > 0 ? json_of(g.per_opportunity_ci) : Json()},
+          {"minutes", json_of(g.minutes)},
           {"kicks_per_min", per(g.kicks(), g.minutes)},
           {"on_target_per_min", per(g.inside, g.minutes)}};
 }
@@ -39,7 +39,7 @@ Json group_json(const GroupResult& g) {
 Json clustered_json(const std::optional<stats::Clustered>& c) {
   if (!c) return {};
   return {{"difference", c->value},
-          {"ci95", evaluator::json_of(c->ci)},
+          {"ci95", json_of(c->ci)},
           {"standard_error", c->standard_error},
           {"df", c->df},
           {"design_effect", c->design_effect},
@@ -49,10 +49,10 @@ Json clustered_json(const std::optional<stats::Clustered>& c) {
 
 Json effect_json(const std::optional<Effect>& e) {
   if (!e) return {};
-  return {{"old", json_of(e->older)},
-          {"new", json_of(e->newer)},
+  return {{"old", inside_of_n(e->older)},
+          {"new", inside_of_n(e->newer)},
           {"difference", e->difference},
-          {"independent_ci95", evaluator::json_of(e->independent)},
+          {"independent_ci95", json_of(e->independent)},
           {"clustered", clustered_json(e->clustered)}};
 }
 
@@ -67,22 +67,22 @@ Json stratified_json(const std::optional<Stratified>& s) {
       {"column", s->column}, {"unit", s->of_opportunities ? "opportunity" : "kick"}, {"strata", Json::array()}};
   for (const StratumResult& row : s->strata) {
     json["strata"].push_back({{"name", row.name},
-                              {"old", json_of(row.counts.older)},
-                              {"new", json_of(row.counts.newer)},
+                              {"old", inside_of_n(row.counts.older)},
+                              {"new", inside_of_n(row.counts.newer)},
                               {"reversed", row.reversed}});
   }
   json["left_out"] = s->left_out;
   json["mh_odds_ratio"] = s->odds_ratio ? Json(s->odds_ratio->value) : Json();
-  json["mh_odds_ratio_ci95"] = s->odds_ratio ? evaluator::json_of(s->odds_ratio->ci) : Json();
+  json["mh_odds_ratio_ci95"] = s->odds_ratio ? json_of(s->odds_ratio->ci) : Json();
   json["cmh"] = test_json(s->cmh);
   json["cmh_corrected"] = test_json(s->cmh_corrected);
   json["mh_risk_difference"] = s->risk_difference ? Json(s->risk_difference->value) : Json();
-  json["mh_risk_difference_ci95"] = s->risk_difference ? evaluator::json_of(s->risk_difference->ci) : Json();
+  json["mh_risk_difference_ci95"] = s->risk_difference ? json_of(s->risk_difference->ci) : Json();
   json["standardised"] = s->standardised ? Json{{"weights", "pooled share of each stratum that both have"},
                                                 {"old", s->standardised->older},
                                                 {"new", s->standardised->newer},
                                                 {"difference", s->standardised->difference.value},
-                                                {"ci95", evaluator::json_of(s->standardised->difference.ci)},
+                                                {"ci95", json_of(s->standardised->difference.ci)},
                                                 {"clustered", clustered_json(s->clustered)}}
                                          : Json();
   json["breslow_day"] = test_json(s->homogeneity);
@@ -104,14 +104,14 @@ Json headline_json(const PairResult& pair) {
           {"adjusted", h.adjusted},
           {"by_match", h.by_match},
           {"difference", h.difference},
-          {"ci95", evaluator::json_of(h.ci)},
+          {"ci95", json_of(h.ci)},
           {"method", h.method},
           {"p", h.p},
           {"p_method", h.p_method},
           {"p_holm", h.p_holm},
           {"verdict", label(h.verdict)},
           {"needed_of_each_for_smallest", h.needed_for_smallest},
-          {"needed_of_each_for_seen", evaluator::json_of(h.needed_for_seen)}};
+          {"needed_of_each_for_seen", json_of(h.needed_for_seen)}};
 }
 
 Json pair_json(const PairResult& pair, const PolicyComparison& c) {
@@ -131,7 +131,7 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
   json["on_target_per_min"] = rate_json(pair.on_target_rate);
   json["kicks_per_min"] = rate_json(pair.kick_rate);
   json["unknown"] = pair.unknown;
-  json["difference_bounds"] = evaluator::json_of(pair.bounds);
+  json["difference_bounds"] = json_of(pair.bounds);
   json["independent_kicks"] = pair.kicks ? counts_json(*pair.kicks) : Json();
   return json;
 }
@@ -145,13 +145,13 @@ std::string to_json(const PolicyComparison& c) {
                {"design", label(c.book.design)},
                {"design_reason", c.book.design_reason},
                {"smallest_effect", c.smallest_effect},
-               {"sample_ratio_p", evaluator::json_of(c.sample_ratio_p)},
+               {"sample_ratio_p", json_of(c.sample_ratio_p)},
                {"groups", Json::array()},
                {"comparisons", Json::array()},
                {"remarks", c.book.remarks}};
   for (const GroupResult& group : c.groups) json["groups"].push_back(group_json(group));
   for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace trivela::evaluator

@@ -85,7 +85,7 @@ std::string to_json(const PolicyValueReport& r) {
                      {"model", r.from_decisions ? "first decision" : "true start"},
                      {"simulated", r.simulated},
                      {"remarks", r.remarks}};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace trivela::evaluator

@@ -94,6 +94,8 @@ Json quality_json(const Report& report) {
   for (const UnrecordedOrders& orders : report.unrecorded_orders) {
     quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
+  quality["verification"] = {{"verified_rows", report.verified_rows},
+                             {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
     quality["truth"] = {{"compared", report.compared_with_truth}, {"alike", report.alike_with_truth}};
   }
@@ -111,7 +113,7 @@ std::string to_json(const Report& report) {
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside, and inside"};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace trivela::evaluator

@@ -2,10 +2,12 @@
 
 #include "evaluator/report/render.hpp"
 #include "evaluator/report/text_table.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
+using kicking::printable;
 using Table = std::vector<std::vector<std::string>>;
 
 std::string number(std::int64_t n) { return std::to_string(n); }
@@ -21,13 +23,15 @@ std::string heading(const Report& report) {
     }
   }
   for (const auto& session : report.sessions) {
-    text +=
-        fmt::format("Session {}: {} '{}'", session.uuid, session.simulated ? "scenario" : "match", session.scenario);
+    text += fmt::format("Session {}: {} '{}'", printable(session.uuid), session.simulated ? "scenario" : "match",
+                        printable(session.scenario));
     if (session.seed) text += fmt::format(", seed {}", *session.seed);
     if (session.robot_id) text += fmt::format(", robot {}", *session.robot_id);
-    for (const auto& half : session.policies) text += fmt::format(", half {} {}", half.half, half.policy);
-    text += fmt::format(", version {}, configuration {:.12}\n", session.software_version, session.config_sha256);
-    if (!session.continues_uuid.empty()) text += fmt::format("  it continues session {}\n", session.continues_uuid);
+    for (const auto& half : session.policies) text += fmt::format(", half {} {}", half.half, printable(half.policy));
+    text +=
+        fmt::format(", version {}, configuration {:.12}\n", printable(session.software_version), session.config_sha256);
+    if (!session.continues_uuid.empty())
+      text += fmt::format("  it continues session {}\n", printable(session.continues_uuid));
   }
   return text;
 }
@@ -71,23 +75,25 @@ std::string lost_rows(const Report& report) {
 
 std::string quality(const Report& report) {
   std::string text = "\nData quality\n" + lost_rows(report);
-  for (const std::string& warning : report.warnings) text += fmt::format("  warning: {}\n", warning);
-  for (const std::string& line : silence_lines(report.silences)) text += fmt::format("  {}\n", line);
+  for (const std::string& warning : report.warnings) text += fmt::format("  warning: {}\n", printable(warning));
+  for (const std::string& line : silence_lines(report.silences)) text += fmt::format("  {}\n", printable(line));
   for (const std::string& line : order_lines(report.unrecorded_orders)) text += fmt::format("  {}\n", line);
+  text += report.doubt ? fmt::format("  {}\n", *report.doubt)
+                       : fmt::format("  verified: {} rows are as they were recorded\n", report.verified_rows);
   for (const RefusedOrders& refused : report.refused_orders) {
-    text += fmt::format("  refused orders, no kicks: {} x {} ({})\n", refused.orders, words(refused.refusal),
-                        refused.policy);
+    text += fmt::format("  refused orders, no kicks: {} x {} ({})\n", refused.orders, printable(words(refused.refusal)),
+                        printable(refused.policy));
   }
   if (report.unclosed_kicks.empty()) text += "  unclosed kicks: none\n";
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     text += fmt::format("  unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}\n", kick.kick_id, kick.robot_id,
-                        1e-9 * static_cast<double>(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
+                        1e-9 * static_cast<double>(kick.t_ns), printable(kick.policy), kick.has_order ? "" : " order",
                         kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome");
   }
   for (const PolicyRow& row : report.policies) {
     if (row.unknown() == 0) continue;
     const auto bounds = row.efficiency_bounds();
-    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}\n", row.policy,
+    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}\n", printable(row.policy),
                         percent(bounds.lo), percent(bounds.hi));
   }
   if (report.compared_with_truth > 0) {
@@ -102,7 +108,7 @@ std::string hint(const Report& report) {
   std::string text = "\nHow sure is the difference: trivela compare --counts";
   for (const PolicyRow& row : report.policies) {
     if (row.counts().n == 0) return "";
-    text += fmt::format(" {}={}/{}", row.policy, row.counts().inside, row.counts().n);
+    text += fmt::format(" {}={}/{}", printable(row.policy), row.counts().inside, row.counts().n);
   }
   return text + "\n";
 }

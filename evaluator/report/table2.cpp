@@ -82,7 +82,9 @@ Report make_report(const log::Reader& reader) {
                 .refused_orders = {},
                 .silences = silences_of(reader),
                 .unrecorded_orders = unrecorded_orders_of(reader),
-                .warnings = reader.warnings()};
+                .warnings = reader.warnings(),
+                .doubt = reader.doubt(),
+                .verified_rows = reader.verification().compared ? reader.verification().rows : 0};
   for (const log::RecordedSession& session : report.sessions) {
     if (!session.scenario.starts_with("replay of ")) continue;
     report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +

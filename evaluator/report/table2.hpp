@@ -65,6 +65,8 @@ struct Report {
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
   std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
+  std::optional<std::string> doubt;      ///< a sentence on rows that nobody compared with their digest
+  std::int64_t verified_rows = 0;        ///< that are as they were recorded
   std::int64_t compared_with_truth = 0;  ///< kicks whose outcome and truth are both known
   std::int64_t alike_with_truth = 0;
 

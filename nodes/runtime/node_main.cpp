@@ -19,6 +19,7 @@
 #include "bus/library_log.hpp"
 #include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
+#include "kicking/text/printable.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
 #include "nodes/runtime/standard_streams.hpp"
@@ -112,7 +113,8 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());  // which does not throw where nobody listens
+    std::fprintf(stderr, "%s: %s\n", name,
+                 kicking::printable_lines(error.what()).c_str());  // does not throw where nobody listens
     return 1;
   }
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "cli/verbs.hpp"
 #include "tests/evaluator/match_fixture.hpp"
@@ -65,6 +66,24 @@ TEST_F(ReportVerb, ReportsFirstAndThenSaysThatDataWereLost) {
     EXPECT_THAT(result.out, HasSubstr("100")) << flags;
   }
   EXPECT_THAT(run("--csv").err, HasSubstr("vision_frames: 2 rows are missing"));
+}
+
+TEST_F(ReportVerb, OfALogThatWasChangedFailsWithAndWithoutVerify) {
+  evaluator::MatchLog match(path(), session(), options());
+  evaluator::write_table2(match);
+  match.close();
+  EXPECT_EQ(run("--verify").out, run().out);
+  std::string bytes;
+  {
+    std::ifstream in(path(), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const auto label = bytes.rfind("wide_left");
+  ASSERT_NE(label, std::string::npos);
+  bytes.replace(label, 9, "on_target");
+  std::ofstream(path(), std::ios::binary) << bytes;
+  for (const char* const flags : {"", "--verify", "--json", "--csv"})
+    EXPECT_THROW(run(flags), std::runtime_error) << flags;
 }
 
 TEST_F(ReportVerb, FailsOnAFileThatIsNoLog) {

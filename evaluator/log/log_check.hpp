@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+namespace trivela::evaluator::log {
+
+/// How closely a log is looked at when it is opened.
+enum class Check {
+  kQuick,    ///< its schema, its texts, and that its pages hang together
+  kIfShort,  ///< everything, where that takes well under a second: files of at most kShort_B
+  kWhole,    ///< everything: each index entry, and each row by its digest
+};
+inline constexpr std::uintmax_t kShort_B = 32 << 20;
+
+/// What the digests of a match log say.
+struct Verification {
+  std::int64_t rows = 0;            ///< that digests cover
+  std::int64_t without_digest = 0;  ///< sessions that never ended, or of a version that had no digests
+  bool compared = false;            ///< the rows that digests cover are those that were recorded
+};
+
+}  // namespace trivela::evaluator::log

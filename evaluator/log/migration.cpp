@@ -1,0 +1,102 @@
+#include "evaluator/log/migration.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+
+#include "evaluator/log/digest.hpp"
+#include "evaluator/log/new_file.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/schema.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+constexpr std::int64_t kTold_rows = 10'000;
+
+void bind(SQLite::Statement& statement, int place, const Value& value) {
+  if (const auto* const whole = std::get_if<std::int64_t>(&value)) return statement.bind(place, *whole);
+  if (const auto* const number = std::get_if<double>(&value)) return statement.bind(place, *number);
+  if (const auto* const text = std::get_if<std::string>(&value)) return statement.bindNoCopy(place, *text);
+  if (const auto* const bytes = std::get_if<Blob>(&value))
+    return statement.bindNoCopy(place, bytes->data(), static_cast<int>(bytes->size()));
+  statement.bind(place);
+}
+
+/// Names of texts in the new log by those in the old one, whose version 1 named them otherwise.
+using TextNames = std::map<std::string, std::string>;
+
+TextNames copy_texts(const Reader& reader, SQLite::Database& database) {
+  TextNames names;
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
+  reader.query("SELECT sha256, text FROM texts", [&](std::span<const Value> row) {
+    const auto& text = std::get<std::string>(row[1]);
+    const std::string& name = names[std::get<std::string>(row[0])] = sha256(text);
+    insert.reset();
+    insert.bind(1, name);
+    insert.bindNoCopy(2, text);
+    insert.exec();
+  });
+  return names;
+}
+
+std::int64_t rows_of(const Reader& reader) {
+  std::int64_t rows = 0;
+  for (const DigestedTable& table : kDigestedTables) {
+    reader.query(fmt::format("SELECT count(*) FROM {}", table.name),
+                 [&](std::span<const Value> row) { rows += integer(row[0]); });
+  }
+  return rows;
+}
+
+void copy_rows(const Reader& reader, SQLite::Database& database, std::string_view table, const TextNames& names,
+               const std::function<void()>& copied) {
+  std::vector<std::string> columns;
+  const auto schema = columns_of(database, table);
+  for (const Column& column : *schema) columns.push_back(column.name);
+  const std::vector<std::string> places(columns.size(), "?");
+  SQLite::Statement insert(database, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(columns, ", "),
+                                                 fmt::join(places, ", ")));
+  reader.for_each_row(table, columns, [&](std::span<const Value> row) {
+    insert.reset();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool names_text = columns[i] == "config_sha256" || columns[i] == "idl_sha256";
+      const int place = static_cast<int>(i) + 1;
+      names_text ? insert.bind(place, names.at(std::get<std::string>(row[i]))) : bind(insert, place, row[i]);
+    }
+    insert.exec();
+    copied();
+  });
+}
+
+}  // namespace
+
+Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
+                 const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  const Reader reader(from, Check::kWhole);
+  Migrated migrated{.from_version = reader.version()};
+  const auto database = new_file(to, kMatchLog, [&](SQLite::Database& made) {
+    SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
+    create_tables(made);
+    const TextNames names = copy_texts(reader, made);
+    const std::int64_t total = rows_of(reader);
+    const auto copied = [&] {
+      if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
+    };
+    copy_rows(reader, made, "experiments", names, [] {});
+    for (const DigestedTable& table : kDigestedTables) copy_rows(reader, made, table.name, names, copied);
+    RowDigests digests(made);
+    for (const RecordedSession& session : reader.sessions()) {
+      if (!session.closed_t_ns) continue;
+      digests.write(session.session_id);
+      ++migrated.sessions;
+    }
+    transaction.commit();
+  });
+  fold(*database);
+  return migrated;
+}
+
+}  // namespace trivela::evaluator::log

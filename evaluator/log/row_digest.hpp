@@ -1,0 +1,96 @@
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluator/log/digest.hpp"
+
+namespace trivela::evaluator::log {
+
+/// A table of a match log that a digest covers, and its primary key.
+struct DigestedTable {
+  std::string_view name;
+  std::string_view key;
+};
+
+/// What is recorded of a session, in the order of the digest. Not `digests`, not `experiments`, which changes while an
+/// experiment goes on, and nothing that is said of a session afterwards. `texts` are covered by the hashes that
+/// sessions name them by. A change of this list, or of a table in it, is another version of the log.
+inline constexpr std::array kDigestedTables{
+    DigestedTable{"sessions", "session_id"},
+    DigestedTable{"session_policies", "session_id, half"},
+    DigestedTable{"continued", "session_id, robot_id"},
+    DigestedTable{"assignments", "session_id, robot_id, half, possession_id"},
+    DigestedTable{"odometry", "session_id, robot_id, seq"},
+    DigestedTable{"vision_frames", "session_id, robot_id, seq"},
+    DigestedTable{"flight_frames", "session_id, robot_id, seq"},
+    DigestedTable{"referee", "session_id, robot_id, seq"},
+    DigestedTable{"world_states", "session_id, robot_id, seq"},
+    DigestedTable{"drive_commands", "session_id, robot_id, seq"},
+    DigestedTable{"kicker_status", "session_id, robot_id, seq"},
+    DigestedTable{"kick_decisions", "session_id, robot_id, seq"},
+    DigestedTable{"shadow_decisions", "session_id, robot_id, seq, shadow_index"},
+    DigestedTable{"kick_orders", "session_id, robot_id, seq"},
+    DigestedTable{"kick_receipts", "session_id, robot_id, seq"},
+    DigestedTable{"kick_outcomes", "session_id, robot_id, seq"},
+    DigestedTable{"kick_truths", "session_id, robot_id, seq"},
+    DigestedTable{"possession_truths", "session_id, robot_id, seq"},
+    DigestedTable{"losses", "session_id, stream, robot_id, from_t_ns"},
+};
+
+struct RowDigest {
+  std::int64_t row_count = 0;
+  std::string sha256;
+  bool operator==(const RowDigest&) const = default;
+};
+
+/// The digest of a session's rows: SHA-256 of
+///   "trivela match log 3\n", then for each of kDigestedTables, also where it has no row of the session,
+///     "table NAME COLUMN COLUMN ...\n" with the columns as schema.sql has them,
+///     and for each row of the session, by primary key (texts by their UTF-8 bytes): "r", then for each cell
+///       NULL "n", INTEGER "i" and 8 bytes of two's complement, REAL "f" and 8 bytes of IEEE 754 binary64,
+///       TEXT "t", its length in 8 bytes and its UTF-8 bytes, BLOB "b", its length in 8 bytes and its bytes.
+/// Numbers of 8 bytes are big-endian. It tells whether rows are as they were written; it is no signature: who changes
+/// rows on purpose can write their digest, too.
+class RowDigests {
+ public:
+  /// Of a match log of kMatchLog.version, whose schema was checked. Throws SQLite::Exception.
+  explicit RowDigests(SQLite::Database& database);
+
+  /// Throws SQLite::Exception where the file cannot be read.
+  RowDigest of(std::int64_t session_id);
+
+  /// Notes it in table `digests`.
+  void write(std::int64_t session_id);
+
+  /// Lets go of the database; nothing is called afterwards.
+  void close() { tables_.clear(); }
+
+ private:
+  struct Finalise {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  };
+  struct Rows {
+    std::string head;
+    std::unique_ptr<sqlite3_stmt, Finalise> select;
+  };
+
+  void add_text(std::string_view text);
+  void add_number(unsigned char tag, std::uint64_t bits);
+  void add_cell(sqlite3_stmt* row, int column);
+  void pour();
+
+  SQLite::Database& database_;
+  std::vector<Rows> tables_;
+  std::vector<unsigned char> bytes_;  // not hashed yet
+  RunningSha256 sha256_;
+};
+
+}  // namespace trivela::evaluator::log

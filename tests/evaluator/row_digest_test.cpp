@@ -1,0 +1,179 @@
+// The digest of a session's rows, and its way to a newer version.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "evaluator/log/migration.hpp"
+#include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/schema.hpp"
+#include "evaluator/report/render.hpp"
+#include "tests/evaluator/experiment_fixture.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/older_log.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using log::Check;
+using log::Reader;
+using log::RowDigest;
+using testing::HasSubstr;
+
+class DigestOfRows : public LogTest {
+ protected:
+  void record() {
+    log::Session session = LogTest::session();
+    session.uuid = "01234567-89ab-4cde-8f01-23456789abcd";
+    MatchLog match(path(), session, options());
+    match.kick(1, "on_target");
+    match.truth(match.kick(2, "over"), "over");
+    match.close();
+  }
+
+  static RowDigest noted(const std::filesystem::path& path) {
+    SQLite::Database database(path.string());
+    SQLite::Statement query(database, "SELECT row_count, sha256 FROM digests");
+    if (!query.executeStep()) return {};
+    return {query.getColumn(0).getInt64(), query.getColumn(1).getString()};
+  }
+
+  std::int64_t number(const std::string& sql) const {
+    return SQLite::Database(path().string()).execAndGet(sql).getInt64();
+  }
+
+  RowDigest now() {
+    SQLite::Database database(path().string());
+    return log::RowDigests(database).of(number("SELECT session_id FROM sessions"));
+  }
+
+  void exec(const std::string& sql) { SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec(sql); }
+};
+
+TEST_F(DigestOfRows, IsWhatItsDefinitionSays) {
+  record();
+  EXPECT_EQ(noted(path()), now());
+  EXPECT_EQ(now().row_count, 18);
+  EXPECT_EQ(now().sha256, "@PINNED@") << "another definition is another version of the log";
+}
+
+TEST_F(DigestOfRows, TellsCellsApart) {
+  record();
+  std::set<std::string> digests{now().sha256};
+  for (const char* const change :
+       {"kicker_table = NULL", "kicker_table = ''", "kicker_table = '1'", "match_id = 1", "match_id = 0", "seed = NULL",
+        "arm = '1', kicker_table = NULL", "arm = '1x', kicker_table = 'y'", "arm = '1', kicker_table = 'xy'"}) {
+    exec(std::string("UPDATE sessions SET ") + change);
+    digests.insert(now().sha256);
+  }
+  EXPECT_EQ(digests.size(), 9u) << "the first change is none";
+  exec("UPDATE kick_outcomes SET exit_speed_mps = 1");
+  const std::string one = now().sha256;
+  exec("UPDATE kick_outcomes SET exit_speed_mps = -1");
+  EXPECT_NE(now().sha256, one);
+}
+
+TEST_F(DigestOfRows, CoversEveryTableOfSessionsButItself) {
+  record();
+  SQLite::Database database(path().string());
+  std::set<std::string> covered;
+  for (const auto& table : log::kDigestedTables) covered.insert(std::string(table.name));
+  for (const std::string& table : log::tables_of(database)) {
+    if (table == "digests" || table.starts_with("sqlite_")) continue;
+    const auto columns = *log::columns_of(database, table);
+    if (std::ranges::find(columns, "session_id", &log::Column::name) == columns.end()) continue;
+    EXPECT_TRUE(covered.contains(table)) << table;
+  }
+}
+
+TEST_F(DigestOfRows, LeavesOutWhatIsSaidAfterwards) {
+  record();
+  const RowDigest before = now();
+  exec("CREATE TABLE labels (session_id, label); INSERT INTO labels VALUES (1, 'final')");
+  EXPECT_EQ(now(), before);
+}
+
+TEST_F(DigestOfRows, AnExperimentHasOneForEachSession) {
+  {
+    TestExperiment experiment{path(), 2};
+    for (std::uint32_t match = 0; match < 2; ++match) {
+      experiment.begin();
+      for (std::uint32_t arm = 0; arm < 2; ++arm) {
+        experiment.session(match, arm, "arm" + std::to_string(arm), {});
+        experiment.possession(1, 1, "moving", 0.5, std::nullopt);
+      }
+      experiment.commit();
+    }
+    experiment.finish();
+  }
+  EXPECT_EQ(number("SELECT count(*) FROM digests JOIN sessions USING (session_id)"), 4);
+  EXPECT_TRUE(Reader(path(), Check::kWhole).verification().compared);
+}
+
+TEST_F(DigestOfRows, ASessionThatNeverEndedHasNone) {
+  log::Writer writer(path(), session(), options());
+  writer.push(referee_table(writer), referee_row(1));
+  writer.flush();
+  const Reader reader(path());
+  EXPECT_THAT(reader.doubt().value_or(""), HasSubstr("not verified: a session that never ended"));
+}
+
+class Migration : public DigestOfRows {
+ protected:
+  log::Migrated migrated(const std::filesystem::path& from) {
+    return log::migrate(from, path("new.db"), [](std::int64_t, std::int64_t) {});
+  }
+
+  /// Without the line that only one of the two can have.
+  static std::string report_of(const std::filesystem::path& log) {
+    Report report = make_report(Reader(log));
+    report.doubt.reset();
+    report.verified_rows = 0;
+    return to_text(report);
+  }
+};
+
+TEST_F(Migration, AnOlderLogSaysTheSameAndHasADigest) {
+  for (const int version : {1, 2}) {
+    const auto old = older_match_log(path("old.db"), version);
+    std::filesystem::remove(path("new.db"));
+    const log::Migrated result = migrated(old);
+    EXPECT_EQ(result.from_version, version);
+    EXPECT_EQ(result.sessions, 1);
+    EXPECT_EQ(report_of(path("new.db")), report_of(old)) << version;
+    const Reader reader(path("new.db"), Check::kWhole);
+    EXPECT_TRUE(reader.verification().compared);
+    EXPECT_EQ(reader.verification().rows, result.rows);
+    EXPECT_EQ(reader.whole(reader.sessions().at(0)).config_toml, "a = 1");
+    EXPECT_EQ(reader.whole(reader.sessions().at(0)).idl, "struct X {};");
+    EXPECT_EQ(Reader(old).version(), version) << "the old one stays as it is";
+  }
+}
+
+TEST_F(Migration, ALogOfThisVersionKeepsItsDigest) {
+  record();
+  migrated(path());
+  EXPECT_EQ(noted(path("new.db")), noted(path()));
+}
+
+TEST_F(Migration, AChangedLogIsRefusedAndNothingIsLeftBehind) {
+  record();
+  exec("UPDATE kick_outcomes SET outcome = 'on_target'");
+  EXPECT_THROW(migrated(path()), std::runtime_error);
+  const auto old = older_match_log(path("old.db"), 1);
+  SQLite::Database(old.string(), SQLite::OPEN_READWRITE).exec("UPDATE sessions SET config_toml = 'b = 1'");
+  EXPECT_THROW(migrated(old), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(path("new.db")));
+}
+
+TEST_F(Migration, AFileThatExistsIsNeverOverwritten) {
+  record();
+  std::filesystem::copy_file(path(), path("new.db"));
+  EXPECT_THROW(migrated(path()), std::runtime_error);
+  EXPECT_EQ(report_of(path("new.db")), report_of(path()));
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
