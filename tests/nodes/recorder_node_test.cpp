@@ -214,6 +214,12 @@ TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   EXPECT_EQ(session.policies[1].policy, "moving");
 }
 
+msg::Odometry odometry_of(std::int64_t t_ns) {
+  msg::Odometry sample{};
+  sample.t_ns = t_ns;
+  return sample;
+}
+
 /// The rows of silences, as "stream robot from to".
 std::vector<std::string> silences(const evaluator::log::Reader& reader) {
   std::vector<std::string> rows;
@@ -232,12 +238,11 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
   Says<msg::Odometry> odometry{participant, 3};
   odometry.expect_reader();
   constexpr std::int64_t kMs = 1'000'000;
-  odometry({.t_ns = 1000 * kMs});
-  odometry({.t_ns = 1020 * kMs});
+  odometry(odometry_of(1020 * kMs));
   EXPECT_TRUE(log_lines->wait_for("no odometry of robot 3 for"));
   log->flush();  // as a killed recorder leaves it
   EXPECT_THAT(silences(evaluator::log::Reader{folder / "match.db"}), testing::ElementsAre("odometry 3 1020000000 -"));
-  odometry({.t_ns = 2260 * kMs});
+  odometry(odometry_of(2260 * kMs));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 3 back after 1.24 s"));
   EXPECT_THAT(silences(read()), testing::Contains("odometry 3 1020000000 2260000000"));
 }
@@ -250,12 +255,12 @@ TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
     RecorderNode first{context, *log, silences_so_far};
     bus::Stop first_stop;
     const Running first_run{Executor::kWaitset, first_stop, {&first.node()}};
-    odometry({.t_ns = 1'000'000'000});
+    odometry(odometry_of(1'000'000'000));
     EXPECT_TRUE(log_lines->wait_for("no odometry of robot 1 for"));
   }
   node.emplace(context, *log, silences_so_far);
   running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
-  odometry({.t_ns = 2'240'000'000});
+  odometry(odometry_of(2'240'000'000));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 1 back after 1.24 s"));
   EXPECT_THAT(silences(read()), testing::Contains("odometry 1 1000000000 2240000000"));
 }
@@ -264,9 +269,9 @@ TEST_F(RecorderNodeTest, WhatMerelyCameLateIsNoSilence) {
   start(Executor::kWaitset);
   Says<msg::Odometry> odometry{participant};
   odometry.expect_reader();
-  odometry({.t_ns = 1'000'000'000});
+  odometry(odometry_of(1'000'000'000));
   EXPECT_TRUE(log_lines->wait_for("no odometry of robot 1 for"));
-  odometry({.t_ns = 1'020'000'000});
+  odometry(odometry_of(1'020'000'000));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 1 back after 0.02 s"));
   EXPECT_THAT(silences(read()), testing::Not(testing::Contains(HasSubstr(" 1000000000 "))));
 }
@@ -276,8 +281,8 @@ TEST_F(RecorderNodeTest, InLockstepNobodyIsSilent) {
   start(Executor::kWaitset);
   Says<msg::Odometry> odometry{participant};
   odometry.expect_reader();
-  odometry({.t_ns = 0});
-  odometry({.t_ns = 1'000'000'000});
+  odometry(odometry_of(0));
+  odometry(odometry_of(1'000'000'000));
   EXPECT_THAT(silences(read()), testing::IsEmpty());
 }
 
