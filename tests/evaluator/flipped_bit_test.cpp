@@ -55,7 +55,7 @@ TEST_F(FlippedBit, NeverChangesTheReport) {
   write(intact);
   const auto report = said(flipped);
   ASSERT_TRUE(report);
-  constexpr int kFlips = 800;
+  constexpr int kFlips = 500;
   int refused = 0;
   for (int seed = 1; seed <= kFlips; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
