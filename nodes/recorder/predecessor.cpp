@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "evaluator/log/digest.hpp"
 #include "evaluator/log/reader.hpp"
 
 namespace trivela::nodes {
@@ -69,12 +70,15 @@ std::optional<Predecessor> find_predecessor(const fs::path& log, const evaluator
                                             const std::function<void(const std::string&)>& warn) {
   std::optional<Predecessor> newest;
   std::int64_t newest_start_utc_ns = 0;
+  const std::string config_sha256 = evaluator::log::sha256(session.config_toml);
   for (const fs::path& path : candidates(log)) {
+    if (newest) break;
     try {
-      const evaluator::log::Reader reader{path};
+      // A match goes on while this looks: whether the rows are sound is for the report to say.
+      const evaluator::log::Reader reader{path, evaluator::log::Check::kQuick};
       for (const auto& recorded : reader.sessions()) {
         const std::int64_t start_utc_ns = recorded.started_t_ns + recorded.realtime_offset_ns;
-        if (recorded.config_toml != session.config_toml) continue;
+        if (recorded.config_sha256 != config_sha256) continue;
         if (newest && start_utc_ns <= newest_start_utc_ns) continue;
         const std::int64_t last_t_ns = first_number(
             reader,

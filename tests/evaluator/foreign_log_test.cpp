@@ -246,9 +246,8 @@ TEST_F(ForeignLog, AWriteAheadLogOfAnotherFileIsRefusedOrIgnored) {
     std::filesystem::copy_file(path("other.db-wal"), path().string() + "-wal");
   }
   const std::string text = said();
-  if (text != report_)
-    EXPECT_THAT(text,
-                testing::AnyOf(HasSubstr("is damaged"), HasSubstr("is not a match log"), HasSubstr("cannot read")));
+  EXPECT_THAT(text, testing::AnyOf(report_, HasSubstr("is damaged"), HasSubstr("is not a match log"),
+                                   HasSubstr("cannot read")));
 }
 
 TEST_F(ForeignLog, ATextOfAbsurdLengthIsRefused) {
@@ -268,7 +267,7 @@ TEST_F(ForeignLog, APromiseOfAGigabyteInASmallFileIsRefused) {
   file.write(cell.data(), static_cast<std::streamsize>(cell.size()));
   file.close();
   const std::string text = said();
-  if (text != report_) EXPECT_THAT(text, HasSubstr("damaged"));
+  EXPECT_THAT(text, testing::AnyOf(report_, HasSubstr("damaged")));
 }
 
 TEST_F(ForeignLog, AnExperimentOfSomebodyElseIsGoneOnWithOnlyWhereItsSchemaIsOurs) {

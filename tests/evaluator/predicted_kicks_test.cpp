@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "evaluator/log/row_digest.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -29,14 +30,19 @@ class PredictedKicksTest : public LogTest {
       }
       log.finish();
     }
-    SQLite::Database database{path(name).string(), SQLite::OPEN_READWRITE};
-    database.exec("UPDATE kick_decisions SET p_on_target = 0.5, power = 20.0");
+    change(path(name), "UPDATE kick_decisions SET p_on_target = 0.5, power = 20.0");
     return path(name);
   }
 
-  /// What a test wants to be otherwise in a log.
-  void change(const std::filesystem::path& log, const std::string& sql) {
-    SQLite::Database{log.string(), SQLite::OPEN_READWRITE}.exec(sql);
+  /// What a test wants to be otherwise in a log, as if it had been recorded so.
+  void change(const std::filesystem::path& file, const std::string& sql) {
+    SQLite::Database database{file.string(), SQLite::OPEN_READWRITE};
+    database.exec(sql + "; DELETE FROM digests");
+    std::vector<std::int64_t> sessions;
+    SQLite::Statement query{database, "SELECT session_id FROM sessions"};
+    while (query.executeStep()) sessions.push_back(query.getColumn(0).getInt64());
+    log::RowDigests digests{database};
+    for (const std::int64_t session : sessions) digests.write(session);
   }
 
   static std::vector<std::uint32_t> matches_of(const PredictedKicks& logged) {

@@ -128,6 +128,9 @@ class Campaign {
           fmt::format("the chain is not whole after {} s: no {}", kStart_s, fmt::join(whole.missing(), ", "))};
   }
 
+  /// Nothing is left to make faults at.
+  bool over() const { return over_; }
+
   Trial suffer(const Fault& fault) {
     Trial trial;
     trial.fault = fault;
@@ -231,11 +234,18 @@ class Campaign {
         fmt::format("{}{}not whole after {} s: no {}", trial.complaint, trial.complaint.empty() ? "" : "; ",
                     watch_.limit_s, fmt::join(whole.missing(), ", "));
     stack_.stop_all();
-    start();
+    stack_.renew_device_witness();
+    try {
+      start();
+    } catch (const std::runtime_error& error) {
+      trial.complaint += fmt::format("; started anew, {}", error.what());
+      over_ = true;
+    }
   }
 
   Stack& stack_;
   const Watch& watch_;
+  bool over_ = false;
 };
 
 }  // namespace
@@ -259,6 +269,7 @@ std::vector<Trial> run_campaign(Stack& stack, const std::vector<Fault>& faults, 
   for (const Fault& fault : faults) {
     if (watch.progress) watch.progress(trials.size(), fault);
     trials.push_back(campaign.suffer(fault));
+    if (campaign.over()) break;
   }
   return trials;
 }

@@ -36,7 +36,8 @@ Testimony with_garbled_words(Testimony device, const Testimony& wire, const std:
 
 /// Makes one fault after the other and waits each time until the chain is whole: every periodic topic is heard, a new
 /// order is fired, the recorder writes, and where the observer was hit, an outcome is told. A chain that does not come
-/// back within the limit is started anew. Throws std::runtime_error if it does not even start.
+/// back within the limit is started anew; where it does not even then, the campaign ends there. Throws
+/// std::runtime_error if it does not start at first.
 std::vector<Trial> run_campaign(Stack& stack, const std::vector<Fault>& faults, const Watch& watch);
 
 }  // namespace trivela::faults

@@ -58,7 +58,7 @@ TEST_F(MessageRowTest, EnumsAreWrittenByTheirLabel) {
   msg::KickReceipt receipt{};
   receipt.refusal = msg::REFUSAL_OUT_OF_RANGE;
   EXPECT_THAT(row_of(receipt), Contains(Value{std::string{"out_of_range"}}));
-  receipt.refusal = static_cast<msg::Refusal>(7);
+  receipt.refusal = static_cast<msg::Refusal>(msg::REFUSAL_REFEREE_SILENT + 1);
   EXPECT_THAT(row_of(receipt), Contains(Value{std::string{"invalid"}}));
 }
 

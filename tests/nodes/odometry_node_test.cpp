@@ -133,9 +133,9 @@ TEST_F(OdometryNodeTest, ACommandThatWaitedIsNotDriven) {
   OdometryNode node{context, fake_wheels()};
   const Running running{Executor::kListener, stop, {&node.node()}};
   drive.expect_reader();
-  for (const std::int64_t t_ns : {std::int64_t{799'999'999}, std::int64_t{0}, std::int64_t{1'000'000'000}}) {
+  for (const std::int64_t said_ns : {std::int64_t{799'999'999}, std::int64_t{0}, std::int64_t{1'000'000'000}}) {
     msg::DriveCommand command{};
-    command.t_ns = t_ns;
+    command.t_ns = said_ns;
     command.vy_mps = 1.0;
     drive(command);
   }
