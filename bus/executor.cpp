@@ -133,9 +133,14 @@ void Executor::finish() noexcept {
   for (Node* node : nodes_)
     for (const auto& slot : node->slots_)
       if (slot->to_the_last && slot->reader && !failed()) take(*slot);
-  // Deleting a reader waits for its listener to return.
-  for (Node* node : nodes_)
-    for (const auto& slot : node->slots_) slot->reader.reset();
+  for (Node* node : nodes_) {
+    for (const auto& slot : node->slots_) {
+      // Deleting a reader waits for its listener, who may be waiting for his turn: he finds none then.
+      std::unique_ptr<AnyReader> reader;
+      const std::lock_guard lock(slot->running);
+      reader = std::move(slot->reader);
+    }
+  }
 }
 
 void Executor::serve_topics(Node& node) {
@@ -187,7 +192,7 @@ void Executor::take(Slot& slot) noexcept {
   guarded([&] {
     const std::lock_guard lock(slot.running);
     const ReactionScope scope(slot.reaction, kind_ == kListener);
-    slot.take(*slot.reader);
+    if (slot.reader) slot.take(*slot.reader);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <future>
 #include <thread>
 
 namespace trivela::bus {
@@ -44,7 +45,12 @@ TEST(Stop, ASignalRequestsItFromItsHandler) {
 TEST(Stop, ASignalWakesAThreadThatWaits) {
   Stop stop;
   const StopOnSignals on_signals(stop);
-  std::thread waiting([&] { stop.wait(); });
+  std::promise<void> begun;
+  std::thread waiting([&] {
+    begun.set_value();  // the thread sanitizer drops signals of a thread that has not
+    stop.wait();
+  });
+  begun.get_future().wait();
   pthread_kill(waiting.native_handle(), SIGTERM);
   waiting.join();
   EXPECT_TRUE(stop.requested());
