@@ -57,10 +57,12 @@ class Limits : public testing::Test {
   Folder folder_;
 };
 
+/// With fewer than 7 the dynamic linker may not find the libraries, if the test has descriptors open itself, and says
+/// so in the program's place.
 TEST_F(Limits, ANodeWithoutFileDescriptorsSaysSo) {
   for (const std::string node : {"world_state", "recorder", "simulator"}) {
     int worked = 0;
-    for (const rlim_t descriptors : {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 16, 18, 20, 22, 24, 32, 64}) {
+    for (const rlim_t descriptors : {7, 8, 9, 10, 11, 12, 13, 14, 16, 18, 20, 22, 24, 32, 64}) {
       SCOPED_TRACE(fmt::format("{} with {}", node, descriptors));
       std::string said;
       const int code = exit_code(node, said, [&] { limit(RLIMIT_NOFILE, descriptors); });
@@ -80,7 +82,7 @@ TEST_F(Limits, ANodeWithoutFileDescriptorsSaysSo) {
 
 TEST_F(Limits, AMatchWithoutFileDescriptorsSaysSo) {
   int worked = 0;
-  for (const rlim_t descriptors : {4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 24, 32, 64}) {
+  for (const rlim_t descriptors : {7, 8, 10, 12, 14, 16, 18, 20, 24, 32, 64}) {
     SCOPED_TRACE(fmt::format("{} descriptors", descriptors));
     forget("match.db");
     Program match{"trivela", {"match", "--half", "moving", "--minutes", "0.01"}, folder_.path(), [&] {
@@ -102,7 +104,7 @@ TEST_F(Limits, AMatchWithoutFileDescriptorsSaysSo) {
 }
 
 TEST_F(Limits, OtherVerbsEndWithASentence) {
-  for (const rlim_t descriptors : {4, 5, 6, 8, 12, 64}) {
+  for (const rlim_t descriptors : {7, 8, 12, 64}) {
     SCOPED_TRACE(fmt::format("{} descriptors", descriptors));
     forget("arms.db");
     Program simulate{"trivela",
