@@ -123,10 +123,17 @@ bool AnyReader::time_to_renew() {
 }
 
 AnyReader::Retired AnyReader::replace(Entity anew) {
-  return {std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
+  Retired old{std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
+  if (!silence_) std::swap(predecessor_, old.reader);
+  return old;
 }
 
-// A reader made anew is given the last sample of each writer that still stands.
+Entity AnyReader::outlived() {
+  constexpr std::chrono::seconds kOverlap{1};
+  return Clock::now() - renewed_ < kOverlap ? Entity() : std::exchange(predecessor_, Entity());
+}
+
+// A reader made anew is given the last sample of each writer that still stands, and events by its predecessor as well.
 bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
   const auto known =
       std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) { return newest.writer == writer; });
@@ -136,20 +143,28 @@ bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
     newest_.push_back({writer, source_t_ns});
     return true;
   }
-  return std::exchange(known->source_t_ns, source_t_ns) != source_t_ns;
+  const bool twice =
+      silence_ ? source_t_ns == known->source_t_ns : predecessor_.handle() != 0 && source_t_ns <= known->source_t_ns;
+  if (!twice) known->source_t_ns = source_t_ns;
+  return !twice;
 }
 
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
+  const std::size_t before = predecessor_.handle() != 0 ? take_from(predecessor_.handle(), sink, context) : 0;
+  return before + take_from(reader_.handle(), sink, context);
+}
+
+std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) {
   std::size_t taken = 0;
   for (;;) {
-    Loan loan(reader_.handle());
+    Loan loan(reader);
     const auto count = static_cast<std::size_t>(checked(loan.take(), "dds_take", topic_));
     for (std::size_t i = 0; i < count; ++i) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
-      if (silence_) {
+      if (participant_.hearing() != nullptr) {
         if (!is_new(info.publication_handle, info.source_timestamp)) continue;
-        silence_->heard(Clock::now());
+        if (silence_) silence_->heard(Clock::now());
       }
       sink(context, loan.sample(i), {info.source_timestamp, info.publication_handle});
       ++taken;

@@ -64,9 +64,11 @@ class AnyReader {
   };
 
   /// A second reader like this one, and this one with that in its place; for bus/ alone. A listener may not call them:
-  /// Cyclone waits for it.
+  /// Cyclone waits for it. Of a topic without a period, whose samples nobody says again, the predecessor is heard for
+  /// another second, until every writer knows its successor; outlived() gives it away then.
   Entity open() const;
   [[nodiscard]] Retired replace(Entity anew);
+  [[nodiscard]] Entity outlived();
 
   const Participant& participant() const { return participant_; }
 
@@ -87,6 +89,7 @@ class AnyReader {
 
  private:
   bool is_new(std::uint64_t writer, std::int64_t source_t_ns);
+  std::size_t take_from(std::int32_t reader, Sink sink, void* context);
 
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
   struct DeleteCallbacks {
@@ -103,7 +106,8 @@ class AnyReader {
   Entity condition_;
   std::unique_ptr<Waitset> waitset_;
 
-  // The newest sample of each writer, who speaks for one robot: a reader made anew is given it once more.
+  // The newest sample of each writer, who speaks for one robot: a reader made anew is given it once more, and what two
+  // readers hear is one sample.
   struct Newest {
     std::uint64_t writer;
     std::int64_t source_t_ns;
@@ -112,6 +116,7 @@ class AnyReader {
   std::optional<RenewalPatience> silence_;  // in real time, of a topic with a period
   std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};
+  Entity predecessor_;  // of a topic without a period, for a second after it was made anew
 };
 
 /// The period of T's topic; zero: it has none.

@@ -12,8 +12,10 @@ namespace trivela::bus {
 /// listeners.
 template <class Mutex, class F>
 bool renew_if_silent(AnyReader& reader, Mutex& taking, F&& attach) {
+  Entity outlived;
   {
     const std::lock_guard lock(taking);
+    outlived = reader.outlived();
     if (!reader.time_to_renew()) return false;
   }
   Entity anew = reader.open();
@@ -28,6 +30,7 @@ bool renew_if_silent(AnyReader& reader, Mutex& taking, F&& attach) {
 
 /// The same for a reader that one thread alone uses.
 inline bool renew_if_silent(AnyReader& reader) {
+  const Entity outlived = reader.outlived();
   if (!reader.time_to_renew()) return false;
   const auto old = reader.replace(reader.open());
   return true;

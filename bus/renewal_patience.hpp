@@ -7,13 +7,18 @@
 namespace trivela::bus {
 
 /// Knows when a reader that hears nothing is to be made anew: after half a second of silence (or 25 periods, if that is
-/// longer), then each time after twice as long, up to ten seconds.
+/// longer), then each time after twice as long, up to ten seconds. Time in which nobody looked is nobody's silence:
+/// this process stood still, and what was sent to it meanwhile is on its way.
 class RenewalPatience {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   RenewalPatience(std::chrono::nanoseconds period, Time now)
-      : first_(std::max<std::chrono::nanoseconds>(kFirst, 25 * period)), patience_(first_), since_(now), heard_(now) {}
+      : first_(std::max<std::chrono::nanoseconds>(kFirst, 25 * period)),
+        patience_(first_),
+        since_(now),
+        heard_(now),
+        looked_(now) {}
 
   void heard(Time now) {
     heard_ = since_ = now;
@@ -21,8 +26,10 @@ class RenewalPatience {
     attempts_ = 0;
   }
 
-  /// True once it is time to make the reader anew; begins the next wait.
+  /// True once it is time to make the reader anew; begins the next wait. To be asked several times a second.
   bool due(Time now) {
+    since_ += std::max<std::chrono::nanoseconds>(now - looked_ - kLongestLook, std::chrono::nanoseconds::zero());
+    looked_ = now;
     if (now - since_ < patience_) return false;
     since_ = now;
     patience_ = std::min<std::chrono::nanoseconds>(2 * patience_, kLongest);
@@ -36,11 +43,13 @@ class RenewalPatience {
 
  private:
   static constexpr std::chrono::milliseconds kFirst{500};
+  static constexpr std::chrono::milliseconds kLongestLook{300};
   static constexpr std::chrono::seconds kLongest{10};
   std::chrono::nanoseconds first_;
   std::chrono::nanoseconds patience_;
   Time since_;
   Time heard_;
+  Time looked_;
   std::size_t attempts_ = 0;
 };
 

@@ -10,14 +10,28 @@ using std::chrono::seconds;
 
 const RenewalPatience::Time kStart{seconds{1000}};
 
+/// Looks ten times a second from `from` on; whether it was due at any look before `to`, and at `to` itself.
+struct Due {
+  bool before = false;
+  bool then = false;
+};
+Due due_between(RenewalPatience& watch, RenewalPatience::Time from, RenewalPatience::Time to) {
+  Due due;
+  for (auto now = from + milliseconds{100}; now < to; now += milliseconds{100})
+    due.before = watch.due(now) || due.before;
+  due.then = watch.due(to);
+  return due;
+}
+
 TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSeconds) {
   RenewalPatience watch{milliseconds{20}, kStart};
-  EXPECT_FALSE(watch.due(kStart + milliseconds{499}));
   auto now = kStart;
   for (const auto wait : {milliseconds{500}, milliseconds{1000}, milliseconds{2000}, milliseconds{4000},
                           milliseconds{8000}, milliseconds{10'000}, milliseconds{10'000}}) {
-    EXPECT_FALSE(watch.due(now + wait - milliseconds{1}));
-    EXPECT_TRUE(watch.due(now += wait));
+    const Due due = due_between(watch, now, now + wait);
+    EXPECT_FALSE(due.before) << wait.count();
+    EXPECT_TRUE(due.then) << wait.count();
+    now += wait;
   }
   EXPECT_EQ(watch.attempts(), 7u);
   EXPECT_EQ(watch.silent_for(now), now - kStart);
@@ -25,17 +39,26 @@ TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTe
 
 TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
   RenewalPatience watch{milliseconds{20}, kStart};
-  EXPECT_TRUE(watch.due(kStart + seconds{1}));
-  watch.heard(kStart + seconds{2});
+  EXPECT_TRUE(due_between(watch, kStart, kStart + milliseconds{500}).then);
+  watch.heard(kStart + milliseconds{600});
   EXPECT_EQ(watch.attempts(), 0u);
-  EXPECT_FALSE(watch.due(kStart + seconds{2} + milliseconds{499}));
-  EXPECT_TRUE(watch.due(kStart + seconds{2} + milliseconds{500}));
+  const Due due = due_between(watch, kStart + milliseconds{600}, kStart + milliseconds{1100});
+  EXPECT_FALSE(due.before);
+  EXPECT_TRUE(due.then);
 }
 
 TEST(RenewalPatience, WaitsForManyPeriodsOfASlowTopic) {
   RenewalPatience watch{milliseconds{200}, kStart};
-  EXPECT_FALSE(watch.due(kStart + milliseconds{4999}));
-  EXPECT_TRUE(watch.due(kStart + milliseconds{5000}));
+  const Due due = due_between(watch, kStart, kStart + milliseconds{5000});
+  EXPECT_FALSE(due.before);
+  EXPECT_TRUE(due.then);
+}
+
+TEST(RenewalPatience, TimeInWhichThisProcessStoodStillIsNobodysSilence) {
+  RenewalPatience watch{milliseconds{20}, kStart};
+  EXPECT_FALSE(watch.due(kStart + milliseconds{100}));
+  EXPECT_FALSE(watch.due(kStart + seconds{3})) << "nobody looked for 2.9 s";
+  EXPECT_TRUE(watch.due(kStart + milliseconds{3100})) << "and still nothing comes";
 }
 
 }  // namespace

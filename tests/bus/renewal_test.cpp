@@ -74,6 +74,31 @@ TEST(Renewal, ASilentReaderMadeAnewHearsNothingTwiceAndMissesNothing) {
   EXPECT_THAT(wire.warnings.front(), testing::HasSubstr("vision: silent for"));
 }
 
+TEST(Renewal, EventsThatAreSaidWhileTheirReaderIsMadeAnewAreHeardOnceEach) {
+  Wire wire;  // its own reader hears nothing, so that all are made anew
+  Writer<msg::KickReceipt> events{wire.near};
+  Reader<msg::KickReceipt> hears{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}}};
+  ASSERT_TRUE(events.wait_for_readers(1, kPlenty));
+  ASSERT_TRUE(renewed(wire.reader));
+  std::vector<std::uint64_t> heard;
+  int renewals = 0;
+  for (std::uint64_t seq = 1; seq <= 300; ++seq) {
+    msg::KickReceipt event{};
+    event.robot_id = 1;
+    event.seq = seq;
+    events.write(event);
+    renewals += renew_if_silent(hears);
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    while (heard.size() < seq && std::chrono::steady_clock::now() < deadline) {
+      hears.take([&](const msg::KickReceipt& sample) { heard.push_back(sample.seq); });
+      if (heard.size() < seq) hears.wait(milliseconds{1});
+    }
+    ASSERT_EQ(heard.size(), seq);
+    ASSERT_EQ(heard.back(), seq);
+  }
+  EXPECT_EQ(renewals, 1);
+}
+
 TEST(Renewal, NobodyIsMadeAnewWhereThisIsNoRealTime) {
   const Participant participant{fresh_domain()};
   Reader<msg::VisionFrame> reader{participant};
