@@ -55,7 +55,7 @@ TEST_F(LogCrash, AFullDiskIsReportedAndWhatWasWrittenIsKept) {
     ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{512 * 1024, 512 * 1024};
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    Writer writer(path(), session(), options(65536, 0.001));
+    Writer writer(path(), session(), options(65536, 60.0));  // each group is as large as its flush makes it
     const auto drive = drive_table(writer);
     std::int64_t safe = 0;
     try {

@@ -154,7 +154,8 @@ TEST(ScipFaults, AnotherScannerOnTheSameLineIsRefused) {
   EmulatorConfig emulated;
   emulated.port = EmulatedPort::kTcp;
   emulated.geometry = tests::fast_geometry();
-  auto emulator = std::make_unique<Emulator>(emulated, [&] { return tests::numbered_scan(0, emulated.geometry); });
+  auto emulator = std::make_unique<Emulator>(
+      emulated, [geometry = emulated.geometry] { return tests::numbered_scan(0, geometry); });
   auto finder = open_range_finder(emulator->address());
   const auto read_until = [&](auto done) {
     for (const auto end = Clock::now() + tests::kPatience; Clock::now() < end && !done();)
@@ -165,7 +166,8 @@ TEST(ScipFaults, AnotherScannerOnTheSameLineIsRefused) {
   emulated.tcp_port = static_cast<std::uint16_t>(std::stoi(emulator->address().substr(16)));
   emulated.geometry.beams = 500;
   emulator.reset();
-  emulator = std::make_unique<Emulator>(emulated, [&] { return tests::numbered_scan(0, emulated.geometry); });
+  emulator = std::make_unique<Emulator>(emulated,
+                                        [geometry = emulated.geometry] { return tests::numbered_scan(0, geometry); });
   EXPECT_TRUE(read_until([&] { return finder->status().find("another scanner is there") != std::string::npos; }));
   EXPECT_EQ(finder->geometry().beams, 1081U);
 }

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <atomic>
+
 #include "cli/lob_page/live_scene.hpp"
 #include "cli/lob_page/page_server.hpp"
 #include "hal/open_range_finder.hpp"
@@ -40,7 +42,7 @@ class LivePage : public testing::Test {
   json state() const { return json::parse(get(server_.port(), "/api/state")); }
 
   RecordedLobs record_{{{15, 5.97}, {15, 6.05}, {20, 7.33}}};
-  std::size_t next_ = 0;
+  std::atomic<std::size_t> next_ = 0;  // also of the emulator's thread
   hal::scip::Emulator emulator_{config(), [this] { return next_scan(); }};
   Broadcast broadcast_;
   LiveScene scene_{hal::open_range_finder(emulator_.address()), options(), broadcast_};
