@@ -114,7 +114,7 @@ bool AnyReader::time_to_renew() {
   hearing->renewed(
       fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made anew", topic_, silent_s, alive));
   // A writer that stands still or is gone lapses; one that is there and not heard lives on.
-  constexpr std::size_t kHelpless = 2;
+  constexpr std::size_t kHelpless = 4;  // 15 s: a node may live and have nothing to say
   if (alive > 0 && silence_->attempts() > kHelpless)
     hearing->give_up(
         topic_, fmt::format("silent for {:.1f} s with {} live writers, and the reader was made anew {} times", silent_s,

@@ -69,7 +69,11 @@ class OrderGate {
   bool known(const msg::KickOrder& order) const;
   void remember(const msg::KickOrder& order, bool accepted);
   msg::Refusal disarmed() const;
-  bool charged() const { return sample_ && sample_->charge >= settings_.min_charge_ratio; }
+  /// A charge above the whole is a device's that cannot be believed.
+  bool charged() const {
+    constexpr double kMost = 1.05;
+    return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMost;
+  }
   msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
 
   config::KickerDriver settings_;

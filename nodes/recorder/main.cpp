@@ -9,22 +9,19 @@
 
 int main(int argc, char** argv) {
   using namespace trivela;
-  // One log, also where the recorder joins the bus anew, and what was silent when it left.
+  // One log with what is known of it, also where the recorder joins the bus anew.
   std::optional<nodes::PlacedLog> placed;
-  std::shared_ptr<nodes::SilenceRecord> silences;
-  return nodes::node_main(argc, argv, "recorder", [&placed, &silences](nodes::NodeContext& context) {
+  const auto state = std::make_shared<nodes::RecordingState>();
+  return nodes::node_main(argc, argv, "recorder", [&placed, &state](nodes::NodeContext& context) {
     const config::Recorder& settings = context.settings.recorder;
     evaluator::log::WriterOptions options;
     options.queue_capacity = settings.queue_capacity;
     options.group_commit_s = settings.group_commit_s;
     options.warn_late = !context.settings.run.lockstep;  // where nobody looks at a clock
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
-    if (!placed) {
-      placed.emplace(nodes::place_log(context, options));
-      silences = std::make_shared<nodes::SilenceRecord>(context.logger, context.settings.run.cycle_s, *placed->writer);
-    }
+    if (!placed) placed.emplace(nodes::place_log(context, options));
     evaluator::log::Writer& log = *placed->writer;
-    nodes::RecorderNode node{context, log, silences};
+    nodes::RecorderNode node{context, log, state};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
     node.note_silences();

@@ -14,14 +14,15 @@ namespace trivela::nodes {
 using evaluator::log::LossKind;
 using evaluator::log::TableId;
 
-RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<SilenceRecord> silences)
+RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<RecordingState> state)
     : context_(context),
       log_(log),
       node_(context.participant, "recorder"),
-      step_done_(step_done_writer(context, node_)) {
+      step_done_(step_done_writer(context, node_)),
+      state_(std::move(state)) {
   if (!context.settings.run.lockstep) {
-    silences_ = std::move(silences);
-    if (!silences_) silences_ = std::make_shared<SilenceRecord>(context.logger, context.settings.run.cycle_s, log);
+    if (!state_->silences)
+      state_->silences = std::make_shared<SilenceRecord>(context.logger, context.settings.run.cycle_s, log);
     node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
   }
   record<msg::Odometry>("odometry");
@@ -40,12 +41,13 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
 }
 
 void RecorderNode::note_silences() {
-  if (silences_) silences_->look(now_ns(std::chrono::steady_clock::now()));
+  if (state_->silences) state_->silences->look(now_ns(std::chrono::steady_clock::now()));
 }
 
 template <class T>
-std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableId id, Watch& watch, T sample,
+std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableId id, StreamWatch& watch, T sample,
                                                 std::uint64_t writer) {
+  if (watch.repeats(sample.robot_id, sample.seq, sample.t_ns)) return std::nullopt;
   SequenceWatch::Finding finding{.believed = false};
   if (context_.settings.run.lockstep) {
     finding = watch.numbers.see(sample.robot_id, sample.seq, writer);
@@ -73,11 +75,12 @@ void RecorderNode::record(const std::string& table) {
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
   std::optional<std::size_t> voice;
-  if (silences_ && bus::meta<T>::period_s > 0.0) voice = silences_->add(table, bus::meta<T>::period_s);
+  if (state_->silences && bus::meta<T>::period_s > 0.0) voice = state_->silences->add(table, bus::meta<T>::period_s);
   node_.on<T>(
-      [this, table, id, cycle_stream, voice, watch = Watch{}](const T& sample, const bus::SampleInfo& info) mutable {
+      [this, table, id, cycle_stream, voice, &watch = state_->streams[table]](const T& sample,
+                                                                              const bus::SampleInfo& info) {
         const bool stored = store(table, id, watch, sample, info.writer).has_value();
-        if (stored && voice) silences_->heard(*voice, sample.robot_id, sample.t_ns);
+        if (stored && voice) state_->silences->heard(*voice, sample.robot_id, sample.t_ns);
         if (stored && cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
@@ -102,11 +105,11 @@ void RecorderNode::record_decisions() {
   bus::ReaderOptions everything;
   everything.keep_all = true;
   node_.on<msg::KickDecision>(
-      [this, decisions, shadows, assignments, watch = Watch{}](const msg::KickDecision& decision,
-                                                               const bus::SampleInfo& info) mutable {
+      [this, decisions, shadows, assignments, &watch = state_->streams["kick_decisions"]](
+          const msg::KickDecision& decision, const bus::SampleInfo& info) {
         const auto seq = store("kick_decisions", decisions, watch, decision, info.writer);
         if (!seq) return;
-        if (assigned_.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
+        if (state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
           log_.push(assignments,
                     {std::int64_t{decision.robot_id}, std::int64_t{decision.half}, std::int64_t{decision.possession_id},
                      std::string{bus::label(decision.policy)}, decision.assignment_probability});

@@ -3,15 +3,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
-#include <tuple>
 
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/cycle_watch.hpp"
-#include "nodes/recorder/instant_watch.hpp"
-#include "nodes/recorder/sequence_watch.hpp"
-#include "nodes/recorder/silence_record.hpp"
+#include "nodes/recorder/recording_state.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
@@ -20,8 +16,9 @@ namespace trivela::nodes {
 /// silent.
 class RecorderNode {
  public:
-  /// `silences`: those of the same log that an earlier node of this process noted; none: there was no such node.
-  RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<SilenceRecord> silences = nullptr);
+  /// `state`: of the same log, which an earlier node of this process wrote to; empty: there was no such node.
+  RecorderNode(NodeContext& context, evaluator::log::Writer& log,
+               std::shared_ptr<RecordingState> state = std::make_shared<RecordingState>());
   bus::Node& node() { return node_; }
 
   /// Notes what fell silent or was heard again since the last time; the node does so itself, and whoever runs it once
@@ -32,14 +29,10 @@ class RecorderNode {
   template <class T>
   void record(const std::string& table);
   void record_decisions();
-  /// What is known of a stream from the samples before.
-  struct Watch {
-    SequenceWatch numbers;
-    InstantWatch instants;
-  };
-  /// The number that the sample is recorded with; none: it cannot be true, and is counted as rejected.
+  /// The number that the sample is recorded with; none: it is there already, or cannot be true and is counted as
+  /// rejected.
   template <class T>
-  std::optional<std::int64_t> store(const std::string& table, evaluator::log::TableId id, Watch& watch, T sample,
+  std::optional<std::int64_t> store(const std::string& table, evaluator::log::TableId id, StreamWatch& watch, T sample,
                                     std::uint64_t writer);
 
   void report_cycle(std::size_t stream, std::int64_t t_ns);
@@ -50,8 +43,7 @@ class RecorderNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   CycleWatch cycles_;
-  std::shared_ptr<SilenceRecord> silences_;                 // none in lockstep
-  std::set<std::tuple<int, int, std::uint32_t>> assigned_;  // robot, half, possession that a policy was noted for
+  std::shared_ptr<RecordingState> state_;
 };
 
 /// What the log says about this session.

@@ -58,8 +58,9 @@ TEST_F(MessageRowTest, EnumsAreWrittenByTheirLabel) {
   msg::KickReceipt receipt{};
   receipt.refusal = msg::REFUSAL_OUT_OF_RANGE;
   EXPECT_THAT(row_of(receipt), Contains(Value{std::string{"out_of_range"}}));
-  receipt.refusal = static_cast<msg::Refusal>(msg::REFUSAL_REFEREE_SILENT + 1);
-  EXPECT_THAT(row_of(receipt), Contains(Value{std::string{"invalid"}}));
+  msg::KickOutcome outcome{};
+  outcome.outcome = static_cast<msg::Outcome>(msg::OUTCOME_UNKNOWN + 1);
+  EXPECT_THAT(row_of(outcome), Contains(Value{std::string{"invalid"}}));
 }
 
 TEST_F(MessageRowTest, ShadowsAreNoCellsOfTheDecision) {

@@ -301,7 +301,7 @@ TEST(OrderGate, ARefusedOrderDelaysNobody) {
 
 TEST(OrderGate, RefusesWhileCharging) {
   Case c;
-  for (const double charge : {0.0, 0.899, std::nan("")}) {
+  for (const double charge : {0.0, 0.899, std::nan(""), 1.06, 1e308}) {
     c.sample.charge = charge;
     EXPECT_EQ(c.answer(), msg::REFUSAL_CHARGING) << charge;
   }

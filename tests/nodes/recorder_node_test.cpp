@@ -249,20 +249,54 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
 
 TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
   log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
-  const auto silences_so_far = std::make_shared<SilenceRecord>(context.logger, 0.02, *log);
+  const auto state = std::make_shared<RecordingState>();
   Says<msg::Odometry> odometry{participant};
   {
-    RecorderNode first{context, *log, silences_so_far};
+    RecorderNode first{context, *log, state};
     bus::Stop first_stop;
     const Running first_run{Executor::kWaitset, first_stop, {&first.node()}};
     odometry(odometry_of(1'000'000'000));
     EXPECT_TRUE(log_lines->wait_for("no odometry of robot 1 for"));
   }
-  node.emplace(context, *log, silences_so_far);
+  node.emplace(context, *log, state);
   running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
   odometry(odometry_of(2'240'000'000));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 1 back after 1.24 s"));
   EXPECT_THAT(silences(read()), testing::Contains("odometry 1 1000000000 2240000000"));
+}
+
+TEST_F(RecorderNodeTest, RowsGoOnWhereANodeJoinsTheBusAnewAfterAWriterWasStartedAnew) {
+  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  const auto state = std::make_shared<RecordingState>();
+  std::optional<Says<msg::Odometry>> odometry{std::in_place, participant};
+  const auto recorded = [&](std::size_t rows) {
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    std::int64_t n = 0;
+    while (n < static_cast<std::int64_t>(rows) && std::chrono::steady_clock::now() < deadline) {
+      log->flush();
+      n = count(evaluator::log::Reader{folder / "match.db"}, "odometry");
+    }
+    return n;
+  };
+  std::int64_t t_ns = 1'000'000'000;
+  {
+    RecorderNode first{context, *log, state};
+    bus::Stop first_stop;
+    const Running first_run{Executor::kWaitset, first_stop, {&first.node()}};
+    for (std::size_t n = 1; n <= 5; ++n) {
+      if (n == 4) odometry.emplace(participant);  // its numbers begin at 1 again
+      odometry->expect_reader();
+      (*odometry)(odometry_of(t_ns += 20'000'000));
+      EXPECT_EQ(recorded(n), static_cast<std::int64_t>(n));
+    }
+  }
+  node.emplace(context, *log, state);
+  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+  (*odometry)(odometry_of(t_ns += 20'000'000));
+  EXPECT_EQ(recorded(6), 6) << "and the last sample before it, which a late joiner is given, is no row again";
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "odometry"), 6);
+  EXPECT_EQ(loss(reader, "odometry").missing(), 0);
 }
 
 TEST_F(RecorderNodeTest, WhatMerelyCameLateIsNoSilence) {

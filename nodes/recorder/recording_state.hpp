@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "nodes/recorder/instant_watch.hpp"
+#include "nodes/recorder/sequence_watch.hpp"
+#include "nodes/recorder/silence_record.hpp"
+
+namespace trivela::nodes {
+
+/// What is known of a stream from the samples before.
+struct StreamWatch {
+  SequenceWatch numbers;
+  InstantWatch instants;
+  std::map<std::uint8_t, std::pair<std::uint64_t, std::int64_t>> latest{};  ///< seq and t_ns of a robot's last sample
+
+  /// A sample that a late joiner is given once more.
+  bool repeats(std::uint8_t robot_id, std::uint64_t seq, std::int64_t t_ns) {
+    const std::pair sample{seq, t_ns};
+    return std::exchange(latest[robot_id], sample) == sample;
+  }
+};
+
+/// What a recorder knows of the log that it writes: it outlives a node that joins the bus anew, as the log does.
+struct RecordingState {
+  std::map<std::string, StreamWatch> streams;              ///< by table
+  std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for
+  std::shared_ptr<SilenceRecord> silences;                 ///< none in lockstep
+};
+
+}  // namespace trivela::nodes
