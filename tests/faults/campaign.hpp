@@ -17,9 +17,10 @@ struct Trial {
   std::int64_t ended_ns = 0;  ///< the node runs again, the link is sound again
   std::int64_t whole_ns = 0;  ///< the chain is whole again, or was started anew
   bool recovered = false;
-  double streams_s = 0.0;  ///< from ended_ns until every periodic topic was heard again
-  double kick_s = 0.0;     ///< ... and until a new order was fired
-  std::string complaint;   ///< what should not have been, e.g. who ended by itself; empty: nothing
+  double streams_s = 0.0;              ///< from ended_ns until every periodic topic was heard again
+  double kick_s = 0.0;                 ///< ... and until a new order was fired
+  std::string complaint;               ///< what should not have been, e.g. who ended by itself; empty: nothing
+  std::vector<std::string> crashed{};  ///< nodes that a signal ended while packets were garbled, in words
 };
 
 /// How a campaign is watched and ended.

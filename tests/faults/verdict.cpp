@@ -102,6 +102,9 @@ std::string text(const Verdict& verdict) {
                      verdict.frames.forwarded, verdict.frames.delayed, verdict.frames.dropped, verdict.frames.garbled);
   out += fmt::format("Fires for an order that the garbled wire had given another id, which nobody can tell: {}\n",
                      verdict.forged.size());
+  std::size_t crashed = 0;
+  for (const Trial& trial : verdict.trials) crashed += trial.crashed.size();
+  out += fmt::format("Nodes that ended by a signal while packets were garbled, and were started again: {}\n", crashed);
   out += fmt::format("Kicks: {} in a log, {} in a gap that the logs count\n", verdict.logged.in_a_log,
                      verdict.logged.counted);
   out += "\n  goal 0                                       count\n";
@@ -123,6 +126,7 @@ std::string text(const Verdict& verdict) {
   for (const std::string& log : verdict.unreadable) out += fmt::format("  {}\n", log);
   for (const Trial& trial : verdict.trials) {
     if (!trial.complaint.empty()) out += fmt::format("  \"{}\": {}\n", text(trial.fault), trial.complaint);
+    for (const std::string& crash : trial.crashed) out += fmt::format("  \"{}\": {}\n", text(trial.fault), crash);
   }
   return out;
 }
@@ -155,7 +159,8 @@ nlohmann::json json(const Verdict& verdict) {
                              {"recovered", trial.recovered},
                              {"streams_s", trial.streams_s},
                              {"kick_s", trial.kick_s},
-                             {"complaint", trial.complaint}});
+                             {"complaint", trial.complaint},
+                             {"crashed", trial.crashed}});
   for (const Finding& finding : verdict.findings)
     out["findings"].push_back({{"kick_id", finding.fire.kick_id},
                                {"offence", name(finding.offence)},
