@@ -39,7 +39,8 @@ TEST(Replay, GivesTheDecisionsOfTheMatchAgainAndOtherOnesWithAnotherPolicy) {
   for (const std::string& difference : differences_of(original, replayed)) {
     tables.push_back(difference.substr(0, difference.find(',')));
   }
-  EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "losses", "sessions"));
+  std::erase(tables, "sqlite_stat1");  // SQLite's own counts of rows, where it makes some
+  EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "losses", "sessions", "digests"));
   EXPECT_EQ(number_of(Reader{folder / "moving.db"}, "SELECT count(*) FROM kick_decisions WHERE policy = 'stopped'"), 0);
 
   Program report{"trivela", {"report", "same.db"}, folder.path()};
