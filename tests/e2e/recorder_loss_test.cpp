@@ -116,6 +116,7 @@ Loss loss_of_a_kill(int kill, int disk_ms) {
   const Reader log{folder / "match.db"};
   // Rows are committed in the order in which they came; what a busy machine's bus replaced before is a counted gap.
   const std::int64_t last = number_of(log, "SELECT coalesce(max(seq), 0) FROM drive_commands");
+  EXPECT_GT(last, 0) << "nothing was recorded";
   const auto first_missing = wire.heard(static_cast<std::uint64_t>(last) + 1);
   return {first_missing && *first_missing < killed ? Milliseconds{killed - *first_missing} : Milliseconds{0},
           wire.longest()};
@@ -125,21 +126,15 @@ class RecorderLoss : public testing::TestWithParam<int> {};
 
 TEST_P(RecorderLoss, AKillLosesNoRowThatIsOlderThanTheSpan) {
   Milliseconds worst{0};
-  int counted = 0;
-  for (int kill = 0; counted < kKills && kill < 3 * kKills; ++kill) {
+  for (int kill = 0; kill < kKills; ++kill) {
     const Loss loss = loss_of_a_kill(kill, GetParam());
-    // A machine that keeps the witness waiting for so long keeps the recorder's two threads waiting as well: that tells
-    // nothing of the recorder.
-    constexpr Milliseconds kIdleEnough{25};
-    if (loss.stalled > kIdleEnough) continue;
-    ++counted;
+    // What the machine keeps from the witness for so long, it may keep from the recorder's two threads as well.
     EXPECT_LE(loss.age, kSpan + 2 * loss.stalled) << "stalled for " << loss.stalled.count() << " ms";
     worst = std::max(worst, loss.age);
     fmt::print("kill {}: {:.1f} ms lost, the witness waited up to {:.1f} ms\n", kill, loss.age.count(),
                loss.stalled.count());
   }
-  fmt::print("disk {} ms slower: at most {:.1f} ms lost in {} kills\n", GetParam(), worst.count(), counted);
-  if (counted == 0) GTEST_SKIP() << "the machine is too busy to tell";
+  fmt::print("disk {} ms slower: at most {:.1f} ms lost in {} kills\n", GetParam(), worst.count(), kKills);
 }
 
 INSTANTIATE_TEST_SUITE_P(Disk, RecorderLoss, testing::Values(0, 20, 45),

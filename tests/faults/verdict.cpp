@@ -73,8 +73,9 @@ std::string circumstances(const Verdict& verdict, std::int64_t at_ns) {
 
 bool Verdict::clean() const {
   return findings.empty() && logged.lost.empty() && unreadable.empty() &&
-         std::all_of(trials.begin(), trials.end(),
-                     [](const Trial& trial) { return trial.recovered && trial.complaint.empty(); });
+         std::all_of(trials.begin(), trials.end(), [](const Trial& trial) {
+           return trial.recovered && trial.complaint.empty() && trial.crashed.empty();
+         });
 }
 
 Times times_of(std::vector<double> values_s) {
