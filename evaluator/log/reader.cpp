@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/log_file.hpp"
+#include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/soundness.hpp"
 
 namespace trivela::evaluator::log {
@@ -56,7 +57,7 @@ const Verification& Reader::verification() const { return impl_->verification; }
 
 std::optional<std::string> Reader::doubt() const {
   const Verification& found = impl_->verification;
-  if (impl_->file.version() < kMatchLog.version)
+  if (impl_->file.version() < kFirstWithDigests)
     return fmt::format("not verified: a match log of version {} has no digests", impl_->file.version());
   if (!found.compared && found.rows > 0)
     return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
@@ -94,7 +95,7 @@ std::vector<RecordedSession> Reader::sessions() const {
   query(
       "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, idl_sha256, "
       "config_sha256, seed, software_version, scenario, simulated, arm, kicker_table, match_id, "
-      "continues_uuid "
+      "continues_uuid, replays_uuid, paired_halves, planned_s, calibration_id "
       "FROM sessions ORDER BY started_t_ns, session_id",
       [&](std::span<const Value> row) {
         RecordedSession session;
@@ -115,12 +116,17 @@ std::vector<RecordedSession> Reader::sessions() const {
         if (!text_of(row[14]).empty()) session.kicker_table = text_of(row[14]);
         session.match_id = integer_of(row[15]);
         session.continues_uuid = text_of(row[16]);
+        session.replays_uuid = text_of(row[17]);
+        session.paired_halves = *integer_of(row[18]) != 0;
+        session.planned_s = number_of(row[19]);
+        session.calibration_id = integer_of(row[20]);
         sessions.push_back(std::move(session));
       });
-  for_each_row("session_policies", {"session_id", "half", "policy"}, [&](std::span<const Value> row) {
+  for_each_row("session_policies", {"session_id", "half", "policy", "robot_id"}, [&](std::span<const Value> row) {
     const auto session = std::ranges::find(sessions, *integer_of(row[0]), &RecordedSession::session_id);
     if (session == sessions.end()) return;
-    session->policies.push_back({static_cast<int>(*integer_of(row[1])), text_of(row[2])});
+    session->policies.push_back(
+        {static_cast<int>(*integer_of(row[1])), text_of(row[2]), static_cast<int>(*integer_of(row[3]))});
   });
   return sessions;
 }

@@ -11,8 +11,9 @@ constexpr std::size_t kPour_B = 1 << 16;
 
 }  // namespace
 
-RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
-  for (const DigestedTable& table : kDigestedTables) {
+RowDigests::RowDigests(SQLite::Database& database, int version) : database_(database), version_(version) {
+  for (DigestedTable table : kDigestedTables) {
+    if (version == 3 && table.name == "session_policies") table.key = "session_id, half";
     const std::string sql =
         fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
     sqlite3_stmt* select = nullptr;
@@ -67,7 +68,7 @@ void RowDigests::add_cell(sqlite3_stmt* row, int column) {
 RowDigest RowDigests::of(std::int64_t session_id) {
   RowDigest digest;
   bytes_.clear();
-  add_text("trivela match log 3\n");
+  add_text(fmt::format("trivela match log {}\n", version_));
   for (const Rows& rows : tables_) {
     add_text(rows.head);
     sqlite3_stmt* const row = rows.select.get();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/schema.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -25,7 +26,7 @@ struct DigestedTable {
 /// sessions name them by. A change of this list, or of a table in it, is another version of the log.
 inline constexpr std::array kDigestedTables{
     DigestedTable{"sessions", "session_id"},
-    DigestedTable{"session_policies", "session_id, half"},
+    DigestedTable{"session_policies", "session_id, robot_id, half"},
     DigestedTable{"continued", "session_id, robot_id"},
     DigestedTable{"assignments", "session_id, robot_id, half, possession_id"},
     DigestedTable{"odometry", "session_id, robot_id, seq"},
@@ -45,6 +46,9 @@ inline constexpr std::array kDigestedTables{
     DigestedTable{"losses", "session_id, stream, robot_id, from_t_ns"},
 };
 
+/// Version of a match log.
+inline constexpr int kFirstWithDigests = 3;
+
 struct RowDigest {
   std::int64_t row_count = 0;
   std::string sha256;
@@ -52,7 +56,7 @@ struct RowDigest {
 };
 
 /// The digest of a session's rows: SHA-256 of
-///   "trivela match log 3\n", then for each of kDigestedTables, also where it has no row of the session,
+///   "trivela match log VERSION\n", then for each of kDigestedTables, also where it has no row of the session,
 ///     "table NAME COLUMN COLUMN ...\n" with the columns as schema.sql has them,
 ///     and for each row of the session, by primary key (texts by their UTF-8 bytes): "r", then for each cell
 ///       NULL "n", INTEGER "i" and 8 bytes of two's complement, REAL "f" and 8 bytes of IEEE 754 binary64,
@@ -61,8 +65,8 @@ struct RowDigest {
 /// rows on purpose can write their digest, too.
 class RowDigests {
  public:
-  /// Of a match log of kMatchLog.version, whose schema was checked. Throws SQLite::Exception.
-  explicit RowDigests(SQLite::Database& database);
+  /// Of a match log of `version`, at least kFirstWithDigests, whose schema was checked. Throws SQLite::Exception.
+  explicit RowDigests(SQLite::Database& database, int version = kMatchLog.version);
 
   /// Throws SQLite::Exception where the file cannot be read.
   RowDigest of(std::int64_t session_id);
@@ -88,6 +92,7 @@ class RowDigests {
   void pour();
 
   SQLite::Database& database_;
+  int version_;
   std::vector<Rows> tables_;
   std::vector<unsigned char> bytes_;  // not hashed yet
   RunningSha256 sha256_;

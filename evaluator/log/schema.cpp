@@ -9,8 +9,10 @@
 #include "evaluator/log/schema.sql.hpp"
 #include "evaluator/log/schema_version_1.sql.hpp"
 #include "evaluator/log/schema_version_2.sql.hpp"
+#include "evaluator/log/schema_version_3.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
+#include "evaluator/log/version_3.sql.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -39,13 +41,23 @@ std::string own_kicks(std::string_view schema, const std::string& name) {
 
 std::string_view schema_of(const LogKind& kind, int version) {
   if (kind.application_id == kScanRecord.application_id) return version == 1 ? kScanSchemaVersion1Sql : kScanSchemaSql;
-  return version == 1 ? kSchemaVersion1Sql : version == 2 ? kSchemaVersion2Sql : kSchemaSql;
+  switch (version) {
+    case 1:
+      return kSchemaVersion1Sql;
+    case 2:
+      return kSchemaVersion2Sql;
+    case 3:
+      return kSchemaVersion3Sql;
+    default:
+      return kSchemaSql;
+  }
 }
 
 void create_reading_views(SQLite::Database& database, int version) {
-  database.exec(own_kicks(schema_of(kMatchLog, version), version == 1 ? "kicks_of_version_1" : "kicks"));
+  database.exec(own_kicks(schema_of(kMatchLog, version), version < kMatchLog.version ? "kicks_of_the_file" : "kicks"));
   if (version == 1) database.exec(kVersion1Sql);
   if (version == 2) database.exec(kVersion2Sql);
+  if (version == 3) database.exec(kVersion3Sql);
 }
 
 void create_tables(SQLite::Database& database) {
@@ -57,11 +69,13 @@ void create_tables(SQLite::Database& database) {
 void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
                     Digests& digests) {
   const std::int64_t session_id = session_id_of(session.uuid);
-  SQLite::Statement insert(database,
-                           "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
-                           "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
-                           "idl_sha256, arm, kicker_table, match_id, continues_uuid) "
-                           "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(
+      database,
+      "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
+      "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
+      "idl_sha256, arm, kicker_table, match_id, continues_uuid, replays_uuid, paired_halves, planned_s, "
+      "calibration_id) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, session_id);
   insert.bind(2, session.uuid);
   if (session.robot_id) insert.bind(3, *session.robot_id);
@@ -79,6 +93,10 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
   if (session.kicker_table) insert.bind(15, *session.kicker_table);
   if (session.match_id) insert.bind(16, *session.match_id);
   if (!session.continues_uuid.empty()) insert.bind(17, session.continues_uuid);
+  if (!session.replays_uuid.empty()) insert.bind(18, session.replays_uuid);
+  insert.bind(19, session.paired_halves ? 1 : 0);
+  if (session.planned_s) insert.bind(20, *session.planned_s);
+  if (session.calibration_id) insert.bind(21, *session.calibration_id);
   insert.exec();
 
   for (const DriverCount& driver : session.continued) {
@@ -91,10 +109,12 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
     count.exec();
   }
   for (const HalfPolicy& half : session.policies) {
-    SQLite::Statement policy(database, "INSERT INTO session_policies (session_id, half, policy) VALUES (?, ?, ?)");
+    SQLite::Statement policy(database,
+                             "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)");
     policy.bind(1, session_id);
-    policy.bind(2, half.half);
-    policy.bind(3, half.policy);
+    policy.bind(2, half.robot_id);
+    policy.bind(3, half.half);
+    policy.bind(4, half.policy);
     policy.exec();
   }
 }

@@ -1,4 +1,4 @@
--- Schema of a match log, version 3. One file holds one session or several merged ones.
+-- Schema of a match log, version 4. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -26,7 +26,11 @@ CREATE TABLE sessions (                    -- one recording
   arm TEXT,                                -- of an experiment; NULL: none
   kicker_table TEXT,                       -- height tables of that arm: 'new' or 'old'
   match_id INTEGER,                        -- of the experiment: where it is the same, possessions are the same situations
-  continues_uuid TEXT                      -- session that this one goes on from after its recorder ended; NULL: none
+  continues_uuid TEXT,                     -- session that this one goes on from after its recorder ended; NULL: none
+  replays_uuid TEXT,                       -- session whose samples are played again; NULL: none
+  paired_halves INTEGER NOT NULL CHECK (paired_halves IN (0, 1)), -- 1: simulated halves with the same possessions
+  planned_s REAL,                          -- of the whole recording, by this clock; NULL: nobody said
+  calibration_id INTEGER                   -- of the experiment: the evening whose robots played; NULL: none
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX sessions_match ON sessions (match_id, arm);
@@ -52,13 +56,14 @@ CREATE TABLE experiments (                 -- what `trivela simulate` was asked 
   matches_done INTEGER NOT NULL            -- so far; the file is whole where the two are equal
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE session_policies (            -- the policy in charge, by half
+CREATE TABLE session_policies (            -- the policy in charge, by robot and half
   session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot; 0: every robot that has no row of its own
   half INTEGER NOT NULL,                   -- 1, 2
   policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
     OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
     OR policy = 'learned' OR policy = 'oracle'), -- in charge of the kicks
-  PRIMARY KEY (session_id, half)
+  PRIMARY KEY (session_id, robot_id, half)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE assignments (                 -- the policy in charge, by possession
@@ -316,6 +321,16 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
   observations INTEGER NOT NULL,           -- frames with the ball behind it
   exit_speed_mps REAL,                     -- of the observed flight, over ground, m/s
   exit_elevation_rad REAL,                 -- of the observed flight, rad
+  p_on_target REAL,                        -- probability of on_target in the light of the sightings; NULL: not computed
+  p_wide_left REAL,                        -- the same of wide_left
+  p_wide_right REAL,                       -- of wide_right
+  p_over REAL,                             -- of over
+  p_short REAL,                            -- of short
+  p_post REAL,                             -- of post
+  p_bar REAL,                              -- of bar
+  p_blocked REAL,                          -- of blocked
+  bounced INTEGER CHECK (bounced IN (0, 1)), -- 1: it touched the floor before the line; NULL: not said
+  residual_sd_m REAL,                      -- of a sighting about the fit, m
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -342,6 +357,7 @@ CREATE TABLE kick_truths (                 -- the simulator's truth of a kick; n
   release_vz_mps REAL NOT NULL,            -- simulator's truth: ball velocity at release, upwards, m/s
   margin_m REAL,                           -- simulator's truth: crossing to the nearest edge of another outcome, m
   saved INTEGER NOT NULL CHECK (saved IN (0, 1)), -- simulator's truth: on target, but the keeper had it
+  bounced INTEGER CHECK (bounced IN (0, 1)), -- simulator's truth: it touched the floor before the line; NULL: not said
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -385,12 +401,13 @@ CREATE TABLE losses (                      -- what the recording missed: a row o
 CREATE VIEW kicks AS
 SELECT
   d.session_id, d.robot_id, d.seq, d.kick_id, d.t_ns, d.half, d.possession_id, d.policy,
-  d.distance_m, d.power, d.v_kick_mps, d.predicted_x_cross_m, d.predicted_z_cross_m,
+  d.distance_m, d.power, d.v_kick_mps, d.p_on_target, d.predicted_x_cross_m, d.predicted_z_cross_m,
   o.seq AS order_seq,
   r.accepted, r.refusal, r.fired_t_ns, r.release_t_ns,
   c.outcome, c.on_target, c.x_cross_m, c.z_cross_m, c.sd_cross_m, c.exit_speed_mps,
+  c.observations, c.p_on_target AS observed_p_on_target, c.bounced,
   t.outcome AS truth_outcome, t.x_cross_m AS truth_x_cross_m, t.z_cross_m AS truth_z_cross_m,
-  t.margin_m AS truth_margin_m, t.saved AS truth_saved
+  t.margin_m AS truth_margin_m, t.saved AS truth_saved, t.bounced AS truth_bounced
 FROM kick_decisions AS d
 LEFT JOIN kick_orders AS o ON o.session_id = d.session_id AND o.robot_id = d.robot_id AND o.seq = (
   SELECT max(seq) FROM kick_orders INDEXED BY kick_orders_kick

@@ -7,10 +7,11 @@
 
 namespace trivela::evaluator::log {
 
-/// The policy in charge of the kicks of one half: "stopped", "moving" or a test drive such as "turn_drive".
+/// The policy in charge of a robot's kicks in one half: "stopped", "moving" or a test drive such as "turn_drive".
 struct HalfPolicy {
   int half = 1;  ///< 1, 2
   std::string policy;
+  int robot_id = 0;  ///< 0: every robot that has no entry of its own
 };
 
 /// How many orders a kicker's driver had handled and refused where a session ends.
@@ -30,15 +31,19 @@ struct Session {
   std::string config_toml;              ///< whole configuration as used; the writer adds its SHA-256
   std::optional<std::int64_t> seed;     ///< of the simulation
   std::string software_version;
-  std::string scenario;                       ///< name of the scenario or of the match
-  bool simulated = false;                     ///< a simulated match
-  std::string idl;                            ///< text of the messages' definition
-  std::vector<HalfPolicy> policies;           ///< none where it is drawn at random
-  std::optional<std::string> arm{};           ///< of an experiment
-  std::optional<std::string> kicker_table{};  ///< of the arm: "new" or "old"
-  std::optional<std::int64_t> match_id{};     ///< where it is the same, possessions are the same situations
-  std::string continues_uuid{};               ///< session that this one goes on from; empty: none
-  std::vector<DriverCount> continued{};       ///< where that one ends, by robot
+  std::string scenario;                          ///< name of the scenario or of the match
+  bool simulated = false;                        ///< a simulated match
+  std::string idl;                               ///< text of the messages' definition
+  std::vector<HalfPolicy> policies;              ///< none where it is drawn at random
+  std::optional<std::string> arm{};              ///< of an experiment
+  std::optional<std::string> kicker_table{};     ///< of the arm: "new" or "old"
+  std::optional<std::int64_t> match_id{};        ///< where it is the same, possessions are the same situations
+  std::string continues_uuid{};                  ///< session that this one goes on from; empty: none
+  std::string replays_uuid{};                    ///< session whose samples are played again; empty: none
+  bool paired_halves = false;                    ///< simulated halves with the same possessions
+  std::optional<double> planned_s{};             ///< of the whole recording, by its clock
+  std::optional<std::int64_t> calibration_id{};  ///< of the experiment: the evening whose robots played
+  std::vector<DriverCount> continued{};          ///< where that one ends, by robot
 };
 
 }  // namespace trivela::evaluator::log

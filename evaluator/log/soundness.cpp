@@ -10,7 +10,6 @@ namespace trivela::evaluator::log {
 namespace {
 
 constexpr int kFirstWithTexts = 2;  // versions
-constexpr int kFirstWithDigests = 3;
 
 [[noreturn]] void damaged(const LogFile& file, const std::string& what) {
   throw std::runtime_error(fmt::format("the match log {} is damaged or was changed: {}", file.path(), what));
@@ -95,7 +94,7 @@ Verification verify(const LogFile& file) {
   Verification found = unverified(file);
   if (file.version() < kFirstWithDigests) return found;
   check_that_rows_have_sessions(file);
-  RowDigests digests(file.database());
+  RowDigests digests(file.database(), file.version());
   for (const DigestedSession& session : digested_sessions(file)) {
     if (!session.noted && !session.closed) continue;
     if (!session.noted)

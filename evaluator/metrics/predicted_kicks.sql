@@ -12,7 +12,7 @@ JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_
   SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
 JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
-  SELECT max(seq) FROM kick_outcomes INDEXED BY kick_outcomes_kick
+  SELECT max(seq) FROM main.kick_outcomes INDEXED BY kick_outcomes_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
 LEFT JOIN shadow_decisions AS w
   ON w.session_id = d.session_id AND w.robot_id = d.robot_id AND w.seq = d.seq AND w.policy = 'predictive'

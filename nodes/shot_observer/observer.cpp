@@ -22,6 +22,9 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.observations = static_cast<std::uint32_t>(shot.sightings);
   out.exit_speed_mps = shot.verdict.exit_speed_mps.value_or(kNone);
   out.exit_elevation_rad = shot.verdict.exit_elevation_rad.value_or(kNone);
+  for (double* const p : {&out.p_on_target, &out.p_wide_left, &out.p_wide_right, &out.p_over, &out.p_short, &out.p_post,
+                          &out.p_bar, &out.p_blocked, &out.residual_sd_m})
+    *p = kNone;
   return out;
 }
 

@@ -35,7 +35,7 @@ TEST_F(LogReader, ALogIsKnownByItsApplicationIdAndVersion) {
   write_log();
   SQLite::Database database(path().string());
   EXPECT_EQ(database.execAndGet("PRAGMA application_id").getInt(), 0x4B49434B);
-  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 3);
+  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 4);
   EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "delete");
 }
 
@@ -52,8 +52,8 @@ TEST_F(LogReader, OtherFilesAreNotMatchLogs) {
 
 TEST_F(LogReader, ANewerLogIsRefusedWithBothVersions) {
   write_log();
-  SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 4");
-  EXPECT_THAT(message_of_opening(), HasSubstr("of version 4; this program reads version 3"));
+  SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 5");
+  EXPECT_THAT(message_of_opening(), HasSubstr("of version 5; this program reads version 4"));
 }
 
 TEST_F(LogReader, ATruncatedLogIsDamagedWhereverItEnds) {

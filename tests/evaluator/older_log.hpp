@@ -8,6 +8,7 @@
 #include <string>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/row_digest.hpp"
 
 namespace trivela::evaluator {
 
@@ -23,8 +24,8 @@ inline SQLite::Database older_file(const std::filesystem::path& path, int applic
   return database;
 }
 
-/// A closed session in a match log of version 1 or 2, with a kick on target of each of two policies, in half a minute
-/// each.
+/// A closed session in a match log of version 1, 2 or 3, with a kick on target of each of two policies, in half a
+/// minute each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =
       older_file(path, 0x4B49434B, version, "schema_version_" + std::to_string(version) + ".sql");
@@ -34,9 +35,10 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
       database.exec("INSERT INTO texts VALUES ('" + log::sha256(text) + "', '" + text + "')");
   }
   const auto insert = [&](const std::string& table, const std::string& columns, const std::string& values,
-                          const std::string& since_2_columns = "", const std::string& since_2 = "") {
-    database.exec("INSERT INTO " + table + " (session_id, " + columns + (version > 1 ? since_2_columns : "") +
-                  ") VALUES (7, " + values + (version > 1 ? since_2 : "") + ")");
+                          int since = 0, const std::string& new_columns = "", const std::string& new_values = "") {
+    const bool has_new = since > 0 && version >= since;
+    database.exec("INSERT INTO " + table + " (session_id, " + columns + (has_new ? new_columns : "") + ") VALUES (7, " +
+                  values + (has_new ? new_values : "") + ")");
   };
   insert("sessions",
          std::string("uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, seed, software_version, "
@@ -46,7 +48,7 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
              log::sha256(config) +
              (version == 1 ? "', '" + config + "', '" + idl + "'" : "', '" + log::sha256(idl) + "'"));
   insert("losses", "stream, received, lost, gaps, overflow, nan_refused, rejected, out_of_order",
-         "'kick_orders', 2, 0, 0, 0, 0, 0, 0");
+         "'kick_orders', 2, 0, 0, 0, 0, 0, 0", 3, ", robot_id, from_t_ns", ", 0, 0");
   for (const int half : {1, 2}) {
     const std::string n = std::to_string(half);
     const std::string start = std::to_string((half - 1) * 30) + "000000000";
@@ -65,12 +67,13 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
            "predicted_t_flight_s, opponent_distance_m, charge, shadow_count",
            "1, " + n + ", " + start + ", " + n + ", " + n + ", 1, " + policy +
                ", 1, 'fire', 0, 3, 0, 0, 0, 0, 0, 9, 0.7, 5.7, 8, 8, 20, 0, 0, 1, 0, 0.1, 0.1, 0, 0.7, 0.8, 2, 1, 0",
-           ", p_on_target, fire_after_s, assignment_probability", ", 0.9, 0, 1");
+           2, ", p_on_target, fire_after_s, assignment_probability", ", 0.9, 0, 1");
     insert("kick_orders", "robot_id, seq, t_ns, kick_id, power, fire_t_ns, valid_until_t_ns",
            "1, " + n + ", " + start + ", " + n + ", 20, " + start + ", " + end);
     insert("kick_receipts",
            "robot_id, seq, t_ns, kick_id, accepted, refusal, order_t_ns, fired_t_ns, release_t_ns, power",
-           "1, " + n + ", " + start + ", " + n + ", 1, 'none', " + start + ", " + start + ", " + end + ", 20");
+           "1, " + n + ", " + start + ", " + n + ", 1, 'none', " + start + ", " + start + ", " + end + ", 20", 3,
+           ", received_steady_ns, fired_steady_ns", ", 0, 0");
     insert("kick_outcomes",
            "robot_id, seq, t_ns, kick_id, outcome, on_target, x_cross_m, z_cross_m, sd_cross_m, observations, "
            "exit_speed_mps, exit_elevation_rad",
@@ -79,8 +82,9 @@ inline std::filesystem::path older_match_log(const std::filesystem::path& path, 
            "robot_id, seq, t_ns, kick_id, half, possession_id, outcome, x_cross_m, z_cross_m, release_t_ns, "
            "release_x_m, release_y_m, release_vx_mps, release_vy_mps, release_vz_mps, margin_m",
            "1, " + n + ", " + end + ", " + n + ", " + n + ", 1, 'on_target', 0, 0.7, " + start + ", 0, 3, 0, 6, 4, 0.3",
-           ", saved", ", 0");
+           2, ", saved", ", 0");
   }
+  if (version >= log::kFirstWithDigests) log::RowDigests(database, version).write(7);
   return path;
 }
 
