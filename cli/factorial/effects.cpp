@@ -2,28 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "evaluator/stats/quantile.hpp"
 
 namespace trivela::cli {
 namespace {
 
 double real(std::int64_t n) { return static_cast<double>(n); }
 
-/// t times the standard error of a sum of influences over matches.
-double reach_of(const std::vector<double>& influences) {
-  const auto groups = static_cast<double>(influences.size());
-  if (groups < 2.0) return std::nan("");
-  double squares = 0.0;
-  for (const double u : influences) squares += u * u;
-  return evaluator::stats::t_of(evaluator::stats::kConfidence, groups - 1.0) *
-         std::sqrt(groups / (groups - 1.0) * squares);
+std::vector<std::uint32_t> match_numbers(const ArmTally& arm) {
+  std::map<std::uint32_t, std::uint32_t> next;  // by calibration
+  std::vector<std::uint32_t> numbers;
+  for (const MatchTally& match : arm) numbers.push_back(next[match.calibration]++);
+  return numbers;
 }
 
 bool in_two_matches(const ArmTally& arm, Measure measure) {
-  return std::ranges::count_if(arm, [&](const MatchTally& match) { return counts_of(match, measure).n > 0; }) >= 2;
+  const auto numbers = match_numbers(arm);
+  std::set<std::uint32_t> with_any;
+  for (std::size_t i = 0; i < arm.size(); ++i) {
+    if (counts_of(arm[i], measure).n > 0) with_any.insert(numbers[i]);
+  }
+  return with_any.size() >= 2;
 }
 
 }  // namespace
@@ -38,6 +41,18 @@ MatchTally total_of(const ArmTally& matches) {
     total.on_target += match.on_target;
   }
   return total;
+}
+
+std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u) {
+  const auto numbers = match_numbers(arm);
+  std::vector<evaluator::stats::Influence> influences;
+  for (std::size_t i = 0; i < arm.size(); ++i) influences.push_back({numbers[i], arm[i].calibration, u[i]});
+  return influences;
+}
+
+double reach_of(const ArmTally& arm, const std::vector<double>& u) {
+  const auto variance = evaluator::stats::cluster_variance(influences_of(arm, u));
+  return variance ? variance->reach() : std::nan("");
 }
 
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
@@ -60,7 +75,7 @@ Effect contrast(std::span<const Term> terms, Measure measure) {
       influences[m] += term.weight * (real(match.inside) - p * real(match.n)) / n;
     }
   }
-  const double reach = in_matches && varies ? reach_of(influences) : std::nan("");
+  const double reach = in_matches && varies ? reach_of(*terms.front().arm, influences) : std::nan("");
   effect.ci = {effect.value - reach, effect.value + reach};
   return effect;
 }
@@ -90,7 +105,7 @@ Effect kick_ratio(const ArmTally& older, const ArmTally& newer) {
   for (std::size_t m = 0; m < older.size(); ++m) {
     influences[m] = real(newer[m].kicks) / n2 - real(older[m].kicks) / n1;
   }
-  const double reach = reach_of(influences);
+  const double reach = reach_of(older, influences);
   return {n2 / n1, {n2 / n1 * std::exp(-reach), n2 / n1 * std::exp(reach)}};
 }
 

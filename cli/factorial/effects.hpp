@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/counts.hpp"
 
 namespace trivela::cli {
@@ -12,7 +13,8 @@ namespace trivela::cli {
 struct MatchTally {
   std::int64_t opportunities = 0;
   std::int64_t kicks = 0;
-  std::int64_t on_target = 0;  ///< observed
+  std::int64_t on_target = 0;     ///< observed
+  std::uint32_t calibration = 0;  ///< number of the evening that its robots were calibrated on
 };
 
 /// Shares that arms are compared by.
@@ -21,7 +23,8 @@ enum class Measure {
   kPerOpportunity  ///< on target of opportunities
 };
 
-/// An arm's matches, in the order of their numbers.
+/// An arm's matches, calibration by calibration, each in the order of their numbers: those at the same place of two
+/// calibrations are the same match. All arms have the same ones.
 using ArmTally = std::vector<MatchTally>;
 
 /// A number with its 95 % interval. NaN: there are too few kicks for it, or for the interval alone.
@@ -34,6 +37,14 @@ bool has_interval(const Effect& effect);
 
 MatchTally total_of(const ArmTally& matches);
 
+/// What each entry of the arms adds to an estimate's error, and to what match and calibration it belongs. `u`: one
+/// number an entry, in the order of `arm`.
+std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u);
+
+/// Half the width of the 95 % interval of an estimate with these influences: Student's t times the standard error, by
+/// match, and by calibration where there are enough of them (cluster_variance()). NaN: fewer than two matches.
+double reach_of(const ArmTally& arm, const std::vector<double>& u);
+
 /// The measure's counts of one match.
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure);
 
@@ -43,10 +54,10 @@ struct Term {
   double weight = 0.0;
 };
 
-/// sum_a w_a p_a with p_a the arm's share over all matches. Variance by linearisation over matches, which all arms
-/// have in common: u_m = sum_a w_a (x_am - p_a n_am) / N_a, V = G / (G - 1) sum u_m^2, Student's distribution with G -
-/// 1 degrees of freedom. An arm without a kick has no efficiency; an arm with kicks in one match only has no interval,
-/// since one match does not say how far matches differ. Nor have arms of which each has all or nothing on target.
+/// sum_a w_a p_a with p_a the arm's share over all matches. Variance by linearisation over matches and calibrations,
+/// which all arms have in common (cluster_variance()): u_m = sum_a w_a (x_am - p_a n_am) / N_a. An arm without a kick
+/// has no efficiency; an arm with kicks in one match only has no interval, since one match does not say how far matches
+/// differ. Nor have arms of which each has all or nothing on target.
 Effect contrast(std::span<const Term> terms, Measure measure);
 
 /// One arm's share. Its interval is contrast()'s, which is symmetric, cut off at 0 and 1. Where all or nothing was on

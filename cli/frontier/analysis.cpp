@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "evaluator/stats/quantile.hpp"
-
 namespace trivela::cli {
 namespace {
 
@@ -41,20 +39,18 @@ Effect jackknife(const std::vector<const ArmTally*>& arms,
   totals.reserve(arms.size());
   for (const ArmTally* arm : arms) totals.push_back(total_of(*arm));
   const double value = of(totals);
-  const std::size_t matches = arms.front()->size();
-  const auto count = static_cast<double>(matches);
+  const ArmTally& matches = *arms.front();
+  const auto count = static_cast<double>(matches.size());
   std::vector<double> left_out;
   double mean = 0.0;
-  for (std::size_t m = 0; m < matches; ++m) {
+  for (std::size_t m = 0; m < matches.size(); ++m) {
     std::vector<MatchTally> rest = totals;
     for (std::size_t a = 0; a < arms.size(); ++a) rest[a] = without(rest[a], (*arms[a])[m]);
     left_out.push_back(of(rest));
     mean += left_out.back() / count;
   }
-  double squares = 0.0;
-  for (const double each : left_out) squares += (each - mean) * (each - mean);
-  const double reach =
-      evaluator::stats::t_of(evaluator::stats::kConfidence, count - 1.0) * std::sqrt((count - 1.0) / count * squares);
+  for (double& each : left_out) each = (count - 1.0) / count * (mean - each);
+  const double reach = reach_of(matches, left_out);
   return {value, {value - reach, value + reach}};
 }
 

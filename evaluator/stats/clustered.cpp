@@ -15,7 +15,7 @@ double real(std::int64_t n) { return static_cast<double>(n); }
 void add(Counts& sum, Counts counts) { sum = {sum.inside + counts.inside, sum.n + counts.n}; }
 
 // What a match adds to the estimate's error, from either side.
-struct Influence {
+struct Sides {
   double older = 0.0;
   double newer = 0.0;
   bool has_older = false;
@@ -54,12 +54,12 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
     independent +=
         square(total.weight) * (p1 * (1.0 - p1) / real(total.older.n) + p2 * (1.0 - p2) / real(total.newer.n));
   }
-  std::map<std::uint32_t, Influence> matches;
+  std::map<std::uint32_t, Sides> matches;
   for (const MatchCounts& cell : cells) {
     const auto found = totals.find(cell.stratum);
     if (found == totals.end()) continue;
     const StratumTotal& total = found->second;
-    Influence& match = matches[cell.match];
+    Sides& match = matches[cell.match];
     match.older +=
         total.weight * (real(cell.older.inside) - real(cell.older.n) * *efficiency(total.older)) / real(total.older.n);
     match.newer +=
