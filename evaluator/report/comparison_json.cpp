@@ -46,12 +46,15 @@ Json counts_json(const Comparison& c) {
   json["e_value"] = json_of(c.e_value);
   json["e_value_ci"] = json_of(c.e_value_ci);
   json["verdict"] = label(c.verdict);
-  json["needed_kicks_for_smallest"] = c.needed_for_smallest;
-  json["needed_kicks_for_seen"] = json_of(c.needed_for_seen);
   json["notes"] = notes(c);
   return json;
 }
 
-std::string to_json(const Comparison& c) { return json_text(counts_json(c)); }
+std::string to_json(const Comparison& c) {
+  Json json = counts_json(c);
+  json["needed_kicks_for_smallest"] = c.needed_for_smallest;
+  json["needed_kicks_for_seen"] = json_of(c.needed_for_seen);
+  return json_text(json);
+}
 
 }  // namespace trivela::evaluator

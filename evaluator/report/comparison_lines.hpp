@@ -10,6 +10,9 @@ namespace trivela::evaluator {
 /// The numbers of a comparison of counts, a line each, indented by two blanks.
 std::string counts_lines(const Comparison& comparison);
 
+/// The same without the kicks needed, which a comparison of matches has for its headline.
+std::string efficiency_lines(const Comparison& comparison);
+
 /// The same as JSON; the keys are those of to_json().
 Json counts_json(const Comparison& comparison);
 

@@ -14,9 +14,10 @@
 namespace trivela::evaluator {
 namespace {
 
-using Situation = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;  // match, id, setting
+// match, calibration, id, setting
+using Situation = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>;
 
-Situation situation_of(const Opportunity& o) { return {o.match, o.id, o.setting}; }
+Situation situation_of(const Opportunity& o) { return {o.match, o.calibration, o.id, o.setting}; }
 
 // Did several groups have the same opportunity?
 bool share_opportunities(const KickBook& book) {

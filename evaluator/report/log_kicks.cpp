@@ -127,7 +127,8 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   book.strata_of_kicks = options.stratify == "distance";
   if (options.stratify.ends_with("distance")) book.strata = distance_bins();
   Settings settings{by};
-  std::vector<std::size_t> rows;  // of the opportunities
+  std::map<std::optional<std::int64_t>, std::uint32_t> evenings;  // numbers of calibrations
+  std::vector<std::size_t> rows;                                  // of the opportunities
   std::map<std::string, std::uint32_t> places;
   for (std::uint32_t i = 0; i < book.groups.size(); ++i) places[book.groups[i]] = i;
   // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
@@ -155,6 +156,8 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
     opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
     opportunity.ending = o.ending;
+    opportunity.calibration =
+        evenings.try_emplace(logged.sessions[o.session].calibration_id, evenings.size()).first->second;
     book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());

@@ -23,6 +23,7 @@ struct ComparedSession {
   std::string table;  ///< empty: none
   std::optional<std::int64_t> match_id;
   std::string config_sha256;
+  std::optional<std::int64_t> calibration_id;
   SessionSetup setup;
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
 };

@@ -31,6 +31,7 @@ ComparedSession session_of(SessionCells row, const std::map<std::string, Session
   session.table = log::text_if_any(row[7]);
   session.match_id = log::integer_if_any(row[8]);
   session.config_sha256 = log::text_if_any(row[9]);
+  session.calibration_id = log::integer_if_any(row[10]);
   if (const auto setup = setups.find(session.config_sha256); setup != setups.end()) session.setup = setup->second;
   return session;
 }
@@ -48,7 +49,9 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
       return;
     }
     const bool numbered = session.match_id && session.seed;
-    if (numbered && !played_.insert({*session.seed, session.arm, session.config_sha256, session.table}).second) {
+    if (numbered &&
+        !played_.insert({*session.seed, session.arm, session.config_sha256, session.table, session.calibration_id})
+             .second) {
       ++replayed;
       return;
     }

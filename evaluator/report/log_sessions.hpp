@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -33,8 +34,9 @@ class SessionBook {
 
   LoggedOpportunities& logged_;
   std::set<std::int64_t> known_;
-  // Matches of experiments: seed, arm, configuration, table. Other flags of the run do not make other kicks.
-  std::set<std::tuple<std::int64_t, std::string, std::string, std::string>> played_;
+  // Matches of experiments: seed, arm, configuration, table, calibration. Other flags of the run do not make other
+  // kicks.
+  std::set<std::tuple<std::int64_t, std::string, std::string, std::string, std::optional<std::int64_t>>> played_;
   SetupBook setups_;
 };
 

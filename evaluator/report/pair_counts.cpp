@@ -1,19 +1,21 @@
 #include "evaluator/report/pair_counts.hpp"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 #include <utility>
 
 namespace trivela::evaluator {
 namespace {
 
-using PairKey = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;  // match, id, setting
+// match, calibration, id, setting
+using PairKey = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>;
 
 // Endings of a group in the order of their keys.
 std::vector<std::pair<PairKey, Ending>> keyed(const KickBook& book, std::uint32_t group) {
   std::vector<std::pair<PairKey, Ending>> rows;
   for (const Opportunity& o : book.opportunities) {
-    if (o.group == group && o.id != 0) rows.push_back({{o.match, o.id, o.setting}, o.ending});
+    if (o.group == group && o.id != 0) rows.push_back({{o.match, o.calibration, o.id, o.setting}, o.ending});
   }
   std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
   return rows;
@@ -23,20 +25,17 @@ std::vector<std::pair<PairKey, Ending>> keyed(const KickBook& book, std::uint32_
 
 std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities) {
-  const std::size_t strata = book.strata.size() + 1;
-  std::vector<stats::MatchCounts> cells(std::max<std::size_t>(book.matches, 1) * strata);
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, stats::MatchCounts> cells;
   for (const Opportunity& o : book.opportunities) {
     if (!of_opportunities && (o.ending == Ending::kUnknown || o.ending == Ending::kNoKick)) continue;
     if (o.group != older && o.group != newer) continue;
-    stats::MatchCounts& cell = cells[o.match * strata + o.stratum];
+    const stats::MatchCounts empty{o.match, o.stratum, {}, {}, o.calibration};
+    stats::MatchCounts& cell = cells.try_emplace({o.match, o.calibration, o.stratum}, empty).first->second;
     add(o.group == older ? cell.older : cell.newer, o.ending);
   }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    cells[i].match = static_cast<std::uint32_t>(i / strata);
-    cells[i].stratum = static_cast<std::uint32_t>(i % strata);
-  }
-  std::erase_if(cells, [](const auto& cell) { return cell.older.n + cell.newer.n == 0; });
-  return cells;
+  std::vector<stats::MatchCounts> result;
+  for (const auto& [key, cell] : cells) result.push_back(cell);
+  return result;
 }
 
 PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t older, std::uint32_t newer) {
@@ -50,13 +49,14 @@ PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t old
       continue;
     }
     const Ending x = a[i++].second, y = b[j].second;
-    const std::uint32_t match = std::get<0>(b[j++].first);
+    const auto [match, calibration, id, setting] = b[j++].first;
     const bool x_in = x == Ending::kInside, y_in = y == Ending::kInside;
     ++(x_in && y_in ? result.counts.both
        : y_in       ? result.counts.newer_only
        : x_in       ? result.counts.older_only
                     : result.counts.neither);
-    if (result.cells.empty() || result.cells.back().match != match) result.cells.push_back({match, 0, {}, {}});
+    if (result.cells.empty() || result.cells.back().match != match || result.cells.back().calibration != calibration)
+      result.cells.push_back({match, 0, {}, {}, calibration});
     add(result.cells.back().older, x);
     add(result.cells.back().newer, y);
   }

@@ -19,15 +19,15 @@ inline void add(stats::Counts& sum, stats::Counts counts) {
   sum.n += counts.n;
 }
 
-/// Counts of two groups by match and stratum, of opportunities or of kicks. A kick with an unknown outcome
+/// Counts of two groups by match, calibration and stratum, of opportunities or of kicks. A kick with an unknown outcome
 /// is an opportunity without a shot on target, and left out of the kicks.
 std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities);
 
-/// Opportunities that two groups both had: of the same match, id and setting, which a group has once.
+/// Opportunities that two groups both had: of the same match, calibration, id and setting, which a group has once.
 struct PairedOpportunities {
   stats::PairedCounts counts;
-  std::vector<stats::MatchCounts> cells;  ///< the same by match
+  std::vector<stats::MatchCounts> cells;  ///< the same by match and calibration
   std::int64_t unpaired = 0;              ///< without a partner
 };
 PairedOpportunities paired_opportunities(const KickBook& book, std::uint32_t older, std::uint32_t newer);

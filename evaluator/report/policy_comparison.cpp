@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluator/report/pair_counts.hpp"
 #include "evaluator/report/policy_headline.hpp"
@@ -17,7 +21,7 @@ namespace {
 GroupResult group_result(const KickBook& book, std::uint32_t group) {
   GroupResult result;
   result.name = book.groups[group];
-  std::vector<stats::Counts> kicks(book.matches), opportunities(book.matches);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<stats::ClusterCounts, 2>> cells;  // match, calibration
   for (const Opportunity& o : book.opportunities) {
     if (o.group != group) continue;
     result.opportunities += book.has_opportunities ? 1 : 0;
@@ -25,10 +29,19 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
     if (!book.has_matches) continue;
-    add(opportunities[o.match], o.ending);
-    if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(kicks[o.match], o.ending);
+    const stats::ClusterCounts empty{o.match, o.calibration, {}};
+    auto& [all, known] = cells.try_emplace({o.match, o.calibration}, std::array{empty, empty}).first->second;
+    add(all.counts, o.ending);
+    if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(known.counts, o.ending);
   }
-  result.matches = static_cast<std::size_t>(std::ranges::count_if(opportunities, [](auto& c) { return c.n > 0; }));
+  std::vector<stats::ClusterCounts> opportunities, kicks;
+  std::set<std::uint32_t> matches;
+  for (const auto& [key, cell] : cells) {
+    matches.insert(key.first);
+    opportunities.push_back(cell[0]);
+    kicks.push_back(cell[1]);
+  }
+  result.matches = matches.size();
   const auto by_match = stats::clustered_wilson(kicks);
   result.efficiency_ci = by_match.value_or(stats::wilson(result.efficiency()));
   result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(stats::wilson(result.per_opportunity()));
@@ -93,8 +106,22 @@ Stratified stratified(const KickBook& book, const std::vector<stats::MatchCounts
   return result;
 }
 
-std::optional<stats::RateRatio> rate(const GroupResult& older, const GroupResult& newer, bool inside_only) {
+// `place` of the newer one in the book; the older one is its first.
+std::optional<stats::RateRatio> rate(const KickBook& book, const GroupResult& older, const GroupResult& newer,
+                                     std::uint32_t place, bool inside_only) {
   if (!older.minutes || !newer.minutes || *older.minutes <= 0.0 || *newer.minutes <= 0.0) return std::nullopt;
+  std::vector<stats::MatchRates> matches(book.has_matches ? book.matches : 0);
+  for (std::uint32_t m = 0; m < matches.size(); ++m) matches[m].match = m;
+  for (const auto& [key, minutes] : book.minutes) {
+    if (key.second < matches.size() && (key.first == 0 || key.first == place))
+      (key.first == 0 ? matches[key.second].older : matches[key.second].newer).minutes = minutes;
+  }
+  for (const Opportunity& o : book.opportunities) {
+    if (o.match >= matches.size() || (o.group != 0 && o.group != place)) continue;
+    const bool counts = inside_only ? o.ending == Ending::kInside : o.ending != Ending::kNoKick;
+    (o.group == 0 ? matches[o.match].older : matches[o.match].newer).events += counts ? 1 : 0;
+  }
+  if (const auto by_match = stats::clustered_rate_ratio(matches)) return by_match;
   const auto events = [&](const GroupResult& group) { return inside_only ? group.inside : group.kicks(); };
   return stats::rate_ratio({events(older), *older.minutes}, {events(newer), *newer.minutes});
 }
@@ -128,8 +155,8 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
     const bool of_opportunities = book.has_opportunities && !book.strata_of_kicks;
     pair.stratified = stratified(book, of_opportunities ? cells_of(book, 0, place, true) : kicks, of_opportunities);
   }
-  pair.on_target_rate = rate(older, newer, true);
-  pair.kick_rate = rate(older, newer, false);
+  pair.on_target_rate = rate(book, older, newer, place, true);
+  pair.kick_rate = rate(book, older, newer, place, false);
   pair.unknown = older.unknown + newer.unknown;
   if (!pair.efficiency && !pair.per_opportunity) {
     const GroupResult& empty = older.efficiency().n == 0 ? older : newer;

@@ -44,7 +44,9 @@ Json clustered_json(const std::optional<stats::Clustered>& c) {
           {"df", c->df},
           {"design_effect", c->design_effect},
           {"old_matches", c->older_matches},
-          {"new_matches", c->newer_matches}};
+          {"new_matches", c->newer_matches},
+          {"calibrations", c->calibrations},
+          {"by_calibration", c->by_calibration}};
 }
 
 Json effect_json(const std::optional<Effect>& e) {
@@ -94,7 +96,8 @@ Json rate_json(const std::optional<stats::RateRatio>& ratio) {
   if (!ratio) return {};
   return {{"ratio", finite(ratio->value)},
           {"ci95", Json::array({finite(ratio->ci.lo), finite(ratio->ci.hi)})},
-          {"p", ratio->p}};
+          {"p", ratio->p},
+          {"method", ratio->by_match ? "clustered by match" : "Poisson, exact"}};
 }
 
 Json headline_json(const PairResult& pair) {

@@ -4,6 +4,7 @@
 
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/policy_comparison.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::evaluator {
@@ -55,21 +56,31 @@ std::string volume_table(const PolicyComparison& c) {
   return "\nVolume\n" + text_table(table);
 }
 
+const char* clusters(const stats::Clustered& clustered) {
+  return clustered.by_calibration ? "clustered by match and calibration" : "clustered by match";
+}
+
+std::string calibrations(const stats::Clustered& clustered) {
+  return clustered.calibrations > 1 ? fmt::format(", {} calibrations", clustered.calibrations) : "";
+}
+
 std::string effect_lines(const std::string& name, const Effect& effect, const char* independent) {
   std::string text = named_line(
       name, fmt::format("{}, 95 % {} ({})", points(effect.difference), points(effect.independent), independent));
   if (effect.clustered) {
-    text += named_line("", fmt::format("95 % {} (clustered by match: {} and {} matches, design effect {:.2f})",
-                                       points(effect.clustered->ci), effect.clustered->older_matches,
-                                       effect.clustered->newer_matches, effect.clustered->design_effect));
+    text += named_line(
+        "", fmt::format("95 % {} ({}: {} and {} matches{}, design effect {:.2f})", points(effect.clustered->ci),
+                        clusters(*effect.clustered), effect.clustered->older_matches, effect.clustered->newer_matches,
+                        calibrations(*effect.clustered), effect.clustered->design_effect));
   }
   return text;
 }
 
 std::string rate_line(const std::string& name, const std::optional<stats::RateRatio>& ratio) {
   if (!ratio) return "";
-  return named_line(name, fmt::format("{:.3f} times, 95 % {:.3f} to {:.3f}, p {} (Poisson, exact)", ratio->value,
-                                      ratio->ci.lo, ratio->ci.hi, p_value(ratio->p)));
+  return named_line(
+      name, fmt::format("{:.3f} times, 95 % {:.3f} to {:.3f}, p {} ({})", ratio->value, ratio->ci.lo, ratio->ci.hi,
+                        p_value(ratio->p), ratio->by_match ? "clustered by match" : "Poisson, exact"));
 }
 
 std::string strata_text(const PairResult& pair, const Stratified& s) {
@@ -96,7 +107,7 @@ std::string strata_text(const PairResult& pair, const Stratified& s) {
                                    pair.newer, percent(s.standardised->newer), points(s.standardised->difference.value),
                                    points(s.standardised->difference.ci)));
   }
-  if (s.clustered) text += named_line("", fmt::format("95 % {} (clustered by match)", points(s.clustered->ci)));
+  if (s.clustered) text += named_line("", fmt::format("95 % {} ({})", points(s.clustered->ci), clusters(*s.clustered)));
   if (s.odds_ratio) {
     text += named_line("common odds ratio",
                        fmt::format("{:.3f}, 95 % {:.3f} to {:.3f} (Mantel-Haenszel; Robins, Breslow, Greenland)",
@@ -151,7 +162,7 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
   if (pair.stratified) text += strata_text(pair, *pair.stratified);
   if (pair.kicks) {
     text += fmt::format("\n{} against {}: efficiency, every kick taken as independent\n", pair.newer, pair.older);
-    text += counts_lines(*pair.kicks);
+    text += efficiency_lines(*pair.kicks);
     if (pair.design == Design::kBeforeAfter && pair.kicks->e_value && pair.kicks->e_value_ci) {
       text += named_line(
           "E-value",
@@ -164,6 +175,12 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
         bullet(fmt::format("{} outcomes are unknown. If all of them went against {}, the crude difference would be "
                            "{:+.1f} points, if all for it {:+.1f}.",
                            pair.unknown, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+  }
+  if (const auto& clustered = (pair.headline->of_opportunities ? pair.per_opportunity : pair.efficiency)->clustered;
+      clustered && clustered->calibrations > 1 && !clustered->by_calibration) {
+    text += bullet(fmt::format(
+        "{} calibrations are too few to say how far calibrations differ: the intervals are for these {} alone.",
+        clustered->calibrations, clustered->calibrations));
   }
   if (!pair.headline->by_match) {
     text += bullet(c.book.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
@@ -178,8 +195,7 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
 
 std::string to_text(const PolicyComparison& c) {
   std::string text;
-  if (c.book.simulated)
-    text += "SIMULATED: the numbers describe the simulation's assumptions, not robots on a field.\n";
+  if (c.book.simulated) text += kSimulated;
   for (const PairResult& pair : c.pairs) {
     text += wrapped(verdict_sentence(pair, c), "  ") + "\n";
     const std::string more = needed_sentence(pair, c);

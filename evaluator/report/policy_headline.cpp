@@ -41,10 +41,13 @@ Headline headline_of(const PairResult& pair, double smallest_effect) {
     result.ci = clustered->ci;
     standard_error = clustered->standard_error;
     result.p = p_of(*clustered);
-    result.method = pair.pairs        ? "paired, clustered by match"
-                    : result.adjusted ? "standardised, clustered by match"
-                                      : "clustered by match";
+    const std::string over = clustered->by_calibration ? "match and calibration" : "match";
+    result.method = (pair.pairs        ? "paired, clustered by "
+                     : result.adjusted ? "standardised, clustered by "
+                                       : "clustered by ") +
+                    over;
     result.p_method = "Student's t of the difference over matches";
+    if (clustered->by_calibration) result.p_method += " and calibrations";
   } else if (result.adjusted) {
     result.difference = pair.stratified->standardised->difference.value;
     result.ci = pair.stratified->standardised->difference.ci;

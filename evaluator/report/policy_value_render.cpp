@@ -3,6 +3,7 @@
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/policy_value.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "evaluator/stats/sample_ratio.hpp"
 
@@ -22,7 +23,7 @@ Json value_json(const stats::PolicyValue& value) {
 std::string to_text(const PolicyValueReport& r) {
   const stats::OffPolicy& v = r.value;
   std::string text;
-  if (r.simulated) text += "SIMULATED: the numbers describe the simulation's assumptions, not robots on a field.\n";
+  if (r.simulated) text += kSimulated;
   text +=
       wrapped(fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
                           "as they were played it was {}.",

@@ -9,8 +9,9 @@
 namespace trivela::evaluator::stats {
 namespace {
 
-constexpr double kTail = 1e-17;  // of a posterior, beyond the ends of its range
-constexpr int kPanels = 16;      // a range is some 17 standard deviations wide
+constexpr double kTail = 1e-17;     // of a posterior, beyond the ends of its range
+constexpr double kNothing = 1e-14;  // less than this is rounding
+constexpr int kPanels = 16;         // a range is some 17 standard deviations wide
 
 using Posterior = boost::math::beta_distribution<>;
 
@@ -68,7 +69,8 @@ double expected_loss_of_newer(Counts older, Counts newer) {
   // P(older > newer) twice, by the complement's own integral so that small ones keep their digits.
   const double with_older = boost::math::mean(p1) * p_above(p2, more_inside(p1), 0.0);
   const double with_newer = boost::math::mean(p2) * p_above(more_inside(p2), p1, 0.0);
-  return std::max(with_older - with_newer, 0.0);
+  const double loss = with_older - with_newer;
+  return loss < kNothing ? 0.0 : loss;
 }
 
 }  // namespace trivela::evaluator::stats

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
+#include "evaluator/stats/bias_reduced.hpp"
+#include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/interval.hpp"
 #include "evaluator/stats/square.hpp"
 
@@ -13,14 +17,6 @@ namespace {
 double real(std::int64_t n) { return static_cast<double>(n); }
 
 void add(Counts& sum, Counts counts) { sum = {sum.inside + counts.inside, sum.n + counts.n}; }
-
-// What a match adds to the estimate's error, from either side.
-struct Sides {
-  double older = 0.0;
-  double newer = 0.0;
-  bool has_older = false;
-  bool has_newer = false;
-};
 
 struct StratumTotal {
   Counts older;
@@ -41,6 +37,26 @@ std::map<std::uint32_t, StratumTotal> totals_of(std::span<const MatchCounts> cel
   return totals;
 }
 
+// Cells of the same match and part, of several calibrations, together.
+std::vector<RatioCell> merged(const std::vector<RatioCell>& cells) {
+  std::map<std::pair<std::uint32_t, std::size_t>, RatioCell> sums;
+  for (const RatioCell& cell : cells) {
+    RatioCell& sum = sums.try_emplace({cell.match, cell.part}, RatioCell{cell.match, cell.part}).first->second;
+    sum.x += cell.x;
+    sum.n += cell.n;
+    sum.spread += cell.spread;
+  }
+  std::vector<RatioCell> result;
+  for (const auto& [key, sum] : sums) result.push_back(sum);
+  return result;
+}
+
+// Few matches, and what many calibrations differ by.
+BiasReduced with_calibrations(const BiasReduced& by_match, const ClusterVariance& by_both) {
+  if (!by_both.by_calibration) return by_match;
+  return {std::max(by_match.variance, by_both.variance), std::min(by_match.df, by_both.df)};
+}
+
 }  // namespace
 
 std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells, double confidence) {
@@ -54,44 +70,37 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
     independent +=
         square(total.weight) * (p1 * (1.0 - p1) / real(total.older.n) + p2 * (1.0 - p2) / real(total.newer.n));
   }
-  std::map<std::uint32_t, Sides> matches;
+  std::vector<RatioPart> parts;
+  std::vector<RatioCell> of_parts;
+  std::vector<Influence> influences;
+  std::map<std::uint32_t, std::size_t> places;  // of the older one's part, by stratum; the newer one's is the next
+  for (const auto& [number, total] : totals) {
+    places[number] = parts.size();
+    parts.push_back({real(total.older.inside), real(total.older.n), -total.weight, false});
+    parts.push_back({real(total.newer.inside), real(total.newer.n), total.weight, true});
+  }
+  std::set<std::uint32_t> with_older, with_newer;
   for (const MatchCounts& cell : cells) {
-    const auto found = totals.find(cell.stratum);
-    if (found == totals.end()) continue;
-    const StratumTotal& total = found->second;
-    Sides& match = matches[cell.match];
-    match.older +=
-        total.weight * (real(cell.older.inside) - real(cell.older.n) * *efficiency(total.older)) / real(total.older.n);
-    match.newer +=
-        total.weight * (real(cell.newer.inside) - real(cell.newer.n) * *efficiency(total.newer)) / real(total.newer.n);
-    match.has_older = match.has_older || cell.older.n > 0;
-    match.has_newer = match.has_newer || cell.newer.n > 0;
+    const auto found = places.find(cell.stratum);
+    if (found == places.end()) continue;
+    for (const auto& [place, counts] : {std::pair{found->second, cell.older}, {found->second + 1, cell.newer}}) {
+      if (counts.n == 0) continue;
+      const RatioPart& part = parts[place];
+      const double x = real(counts.inside), n = real(counts.n), p = part.x / part.n;
+      (part.newer ? with_newer : with_older).insert(cell.match);
+      of_parts.push_back({cell.match, place, x, n, spread_of_trials(n, p)});
+      influences.push_back({cell.match, cell.calibration, part.weight * (x - n * p) / part.n});
+    }
   }
-  bool shared = false;
-  double g = 0.0, together = 0.0, older = 0.0, newer = 0.0;
-  for (const auto& [number, match] : matches) {
-    result.older_matches += match.has_older ? 1 : 0;
-    result.newer_matches += match.has_newer ? 1 : 0;
-    shared = shared || (match.has_older && match.has_newer);
-    g += match.has_older || match.has_newer ? 1.0 : 0.0;
-    together += square(match.newer - match.older);
-    older += square(match.older);
-    newer += square(match.newer);
-  }
+  result.older_matches = with_older.size();
+  result.newer_matches = with_newer.size();
   if (std::min(result.older_matches, result.newer_matches) < kFewestMatches) return std::nullopt;
-  double variance = 0.0;
-  if (shared) {
-    variance = together * g / (g - 1.0);
-    result.df = g - 1.0;
-  } else {
-    const double g1 = real(static_cast<std::int64_t>(result.older_matches));
-    const double g2 = real(static_cast<std::int64_t>(result.newer_matches));
-    older *= g1 / (g1 - 1.0);
-    newer *= g2 / (g2 - 1.0);
-    variance = older + newer;
-    result.df = variance > 0.0 ? square(variance) / (square(older) / (g1 - 1.0) + square(newer) / (g2 - 1.0))
-                               : std::min(g1, g2) - 1.0;
-  }
+  const ClusterVariance by_both = *cluster_variance(influences);
+  const BiasReduced spread = with_calibrations(bias_reduced(parts, merged(of_parts)), by_both);
+  const double variance = spread.variance;
+  result.df = spread.df;
+  result.calibrations = by_both.calibrations;
+  result.by_calibration = by_both.by_calibration;
   result.standard_error = std::sqrt(variance);
   result.design_effect = independent > 0.0 ? variance / independent : 1.0;
   const double half_width = t_of(confidence, result.df) * result.standard_error;
@@ -99,23 +108,36 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
   return result;
 }
 
-std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence) {
+std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, double confidence) {
   Counts total;
-  std::size_t g = 0;
-  for (const Counts& match : matches) {
-    add(total, match);
-    g += match.n > 0 ? 1 : 0;
+  std::set<std::uint32_t> matches;
+  for (const ClusterCounts& cell : cells) {
+    add(total, cell.counts);
+    if (cell.counts.n > 0) matches.insert(cell.match);
   }
-  if (g < kFewestMatches) return std::nullopt;
+  if (matches.size() < kFewestMatches) return std::nullopt;
   const double p = *efficiency(total), n = real(total.n);
-  double variance = 0.0;
-  for (const Counts& match : matches) variance += square((real(match.inside) - real(match.n) * p) / n);
-  variance *= static_cast<double>(g) / (static_cast<double>(g) - 1.0);
+  const RatioPart part{real(total.inside), n, 1.0, false};
+  std::vector<RatioCell> of_match;
+  std::vector<Influence> influences;
+  for (const ClusterCounts& cell : cells) {
+    const double x = real(cell.counts.inside), of = real(cell.counts.n);
+    if (of == 0.0) continue;
+    of_match.push_back({cell.match, 0, x, of, spread_of_trials(of, p)});
+    influences.push_back({cell.match, cell.calibration, (x - of * p) / n});
+  }
+  const BiasReduced variance =
+      with_calibrations(bias_reduced({&part, 1}, merged(of_match)), *cluster_variance(influences));
   const double independent = p * (1.0 - p) / n;
-  const double design_effect = independent > 0.0 ? std::max(variance / independent, 1.0) : 1.0;
-  const double z = z_of(confidence);
-  const double n_effective = n / design_effect * square(z / t_of(confidence, static_cast<double>(g) - 1.0));
+  const double design_effect = independent > 0.0 ? std::max(variance.variance / independent, 1.0) : 1.0;
+  const double n_effective = n / design_effect * square(z_of(confidence) / t_of(confidence, variance.df));
   return wilson_of(p, n_effective, confidence);
+}
+
+std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence) {
+  std::vector<ClusterCounts> cells;
+  for (const Counts& match : matches) cells.push_back({static_cast<std::uint32_t>(cells.size()), 0, match});
+  return clustered_wilson(cells, confidence);
 }
 
 }  // namespace trivela::evaluator::stats

@@ -20,6 +20,7 @@ struct MatchCounts {
   std::uint32_t stratum = 0;  ///< number of the stratum; 0 where there is one
   Counts older;
   Counts newer;
+  std::uint32_t calibration = 0;  ///< number of the evening that the robots were calibrated on
 };
 
 /// Interval of a difference that allows for kicks of one match being alike.
@@ -31,22 +32,33 @@ struct Clustered {
   double design_effect = 1.0;  ///< variance over that of independent kicks
   std::size_t older_matches = 0;
   std::size_t newer_matches = 0;
+  std::size_t calibrations = 1;
+  bool by_calibration = false;  ///< it allows for what calibrations differ by; otherwise it is of these alone
 };
 
 /// Difference of proportions sum_k w_k (p2_k - p1_k) with a variance by linearisation over matches (Liang and Zeger
-/// 1986; Rao and Scott 1992): u_m = sum_k w_k ((x2 - n2 p2) / N2_k - (x1 - n1 p1) / N1_k) of the match's cells, V = sum
-/// u_m^2. w_k are the pooled shares of the strata that both policies have (direct standardisation); one stratum has w
-/// = 1.
-///
-/// Where a match has both policies (halves, or the same opportunities), V has the factor G / (G - 1) over the G matches
-/// and G - 1 degrees of freedom: what the policies of a match have in common cancels, so that with the same
-/// opportunities for both it is the paired interval. Otherwise each side has its own factor, and the degrees of freedom
-/// are Satterthwaite's. None: fewer than kFewestMatches on a side, or no stratum with both.
+/// 1986; Rao and Scott 1992) that holds for few and unequal ones, whether they have both policies, one, or some both
+/// (bias_reduced()). w_k are the pooled shares of the strata that both policies have (direct standardisation); one
+/// stratum has w = 1. What the policies of a match have in common cancels, so that with the same opportunities for both
+/// it is the paired interval. From kFewestCalibrations calibrations on the variance is no less, and the degrees of
+/// freedom no more, than those by match and calibration (cluster_variance()).
+/// None: fewer than kFewestMatches on a side, or no stratum with both.
 std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells, double confidence = kConfidence);
 
-/// Wilson's interval with the effective number of kicks n / deff (t_{G-1} / z)^-2, deff = the variance over matches
-/// over that of independent kicks, at least 1 (Korn and Graubard 1998, with Wilson's interval as in Franco et al.
-/// 2019). `matches`: one entry a match. None: fewer than kFewestMatches with a kick.
+/// What one match, under one calibration, has of one policy.
+struct ClusterCounts {
+  std::uint32_t match = 0;
+  std::uint32_t calibration = 0;
+  Counts counts;
+};
+
+/// Wilson's interval with the effective number of kicks n / deff (t_df / z)^-2, deff = the variance over matches
+/// (bias_reduced()), and from kFewestCalibrations on over calibrations, too, over that of independent kicks, at least 1
+/// (Korn and Graubard 1998, with Wilson's interval as in Franco et al. 2019). None: fewer than kFewestMatches with a
+/// kick.
+std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, double confidence = kConfidence);
+
+/// The same with one entry a match and one calibration.
 std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence = kConfidence);
 
 }  // namespace trivela::evaluator::stats

@@ -1,8 +1,15 @@
 #include "evaluator/stats/poisson.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/binomial.hpp"
+#include "evaluator/stats/clustered.hpp"
 
 namespace trivela::evaluator::stats {
 
@@ -17,6 +24,30 @@ std::optional<RateRatio> rate_ratio(Rate older, Rate newer, double confidence) {
   return RateRatio{ratio_of(*efficiency(share)),
                    {ratio_of(ci.lo), ratio_of(ci.hi)},
                    binomial_two_sided(share, newer.minutes / (newer.minutes + older.minutes))};
+}
+
+std::optional<RateRatio> clustered_rate_ratio(std::span<const MatchRates> matches, double confidence) {
+  std::vector<RatioPart> parts{{0.0, 0.0, 0.0, false}, {0.0, 0.0, 0.0, true}};
+  std::vector<RatioCell> cells;
+  std::array<std::size_t, 2> played{};
+  for (const MatchRates& match : matches) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Rate& rate = i == 0 ? match.older : match.newer;
+      if (!(rate.minutes > 0.0)) continue;
+      cells.push_back({match.match, i, static_cast<double>(rate.events), rate.minutes});
+      parts[i].x += cells.back().x;
+      parts[i].n += cells.back().n;
+      ++played[i];
+    }
+  }
+  if (std::min(played[0], played[1]) < kFewestMatches || parts[0].x == 0.0 || parts[1].x == 0.0) return std::nullopt;
+  for (RatioPart& part : parts) part.weight = (part.newer ? 1.0 : -1.0) * part.n / part.x;
+  for (RatioCell& cell : cells) cell.spread = spread_of_events(cell.n * parts[cell.part].x / parts[cell.part].n);
+  const BiasReduced log_ratio = bias_reduced(parts, cells);
+  const double value = parts[1].x / parts[1].n / (parts[0].x / parts[0].n), error = std::sqrt(log_ratio.variance);
+  const double reach = t_of(confidence, log_ratio.df) * error;
+  const double p = error > 0.0 ? student_p(std::log(value) / error, log_ratio.df) : value == 1.0 ? 1.0 : 0.0;
+  return RateRatio{value, {value * std::exp(-reach), value * std::exp(reach)}, p, true};
 }
 
 }  // namespace trivela::evaluator::stats

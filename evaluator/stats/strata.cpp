@@ -55,7 +55,7 @@ std::optional<ChiSquare> cochran_mantel_haenszel(std::span<const Stratum> strata
     variance += k.newer() * k.older() * (k.a + k.c) * (k.b + k.d) / (n * n * (n - 1.0));
   }
   if (variance <= 0.0) return std::nullopt;
-  const double correction = corrected ? std::min(0.5, std::abs(excess)) : 0.0;
+  const double correction = corrected && std::abs(excess) >= 0.5 ? 0.5 : 0.0;
   const double statistic = square(std::abs(excess) - correction) / variance;
   return ChiSquare{statistic, 1.0, chi_square_p(statistic, 1.0)};
 }

@@ -26,7 +26,8 @@ struct ChiSquare {
 };
 
 /// Cochran-Mantel-Haenszel test that no stratum has a difference: (|sum(a - E a)| - y)^2 / sum(Var a) with fixed
-/// margins, y = 1/2 with Yates' correction (R's mantelhaen.test, no more than |sum|), else 0. None: no variance.
+/// margins, y = 1/2 with Yates' correction where |sum| is not below it, else 0 (as R's mantelhaen.test). None: no
+/// variance.
 std::optional<ChiSquare> cochran_mantel_haenszel(std::span<const Stratum> strata, bool corrected = false);
 
 /// A difference newer - older with its interval.

@@ -47,6 +47,15 @@ TEST(MantelHaenszel, OfTheKicksIsThatOfR) {
   EXPECT_NEAR(risk.ci.hi, 0.219714861, 5e-10);
 }
 
+TEST(MantelHaenszel, OfAnExcessBelowOneHalfIsNotCorrected) {
+  // R: mantelhaen.test(array(c(6, 5, 5, 5, 4, 5, 5, 5), dim = c(2, 2, 2))), with and without correction the same.
+  const std::vector<Stratum> strata = {{{5, 10}, {6, 11}}, {{5, 10}, {4, 9}}};
+  for (const bool corrected : {true, false}) {
+    EXPECT_NEAR(cochran_mantel_haenszel(strata, corrected)->statistic, 0.000239891569011, 1e-14);
+    EXPECT_NEAR(cochran_mantel_haenszel(strata, corrected)->p, 0.987642512201800, 1e-12);
+  }
+}
+
 TEST(Standardised, OfTheKicksTurnsTheCrudeOrderAround) {
   const auto result = *standardised(kNearAndFar);
   EXPECT_NEAR(result.newer, 0.573518519, 5e-10);
