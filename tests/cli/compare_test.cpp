@@ -38,6 +38,14 @@ TEST(Compare, ReadsTwoNamedCounts) {
   EXPECT_EQ(newer.counts.n, 132);
 }
 
+TEST(Compare, NamesTheGroupsAndClaimsNoCause) {
+  const std::string text = output_of("--counts left=34/65 right=100/132");
+  EXPECT_THAT(text, HasSubstr("P(right > left)       0.999473"));
+  EXPECT_THAT(text, HasSubstr("right differs from left, the more for right"));
+  EXPECT_THAT(text, Not(HasSubstr("better")));
+  EXPECT_THAT(output_of("--counts a=1/1000 b=999/1000"), HasSubstr("below 1e-12 percentage points by choosing b"));
+}
+
 TEST(Compare, SaysWhatIsWrongWithACount) {
   EXPECT_THAT(message_of({"old=70/65", "new=1/2"}), HasSubstr("'old=70/65': 70 inside of only 65 kicks"));
   EXPECT_THAT(message_of({"old=1/2", "new=x/3"}), HasSubstr("'new=x/3': INSIDE and KICKS must be whole numbers"));

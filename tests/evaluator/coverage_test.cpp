@@ -4,49 +4,18 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/binomial.hpp"
-#include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/interval.hpp"
 #include "evaluator/stats/off_policy.hpp"
 #include "evaluator/stats/paired.hpp"
-#include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/strata.hpp"
-#include "tests/evaluator/random_numbers.hpp"
+#include "tests/evaluator/coverage.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
-
-constexpr int kRepetitions = 1000;
-
-// Of 1,000 repetitions a coverage of 0.95 is met 929 to 969 times with 99.7 % probability (binomial).
-constexpr double kLow = 0.929, kHigh = 0.969;
-
-template <typename Experiment>
-double coverage(double truth, Experiment experiment) {
-  int held = 0;
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
-    RandomNumbers random(static_cast<std::uint64_t>(1000 + repetition));
-    const std::optional<Interval> ci = experiment(random);
-    held += ci && ci->lo <= truth && truth <= ci->hi ? 1 : 0;
-  }
-  const double share = static_cast<double>(held) / kRepetitions;
-  testing::Test::RecordProperty("coverage", std::to_string(share));
-  return share;
-}
-
-#define EXPECT_NOMINAL(share)     \
-  do {                            \
-    const double value = (share); \
-    EXPECT_GE(value, kLow);       \
-    EXPECT_LE(value, kHigh);      \
-  } while (false)
-
-// An interval that is wide on purpose.
-#define EXPECT_CONSERVATIVE(share) EXPECT_GE(share, 0.94)
 
 TEST(Coverage, Wilson) {
   EXPECT_NOMINAL(coverage(0.62, [](auto& random) { return wilson(random.kicks(65, 0.62)); }));
@@ -134,61 +103,6 @@ TEST(Coverage, StandardisedDifference) {
   }
   EXPECT_NOMINAL(coverage(truth, [](auto& random) -> std::optional<Interval> {
     return standardised(three_distances(random))->difference.ci;
-  }));
-}
-
-// A match whose day shifts every kick: intraclass correlation of about 0.1.
-double of_the_day(RandomNumbers& random, double p) { return p + (random.happens(0.5) ? 0.15 : -0.15); }
-
-std::int64_t kicks_of_a_match(RandomNumbers& random) { return 8 + static_cast<std::int64_t>(10.0 * random.uniform()); }
-
-TEST(Coverage, DifferenceFromSeparateMatches) {
-  std::vector<double> naive;
-  const auto experiment = [&](RandomNumbers& random) {
-    std::vector<MatchCounts> cells;
-    for (std::uint32_t m = 0; m < 10; ++m)
-      cells.push_back({m, 0, random.kicks(kicks_of_a_match(random), of_the_day(random, 0.5)), {}});
-    for (std::uint32_t m = 20; m < 32; ++m)
-      cells.push_back({m, 0, {}, random.kicks(kicks_of_a_match(random), of_the_day(random, 0.7))});
-    return cells;
-  };
-  EXPECT_NOMINAL(coverage(
-      0.2, [&](auto& random) -> std::optional<Interval> { return clustered_difference(experiment(random))->ci; }));
-  const double independent = coverage(0.2, [&](auto& random) {
-    Counts older, newer;
-    for (const MatchCounts& cell : experiment(random)) {
-      older = {older.inside + cell.older.inside, older.n + cell.older.n};
-      newer = {newer.inside + cell.newer.inside, newer.n + cell.newer.n};
-    }
-    return newcombe(older, newer);
-  });
-  EXPECT_LT(independent, 0.90) << "taking these kicks as independent is too sure: why there is another interval";
-}
-
-TEST(Coverage, DifferenceFromTheSameMatchesAndStrata) {
-  EXPECT_NOMINAL(coverage(0.1, [](auto& random) -> std::optional<Interval> {
-    std::vector<MatchCounts> cells;
-    for (std::uint32_t m = 0; m < 12; ++m) {
-      const double day = random.happens(0.5) ? 0.15 : -0.15;
-      cells.push_back({m, 0, random.kicks(7, 0.6 + day), random.kicks(7, 0.7 + day)});
-      cells.push_back({m, 1, random.kicks(7, 0.3 + day), random.kicks(7, 0.4 + day)});
-    }
-    return clustered_difference(cells)->ci;
-  }));
-}
-
-TEST(Coverage, WilsonFromMatches) {
-  EXPECT_CONSERVATIVE(coverage(0.6, [](auto& random) {
-    std::vector<Counts> matches;
-    for (int m = 0; m < 12; ++m) matches.push_back(random.kicks(kicks_of_a_match(random), of_the_day(random, 0.6)));
-    return clustered_wilson(matches);
-  }));
-}
-
-TEST(Coverage, RateRatioIsConservative) {
-  EXPECT_CONSERVATIVE(coverage(1.5, [](auto& random) -> std::optional<Interval> {
-    const Rate older{random.poisson(30.0), 20.0};
-    return rate_ratio(older, {random.poisson(54.0), 24.0})->ci;
   }));
 }
 

@@ -48,9 +48,10 @@ class TestExperiment {
         assignments_(log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})),
         referee_(log_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
 
-  std::string table = "new";       ///< of the next sessions
-  std::string config = "a = 1\n";  ///< of the next sessions
-  std::string run = "test";        ///< sessions of another run have other keys
+  std::string table = "new";         ///< of the next sessions
+  std::optional<Int> calibration{};  ///< evening of the next session
+  std::string config = "a = 1\n";    ///< of the next sessions
+  std::string run = "test";          ///< sessions of another run have other keys
 
   void begin() { log_.begin(); }
   void commit() {
@@ -73,6 +74,7 @@ class TestExperiment {
     if (!arm_name.empty()) session.arm = arm_name;
     session.kicker_table = table;
     if (numbered) session.match_id = match_id;
+    session.calibration_id = calibration;
     session_id_ = log_.add_session(session, 600'000'000'000);
   }
 
