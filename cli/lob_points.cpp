@@ -73,6 +73,9 @@ Json to_json(const LobRecord& lob) {
     put(true_values, "exit_speed_mps", fit->exit_speed_mps);
     put(true_values, "Cd", fit->drag_coefficient);
     true_values["residual_rms_m"] = fit->residual_rms_m;
+    true_values["misfit_chi_square"] = fit->misfit_chi_square;
+    true_values["misfits"] = fit->misfits();
+    true_values["lift_coefficient"] = fit->lift_coefficient;
   }
   return {{"effective", effective},
           {"true", true_values},
@@ -101,7 +104,15 @@ std::string to_text(const LobRecord& lob) {
     text += "true, from the times, with drag:\n";
     text += line("exit angle", fit->exit_angle_rad, "deg", kDegrees) + line("exit speed", fit->exit_speed_mps, "m/s") +
             line("Cd", fit->drag_coefficient, fit->drag_coefficient.se > 0.0 ? "" : "(given, not fitted)") +
-            fmt::format("  residual    {:8.4f} m rms\n", fit->residual_rms_m);
+            fmt::format("  residual    {:8.4f} m rms\n", fit->residual_rms_m) +
+            fmt::format("  lack of fit {:8.1f} chi-square against a lift, at most {:.1f} by chance\n",
+                        fit->misfit_chi_square, kicking::lob::kMisfit);
+    if (fit->misfits()) {
+      text += fmt::format(
+          "  The flight has a lift that the fit lacks (about {:+.2f}, Cd's scale) and takes for angle: its standard\n"
+          "  errors are widened by that. The effective values, which the policies use, hold lift as they hold drag.\n",
+          fit->lift_coefficient);
+    }
   }
   return text;
 }

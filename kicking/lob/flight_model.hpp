@@ -26,11 +26,14 @@ class FlightModel {
   /// Centre minus flight at each instant [m].
   void errors(const Parameters& p, std::vector<Eigen::Vector2d>& errors_m);
 
+  /// d(x, z)/d(C_L) of a flight without lift, one entry a centre; C_L is to lift what C_d is to drag.
+  std::vector<Eigen::Vector2d> by_lift(const Parameters& p);
+
   /// 1 by x, minus the velocity by t, differences by the others.
   void jacobians(const Parameters& p, std::vector<Jacobian>& result);
 
  private:
-  void fly(const Parameters& p, std::vector<Eigen::Vector4d>& states);
+  void fly(const Parameters& p, std::vector<Eigen::Vector4d>& states, double lift_coefficient = 0.0);
 
   std::span<const BallCentre> centres_;
   double launch_z_m_;

@@ -37,13 +37,20 @@ struct EffectiveFit {
   double residual_rms_m = 0.0;
 };
 
-/// The robust fit in time, with drag: Huber least squares of the flight equation to centres and their beam times.
+/// Chi-square with one degree of freedom of which chance has more in one flight of a thousand.
+inline constexpr double kMisfit = 10.828;
+
+/// The robust fit in time, with drag: Huber least squares of the flight equation to centres and their beam times. Where
+/// it misfits, the standard errors hold what a lift would move the values by.
 struct TrueFit {
   Estimate exit_angle_rad;
   Estimate exit_speed_mps;
   Estimate drag_coefficient;  ///< se 0: it was given
   std::int64_t launch_t_ns = 0;
   double residual_rms_m = 0.0;
+  double misfit_chi_square = 0.0;  ///< lack of fit: (C_L / its standard error)^2 of a flight with lift, too
+  double lift_coefficient = 0.0;   ///< C_L; the centres leave it open where the misfit is small
+  bool misfits() const { return misfit_chi_square > kMisfit; }
 };
 
 /// Why a flight is not taken for a lob.

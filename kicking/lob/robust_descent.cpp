@@ -93,4 +93,38 @@ Covariance covariance_of(FlightModel& model, const Parameters& p, double bend_m)
   return covariance;
 }
 
+LiftCheck check_lift(FlightModel& model, const Parameters& p, double bend_m) {
+  std::vector<Eigen::Vector2d> errors_m;
+  std::vector<FlightModel::Jacobian> jacobians;
+  const std::vector<Eigen::Vector2d> by_lift = model.by_lift(p);
+  model.errors(p, errors_m);
+  model.jacobians(p, jacobians);
+  const int n = model.free();
+  const auto weight = [&](std::size_t i) { return std::min(1.0, bend_m / std::max(errors_m[i].norm(), 1e-12)); };
+  Parameters cross = Parameters::Zero();
+  for (std::size_t i = 0; i < model.size(); ++i)
+    cross.head(n) += weight(i) * jacobians[i].leftCols(n).transpose() * by_lift[i];
+  const Covariance curvature = normal_at(model, p, bend_m).curvature;
+  const Parameters mixed = curvature.ldlt().solve(cross);  // of a unit of lift, what the free parameters take over
+  double along = 0.0, own = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const Eigen::Vector2d rest = by_lift[i] - jacobians[i].leftCols(n) * mixed.head(n);
+    along += weight(i) * rest.dot(errors_m[i]);
+    own += weight(i) * rest.squaredNorm();
+    all += weight(i) * by_lift[i].squaredNorm();
+  }
+  LiftCheck check;
+  if (!(own > 1e-10 * all)) return check;
+  check.coefficient = along / own;
+  check.shift = -check.coefficient * mixed;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    const Eigen::Vector2d rest = by_lift[i] - jacobians[i].leftCols(n) * mixed.head(n);
+    squares += weight(i) * (errors_m[i] - check.coefficient * rest).squaredNorm();
+  }
+  const double degrees = 2.0 * static_cast<double>(model.size()) - n - 1.0;
+  if (degrees > 0.0 && squares > 0.0) check.chi_square = check.coefficient * along * degrees / squares;
+  return check;
+}
+
 }  // namespace trivela::kicking::lob

@@ -14,4 +14,15 @@ bool descend(FlightModel& model, FlightModel::Parameters& p, double bend_m);
 /// the slope in the plane being 1 within the bend and bend / (2 |e_i|) beyond. Zero for a parameter that is not free.
 FlightModel::Covariance covariance_of(FlightModel& model, const FlightModel::Parameters& p, double bend_m);
 
+/// What a flight with lift, too, would be, by one Gauss-Newton step from the fit without.
+struct LiftCheck {
+  double coefficient = 0.0;  ///< C_L, positive upwards of the path
+  double chi_square = 0.0;   ///< (C_L / its standard error)^2, one degree of freedom
+  FlightModel::Parameters shift = FlightModel::Parameters::Zero();  ///< of the other parameters
+};
+
+/// With the centres weighted as in descend() and the variance that is left of them. Zero where lift cannot be told
+/// from the free parameters.
+LiftCheck check_lift(FlightModel& model, const FlightModel::Parameters& p, double bend_m);
+
 }  // namespace trivela::kicking::lob

@@ -13,7 +13,7 @@ using Parameters = FlightModel::Parameters;
 
 constexpr double kHuber = 2.0;  // standard deviations of a coordinate; 13 % of all distances are longer
 constexpr double kNominalDrag = Air{}.drag_coefficient;
-constexpr double kLargestDragError = 0.1;
+constexpr double kLargestDragError = 0.1;  // of the centres' scatter alone
 
 /// Without drag the flight is linear in its unknowns: x = x_1 + v_x t, z + g t^2 / 2 = z_1 + v_z t.
 std::optional<Parameters> first_guess(const FlightModel& model, std::span<const BallCentre> centres,
@@ -60,6 +60,11 @@ std::optional<FittedFlight> fit(std::span<const BallCentre> centres, double laun
   FittedFlight flight;
   flight.parameters = *p;
   flight.covariance = covariance_of(model, *p, bend_m);
+  flight.drag_error = std::sqrt(flight.covariance(4, 4));
+  const LiftCheck lift = check_lift(model, *p, bend_m);
+  flight.lift_coefficient = lift.coefficient;
+  flight.misfit_chi_square = lift.chi_square;
+  if (lift.chi_square > kMisfit) flight.covariance += lift.shift * lift.shift.transpose();
   flight.t0_ns = centres[0].t_ns;
   model.errors(*p, errors_m);
   double squares = 0.0;
@@ -82,7 +87,9 @@ TrueFit FittedFlight::values() const {
           .exit_speed_mps = {speed, se(by_speed)},
           .drag_coefficient = {parameters[4], std::sqrt(std::max(0.0, covariance(4, 4)))},
           .launch_t_ns = t0_ns + std::llround(parameters[1] * 1e9),
-          .residual_rms_m = residual_rms_m};
+          .residual_rms_m = residual_rms_m,
+          .misfit_chi_square = misfit_chi_square,
+          .lift_coefficient = lift_coefficient};
 }
 
 std::optional<FittedFlight> fit_flight(std::span<const BallCentre> centres, double launch_z_m,
@@ -90,8 +97,8 @@ std::optional<FittedFlight> fit_flight(std::span<const BallCentre> centres, doub
   if (centres.size() < 5) return std::nullopt;
   if (config.drag_coefficient) return fit(centres, launch_z_m, config, config.drag_coefficient);
   auto free = fit(centres, launch_z_m, config, std::nullopt);
-  const bool drag_seen = free && std::sqrt(free->covariance(4, 4)) <= kLargestDragError &&
-                         free->parameters[4] >= -0.1 && free->parameters[4] <= 1.0;
+  const bool drag_seen =
+      free && free->drag_error <= kLargestDragError && free->parameters[4] >= -0.1 && free->parameters[4] <= 1.0;
   if (drag_seen) return free;
   return fit(centres, launch_z_m, config, kNominalDrag);
 }
