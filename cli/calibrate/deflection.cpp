@@ -88,8 +88,8 @@ FitReport report_of(const DeflectionRows& kicks, const kicking::DeflectionFit& f
 }
 
 /// Figure 8: alpha over vx, measured, line and physical model at the mean distance.
-evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::DeflectionFit& fit) {
-  evaluator::ChartSeries measured{"measured", {}, evaluator::ChartMark::kDots, 6, 0};
+evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::DeflectionFit& fit, bool simulated) {
+  evaluator::ChartSeries measured{simulated ? "simulated" : "measured", {}, evaluator::ChartMark::kDots, 6, 0};
   double low = 0.0, high = 0.0, reach_m = 0.0;
   for (std::size_t i = 0; i < kicks.rows.size(); ++i) {
     const kicking::DeflectionRow& row = kicks.rows[i];
@@ -108,7 +108,9 @@ evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::Deflection
   return {"Deflection by the lateral velocity",
           "lateral velocity vx [m/s]",
           "deflection alpha [degrees]",
-          {line, physical, measured}};
+          {line, physical, measured},
+          {},
+          simulated};
 }
 
 void calibrate_deflection(const DeflectionFlags& flags) {
@@ -119,7 +121,7 @@ void calibrate_deflection(const DeflectionFlags& flags) {
   std::optional<double> delay_s = flags.delay_s;
   if (!delay_s && robot) delay_s = robot->model.delay_s;
   const kicking::DeflectionFit fit = kicking::fit_deflection(kicks.rows, delay_s);
-  if (!flags.plot.empty()) write_chart(chart_of(kicks, fit), flags.plot);
+  if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, is_simulated(flags)), flags.plot);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate deflection", robot, report_of(kicks, fit),
              [&](RobotUpdate& update) { update.set_deflection(fit, {file}); });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -29,6 +30,12 @@ bool is_match_log(const FitFlags& flags) {
     throw std::runtime_error(flags.input + " is a scan record; this needs a match log or a table of numbers");
   }
   return kind == InputKind::kMatchLog;
+}
+
+bool is_simulated(const FitFlags& flags) {
+  if (!is_match_log(flags)) return false;
+  const evaluator::log::Reader reader{flags.input};
+  return std::ranges::any_of(reader.sessions(), &evaluator::log::RecordedSession::simulated);
 }
 
 std::optional<config::Robot> robot_of(const FitFlags& flags) {

@@ -30,6 +30,9 @@ struct FitFlags {
 
 void add_fit_flags(CLI::App& verb, FitFlags& flags);
 
+/// Is the input a match log with a simulated session?
+bool is_simulated(const FitFlags& flags);
+
 /// The robot that --robot means, none without the flag. For a match log it is needed, with an effective table.
 /// @throws UsageError, config::Error
 std::optional<config::Robot> robot_of(const FitFlags& flags);

@@ -93,8 +93,8 @@ FitReport report_of(const RotationRows& kicks, const kicking::RotationFit& fit, 
 
 /// Figure 10: beta over omega, measured, line and physical model at the mean speed of the ball.
 evaluator::Chart chart_of(const RotationRows& kicks, const kicking::RotationFit& fit,
-                          const kicking::RotationLever& lever) {
-  evaluator::ChartSeries measured{"measured", {}, evaluator::ChartMark::kDots, 6, 0};
+                          const kicking::RotationLever& lever, bool simulated) {
+  evaluator::ChartSeries measured{simulated ? "simulated" : "measured", {}, evaluator::ChartMark::kDots, 6, 0};
   double low = 0.0, high = 0.0, v_h_mps = 0.0;
   for (std::size_t i = 0; i < kicks.rows.size(); ++i) {
     const kicking::RotationRow& row = kicks.rows[i];
@@ -114,6 +114,7 @@ evaluator::Chart chart_of(const RotationRows& kicks, const kicking::RotationFit&
     physical.points.push_back(
         {degrees(omega), degrees(kicking::beta_physical_rad(omega, delay_s, lever.ball_offset_m, v_h_mps))});
   }
+  chart.simulated = simulated;
   chart.series = {line, measured};
   if (fit.delay) chart.series.insert(chart.series.begin() + 1, physical);
   return chart;
@@ -127,7 +128,7 @@ void calibrate_rotation(const RotationFlags& flags) {
   const double shipped_offset_m = robot ? robot->model.ball_offset_m : kicking::RobotModel{}.ball_offset_m;
   const kicking::RotationLever lever{flags.ball_offset_m.value_or(shipped_offset_m), flags.cycle_s};
   const kicking::RotationFit fit = kicking::fit_rotation(kicks.rows, lever);
-  if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, lever), flags.plot);
+  if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, lever, is_simulated(flags)), flags.plot);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate rotation", robot, report_of(kicks, fit, lever),
              [&](RobotUpdate& update) { update.set_rotation(fit, {file}); });

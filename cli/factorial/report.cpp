@@ -9,6 +9,7 @@
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -144,7 +145,7 @@ Json json_of_gain(const Gain& gain) {
 
 std::string csv_of_arm(const ArmTally& matches) {
   const MatchTally total = total_of(matches);
-  return fmt::format("{},{},{},{},{}\n", total.opportunities, total.kicks, total.on_target,
+  return fmt::format("{},{},{},{},{},1\n", total.opportunities, total.kicks, total.on_target,
                      csv_cells(share_of(matches, Measure::kEfficiency)),
                      csv_cells(share_of(matches, Measure::kPerOpportunity)));
 }
@@ -152,7 +153,8 @@ std::string csv_of_arm(const ArmTally& matches) {
 }  // namespace
 
 std::string to_text(const FactorialReport& report) {
-  std::string text = fmt::format(
+  std::string text = evaluator::kSimulated;
+  text += fmt::format(
       "{} matches of {} opportunities, the same for every cell; {}, seed {}, robots {}; 95 % intervals by "
       "match.\n\n{}\n"
       "{}\n{}",
@@ -163,7 +165,8 @@ std::string to_text(const FactorialReport& report) {
 }
 
 nlohmann::ordered_json to_json(const FactorialReport& report) {
-  Json json{{"scenario", report.scenario},
+  Json json{{"simulated", true},
+            {"scenario", report.scenario},
             {"robots", report.robots},
             {"seed", report.seed},
             {"matches", report.matches},
@@ -212,7 +215,7 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
 std::string to_csv(const FactorialReport& report) {
   std::string csv =
       "kind,table,policy,law,opponent_median_m,opportunities,kicks,on_target,efficiency,efficiency_low,efficiency_high,"
-      "per_opportunity,per_opportunity_low,per_opportunity_high\n";
+      "per_opportunity,per_opportunity_low,per_opportunity_high,simulated\n";
   const auto row = [&](const char* kind, const Cell& cell, double median_m, const ArmTally& matches) {
     const char* law = cell.policy == PolicyName::kPredictive ? "" : name(cell.law);
     csv += fmt::format("{},{},{},{},{:g},{}", kind, cell.table, kicking::name(cell.policy), law, median_m,
@@ -228,11 +231,13 @@ std::string to_csv(const FactorialReport& report) {
 
 std::string to_svg(const FactorialReport& report) {
   evaluator::Chart chart{"Shots on target by height table, policy and law",
-                         "height table: 0 old, 1 new",
+                         "height table",
                          "on target per opportunity [%]",
-                         {}};
-  // Side by side, so that the intervals do not hide each other.
-  constexpr double kApart = 0.02;
+                         {},
+                         {"old", "new"},
+                         true};
+  // Side by side within a table's band, so that the intervals do not hide each other.
+  constexpr double kApart = 0.04;
   const std::size_t half = report.cells.size() / 2;
   for (std::size_t i = 0; i < half; ++i) {
     const PlayedCell& older = report.cells[i];

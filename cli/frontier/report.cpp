@@ -6,6 +6,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
 
@@ -74,7 +75,8 @@ std::string to_text(const FrontierReport& report) {
                      share_text(share_of(*row.matches, Measure::kEfficiency)),
                      share_text(share_of(*row.matches, Measure::kPerOpportunity)), fmt::format("{}", total.kicks)});
   }
-  std::string text = fmt::format(
+  std::string text = evaluator::kSimulated;
+  text += fmt::format(
       "{} matches of {} opportunities, the same for every policy and threshold; {}, seed {}; 95 % intervals by "
       "match.\n\n{}\n",
       report.matches, report.possessions, report.scenario, report.seed, evaluator::text_table(table));
@@ -84,9 +86,9 @@ std::string to_text(const FrontierReport& report) {
 }
 
 nlohmann::ordered_json to_json(const FrontierReport& report) {
-  Json json{{"policy", report.policy},   {"scenario", report.scenario},       {"seed", report.seed},
-            {"matches", report.matches}, {"possessions", report.possessions}, {"points", Json::array()},
-            {"standings", Json::array()}};
+  Json json{{"simulated", true},       {"policy", report.policy},   {"scenario", report.scenario},
+            {"seed", report.seed},     {"matches", report.matches}, {"possessions", report.possessions},
+            {"points", Json::array()}, {"standings", Json::array()}};
   for (const Row& row : rows_of(report)) {
     const MatchTally total = total_of(*row.matches);
     json["points"].push_back(
@@ -115,10 +117,10 @@ nlohmann::ordered_json to_json(const FrontierReport& report) {
 std::string to_csv(const FrontierReport& report) {
   std::string csv =
       "policy,threshold,opportunities,kicks,on_target,kicks_per_opportunity,efficiency,efficiency_low,efficiency_high,"
-      "per_opportunity,per_opportunity_low,per_opportunity_high\n";
+      "per_opportunity,per_opportunity_low,per_opportunity_high,simulated\n";
   for (const Row& row : rows_of(report)) {
     const MatchTally total = total_of(*row.matches);
-    csv += fmt::format("{},{},{},{},{},{:.6f},{},{}\n", row.policy, row.threshold, total.opportunities, total.kicks,
+    csv += fmt::format("{},{},{},{},{},{:.6f},{},{},1\n", row.policy, row.threshold, total.opportunities, total.kicks,
                        total.on_target, kicks_per_opportunity(total),
                        csv_cells(share_of(*row.matches, Measure::kEfficiency)),
                        csv_cells(share_of(*row.matches, Measure::kPerOpportunity)));
@@ -128,7 +130,7 @@ std::string to_csv(const FrontierReport& report) {
 
 std::string to_svg(const FrontierReport& report) {
   evaluator::Chart chart{
-      "Efficiency and volume by firing threshold", "kicks per opportunity", "on target of kicks [%]", {}};
+      "Efficiency and volume by firing threshold", "kicks per opportunity", "on target of kicks [%]", {}, {}, true};
   evaluator::ChartSeries line{report.policy, {}, evaluator::ChartMark::kLine, 0, 0};
   for (const FrontierPoint& point : report.points) {
     const MatchTally total = total_of(point.matches);

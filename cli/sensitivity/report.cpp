@@ -4,6 +4,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
@@ -36,7 +37,8 @@ Json json_of(const SensitivityReport& report, const std::vector<ArmTally>& arms)
 }  // namespace
 
 std::string to_text(const SensitivityReport& report) {
-  std::string text = fmt::format(
+  std::string text = evaluator::kSimulated;
+  text += fmt::format(
       "{} matches of {} opportunities, the same for every arm and value; {}, seed {}. Robots are as they are: none is\n"
       "calibrated anew for a changed world. Shots on target per 100 opportunities, 95 % intervals by match.\n\n",
       report.matches, report.possessions, report.scenario, report.seed);
@@ -61,7 +63,8 @@ std::string to_text(const SensitivityReport& report) {
 }
 
 nlohmann::ordered_json to_json(const SensitivityReport& report) {
-  Json json{{"scenario", report.scenario},
+  Json json{{"simulated", true},
+            {"scenario", report.scenario},
             {"seed", report.seed},
             {"matches", report.matches},
             {"possessions", report.possessions},
@@ -90,7 +93,7 @@ nlohmann::ordered_json to_json(const SensitivityReport& report) {
 }
 
 std::string to_csv(const SensitivityReport& report) {
-  std::string csv = "input,value,arm,opportunities,kicks,on_target,change,change_low,change_high\n";
+  std::string csv = "input,value,arm,opportunities,kicks,on_target,change,change_low,change_high,simulated\n";
   const auto rows = [&](const char* key, const std::string& value, const std::vector<ArmTally>& arms,
                         const PlayedEnd* end) {
     for (std::size_t i = 0; i < arms.size(); ++i) {
@@ -98,9 +101,9 @@ std::string to_csv(const SensitivityReport& report) {
       csv += fmt::format("{},{},{},{},{},{},", key, value, report.arms[i], total.opportunities, total.kicks,
                          total.on_target);
       if (end && i > 0) {
-        csv += csv_cells(change(report, *end, i - 1)) + '\n';
+        csv += csv_cells(change(report, *end, i - 1)) + ",1\n";
       } else {
-        csv += ",,\n";
+        csv += ",,,1\n";
       }
     }
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cli/sensitivity/report.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_style.hpp"
 
 namespace trivela::cli {
@@ -92,6 +93,7 @@ std::string to_svg(const SensitivityReport& report) {
       width, bottom + kBottom, evaluator::svg_style());
   svg += text(0.5 * width, 28.0, "middle", "Change of the difference in shots on target, points of 100 opportunities",
               " class=\"title\"");
+  svg += text(0.5 * width, 46.0, "middle", evaluator::kSimulatedFigure);
   svg += line("bar c0", 20.0, 54.0, 50.0, 54.0) + text(58.0, 59.0, "start", "low") +
          line("bar c1", 100.0, 54.0, 130.0, 54.0) + text(138.0, 59.0, "start", "high");
   for (std::size_t row = 0; row < rows; ++row) {

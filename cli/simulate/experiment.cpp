@@ -16,6 +16,7 @@
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/simulated.hpp"
 #include "nodes/recorder/record_match.hpp"
 #include "nodes/recorder/session_text.hpp"
 
@@ -150,6 +151,7 @@ void print_arms(const ExperimentPlan& plan, const std::string& out, const std::v
   const auto arms = sums(out);
   std::size_t width = 3;
   for (const nodes::Arm& arm : plan.arms) width = std::max(width, arm.name.size());
+  fmt::print("{}", evaluator::kSimulated);
   fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>26}\n", "arm", width, "opportunities", "kicks", "on target",
              "on target/opportunity", "opportunities/s and core");
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_style.hpp"
 
 namespace trivela::evaluator {
@@ -21,11 +22,20 @@ struct Axis {
   std::vector<double> ticks;
   double from_px = 0.0;
   double to_px = 0.0;
+  double margin = 0.0;  ///< in front of the first tick and behind the last
 
   double px(double value) const {
-    return from_px + (to_px - from_px) * (value - ticks.front()) / (ticks.back() - ticks.front());
+    const double from = ticks.front() - margin, to = ticks.back() + margin;
+    return from_px + (to_px - from_px) * (value - from) / (to - from);
   }
 };
+
+/// A band for each category.
+Axis bands_of(const Chart& chart, double from_px, double to_px) {
+  std::vector<double> places;
+  for (std::size_t i = 0; i < chart.x_categories.size(); ++i) places.push_back(static_cast<double>(i));
+  return {places, from_px, to_px, 0.5};
+}
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -54,7 +64,7 @@ Axis axis_of(const Chart& chart, double ChartPoint::*coordinate, double from_px,
     }
   }
   if (low > high) throw std::invalid_argument("chart: no points");
-  return {round_ticks(low, high), from_px, to_px};
+  return {round_ticks(low, high), from_px, to_px, 0.0};
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
@@ -72,9 +82,11 @@ std::string tick_label(double value) { return fmt::format("{:.6g}", std::abs(val
 
 std::string axes(const Chart& chart, const Axis& x, const Axis& y) {
   std::string svg;
-  for (const double tick : x.ticks) {
-    svg += line("grid", x.px(tick), y.from_px, x.px(tick), y.to_px);
-    svg += text(x.px(tick), y.from_px + 20.0, "middle", tick_label(tick));
+  for (std::size_t i = 0; i < x.ticks.size(); ++i) {
+    const double px = x.px(x.ticks[i]);
+    const bool category = !chart.x_categories.empty();
+    if (!category) svg += line("grid", px, y.from_px, px, y.to_px);
+    svg += text(px, y.from_px + 20.0, "middle", category ? chart.x_categories[i] : tick_label(x.ticks[i]));
   }
   for (const double tick : y.ticks) {
     svg += line("grid", x.from_px, y.px(tick), x.to_px, y.px(tick));
@@ -84,7 +96,8 @@ std::string axes(const Chart& chart, const Axis& x, const Axis& y) {
       line("axis", x.from_px, y.from_px, x.to_px, y.from_px) + line("axis", x.from_px, y.from_px, x.from_px, y.to_px);
   const double middle_x = 0.5 * (x.from_px + x.to_px);
   const double middle_y = 0.5 * (y.from_px + y.to_px);
-  svg += text(middle_x, kTop - 20.0, "middle", chart.title, " class=\"title\"");
+  svg += text(middle_x, kTop - 26.0, "middle", chart.title, " class=\"title\"");
+  if (chart.simulated) svg += text(middle_x, kTop - 8.0, "middle", kSimulatedFigure);
   svg += text(middle_x, y.from_px + 46.0, "middle", chart.x_label);
   svg += text(20.0, middle_y, "middle", chart.y_label,
               fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle_y).c_str());
@@ -147,7 +160,8 @@ std::vector<double> round_ticks(double low, double high) {
 }
 
 std::string to_svg(const Chart& chart) {
-  const Axis x = axis_of(chart, &ChartPoint::x, kLeft, kLeft + kPlotWidth);
+  const Axis x = chart.x_categories.empty() ? axis_of(chart, &ChartPoint::x, kLeft, kLeft + kPlotWidth)
+                                            : bands_of(chart, kLeft, kLeft + kPlotWidth);
   const Axis y = axis_of(chart, &ChartPoint::y, kTop + kPlotHeight, kTop);
   const double legend_x = kLeft + kPlotWidth + kLegendGap;
   const auto columns = static_cast<double>((chart.series.size() + kLegendRows - 1) / kLegendRows);

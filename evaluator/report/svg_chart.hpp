@@ -26,6 +26,8 @@ struct Chart {
   std::string x_label;  ///< with its unit: "vx [m/s]"
   std::string y_label;
   std::vector<ChartSeries> series;
+  std::vector<std::string> x_categories{};  ///< not empty: x is the place of a category, 0 and so on, and has no scale
+  bool simulated = false;                   ///< the chart says so
 };
 
 /// The chart as SVG of its own: ticks at round numbers, the legend beside the axes, light or dark as the reader's

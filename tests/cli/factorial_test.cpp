@@ -75,6 +75,26 @@ TEST(Factorial, WhatMatchesHaveInCommonCancels) {
   EXPECT_GT(contrast(one, Measure::kEfficiency).ci.hi, contrast(one, Measure::kEfficiency).value);
 }
 
+TEST(Factorial, CalibrationsThatDifferWidenTheInterval) {
+  // Six calibrations of the same ten matches; in each the newer arm gains another number of shots.
+  ArmTally older, newer;
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    for (std::int64_t m = 0; m < 10; ++m) {
+      older.push_back({40, 20, 8 + m % 2, k});
+      newer.push_back({40, 20, 10 + m % 2 + static_cast<std::int64_t>(k), k});
+    }
+  }
+  const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
+  const Effect effect = contrast(terms, Measure::kPerOpportunity);
+  EXPECT_NEAR(effect.value, 4.5 / 40.0, 1e-12);
+  // By hand: means of the evenings 2 to 7 of 40, sd sqrt(3.5) / 40, Student's t of some 5 degrees of freedom.
+  EXPECT_NEAR(effect.ci.hi - effect.value, 2.5706 * std::sqrt(3.5 / 6.0) / 40.0, 0.002);
+  for (ArmTally* arm : {&older, &newer}) {
+    for (MatchTally& match : *arm) match.calibration = 0;
+  }
+  EXPECT_LT(contrast(terms, Measure::kPerOpportunity).ci.hi, effect.ci.hi) << "sixty matches of one evening";
+}
+
 TEST(Factorial, SweepSaysWhereThePapersRatioIsMet) {
   std::vector<SweepPoint> sweep;
   for (const auto& [median_m, kicks] : {std::pair{1.0, 30}, {2.0, 22}, {3.0, 16}}) {
@@ -94,6 +114,12 @@ TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
   EXPECT_THAT(to_text(report), HasSubstr("It says nothing about why the paper's tournaments differed"));
   EXPECT_EQ(to_json(report)["cells"].size(), 14u);
   EXPECT_THAT(to_csv(report), HasSubstr("cell,new,predictive,,"));
+  EXPECT_THAT(to_text(report), testing::StartsWith("SIMULATED: "));
+  EXPECT_EQ(to_json(report)["simulated"], true);
+  EXPECT_THAT(to_csv(report), HasSubstr(",simulated\n"));
+  EXPECT_THAT(to_csv(report), testing::EndsWith(",1\n"));
+  EXPECT_THAT(to_svg(report), testing::AllOf(HasSubstr("simulated: "), HasSubstr(">old<"), HasSubstr(">new<")));
+  EXPECT_THAT(to_svg(report), testing::Not(HasSubstr(">-0.2<")));
   EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
 }
 

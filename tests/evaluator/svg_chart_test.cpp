@@ -91,6 +91,16 @@ TEST(SvgChart, DrawsEveryPointInsideTheAxes) {
   EXPECT_EQ(dots, 3);
 }
 
+TEST(SvgChart, CategoriesHaveBandsAndNoScale) {
+  const Chart chart{"t", "table", "y", {{"a", {{0, 1}, {1, 2}}, ChartMark::kDots}}, {"old", "new"}, true};
+  const std::string svg = to_svg(chart);
+  EXPECT_THAT(svg, HasSubstr("<text x=\"241.0\" y=\"488.0\" text-anchor=\"middle\">old</text>"));
+  EXPECT_THAT(svg, HasSubstr("<text x=\"571.0\" y=\"488.0\" text-anchor=\"middle\">new</text>"));
+  EXPECT_THAT(svg, HasSubstr("cx=\"241.0\""));
+  EXPECT_THAT(svg, testing::Not(HasSubstr(">0.2<")));
+  EXPECT_THAT(svg, HasSubstr("simulated: "));
+}
+
 TEST(SvgChart, OneValueStandsWithinTicksOfItsOwnSize) {
   EXPECT_THAT(round_ticks(0.5, 0.5), Pointwise(DoubleNear(1e-12), {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}));
   EXPECT_THAT(round_ticks(0.0, 0.0), Pointwise(DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
