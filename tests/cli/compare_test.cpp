@@ -39,11 +39,11 @@ TEST(Compare, ReadsTwoNamedCounts) {
 }
 
 TEST(Compare, NamesTheGroupsAndClaimsNoCause) {
-  const std::string text = output_of("--counts left=34/65 right=100/132");
+  const std::string text = output_of("compare --counts left=34/65 right=100/132");
   EXPECT_THAT(text, HasSubstr("P(right > left)       0.999473"));
   EXPECT_THAT(text, HasSubstr("right differs from left, the more for right"));
   EXPECT_THAT(text, Not(HasSubstr("better")));
-  EXPECT_THAT(output_of("--counts a=1/1000 b=999/1000"), HasSubstr("below 1e-12 percentage points by choosing b"));
+  EXPECT_THAT(output_of("compare --counts a=1/1000 b=999/1000"), HasSubstr("below 1e-12 percentage points by choosing b"));
 }
 
 TEST(Compare, SaysWhatIsWrongWithACount) {

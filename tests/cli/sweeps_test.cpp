@@ -101,7 +101,7 @@ TEST(Sensitivity, TablesAndChartNameEveryInput) {
   EXPECT_LT(text.find("vision.latency_s"), text.find("kicker.delay_s"));
   EXPECT_NE(text.find("-15.0 (-15.0 to -15.0)"), std::string::npos) << text;
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 + 4);
-  EXPECT_NE(csv.find("vision.latency_s,0.1,moving,1000,800,350,-0.150000,-0.150000,-0.150000\n"), std::string::npos);
+  EXPECT_NE(csv.find("vision.latency_s,0.1,moving,1000,800,350,-0.150000,-0.150000,-0.150000,1\n"), std::string::npos);
   for (const char* key : {"vision.latency_s", "kicker.delay_s"}) EXPECT_NE(svg.find(key), std::string::npos);
   EXPECT_EQ(to_json(report)["inputs"].size(), 2U);
 }
@@ -113,7 +113,7 @@ TEST(Sensitivity, WithoutShotsOnTargetItHasNoIntervals) {
   const std::string outputs = to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump();
   EXPECT_EQ(outputs.find("nan"), std::string::npos) << outputs;
   EXPECT_NE(to_text(report).find("moving - stopped: +0.0 (-)"), std::string::npos) << to_text(report);
-  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,\n"), std::string::npos) << to_csv(report);
+  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,,1\n"), std::string::npos) << to_csv(report);
 }
 
 FrontierReport frontier_case() {

@@ -26,7 +26,7 @@ class ComparedCalibrationsTest : public LogTest {
       for (std::int64_t evening = 1; evening <= evenings; ++evening) {
         experiment.calibration = evening;
         for (const std::uint32_t arm : {0U, 1U}) {
-          experiment.session(match, 100 * static_cast<std::uint32_t>(evening) + arm, arm == 0 ? "slow" : "quick",
+          experiment.session(match, 2 * static_cast<std::uint32_t>(evening) + arm, arm == 0 ? "slow" : "quick",
                              {{1, "moving"}});
           experiment.played(1, 10.0);
           for (std::int64_t i = 1; i <= 10; ++i)
