@@ -43,8 +43,18 @@ def unbuilt_programs(root, documents, build):
     needed = set(re.findall(r"build/release/(trivela[\w-]*)", texts))
     needed |= {f"trivela-{path.parent.name}" for path in (root / "nodes").glob("*/main.cpp")}
     target = re.search(r"^build release (\S+)$", (root / "quickstart").read_text(), re.M).group(1)
-    built = subprocess.run(["ninja", "-C", build, "-t", "inputs", target], capture_output=True, text=True, check=True)
+    built = subprocess.run(["ninja", "-C", build, "-t", "query", target], capture_output=True, text=True, check=True)
     return sorted(needed - set(built.stdout.split()))
+
+
+def unknown_programs(documents, build):
+    """Programs of the build folder that a document names and that are no target of it: (document, name)."""
+    known = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], capture_output=True, text=True, check=True)
+    targets = {line.rsplit(":", 1)[0] for line in known.stdout.splitlines()}
+    for document in documents:
+        for name in sorted(set(re.findall(r"build/release/((?:tests/)?[a-z][a-z0-9_-]*)(?![\w-])", "\n".join(document.lines)))):
+            if name not in targets:
+                yield document.name, name
 
 
 def listed_problems(root, documents, build):
@@ -63,5 +73,6 @@ def listed_problems(root, documents, build):
     for figure in sorted((root / "docs/figures").iterdir()):
         if f"docs/figures/{figure.name}" not in named:
             problems.append(f"docs/figures/{figure.name}: no command of a document draws it")
+    problems += [f"{document}: build/release/{name} is no target" for document, name in unknown_programs(documents, build)]
     problems += [f"quickstart: does not build {program}" for program in unbuilt_programs(root, documents, build)]
     return problems

@@ -8,7 +8,7 @@ import unittest
 
 from document import DocumentError, parse
 from listed import synopsis_problem
-from masks import masked, numbers, shape
+from masks import masked, numbers, shape, stands_in
 from rehearsal import Rehearsal
 
 
@@ -112,7 +112,10 @@ class Mechanism(unittest.TestCase):
             self.assertEqual(masked([kept]), [kept])
         self.assertEqual(shape(["a  1.5 (-2 to +3)  b_2 "]), shape(["a 17 (0.1 to 4) b_2"]))
         self.assertNotEqual(shape(["a 1 b"]), shape(["a b"]))
-        self.assertEqual(numbers("-1,234.5 % of v2"), ["1234.5"])
+        self.assertEqual(numbers("-1,234.5 % of v2, 9.6e-6"), ["1234.5", "9.6e-6"])
+        self.assertTrue(stands_in("0.52", {"0.5231", "7"}))
+        self.assertFalse(stands_in("0.53", {"0.5231", "7"}))
+        self.assertTrue(stands_in("9.58e-6", {"9.5791e-06"}))
 
     def test_verbs_and_flags_of_the_text_must_be_there(self):
         known = {(): "  match   play", ("match",): "  --half TEXT\n  --minutes"}

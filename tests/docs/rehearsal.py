@@ -5,12 +5,12 @@ import re
 import shutil
 import signal
 import subprocess
-import time
+import threading
 import xml.etree.ElementTree
 from dataclasses import dataclass
 
 from listed import not_run
-from masks import masked, numbers, shape
+from masks import masked, numbers, shape, stands_in
 
 PATIENCE_S = {False: 300, True: 7200}  # reduced, whole
 MOST_LINES = 60  # of one problem
@@ -103,19 +103,19 @@ class Rehearsal:
     def _run(self, text, interrupt=None):
         """(exit code, lines of standard output and error)."""
         process = self._start(text)
-        deadline = time.monotonic() + PATIENCE_S[self.full]
+        end = threading.Timer(PATIENCE_S[self.full], os.killpg, (process.pid, signal.SIGKILL))
+        end.start()
         output = ""
-        try:
-            if interrupt:
-                for line in process.stdout:
-                    output += line
-                    if interrupt in line:
-                        break
-                os.killpg(process.pid, signal.SIGINT)
-            output += process.communicate(timeout=max(1, deadline - time.monotonic()))[0]
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            output += process.communicate()[0] + f"\nstopped after {PATIENCE_S[self.full]} s"
+        if interrupt:
+            for line in process.stdout:
+                output += line
+                if interrupt in line:
+                    os.killpg(process.pid, signal.SIGINT)
+                    break
+        output += process.communicate()[0]
+        end.cancel()
+        if process.returncode == -signal.SIGKILL:
+            output += f"\nstopped after {PATIENCE_S[self.full]} s"
         return process.returncode, self._tidy(output)
 
     def _start(self, text):
@@ -183,7 +183,7 @@ class Rehearsal:
                 return self._wrong(block.line, f"no command named {name} stands above")
             whole = whole and self.printed[name].whole
             known |= set(numbers("\n".join(self.printed[name].lines)))
-        missing = [number for number in numbers("\n".join(block.lines)) if number not in known]
+        missing = [number for number in numbers("\n".join(block.lines)) if not stands_in(number, known)]
         if whole and missing:
             self._wrong(block.line, f"{', '.join(missing)}: {block.keys['of']} prints no such number")
 
