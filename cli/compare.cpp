@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "cli/compare_csv.hpp"
 #include "cli/counts_argument.hpp"
+#include "cli/open_file.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/log_kicks.hpp"
@@ -37,8 +37,7 @@ evaluator::KickBook read_csv(const CompareArguments& arguments) {
   const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify,
                               arguments.design == "paired"};
   if (arguments.csv == "-") return read_kicks(std::cin, csv_name(arguments), options);
-  std::ifstream file(arguments.csv);
-  if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
+  std::ifstream file = open_file(arguments.csv);
   return read_kicks(file, csv_name(arguments), options);
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/factorial/report.hpp"
+#include "cli/open_file.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
@@ -22,6 +23,7 @@ struct FactorialFlags {
 };
 
 void factorial(const FactorialFlags& flags) {
+  require_writable(flags.study);
   const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
   const config::Settings settings = config::load_settings(flags.config);
   FactorialReport report{.scenario = flags.study.scenario_name(),
@@ -67,7 +69,7 @@ void add_factorial(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<FactorialFlags>();
   add_study_options(*verb, flags->study);
   verb->add_option("--config", flags->config, "Configuration of the nodes")
-      ->check(CLI::ExistingFile)
+      ->check(readable_file())
       ->capture_default_str();
   verb->add_option("--robot", flags->robots, "What the robots know with the new table: robot n's n-th")
       ->delimiter(',')

@@ -17,6 +17,7 @@ struct FrontierFlags {
 };
 
 void frontier(const FrontierFlags& flags) {
+  require_writable(flags.study);
   const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
   std::vector<double> thresholds = flags.thresholds;
   std::ranges::sort(thresholds);

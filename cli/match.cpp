@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/launch/record_lockstep.hpp"
+#include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "config/scenario.hpp"
@@ -22,18 +23,6 @@ struct MatchFlags {
   std::string config = TRIVELA_CONFIG_DIR "/default.toml";
   std::vector<std::string> overrides;
   std::string log_level = "warn";
-};
-
-/// CLI::Range lets NaN through.
-struct Between : CLI::Validator {
-  Between(double least, double most) : Validator{fmt::format("{} to {}", least, most)} {
-    func_ = [least, most](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value);
-      return number && value >= least && value <= most ? ""
-                                                       : fmt::format("{} is not within {} to {}", text, least, most);
-    };
-  }
 };
 
 std::string list(const std::vector<std::string>& policies) {
@@ -66,10 +55,10 @@ config::Settings settings_of(const MatchFlags& flags) {
         fmt::format("run.log_level = \"{}\"", flags.log_level)})
     lines.push_back(std::move(line));
   for (const std::string& line : flags.overrides) lines.push_back(line);
-  for (const std::string& line : lines) config::override_setting(settings, line);
+  config::override_settings(settings, lines);
   refuse_oracle(settings.kick_decision);
   config::load_scenario(settings.run.scenario);
-  config::load_robot(settings.run.robot);
+  config::robot_for(config::load_robot(settings.run.robot), settings.policy);
   return settings;
 }
 
@@ -87,11 +76,9 @@ void add_match(CLI::App& app, int& exit_code) {
                    "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
       ->excludes(half);
   verb->add_option("--minutes", flags->minutes, "length of a half")
-      ->check(Between{0.01, 1000.0})
+      ->check(between(0.01, 1000.0))
       ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same match")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same match")->check(seeds())->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
   verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();

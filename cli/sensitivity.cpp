@@ -32,6 +32,7 @@ std::vector<UncertainInput> chosen(const std::vector<std::string>& keys) {
 }
 
 void sensitivity(const SensitivityFlags& flags) {
+  require_writable(flags.study);
   const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
   const std::vector<nodes::Arm> arms = arms_of(flags.arms, flags.base);
   const std::vector<UncertainInput> inputs = chosen(flags.inputs);

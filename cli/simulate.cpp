@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cli/number_checks.hpp"
 #include "cli/simulate/arms.hpp"
 #include "cli/simulate/experiment.hpp"
 #include "cli/study.hpp"
@@ -59,9 +60,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
   verb->add_option("--possessions", flags->possessions, "opportunities of a match")
       ->check(CLI::Range(1u, 100000u))
       ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same matches")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}))
-      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same matches")->check(seeds())->capture_default_str();
   verb->add_option("--jobs", flags->jobs, "threads; the rows do not depend on it")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,16 +34,21 @@ void add_study_options(CLI::App& verb, Study& study);
 /// --robot, --config, --set.
 void add_arm_options(CLI::App& verb, ArmBase& base);
 
+/// Throws, before anything is played, where --csv or --svg cannot be written or are the same file.
+void require_writable(const Study& study);
+
 /// Plays the arms with a progress bar that says what they are played for.
 std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,
                                     const PlayPlan& plan, const std::string& what);
 
-/// Writes the report's files that are asked for, and prints it as text or JSON.
+/// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
+/// than the file.
 template <typename Report>
 void give(const Study& study, const Report& report) {
+  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
+  std::fflush(stdout);
   if (!study.csv.empty()) write_file(study.csv, to_csv(report));
   if (!study.svg.empty()) write_file(study.svg, to_svg(report));
-  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
 }
 
 }  // namespace trivela::cli

@@ -141,8 +141,10 @@ Settings load_settings(const std::filesystem::path& path);
 /// Throws Error naming key and value where the policies in charge make no sense together.
 void check_policies(const KickDecision& settings, const std::string& source);
 
-/// One line of TOML such as `run.robot_id = 2` on top. Throws Error naming it.
-void override_setting(Settings& settings, const std::string& line);
+/// Lines of TOML such as `run.robot_id = 2` on top, and what follows from all of them together: the cycle of the
+/// policies, their learned model. Relative file names are relative to the working directory. Throws Error naming line
+/// or key, also for policies that do not go together.
+void override_settings(Settings& settings, const std::vector<std::string>& lines);
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);

@@ -119,7 +119,7 @@ DriveSummary CalibrationRun::standing() {
     scans.push_back(record.scans.string());
     const evaluator::log::ScanReader reader{record.scans};
     for (const auto& tested : reader.set_points()) {
-      ++tallies[tested.power].kicks;
+      if (tested.power) ++tallies[*tested.power].kicks;
       ++summary.kicks;
     }
     for (const auto& lob : evaluator::lobs_of_scans(reader, {})) {

@@ -49,7 +49,7 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const fs::path& robot_file
   settings.scan_recorder.enabled = plan.scenario.laser.enabled;
   settings.scan_recorder.device = "sim";
   if (plan.scenario.laser.enabled) settings.scan_recorder.file = record.scans.string();
-  for (const std::string& line : plan.settings) config::override_setting(settings, line);
+  config::override_settings(settings, plan.settings);
   settings = lockstep_settings(std::move(settings), -1, record.log.string());
 
   const ConfigFile config{config::to_toml_text(settings)};

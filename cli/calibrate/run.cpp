@@ -10,7 +10,9 @@
 #include "cli/calibrate/calibration_check.hpp"
 #include "cli/calibrate/calibration_run.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/open_file.hpp"
 #include "cli/verbs.hpp"
+#include "cli/write_file.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "sim/team.hpp"
@@ -151,6 +153,7 @@ int calibrate(const RunFlags& flags) {
   robot.calibration.reset();
   const fs::path file = robot_file(flags);
   fs::create_directories(flags.out_dir);
+  require_writable("the robot's file", file);
   fs::path part = file;
   part += ".part";  // until every figure is in it
 
@@ -211,7 +214,7 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   verb->add_option("--check-scenario", flags->check, "world of the check")->capture_default_str();
   verb->add_option("--team", flags->team,
                    "scenario of the matches: the drives have a kicker as fast as one of its robots")
-      ->check(CLI::ExistingFile);
+      ->check(readable_file());
   verb->add_option("--number", flags->number, "which robot of the team")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/calibrate/trials.hpp"
 #include "cli/say.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -92,6 +93,7 @@ std::vector<std::string> not_rising(const kicking::TableFit& fit) {
 
 ExitCode calibrate_table(const TableFlags& flags) {
   const auto target = robot_target(flags.robot, flags.out);
+  require_writable("the robot's file", target);
   const TableChoice choice{flags.kind == "true" ? kicking::TableKind::kTrue : kicking::TableKind::kEffective,
                            flags.angle == "per-setpoint"};
   TrialFlags trial_flags{choice.kind, std::nullopt, flags.columns};

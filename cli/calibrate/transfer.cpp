@@ -43,7 +43,7 @@ TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<con
         {.vy_mps = row.number("vy_mps"),
          .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power")) : row.positive("v0_mps"),
          .exit_angle_rad = exit_angle_rad(row, flags, robot),
-         .distance_m = row.positive("d_m"),
+         .distance_m = row.length_m("d_m", kFieldLength_m),
          .z_cross_m = row.number("z_cross_m")});
   });
   return rows;

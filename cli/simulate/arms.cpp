@@ -76,7 +76,7 @@ void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, cons
   }
   if (policy == kicking::PolicyName::kLearned && !settings.policy.learned) {
     throw UsageError{
-        fmt::format("{}: the policy learned needs a model: --set kick_decision.learned_model=FILE", arm.place)};
+        fmt::format("{}: the policy learned needs a model: --set 'kick_decision.learned_model=\"FILE\"'", arm.place)};
   }
 }
 

@@ -115,6 +115,10 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   const auto group_name = *name_by(logged, by);
   KickBook book;
   book.groups = groups_of(logged, by, group_name);
+  if (book.groups.empty() && !logged.rows.empty()) {
+    throw std::runtime_error(fmt::format("--by {0}: no session of these logs names its {0}{1}", by,
+                                         by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
+  }
   book.outcome = options.truth ? "truth" : "observed";
   book.remarks = logged.remarks;
   book.matches = logged.matches;

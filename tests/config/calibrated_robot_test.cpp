@@ -125,6 +125,26 @@ TEST_F(CalibratedRobot, PlaysWithAHeightTableWhereTheFileHasOne) {
               ThrowsMessage<Error>(HasSubstr("must be finite and above")));
 }
 
+TEST_F(CalibratedRobot, ReadsAHeightTableByTheLawAndHeightOfThePolicy) {
+  const std::string text =
+      "name = \"hand\"\n[height_table]\ndistances_m = [3.0, 5.0, 7.0]\npowers = [17.0, 22.0, 29.0]\n";
+  const Robot robot = load_robot(file(text));
+  kicking::PolicyConfig policy;
+  EXPECT_EQ(robot_for(robot, policy).model.table.back().speed_mps, robot.model.table.back().speed_mps);
+  policy.height_law = kicking::HeightLaw::kPaper;
+  const Robot other = robot_for(robot, policy);
+  const kicking::RobotModel& model = other.model;
+  EXPECT_NE(model.table.back().speed_mps, robot.model.table.back().speed_mps);
+  const auto asked_mps = kicking::crossing_speed({5.0, 0.0}, model.exit_angle_rad);
+  EXPECT_NEAR(model.table.power_for(*asked_mps).power, 22.0, 1e-9) << "at rest the table's power";
+  EXPECT_EQ(to_toml_text(other), to_toml_text(robot)) << "the file is what it was";
+  policy.height_law = kicking::HeightLaw::kExact;
+  policy.target_height_m = 50.0;
+  EXPECT_THAT([&] { robot_for(robot, policy); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("robot hand"), HasSubstr("no speed reaches the target's height"))));
+  EXPECT_EQ(to_toml_text(robot_for(Robot{}, policy)), to_toml_text(Robot{})) << "no height table";
+}
+
 TEST_F(CalibratedRobot, NamesBrokenProvenance) {
   const auto load = [&](const std::string& calibration) {
     return [this, calibration] { load_robot(file(kTable + "[calibration]\n" + calibration)); };

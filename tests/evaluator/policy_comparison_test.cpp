@@ -227,6 +227,10 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
   EXPECT_THAT(to_text(result), HasSubstr("moving differs from stopped"));
   EXPECT_THAT(to_text(result), Not(HasSubstr("SIMULATED")));
   EXPECT_THAT(message_of({.truth = true}), HasSubstr("none of these matches was simulated"));
+  for (const std::string by : {"table", "arm"}) {
+    EXPECT_EQ(message_of({.by = by}),
+              "--by " + by + ": no session of these logs names its " + by + "; those of trivela simulate do");
+  }
 }
 
 TEST_F(PolicyComparisonTest, TheSameLogTwiceCountsOnce) {
