@@ -37,6 +37,7 @@ struct Opportunity {
   std::uint64_t id = 0;       ///< the same id in the same match: the same situation; 0: not known
   std::uint32_t setting = 0;  ///< what it was played with apart from what is compared: others make no pair
   Ending ending = Ending::kNoKick;
+  double doubt = 0.0;  ///< probability that a kick called inside was not, or one called outside was
 };
 
 /// Everything that a comparison looks at, whether it comes from match logs or a table of kicks.

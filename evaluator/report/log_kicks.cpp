@@ -155,6 +155,7 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
     opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
     opportunity.ending = o.ending;
+    opportunity.doubt = o.doubt;
     book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());

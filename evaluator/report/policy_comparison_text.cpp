@@ -159,11 +159,14 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
                       *pair.kicks->e_value, *pair.kicks->e_value_ci));
     }
   }
-  if (pair.unknown > 0) {
+  if (pair.unknown > 0 || pair.expected_wrong > 0.0) {
+    const std::string wrong = pair.expected_wrong > 0.0
+                                  ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
+                                  : std::string();
     text +=
-        bullet(fmt::format("{} outcomes are unknown. If all of them went against {}, the crude difference would be "
+        bullet(fmt::format("{} outcomes are unknown{}. If all of that went against {}, the crude difference would be "
                            "{:+.1f} points, if all for it {:+.1f}.",
-                           pair.unknown, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+                           pair.unknown, wrong, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
   }
   if (!pair.headline->by_match) {
     text += bullet(c.book.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
