@@ -98,7 +98,7 @@ class Stories {
     const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * time_s(0);
     const double sd_climb = track_.expected_climb_mps ? 0.1 * *track_.expected_climb_mps + 0.3 : 5.0;
     // The robot's own speed, and where it aims. What never left the floor was no kick as expected.
-    const double sd = rolls_ ? v + 1.0 : 0.2 * v + 1.0;
+    const double sd = rolls_ ? v + 1.0 : 0.1 * v + 1.2;
     return {seen_.front(), track_.ball_sd_m, {v * to_goal.x(), v * to_goal.y(), climb}, {sd, sd, sd_climb}, rolls_};
   }
 
