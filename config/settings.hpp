@@ -85,12 +85,12 @@ struct KickerDriver {
 
 /// Tracking of a shot.
 struct ShotObserver {
-  double history_s = 0.6;         ///< frames kept for a receipt that arrives late
-  double time_out_s = 3.0;        ///< after the release; what has not crossed by then is short
-  double ball_sd_m = 0.03;        ///< of one observation and axis
-  std::uint32_t fit_frames = 10;  ///< frames before the goal line that the crossing is fitted to
-  double lost_s = 0.3;            ///< without an observation for longer the ball is lost
-  double rest_speed_mps = 0.3;    ///< slower is at rest
+  double history_s = 0.6;           ///< frames kept for a receipt that arrives late
+  double time_out_s = 3.0;          ///< after the release; what has not crossed by then is short
+  double ball_sd_m = 0.03;          ///< of one observation and axis, before flights have shown what it is
+  double label_probability = 0.95;  ///< an outcome that is less certain is unknown
+  double lost_s = 0.3;              ///< without an observation for longer the ball is lost
+  double rest_speed_mps = 0.3;      ///< slower is at rest
 };
 
 /// What the simulator plays.

@@ -214,7 +214,7 @@ void fields(V& v, ShotObserver& s) {
   v("history_s", s.history_s, Range{0.05, 10.0});
   v("time_out_s", s.time_out_s, Range{0.2, 30.0});
   v("ball_sd_m", s.ball_sd_m, Range{1e-4, 1.0});
-  v("fit_frames", s.fit_frames, Range{3, 1000});
+  v("label_probability", s.label_probability, Range{0.5, 1.0});
   v("lost_s", s.lost_s, Range{0.02, 5.0});
   v("rest_speed_mps", s.rest_speed_mps, Range{0.0, 5.0});
 }

@@ -144,6 +144,7 @@ struct Vision {
 /// The camera that follows the ball in flight, referred to the goal seen in the same picture.
 struct FlightCamera {
   double latency_s = 0.04;      ///< assumption
+  double period_s = 0.02;       ///< between exposures; one a cycle at most; assumption: 50 frames a second
   double position_sd_m = 0.03;  ///< per axis and frame; assumption
   double dropout_ratio = 0.02;  ///< frames without a ball; assumption
 };

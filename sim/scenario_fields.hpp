@@ -152,6 +152,7 @@ void fields(V& v, Vision& s) {
 template <class V>
 void fields(V& v, FlightCamera& c) {
   v("latency_s", c.latency_s, Range{0.0, 0.5});
+  v("period_s", c.period_s, Range{0.001, 1.0});
   v("position_sd_m", c.position_sd_m, Range{0.0, 5.0});
   v("dropout_ratio", c.dropout_ratio, kRatio);
 }

@@ -82,6 +82,7 @@ constexpr UncertainInput kInputs[] = {
     {"vision.opponent_range_m", 3.0, 9.0, "half, one and a half"},
     {"flight_camera.position_sd_m", 0.01, 0.10, "a third, three times: what is observed, not what is kicked"},
     {"flight_camera.latency_s", 0.02, 0.1, "half, two and a half times"},
+    {"flight_camera.period_s", 0.02, 0.1, "each cycle; ten frames a second"},
     {"flight_camera.dropout_ratio", 0.0, 0.2, "none; every fifth frame"},
 };
 

@@ -38,6 +38,7 @@ struct Opportunity {
   std::uint32_t setting = 0;  ///< what it was played with apart from what is compared: others make no pair
   Ending ending = Ending::kNoKick;
   std::uint32_t calibration = 0;  ///< number of the evening that the robots were calibrated on; 0 where none is named
+  double doubt = 0.0;  ///< probability that a kick called inside was not, or one called outside was
 };
 
 /// Everything that a comparison looks at, whether it comes from match logs or a table of kicks.

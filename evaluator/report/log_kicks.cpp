@@ -162,6 +162,7 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     opportunity.ending = o.ending;
     opportunity.calibration =
         evenings.try_emplace(logged.sessions[o.session].calibration_id, evenings.size()).first->second;
+    opportunity.doubt = o.doubt;
     book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());

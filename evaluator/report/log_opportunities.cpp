@@ -91,6 +91,11 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     const bool no_ball = truth && outcome.empty() && logged.sessions[o.session].simulated;
     o.ending = no_ball ? Ending::kNoKick : ending_of(outcome);
     o.distance_m = log::number_if_any(row[7]);
+    const auto p_inside = truth ? std::nullopt : log::number_if_any(row[8]);
+    o.doubt = !p_inside                      ? 0.0
+              : o.ending == Ending::kInside  ? 1.0 - *p_inside
+              : o.ending == Ending::kOutside ? *p_inside
+                                             : 0.0;
   });
   if (alone > 0 && !places.empty()) {
     logged.remarks.push_back(fmt::format("{} kicks belong to no possession that the log knows", alone));

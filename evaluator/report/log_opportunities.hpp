@@ -48,6 +48,7 @@ struct LoggedOpportunity {
   std::optional<double> distance_m;        ///< ball to target at the kick, as the robot believed; none: no kick
   std::optional<FirstDecision> first;      ///< none: the log has not every cycle
   Ending ending = Ending::kNoKick;
+  double doubt = 0.0;          ///< probability that a kick called inside was not, or one called outside was
   bool has_possession = true;  ///< false: a kick alone
 };
 

@@ -11,7 +11,6 @@
 
 #include "evaluator/report/pair_counts.hpp"
 #include "evaluator/report/policy_headline.hpp"
-#include "evaluator/stats/robustness.hpp"
 #include "evaluator/stats/sample_ratio.hpp"
 #include "evaluator/stats/several_tests.hpp"
 
@@ -28,6 +27,7 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
     result.inside += o.ending == Ending::kInside ? 1 : 0;
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
+    result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
     if (!book.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
     auto& [all, known] = cells.try_emplace({o.match, o.calibration}, std::array{empty, empty}).first->second;
@@ -49,10 +49,8 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
   for (const auto& [key, minutes] : book.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
   }
-  if (result.unknown > 0) {
-    result.efficiency_bounds = {*stats::efficiency({result.inside, result.kicks()}),
-                                *stats::efficiency({result.inside + result.unknown, result.kicks()})};
-  }
+  if (result.unknown > 0 || result.doubt.sum() > 0.0)
+    result.efficiency_bounds = stats::efficiency_bounds({result.efficiency(), result.unknown, result.doubt});
   return result;
 }
 
@@ -158,15 +156,17 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
   pair.on_target_rate = rate(book, older, newer, place, true);
   pair.kick_rate = rate(book, older, newer, place, false);
   pair.unknown = older.unknown + newer.unknown;
+  pair.expected_wrong = older.doubt.sum() + newer.doubt.sum();
   if (!pair.efficiency && !pair.per_opportunity) {
     const GroupResult& empty = older.efficiency().n == 0 ? older : newer;
     pair.why_none = fmt::format("{} has no kick whose outcome is known, so there is nothing to compare", empty.name);
     return pair;
   }
   const auto known = [&](const GroupResult& g) {
-    return pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
+    const auto counts = pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
+    return stats::DoubtfulCounts{counts, g.unknown, g.doubt};
   };
-  pair.bounds = stats::difference_bounds(known(older), older.unknown, known(newer), newer.unknown);
+  pair.bounds = stats::difference_bounds(known(older), known(newer));
   pair.headline = headline_of(pair, smallest_effect);
   return pair;
 }

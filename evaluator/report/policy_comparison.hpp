@@ -8,6 +8,7 @@
 #include "evaluator/report/comparison.hpp"
 #include "evaluator/report/kick_book.hpp"
 #include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/label_doubt.hpp"
 #include "evaluator/stats/paired.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/strata.hpp"
@@ -22,13 +23,14 @@ struct GroupResult {
   std::int64_t inside = 0;
   std::int64_t outside = 0;
   std::int64_t unknown = 0;
+  stats::LabelDoubt doubt;             ///< of the labels
   std::size_t matches = 0;             ///< 0: not known
   std::optional<double> minutes;       ///< of play; none: not known
   stats::Interval efficiency_ci;       ///< of inside / (inside + outside)
   stats::Interval per_opportunity_ci;  ///< of inside / opportunities
   bool by_match = false;               ///< the intervals allow for kicks of one match being alike
   std::optional<stats::Interval>
-      efficiency_bounds;  ///< if every unknown kick was outside, and inside; none: no unknown
+      efficiency_bounds;  ///< with the unknown kicks and the doubt of the labels; none: neither
 
   std::int64_t kicks() const { return inside + outside + unknown; }
   stats::Counts efficiency() const { return {inside, inside + outside}; }
@@ -100,6 +102,7 @@ struct PairResult {
   std::optional<stats::RateRatio> kick_rate;       ///< kicks a minute
   stats::Interval bounds{-1.0, 1.0};               ///< of the headline's crude difference, if the unknown were known
   std::int64_t unknown = 0;
+  double expected_wrong = 0.0;       ///< labels of both
   std::optional<Headline> headline;  ///< none: nothing to compare
   std::string why_none;              ///< why there is no headline
 };

@@ -22,6 +22,7 @@ Json group_json(const GroupResult& g) {
           {"inside", g.inside},
           {"outside", g.outside},
           {"unknown", g.unknown},
+          {"expected_wrong", {{"inside", g.doubt.inside}, {"outside", g.doubt.outside}}},
           {"matches", g.matches > 0 ? Json(g.matches) : Json()},
           {"efficiency", json_of(stats::efficiency(g.efficiency()))},
           {"efficiency_ci95", json_of(g.efficiency_ci)},
@@ -134,6 +135,7 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
   json["on_target_per_min"] = rate_json(pair.on_target_rate);
   json["kicks_per_min"] = rate_json(pair.kick_rate);
   json["unknown"] = pair.unknown;
+  json["expected_wrong"] = pair.expected_wrong;
   json["difference_bounds"] = json_of(pair.bounds);
   json["independent_kicks"] = pair.kicks ? counts_json(*pair.kicks) : Json();
   return json;

@@ -170,11 +170,14 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
                       *pair.kicks->e_value, *pair.kicks->e_value_ci));
     }
   }
-  if (pair.unknown > 0) {
+  if (pair.unknown > 0 || pair.expected_wrong > 0.0) {
+    const std::string wrong = pair.expected_wrong > 0.0
+                                  ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
+                                  : std::string();
     text +=
-        bullet(fmt::format("{} outcomes are unknown. If all of them went against {}, the crude difference would be "
+        bullet(fmt::format("{} outcomes are unknown{}. If all of that went against {}, the crude difference would be "
                            "{:+.1f} points, if all for it {:+.1f}.",
-                           pair.unknown, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+                           pair.unknown, wrong, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
   }
   if (const auto& clustered = (pair.headline->of_opportunities ? pair.per_opportunity : pair.efficiency)->clustered;
       clustered && clustered->calibrations > 1 && !clustered->by_calibration) {

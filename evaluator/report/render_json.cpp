@@ -14,6 +14,7 @@ Json policy_json(const PolicyRow& row) {
           {"efficiency", json_of(stats::efficiency(row.counts()))},
           {"wilson95", json_of(stats::wilson(row.counts()))},
           {"efficiency_bounds", json_of(row.efficiency_bounds())},
+          {"expected_wrong", {{"inside", row.doubt.inside}, {"outside", row.doubt.outside}}},
           {"played_min", json_of(row.played_min)},
           {"kicks_per_min", json_of(row.kicks_per_min())},
           {"misses", misses}};
@@ -65,6 +66,17 @@ Json unrecorded_json(const UnrecordedOrders& orders) {
           {"counts", orders.counts()}};
 }
 
+Json labels_json(const LabelQuality& labels) {
+  Json rows = Json::array();
+  for (const SightingsRow& row : labels.rows) {
+    rows.push_back({{"sightings", row.sightings},
+                    {"kicks", row.kicks},
+                    {"unknown", row.unknown},
+                    {"expected_wrong", labels.has_probabilities ? Json(row.expected_wrong) : Json()}});
+  }
+  return {{"by_sightings", rows}, {"goal_warnings", labels.goal_warnings()}};
+}
+
 Json quality_json(const Report& report) {
   Json quality = {{"data_lost", report.data_lost()},
                   {"rows_missing", report.rows_missing()},
@@ -94,6 +106,7 @@ Json quality_json(const Report& report) {
   for (const UnrecordedOrders& orders : report.unrecorded_orders) {
     quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
+  quality["labels"] = labels_json(report.labels);
   quality["verification"] = {{"verified_rows", report.verified_rows},
                              {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
@@ -112,7 +125,8 @@ std::string to_json(const Report& report) {
   json["data_quality"] = quality_json(report);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
-                   "kick was outside, and inside"};
+                   "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "
+                   "the reverse"};
   return json_text(json);
 }
 

@@ -62,6 +62,17 @@ std::string misses(const Report& report) {
   return "\nWhy the misses missed\n" + text_table(table);
 }
 
+std::string label_quality(const LabelQuality& labels) {
+  Table table = {{"sightings", "kicks", "unknown", "labels expected wrong"}};
+  for (const SightingsRow& row : labels.rows) {
+    if (row.kicks == 0) continue;
+    table.push_back({row.sightings, number(row.kicks), number(row.unknown),
+                     labels.has_probabilities ? fmt::format("{:.2f}", row.expected_wrong) : "-"});
+  }
+  return "\nOutcomes by sightings of the flight\n" + text_table(table) +
+         (labels.has_probabilities ? "" : "  an older log: its labels came without their probabilities\n");
+}
+
 std::string lost_rows(const Report& report) {
   if (report.rows_missing() == 0) return "  lost: nothing\n";
   Table table = {{"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
@@ -91,10 +102,15 @@ std::string quality(const Report& report) {
                         kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome");
   }
   for (const PolicyRow& row : report.policies) {
-    if (row.unknown() == 0) continue;
+    if (row.unknown() == 0 && row.doubt.sum() <= 0.0) continue;
     const auto bounds = row.efficiency_bounds();
-    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}\n", printable(row.policy),
+    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}", printable(row.policy),
                         percent(bounds.lo), percent(bounds.hi));
+    if (row.doubt.sum() > 0.0) {
+      text += fmt::format("; with {} labels of inside and {} of outside wrong", stats::most_wrong(row.doubt.inside),
+                          stats::most_wrong(row.doubt.outside));
+    }
+    text += "\n";
   }
   if (report.compared_with_truth > 0) {
     text += fmt::format("  observed outcomes like the simulator's truth: {} of {}\n", report.alike_with_truth,
@@ -118,7 +134,8 @@ std::string hint(const Report& report) {
 std::string to_text(const Report& report) {
   std::int64_t kicks = 0;
   for (const PolicyRow& row : report.policies) kicks += row.kicks();
-  const std::string tables = kicks > 0 ? table2(report) + misses(report) : table2(report) + "  there are no kicks\n";
+  const std::string tables = kicks > 0 ? table2(report) + misses(report) + label_quality(report.labels)
+                                       : table2(report) + "  there are no kicks\n";
   return heading(report) + tables + quality(report) + hint(report);
 }
 

@@ -45,10 +45,7 @@ std::int64_t PolicyRow::of(const std::string& outcome) const {
   return found == kicks_by_outcome.end() ? 0 : found->second;
 }
 
-stats::Interval PolicyRow::efficiency_bounds() const {
-  if (kicks() == 0) return {0.0, 1.0};
-  return {*stats::efficiency({inside(), kicks()}), *stats::efficiency({inside() + unknown(), kicks()})};
-}
+stats::Interval PolicyRow::efficiency_bounds() const { return stats::efficiency_bounds({counts(), unknown(), doubt}); }
 
 std::optional<double> PolicyRow::kicks_per_min() const {
   if (!played_min || *played_min <= 0.0) return std::nullopt;
@@ -82,9 +79,12 @@ Report make_report(const log::Reader& reader) {
                 .refused_orders = {},
                 .silences = silences_of(reader),
                 .unrecorded_orders = unrecorded_orders_of(reader),
+                .labels = label_quality_of(reader),
                 .warnings = reader.warnings(),
                 .doubt = reader.doubt(),
                 .verified_rows = reader.verification().compared ? reader.verification().rows : 0};
+  for (PolicyRow& row : report.policies) row.doubt = report.labels.doubts[row.policy];
+  for (std::string& warning : report.labels.goal_warnings()) report.warnings.push_back(std::move(warning));
   for (const log::RecordedSession& session : report.sessions) {
     if (!session.scenario.starts_with("replay of ")) continue;
     report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/label_quality.hpp"
 #include "evaluator/report/recording_gaps.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -20,6 +21,7 @@ inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "ove
 struct PolicyRow {
   std::string policy;
   std::map<std::string, std::int64_t> kicks_by_outcome;
+  stats::LabelDoubt doubt;           ///< of the labels; 0 where the log does not say
   std::optional<double> played_min;  ///< minutes of play in its halves; none: the referee was not recorded
 
   std::int64_t kicks() const;
@@ -31,7 +33,7 @@ struct PolicyRow {
   /// Inside of the kicks whose outcome is known.
   stats::Counts counts() const { return {inside(), inside() + outside()}; }
 
-  /// Efficiency if every unknown outcome was outside, and if every one was inside. No kick: [0, 1].
+  /// Efficiency if every unknown outcome was outside and as many labels as may be are wrong, and the reverse.
   stats::Interval efficiency_bounds() const;
 
   std::optional<double> kicks_per_min() const;
@@ -64,6 +66,7 @@ struct Report {
   std::vector<RefusedOrders> refused_orders;
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
+  LabelQuality labels;
   std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
   std::optional<std::string> doubt;      ///< a sentence on rows that nobody compared with their digest
   std::int64_t verified_rows = 0;        ///< that are as they were recorded
