@@ -4,7 +4,6 @@
 #include "cli/frontier/report.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -18,7 +17,7 @@ struct FrontierFlags {
 
 void frontier(const FrontierFlags& flags) {
   require_writable(flags.study);
-  const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
+  const sim::Scenario scenario = flags.study.world.load();
   std::vector<double> thresholds = flags.thresholds;
   std::ranges::sort(thresholds);
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());

@@ -10,7 +10,7 @@
 #include "cli/simulate/experiment.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
+#include "cli/world.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -22,7 +22,7 @@ struct SimulateFlags {
   std::uint64_t seed = 1;
   unsigned jobs = 1;
   std::string out = "ab.db";
-  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  World world;
   ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
   bool shadows = false;
   bool every_cycle = false;
@@ -30,8 +30,8 @@ struct SimulateFlags {
 
 int simulate(const SimulateFlags& flags) {
   ExperimentPlan plan;
-  plan.scenario = config::load_scenario(flags.scenario);
-  plan.scenario_name = std::filesystem::path{flags.scenario}.stem().string();
+  plan.scenario = flags.world.load();
+  plan.scenario_name = flags.world.named(std::filesystem::path{flags.world.file}.stem().string());
   plan.arms = arms_of(flags.arms, flags.base);
   plan.seed = flags.seed;
   plan.matches = flags.matches;
@@ -65,7 +65,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
   verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
-  verb->add_option("--scenario", flags->scenario, "the world")->capture_default_str();
+  add_world_options(*verb, flags->world);
   add_arm_options(*verb, flags->base);
   verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
   verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");

@@ -9,7 +9,7 @@
 
 namespace trivela::cli {
 
-std::string Study::scenario_name() const { return std::filesystem::path{scenario}.filename().string(); }
+std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
 void add_study_options(CLI::App& verb, Study& study) {
   PlayPlan& plan = study.plan;
@@ -21,7 +21,7 @@ void add_study_options(CLI::App& verb, Study& study) {
       ->capture_default_str();
   verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->check(seeds())->capture_default_str();
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
-  verb.add_option("--scenario", study.scenario, "The world")->check(readable_file())->capture_default_str();
+  add_world_options(verb, study.world);
   verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");
   verb.add_option("--svg", study.svg, "A chart")->type_name("FILE");
   verb.add_flag("--json", study.json, "JSON instead of text");

@@ -12,6 +12,7 @@
 #include "cli/factorial/play.hpp"
 #include "cli/say.hpp"
 #include "cli/simulate/arms.hpp"
+#include "cli/world.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
@@ -20,15 +21,15 @@ namespace trivela::cli {
 /// What the verbs have in common that play many matches of several arms and report on them.
 struct Study {
   PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
-  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  World world;
   std::string csv, svg;
   bool json = false;
 
-  /// Name of the scenario's file, for the report.
+  /// Name of the scenario's file and what was changed of it, for the report.
   std::string scenario_name() const;
 };
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --csv, --svg, --json.
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --csv, --svg, --json.
 void add_study_options(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.

@@ -140,6 +140,7 @@ struct Match::State {
                               .outcome = result.outcome,
                               .crossing = result.crossing,
                               .saved = result.saved,
+                              .bounced = result.bounced,
                               .release_t_ns = shot->release_t_ns(),
                               .release_position_m = shot->released().position_m,
                               .release_velocity_mps = shot->released().velocity_mps,

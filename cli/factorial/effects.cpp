@@ -39,6 +39,9 @@ MatchTally total_of(const ArmTally& matches) {
     total.opportunities += match.opportunities;
     total.kicks += match.kicks;
     total.on_target += match.on_target;
+    total.blocked += match.blocked;
+    total.bounced += match.bounced;
+    total.goals += match.goals;
   }
   return total;
 }
@@ -56,7 +59,19 @@ double reach_of(const ArmTally& arm, const std::vector<double>& u) {
 }
 
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
-  return {tally.on_target, measure == Measure::kEfficiency ? tally.kicks : tally.opportunities};
+  switch (measure) {
+    case Measure::kEfficiency:
+      return {tally.on_target, tally.kicks};
+    case Measure::kUnblocked:
+      return {tally.on_target, tally.kicks - tally.blocked};
+    case Measure::kGoals:
+      return {tally.goals, tally.opportunities};
+    case Measure::kBounced:
+      return {tally.bounced, tally.on_target};
+    case Measure::kPerOpportunity:
+      break;
+  }
+  return {tally.on_target, tally.opportunities};
 }
 
 Effect contrast(std::span<const Term> terms, Measure measure) {

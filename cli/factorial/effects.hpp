@@ -14,13 +14,19 @@ struct MatchTally {
   std::int64_t opportunities = 0;
   std::int64_t kicks = 0;
   std::int64_t on_target = 0;     ///< observed
+  std::int64_t blocked = 0;       ///< observed
+  std::int64_t bounced = 0;       ///< on target, and by the simulator's truth it touched the floor before
+  std::int64_t goals = 0;         ///< by the simulator's truth: on target and past the keeper, where there is one
   std::uint32_t calibration = 0;  ///< number of the evening that its robots were calibrated on
 };
 
 /// Shares that arms are compared by.
 enum class Measure {
-  kEfficiency,     ///< on target of kicks
-  kPerOpportunity  ///< on target of opportunities
+  kEfficiency,      ///< on target of kicks
+  kUnblocked,       ///< on target of the kicks that nobody blocked
+  kPerOpportunity,  ///< on target of opportunities
+  kGoals,           ///< goals of opportunities
+  kBounced          ///< bounced of kicks on target
 };
 
 /// An arm's matches, calibration by calibration, each in the order of their numbers: those at the same place of two

@@ -15,8 +15,13 @@ MatchTally tally_of(const nodes::PlayedMatch& match) {
   for (const nodes::PlayedPossession& possession : match.possessions) {
     ++tally.opportunities;
     if (!possession.kick) continue;
+    const nodes::PlayedKick& kick = *possession.kick;
+    const bool on_target = kick.observed == kicking::Outcome::kOnTarget;
     ++tally.kicks;
-    if (possession.kick->observed == kicking::Outcome::kOnTarget) ++tally.on_target;
+    tally.on_target += on_target ? 1 : 0;
+    tally.blocked += kick.observed == kicking::Outcome::kBlocked ? 1 : 0;
+    tally.bounced += on_target && kick.truth_bounced ? 1 : 0;
+    tally.goals += kick.truth == kicking::Outcome::kOnTarget && !kick.truth_saved ? 1 : 0;
   }
   return tally;
 }

@@ -62,6 +62,25 @@ constexpr UncertainInput kInputs[] = {
     {"opponent.further_median_m", 2.5, 6.0, "matters with more than one"},
     {"opponent.body_radius_m", 0.2, 0.3, "a narrow one; two at once"},
     {"opponent.body_height_m", 0.4, 0.8, "half; the rules' limit"},
+    {"keeper.reaction_s", 0.15, 0.5, "sense to act alone (CAMBADA, 140 ms); twice"},
+    {"keeper.sight_sd_mps", 0.2, 1.5, "0.04 m a picture; three times"},
+    {"keeper.speed_mps", 1.0, 3.0, "half, one and a half"},
+    {"keeper.acceleration_mps2", 2.0, 6.0, "half, one and a third"},
+    {"keeper.half_width_m", 0.2, 0.3, "a narrow one; the frame always out"},
+    {"keeper.height_m", 0.5, 0.9, "low; the frame always out"},
+    {"keeper.overlap_m", 0.0, 0.11, "a touch; half the ball"},
+    {"keeper.side_extension_m", 0.0, 0.3, "none; a wide one"},
+    {"keeper.up_extension_m", 0.0, 0.2, "none; twice"},
+    {"keeper.extension_s", 0.05, 0.3, "half, three times"},
+    {"defenders.line_distance_m", 0.75, 2.25, "edge of the goal area, of the penalty area"},
+    {"defenders.spread_sd_m", 0.25, 1.0, "half, twice"},
+    {"defenders.reaction_s", 0.15, 0.5, "as the keeper's"},
+    {"defenders.sight_sd_mps", 0.2, 1.5, "as the keeper's"},
+    {"defenders.speed_mps", 1.0, 3.0, "half, one and a half"},
+    {"defenders.acceleration_mps2", 2.0, 6.0, "half, one and a third"},
+    {"defenders.half_width_m", 0.2, 0.3, "a narrow one; a wide one"},
+    {"defenders.height_m", 0.4, 0.8, "half; the rules' limit"},
+    {"defenders.overlap_m", 0.0, 0.11, "a touch; half the ball"},
     {"referee.stops_per_min", 0.0, 3.0, "none; six times"},
     {"odometry.wheel_sd_radps", 0.2, 1.8, "a third, three times"},
     {"odometry.slip_sd_ratio", 0.0, 0.06, "none; three times"},
@@ -127,6 +146,12 @@ double visit(sim::Scenario& scenario, const std::string& key, std::optional<doub
 }  // namespace
 
 std::span<const UncertainInput> uncertain_inputs() { return kInputs; }
+
+bool in_force(const sim::Scenario& scenario, const UncertainInput& input) {
+  const std::string_view key = input.key;
+  if (key.starts_with("keeper.")) return scenario.keeper.enabled;
+  return !key.starts_with("defenders.") || scenario.defenders.count > 0.0;
+}
 
 double value_of(const sim::Scenario& scenario, const std::string& key) {
   sim::Scenario copy = scenario;

@@ -17,6 +17,9 @@ struct UncertainInput {
 
 std::span<const UncertainInput> uncertain_inputs();
 
+/// Whether it can change anything: a keeper's where there is one, defenders' where there are some, all others always.
+bool in_force(const sim::Scenario& scenario, const UncertainInput& input);
+
 /// The value of `key` in the unit of its name. @throws std::invalid_argument for a key that is no number of a scenario.
 double value_of(const sim::Scenario& scenario, const std::string& key);
 

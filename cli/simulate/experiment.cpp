@@ -130,6 +130,7 @@ struct ArmSum {
   std::int64_t opportunities = 0;
   std::int64_t kicks = 0;
   std::int64_t on_target = 0;
+  std::int64_t goals = 0;  // by the simulator's truth
 };
 
 std::map<std::string, ArmSum> sums(const std::string& out) {
@@ -142,6 +143,7 @@ std::map<std::string, ArmSum> sums(const std::string& out) {
   count("possession_truths USING (session_id)", &ArmSum::opportunities);
   count("kick_receipts USING (session_id) WHERE accepted = 1", &ArmSum::kicks);
   count("kick_outcomes USING (session_id) WHERE on_target = 1", &ArmSum::on_target);
+  count("kick_truths USING (session_id) WHERE outcome = 'on_target' AND saved = 0", &ArmSum::goals);
   return arms;
 }
 
@@ -150,18 +152,22 @@ void print_arms(const ExperimentPlan& plan, const std::string& out, const std::v
   const auto arms = sums(out);
   std::size_t width = 3;
   for (const nodes::Arm& arm : plan.arms) width = std::max(width, arm.name.size());
-  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>26}\n", "arm", width, "opportunities", "kicks", "on target",
-             "on target/opportunity", "opportunities/s and core");
+  const bool keeper = plan.scenario.keeper.enabled;
+  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}{}  {:>26}\n", "arm", width, "opportunities", "kicks", "on target",
+             "on target/opportunity", keeper ? "  goals/opportunity" : "", "opportunities/s and core");
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {
     const auto found = arms.find(plan.arms[i].name);
     const ArmSum sum = found == arms.end() ? ArmSum{} : found->second;
     const double played = static_cast<double>(matches) * plan.possessions;
-    fmt::print(
-        "{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>26}\n", plan.arms[i].name, width, sum.opportunities, sum.kicks,
-        sum.on_target,
-        sum.opportunities > 0 ? static_cast<double>(sum.on_target) / static_cast<double>(sum.opportunities) : 0.0,
-        processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
+    const auto share = [&](std::int64_t n) {
+      return sum.opportunities > 0 ? static_cast<double>(n) / static_cast<double>(sum.opportunities) : 0.0;
+    };
+    fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}{}  {:>26}\n", plan.arms[i].name, width, sum.opportunities,
+               sum.kicks, sum.on_target, share(sum.on_target),
+               keeper ? fmt::format("  {:>17.4f}", share(sum.goals)) : "",
+               processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
   }
+  if (keeper) fmt::print("goals: by the simulator's truth, on target and past its keeper\n");
 }
 
 }  // namespace

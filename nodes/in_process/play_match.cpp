@@ -162,7 +162,11 @@ class Game {
 
   void settle(const sim::StepEvents& events) {
     for (const sim::KickTruth& truth : events.kicks) {
-      if (PlayedPossession* of = possession_of(truth.kick_id)) of->kick->truth = truth.outcome;
+      if (PlayedPossession* of = possession_of(truth.kick_id)) {
+        of->kick->truth = truth.outcome;
+        of->kick->truth_saved = truth.saved;
+        of->kick->truth_bounced = truth.bounced;
+      }
       if (!record_) continue;
       record_->kick_truths.push_back(truth_message(truth));
       record_->kick_truths.back().robot_id = robot_of(truth.kick_id);

@@ -10,6 +10,7 @@ namespace {
 
 using kicking::PolicyName;
 using testing::HasSubstr;
+using testing::Not;
 
 /// 20 matches of 40 opportunities, half of them with a kick, so many on target.
 ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
@@ -95,6 +96,52 @@ TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
   EXPECT_EQ(to_json(report)["cells"].size(), 14u);
   EXPECT_THAT(to_csv(report), HasSubstr("cell,new,predictive,,"));
   EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
+}
+
+TEST(Factorial, BlockedKicksStandApartWhereAsked) {
+  std::vector<PlayedCell> cells = played();
+  for (PlayedCell& played : cells) {
+    for (MatchTally& match : played.matches) match.blocked = played.cell.policy == PolicyName::kMoving ? 5 : 0;
+  }
+  const auto motion = [&](Measure measure) { return effects_of(cells, measure)[1].efficiency.value; };
+  EXPECT_NEAR(motion(Measure::kEfficiency), 0.225, 1e-12);
+  // Of 15, not 20 kicks: by hand (12 + 15) / 2 / 15 - (8 + 10) / 2 / 20.
+  EXPECT_NEAR(motion(Measure::kUnblocked), 0.9 - 0.45, 1e-12);
+  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = cells};
+  EXPECT_THAT(to_text(report), HasSubstr("blocked ones included"));
+  report.efficiency = Measure::kUnblocked;
+  EXPECT_THAT(to_text(report), HasSubstr("of the kicks that nobody blocked"));
+  EXPECT_EQ(to_json(report)["blocked"], "apart");
+}
+
+TEST(Factorial, SaysWhichAssumptionsReachThePapersPair) {
+  ArmTally older = matches_of(10), newer = matches_of(13);
+  for (MatchTally& match : newer) match.blocked = 3;
+  const std::string text = pair_text({{0.1, older, newer}}, Law::kReleased);
+  EXPECT_THAT(text, HasSubstr("outside  50.0"));
+  EXPECT_THAT(text, HasSubstr("65.0"));
+  EXPECT_THAT(text, HasSubstr("76.5"));
+  const auto json = pair_json({{0.1, older, newer}});
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_FALSE(json[0]["both_within_papers"]) << "65 % is below 68";
+  EXPECT_TRUE(json[1]["both_within_papers"]);
+}
+
+TEST(Factorial, CountsWhatBouncedInAndWhatPassedTheKeeper) {
+  std::vector<PlayedCell> cells = played();
+  for (PlayedCell& played : cells) {
+    for (MatchTally& match : played.matches) {
+      match.bounced = match.on_target / 2;
+      match.goals = 4;
+    }
+  }
+  FactorialReport report{.scenario = "keeper.toml", .robots = {"calibrated_1"}, .cells = cells};
+  EXPECT_THAT(to_text(report), Not(HasSubstr("goals/opp.")));
+  report.keeper = true;
+  EXPECT_THAT(to_text(report), HasSubstr("goals/opp. [%]"));
+  EXPECT_THAT(to_text(report), HasSubstr("10.0 (10.0 to 10.0)"));
+  EXPECT_NEAR(share_of(cells[0].matches, Measure::kBounced).value, 0.4375, 0.07);
+  EXPECT_EQ(to_json(report)["cells"][0]["goals"], 80);
 }
 
 TEST(Factorial, AShareStaysWithinItsBounds) {

@@ -55,6 +55,35 @@ TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
   }
 }
 
+TEST(UncertainInputs, OfAKeeperOrDefendersPlayWhereThereAreSome) {
+  const auto in_force_now = [](const sim::Scenario& scenario, const std::string& part) {
+    return std::ranges::count_if(uncertain_inputs(), [&](const UncertainInput& input) {
+      return std::string{input.key}.starts_with(part) && in_force(scenario, input);
+    });
+  };
+  sim::Scenario scenario;
+  EXPECT_EQ(in_force_now(scenario, "keeper."), 0);
+  EXPECT_EQ(in_force_now(scenario, "defenders."), 0);
+  EXPECT_GT(in_force_now(scenario, "kicker."), 5);
+  scenario.keeper.enabled = true;
+  scenario.defenders.count = 1.0;
+  EXPECT_GT(in_force_now(scenario, "keeper."), 5);
+  EXPECT_GT(in_force_now(scenario, "defenders."), 5);
+}
+
+TEST(Sensitivity, ComparesGoalsWhereAsked) {
+  SensitivityReport report{.arms = {"stopped", "moving"}, .base = {}, .inputs = {}, .measure = Measure::kGoals};
+  ArmTally few(4, {10, 10, 8}), many(4, {10, 10, 8});
+  for (std::size_t i = 0; i < 4; ++i) {
+    few[i].goals = 1 + static_cast<std::int64_t>(i % 2);
+    many[i].goals = 5;
+  }
+  report.base = {few, many};
+  EXPECT_NEAR(headline(report.base, 0).value, 0.0, 1e-12);
+  EXPECT_NEAR(headline(report.base, 0, report.measure).value, 0.35, 1e-12);
+  EXPECT_NE(to_text(report).find("Goals past the keeper"), std::string::npos);
+}
+
 TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
   EXPECT_THROW(value_of({}, "kicker.delay"), std::invalid_argument);
   EXPECT_THROW(value_of({}, "delay_s"), std::invalid_argument);
