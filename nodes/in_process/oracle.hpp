@@ -6,8 +6,9 @@
 #include "sim/scenario.hpp"
 #include "sim/truth.hpp"
 
-/// What the policy `oracle` is given in place of a robot's belief. It is an upper bound of what better knowledge could
-/// buy, in the simulator alone: everything here is the simulator's truth, which no other policy may see.
+/// What the policy `oracle` is given in place of a robot's belief: everything here is the simulator's truth, which no
+/// other policy may see. It says what better knowledge could buy the rule of `predictive`, with its steps and its blind
+/// spot (the opponent's bearing); other rules may be better than it.
 namespace trivela::nodes {
 
 /// A robot that knows its kicker: the true table as the effective one that its flights would be measured as
