@@ -6,6 +6,7 @@
 
 #include "config/error.hpp"
 #include "config/robot.hpp"
+#include "kicking/ballistics/crossing.hpp"
 
 namespace trivela::config {
 namespace {
