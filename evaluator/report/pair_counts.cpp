@@ -26,7 +26,7 @@ std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t old
   const std::size_t strata = book.strata.size() + 1;
   std::vector<stats::MatchCounts> cells(std::max<std::size_t>(book.matches, 1) * strata);
   for (const Opportunity& o : book.opportunities) {
-    if (!of_opportunities && (o.ending == Ending::kUnknown || o.ending == Ending::kNoKick)) continue;
+    if (!of_opportunities && o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
     if (o.group != older && o.group != newer) continue;
     stats::MatchCounts& cell = cells[o.match * strata + o.stratum];
     add(o.group == older ? cell.older : cell.newer, o.ending);

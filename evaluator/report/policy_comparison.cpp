@@ -14,31 +14,48 @@
 namespace trivela::evaluator {
 namespace {
 
+Ending past_keeper(Ending ending, bool goal) {
+  return goal ? Ending::kInside : ending == Ending::kNoKick ? ending : Ending::kOutside;
+}
+
+void count(Bounces& bounces, const Opportunity& o) {
+  bounces.observed += o.bounced ? 1 : 0;
+  bounces.observed_bounced += o.bounced.value_or(false) ? 1 : 0;
+  bounces.truth += o.truth_bounced ? 1 : 0;
+  bounces.truth_bounced += o.truth_bounced.value_or(false) ? 1 : 0;
+}
+
 GroupResult group_result(const KickBook& book, std::uint32_t group) {
   GroupResult result;
   result.name = book.groups[group];
-  std::vector<stats::Counts> kicks(book.matches), opportunities(book.matches);
+  std::vector<stats::Counts> kicks(book.matches), opportunities(book.matches), goals(book.matches);
   for (const Opportunity& o : book.opportunities) {
     if (o.group != group) continue;
     result.opportunities += book.has_opportunities ? 1 : 0;
     result.inside += o.ending == Ending::kInside ? 1 : 0;
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
+    result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
+    result.goals += o.goal ? 1 : 0;
+    if (o.ending == Ending::kInside) count(result.bounces, o);
     if (!book.has_matches) continue;
     add(opportunities[o.match], o.ending);
+    add(goals[o.match], past_keeper(o.ending, o.goal));
     if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(kicks[o.match], o.ending);
   }
   result.matches = static_cast<std::size_t>(std::ranges::count_if(opportunities, [](auto& c) { return c.n > 0; }));
   const auto by_match = stats::clustered_wilson(kicks);
   result.efficiency_ci = by_match.value_or(stats::wilson(result.efficiency()));
   result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(stats::wilson(result.per_opportunity()));
+  result.goals_ci = stats::clustered_wilson(goals).value_or(stats::wilson({result.goals, result.opportunities}));
   result.by_match = by_match.has_value();
   for (const auto& [key, minutes] : book.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
   }
   if (result.unknown > 0) {
-    result.efficiency_bounds = {*stats::efficiency({result.inside, result.kicks()}),
-                                *stats::efficiency({result.inside + result.unknown, result.kicks()})};
+    const std::int64_t n = result.kicks() - result.blocked;
+    result.efficiency_bounds = {*stats::efficiency({result.inside, n}),
+                                *stats::efficiency({result.inside + result.unknown, n})};
   }
   return result;
 }
@@ -55,6 +72,20 @@ std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_mat
   result.difference = *stats::efficiency(result.newer) - *stats::efficiency(result.older);
   result.independent = stats::newcombe(result.older, result.newer);
   if (has_matches) result.clustered = stats::clustered_difference(cells);
+  return result;
+}
+
+// The same book with goals as what is inside.
+KickBook goals_of(KickBook book) {
+  for (Opportunity& o : book.opportunities) o.ending = past_keeper(o.ending, o.goal);
+  return book;
+}
+
+std::optional<Effect> goals_effect(const KickBook& goals, std::uint32_t place, bool paired) {
+  if (!paired) return effect(cells_of(goals, 0, place, true), goals.has_matches);
+  const auto played = paired_opportunities(goals, 0, place);
+  auto result = effect(played.cells, goals.has_matches);
+  if (result) result->independent = stats::paired_newcombe(played.counts);
   return result;
 }
 
@@ -164,8 +195,11 @@ PolicyComparison compare_policies(KickBook book, const std::string& by, double s
                                          book.opportunities.size()));
   }
   std::vector<double> p_values;
+  const auto goals = book.keeper && book.has_opportunities ? std::optional(goals_of(book)) : std::nullopt;
   for (std::uint32_t place = 1; place < book.groups.size(); ++place) {
     result.pairs.push_back(pair_result(book, result.groups[0], result.groups[place], place, smallest_effect));
+    PairResult& pair = result.pairs.back();
+    if (goals) pair.goals = goals_effect(*goals, place, pair.pairs.has_value());
     if (result.pairs.back().headline) p_values.push_back(result.pairs.back().headline->p);
   }
   const auto adjusted = stats::holm(p_values);

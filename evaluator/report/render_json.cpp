@@ -16,6 +16,8 @@ Json policy_json(const PolicyRow& row) {
           {"efficiency_bounds", json_of(row.efficiency_bounds())},
           {"played_min", json_of(row.played_min)},
           {"kicks_per_min", json_of(row.kicks_per_min())},
+          {"bounced", bounces_json(row.bounces)},
+          {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }
 
