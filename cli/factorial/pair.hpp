@@ -9,9 +9,10 @@
 namespace trivela::cli {
 
 /// The paper's two tournaments, old table and `stopped`, new table and `moving`, with one common error of the eye that
-/// made the old table.
+/// made the old table: balls so much over the target's height seemed to pass at it, at every distance and in every
+/// match.
 struct BiasPoint {
-  double eye_bias_sd_m = 0.0;
+  double eye_bias_m = 0.0;
   ArmTally older;
   ArmTally newer;
 };

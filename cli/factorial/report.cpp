@@ -229,7 +229,7 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
 std::string to_csv(const FactorialReport& report) {
   std::string csv =
       "kind,table,policy,law,opponent_median_m,opportunities,kicks,on_target,efficiency,efficiency_low,efficiency_high,"
-      "per_opportunity,per_opportunity_low,per_opportunity_high,blocked,bounced,goals,eye_bias_sd_m\n";
+      "per_opportunity,per_opportunity_low,per_opportunity_high,blocked,bounced,goals,eye_bias_m\n";
   const auto row = [&](const char* kind, const Cell& cell, double median_m, const ArmTally& matches,
                        const std::string& bias = "") {
     const char* law = cell.policy == PolicyName::kPredictive ? "" : name(cell.law);
@@ -242,7 +242,7 @@ std::string to_csv(const FactorialReport& report) {
     row("sweep", {"new", PolicyName::kMoving, report.sweep_law}, point.opponent_median_m, point.newer);
   }
   for (const BiasPoint& point : report.biases) {
-    const std::string bias = fmt::format("{:g}", point.eye_bias_sd_m);
+    const std::string bias = fmt::format("{:g}", point.eye_bias_m);
     row("bias", {"old", PolicyName::kStopped, report.sweep_law}, report.opponent_median_m, point.older, bias);
     row("bias", {"new", PolicyName::kMoving, report.sweep_law}, report.opponent_median_m, point.newer, bias);
   }

@@ -121,6 +121,7 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   }
   book.outcome = options.truth ? "truth" : "observed";
   book.remarks = logged.remarks;
+  book.blocked_apart = options.blocked_apart;
   book.matches = logged.matches;
   book.has_matches = true;
   for (const ComparedSession& session : logged.sessions) book.simulated = book.simulated || session.simulated;
@@ -159,10 +160,14 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
     opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
     opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
-    opportunity.ending = o.ending;
+    opportunity.ending = options.blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
     opportunity.calibration =
         evenings.try_emplace(logged.sessions[o.session].calibration_id, evenings.size()).first->second;
-    opportunity.doubt = o.doubt;
+    if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
+    opportunity.bounced = o.bounced;
+    opportunity.truth_bounced = o.truth_bounced;
+    opportunity.goal = o.goal;
+    book.keeper = book.keeper || o.saved;
     book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());

@@ -25,6 +25,11 @@ Ending ending_of(const std::string& outcome) {
   return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
 }
 
+std::optional<bool> said(const log::Value& value) {
+  const auto* const number = std::get_if<std::int64_t>(&value);
+  return number != nullptr ? std::optional(*number != 0) : std::nullopt;
+}
+
 // Place of a possession in the rows.
 using Key = std::tuple<std::uint32_t, int, int, std::int64_t>;  // session, robot, half, possession
 
@@ -96,6 +101,11 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
               : o.ending == Ending::kInside  ? 1.0 - *p_inside
               : o.ending == Ending::kOutside ? *p_inside
                                              : 0.0;
+    o.blocked = outcome == "blocked";
+    o.bounced = said(row[9]);
+    o.truth_bounced = said(row[10]);
+    o.saved = said(row[11]).value_or(false);
+    o.goal = text_if_any(row[6]) == "on_target" && !o.saved;
   });
   if (alone > 0 && !places.empty()) {
     logged.remarks.push_back(fmt::format("{} kicks belong to no possession that the log knows", alone));

@@ -48,8 +48,13 @@ struct LoggedOpportunity {
   std::optional<double> distance_m;        ///< ball to target at the kick, as the robot believed; none: no kick
   std::optional<FirstDecision> first;      ///< none: the log has not every cycle
   Ending ending = Ending::kNoKick;
-  double doubt = 0.0;          ///< probability that a kick called inside was not, or one called outside was
-  bool has_possession = true;  ///< false: a kick alone
+  double doubt = 0.0;                   ///< probability that a kick called inside was not, or one called outside was
+  bool blocked = false;                 ///< the kick, an Ending::kOutside
+  std::optional<bool> bounced{};        ///< as observed
+  std::optional<bool> truth_bounced{};  ///< by the simulator's truth
+  bool saved = false;                   ///< by the simulator's truth
+  bool goal = false;                    ///< by the simulator's truth
+  bool has_possession = true;           ///< false: a kick alone
 };
 
 /// Minutes of play of a half.

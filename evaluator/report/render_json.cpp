@@ -17,6 +17,8 @@ Json policy_json(const PolicyRow& row) {
           {"expected_wrong", {{"inside", row.doubt.inside}, {"outside", row.doubt.outside}}},
           {"played_min", json_of(row.played_min)},
           {"kicks_per_min", json_of(row.kicks_per_min())},
+          {"bounced", bounces_json(row.bounces)},
+          {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }
 

@@ -38,7 +38,11 @@ std::string heading(const Report& report) {
 
 std::string table2(const Report& report) {
   Table table = {{"policy", "inside", "outside", "unknown", "efficiency", "Wilson 95 %", "minutes", "kicks a minute"}};
+  std::vector<NamedBounces> bounces;
+  bool blocked_apart = false;
   for (const PolicyRow& row : report.policies) {
+    bounces.push_back({printable(row.policy), row.bounces});
+    blocked_apart = blocked_apart || row.blocked_apart;
     const auto efficiency = stats::efficiency(row.counts());
     const auto rate = row.kicks_per_min();
     table.push_back({row.policy, number(row.inside()), number(row.outside()), number(row.unknown()),
@@ -47,7 +51,9 @@ std::string table2(const Report& report) {
                      rate ? fmt::format("{:.2f}", *rate) : "-"});
   }
   return "\nTable 2: kicks by policy\n" + text_table(table) +
-         "  inside: between the posts and below the bar, saves included; it is not goals scored\n";
+         "  inside: between the posts and below the bar, saves included; it is not goals scored\n" +
+         bounce_lines(bounces) +
+         (blocked_apart ? "  blocked kicks stand apart, below: neither outside nor in the efficiency\n" : "");
 }
 
 std::string misses(const Report& report) {

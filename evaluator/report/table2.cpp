@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "evaluator/metrics/bounces_by_policy.sql.hpp"
 #include "evaluator/metrics/minutes_by_policy.sql.hpp"
 #include "evaluator/metrics/outcomes_by_policy.sql.hpp"
 #include "evaluator/metrics/refused_orders.sql.hpp"
@@ -16,7 +17,7 @@ using Cells = std::span<const log::Value>;
 using log::integer;
 const std::string& text(const log::Value& value) { return std::get<std::string>(value); }
 
-std::vector<PolicyRow> policy_rows(const log::Reader& reader) {
+std::vector<PolicyRow> policy_rows(const log::Reader& reader, bool blocked_apart) {
   std::map<std::string, PolicyRow, std::greater<>> rows;  // "stopped" before "moving": the older policy first
   reader.query(kMinutesByPolicySql, [&](Cells row) {
     const auto* const played_min = std::get_if<double>(&row[1]);
@@ -24,9 +25,13 @@ std::vector<PolicyRow> policy_rows(const log::Reader& reader) {
   });
   reader.query(kOutcomesByPolicySql,
                [&](Cells row) { rows[text(row[0])].kicks_by_outcome[text(row[1])] = integer(row[2]); });
+  reader.query(kBouncesByPolicySql, [&](Cells row) {
+    rows[text(row[0])].bounces = {integer(row[1]), integer(row[2]), integer(row[3]), integer(row[4])};
+  });
   std::vector<PolicyRow> result;
   for (auto& [policy, row] : rows) {
     row.policy = policy;
+    row.blocked_apart = blocked_apart;
     result.push_back(std::move(row));
   }
   return result;
@@ -71,9 +76,9 @@ bool Report::data_lost() const {
          std::ranges::any_of(unrecorded_orders, &UnrecordedOrders::counts);
 }
 
-Report make_report(const log::Reader& reader) {
+Report make_report(const log::Reader& reader, bool blocked_apart) {
   Report report{.sessions = reader.sessions(),
-                .policies = policy_rows(reader),
+                .policies = policy_rows(reader, blocked_apart),
                 .losses = reader.losses(),
                 .unclosed_kicks = {},
                 .refused_orders = {},

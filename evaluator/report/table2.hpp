@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/bounces.hpp"
 #include "evaluator/report/label_quality.hpp"
 #include "evaluator/report/recording_gaps.hpp"
 #include "evaluator/stats/counts.hpp"
@@ -23,12 +24,15 @@ struct PolicyRow {
   std::map<std::string, std::int64_t> kicks_by_outcome;
   stats::LabelDoubt doubt;           ///< of the labels; 0 where the log does not say
   std::optional<double> played_min;  ///< minutes of play in its halves; none: the referee was not recorded
+  Bounces bounces;
+  bool blocked_apart = false;  ///< blocked kicks are neither inside nor outside
 
   std::int64_t kicks() const;
   std::int64_t of(const std::string& outcome) const;
   std::int64_t inside() const { return of("on_target"); }
   std::int64_t unknown() const { return of("unknown"); }
-  std::int64_t outside() const { return kicks() - inside() - unknown(); }
+  std::int64_t blocked() const { return of("blocked"); }
+  std::int64_t outside() const { return kicks() - inside() - unknown() - (blocked_apart ? blocked() : 0); }
 
   /// Inside of the kicks whose outcome is known.
   stats::Counts counts() const { return {inside(), inside() + outside()}; }
@@ -81,7 +85,8 @@ struct Report {
   bool data_lost() const;
 };
 
-/// Counts what is in the log. Throws std::runtime_error where it cannot be read.
-Report make_report(const log::Reader& reader);
+/// Counts what is in the log. `blocked_apart`: blocked kicks stand apart, efficiency is of the others; otherwise they
+/// are outside, as in the paper's Table 2. Throws std::runtime_error where it cannot be read.
+Report make_report(const log::Reader& reader, bool blocked_apart = false);
 
 }  // namespace trivela::evaluator

@@ -16,6 +16,8 @@ struct LoggedKick {
   std::string observed = "on_target";  ///< empty: no outcome came
   std::string truth = "on_target";
   double distance_m = 4.0;
+  bool saved = false;    ///< by the simulator's truth
+  bool bounced = false;  ///< by the simulator's truth
 };
 
 /// Writes an experiment: many sessions in one file, with possessions, who was in charge of them, and their kicks.
@@ -42,7 +44,7 @@ class TestExperiment {
                              {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
         truths_(log_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                            "release_t_ns", "release_x_m", "release_y_m", "release_vx_mps",
-                                           "release_vy_mps", "release_vz_mps", "saved"})),
+                                           "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
         possessions_(log_.table("possession_truths", {"robot_id", "seq", "t_ns", "half", "possession_id", "ending",
                                                       "start_t_ns", "start_x_m", "start_y_m", "start_heading_rad"})),
         assignments_(log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})),
@@ -102,7 +104,8 @@ class TestExperiment {
     t.text(kick->truth.c_str());
     t.integer(t_ns);
     for (const double value : {0.0, 4.0, 0.0, 8.0, 3.0}) t.number(value);
-    t.integer(0);
+    t.integer(kick->saved ? 1 : 0);
+    t.integer(kick->bounced ? 1 : 0);
     log_.end_row();
   }
 

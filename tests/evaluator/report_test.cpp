@@ -112,6 +112,41 @@ TEST_F(ReportOfALog, TheLatestOutcomeOfAKickHolds) {
   EXPECT_EQ(row.inside(), 1);
 }
 
+TEST_F(ReportOfALog, BallsThatBouncedInAreCountedApart) {
+  MatchLog match(path(), session(), options());
+  for (int i = 0; i < 5; ++i) match.truth(match.kick(1, "on_target"), "on_target", i < 2);
+  match.truth(match.kick(1, "over"), "over", true);  // not inside: nobody asks
+  match.kick(2, "on_target");                        // nobody said
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_EQ(row_of(report, "stopped").inside(), 5);
+  EXPECT_EQ(row_of(report, "stopped").bounces.truth, 5);
+  EXPECT_EQ(row_of(report, "stopped").bounces.truth_bounced, 2);
+  EXPECT_EQ(row_of(report, "stopped").bounces.observed, 0);
+  EXPECT_THAT(to_text(report),
+              HasSubstr("bounced before the line, of those inside, by the simulator's truth: stopped 2 of 5\n"));
+  EXPECT_THAT(to_text(report), Not(HasSubstr("as observed")));
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["policies"][0]["bounced"]["truth"]["bounced"], 2);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(report))["policies"][0]["bounced"]["observed"].is_null());
+}
+
+TEST_F(ReportOfALog, BlockedKicksStandApartWhereAsked) {
+  MatchLog match(path(), session(), options());
+  match.kicks(2, "on_target", 6);
+  match.kicks(2, "blocked", 3);
+  match.kicks(2, "over", 2);
+  match.close();
+  const log::Reader reader(path());
+  EXPECT_EQ(row_of(make_report(reader), "moving").outside(), 5);
+  const Report apart = make_report(reader, true);
+  const PolicyRow row = row_of(apart, "moving");
+  EXPECT_EQ(row.outside(), 2);
+  EXPECT_EQ(row.kicks(), 11);
+  EXPECT_EQ(row.counts().n, 8);
+  EXPECT_EQ(row.efficiency_bounds().lo, 0.75);
+  EXPECT_THAT(to_text(apart), HasSubstr("blocked kicks stand apart"));
+}
+
 TEST_F(ReportOfALog, UnknownOutcomesBoundTheEfficiency) {
   MatchLog match(path(), session(), options());
   match.kicks(2, "on_target", 6);
