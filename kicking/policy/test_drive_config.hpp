@@ -27,8 +27,8 @@ struct TestDriveConfig {
   double approach_mps = 1.2;
   /// Lateral: velocities past the target's axis, to the right positive (Table 1, both ways).
   std::vector<double> lateral_mps{0.5, -0.5, 1.0, -1.0, 2.0, -2.0};
-  /// Straight: velocities along the axis, towards the goal positive (assumed; the information on the transfer grows with
-  /// their square).
+  /// Straight: velocities along the axis, towards the goal positive (assumed; the information on the transfer grows
+  /// with their square).
   std::vector<double> straight_mps{0.0, 0.75, -0.75, 1.5, -1.5};
 
   /// Turn: turn rates, counter-clockwise positive (assumed; Falcons turn at up to 2.5 rad/s with the ball).
