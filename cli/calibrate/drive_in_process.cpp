@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "bus/messages.hpp"
 #include "evaluator/calibration/lobs_of_scans.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "nodes/in_process/play_match.hpp"
