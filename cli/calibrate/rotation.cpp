@@ -125,7 +125,8 @@ void calibrate_rotation(const RotationFlags& flags) {
   require_writable("--plot", flags.plot);
   const auto robot = robot_of(flags);
   const RotationRows kicks =
-      is_match_log(flags) ? evaluator::turn_kicks(evaluator::log::Reader(flags.input), robot->model, flags.cycle_s)
+      is_match_log(flags) ? evaluator::turn_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)),
+                                                  robot->model, flags.cycle_s)
                           : rows_of_numbers(flags);
   const double shipped_offset_m = robot ? robot->model.ball_offset_m : kicking::RobotModel{}.ball_offset_m;
   const kicking::RotationLever lever{flags.ball_offset_m.value_or(shipped_offset_m), flags.cycle_s};
