@@ -11,23 +11,37 @@
 #include "cli/factorial/play.hpp"
 #include "cli/say.hpp"
 #include "cli/simulate/arms.hpp"
+#include "cli/simulate/evenings.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
 
+/// What --seed may be.
+inline const CLI::Range kSeeds{std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}};
+
 /// What the verbs have in common that play many matches of several arms and report on them.
 struct Study {
   PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
   std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  std::uint32_t calibrations = 0;  ///< evenings; 0: the robot files as they are
   std::string csv, svg;
   bool json = false;
 
   /// Name of the scenario's file, for the report.
   std::string scenario_name() const;
+
+  /// Plays the evenings of calibration of the plan's seed into the plan, before its matches.
+  void draw_evenings(const sim::Scenario& world, const ArmBase& base);
 };
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --csv, --svg, --json.
+/// --matches, --possessions, --seed, --jobs, --scenario, --calibrations.
+void add_play_options(CLI::App& verb, Study& study);
+
+/// --calibrations alone.
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
+
+/// Those of add_play_options(), and --csv, --svg, --json.
 void add_study_options(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.

@@ -31,6 +31,7 @@ struct SensitivityReport {
   std::vector<std::string> arms;  ///< names, at least two
   std::vector<ArmTally> base;     ///< the scenario as it is
   std::vector<PlayedInput> inputs;
+  std::size_t evenings = 0;  ///< of calibration; 0: robot files
 };
 
 /// Headline i: shots on target per opportunity, arm i + 1 minus arm i. There is one less than there are arms.

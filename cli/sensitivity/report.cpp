@@ -4,6 +4,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "cli/simulate/interval_words.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
@@ -13,6 +14,11 @@ using evaluator::Json;
 
 std::string headline_name(const SensitivityReport& report, std::size_t i) {
   return fmt::format("{} - {}", report.arms[i + 1], report.arms[i]);
+}
+
+/// The value that the ends stand instead of; a scenario's angles have more digits than anybody wrote.
+std::string shown(const PlayedInput& input) {
+  return is_setting(input.input.key) ? value_text(input.input.key, input.value) : fmt::format("{:.3g}", input.value);
 }
 
 std::string efficiency(const ArmTally& arm) {
@@ -38,8 +44,8 @@ Json json_of(const SensitivityReport& report, const std::vector<ArmTally>& arms)
 std::string to_text(const SensitivityReport& report) {
   std::string text = fmt::format(
       "{} matches of {} opportunities, the same for every arm and value; {}, seed {}. Robots are as they are: none is\n"
-      "calibrated anew for a changed world. Shots on target per 100 opportunities, 95 % intervals by match.\n\n",
-      report.matches, report.possessions, report.scenario, report.seed);
+      "calibrated anew for a changed world. Shots on target per 100 opportunities, {}.\n\n",
+      report.matches, report.possessions, report.scenario, report.seed, interval_words(report.evenings));
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i)
     text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i)));
   std::vector<std::vector<std::string>> rows{{"input", "value", "instead of"}};
@@ -47,7 +53,7 @@ std::string to_text(const SensitivityReport& report) {
   for (const std::string& arm : report.arms) rows[0].push_back(arm + " [% of kicks]");
   for (const PlayedInput& input : report.inputs) {
     for (const PlayedEnd& end : input.ends) {
-      std::vector<std::string> row{input.input.key, fmt::format("{:g}", end.value), fmt::format("{:.3g}", input.value)};
+      std::vector<std::string> row{input.input.key, value_text(input.input.key, end.value), shown(input)};
       for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) row.push_back(points_text(change(report, end, i)));
       for (const ArmTally& arm : end.arms) row.push_back(efficiency(arm));
       rows.push_back(std::move(row));
@@ -61,13 +67,9 @@ std::string to_text(const SensitivityReport& report) {
 }
 
 nlohmann::ordered_json to_json(const SensitivityReport& report) {
-  Json json{{"scenario", report.scenario},
-            {"seed", report.seed},
-            {"matches", report.matches},
-            {"possessions", report.possessions},
-            {"arms", json_of(report, report.base)},
-            {"headlines", Json::array()},
-            {"inputs", Json::array()}};
+  Json json{{"scenario", report.scenario},       {"seed", report.seed},         {"matches", report.matches},
+            {"possessions", report.possessions}, {"evenings", report.evenings}, {"arms", json_of(report, report.base)},
+            {"headlines", Json::array()},        {"inputs", Json::array()}};
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) {
     Json line = json_of(headline(report.base, i));
     line["headline"] = headline_name(report, i);
@@ -106,7 +108,8 @@ std::string to_csv(const SensitivityReport& report) {
   };
   rows("", "", report.base, nullptr);
   for (const PlayedInput& input : report.inputs) {
-    for (const PlayedEnd& end : input.ends) rows(input.input.key, fmt::format("{:g}", end.value), end.arms, &end);
+    for (const PlayedEnd& end : input.ends)
+      rows(input.input.key, value_text(input.input.key, end.value), end.arms, &end);
   }
   return csv;
 }
