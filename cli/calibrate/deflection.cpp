@@ -113,9 +113,10 @@ evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::Deflection
 
 void calibrate_deflection(const DeflectionFlags& flags) {
   const auto robot = robot_of(flags);
-  const DeflectionRows kicks = is_match_log(flags)
-                                   ? evaluator::lateral_kicks(evaluator::log::Reader(flags.input), robot->model)
-                                   : rows_of_numbers(flags);
+  const DeflectionRows kicks =
+      is_match_log(flags)
+          ? evaluator::lateral_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
+          : rows_of_numbers(flags);
   std::optional<double> delay_s = flags.delay_s;
   if (!delay_s && robot) delay_s = robot->model.delay_s;
   const kicking::DeflectionFit fit = kicking::fit_deflection(kicks.rows, delay_s);

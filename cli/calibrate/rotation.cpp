@@ -122,7 +122,8 @@ evaluator::Chart chart_of(const RotationRows& kicks, const kicking::RotationFit&
 void calibrate_rotation(const RotationFlags& flags) {
   const auto robot = robot_of(flags);
   const RotationRows kicks =
-      is_match_log(flags) ? evaluator::turn_kicks(evaluator::log::Reader(flags.input), robot->model, flags.cycle_s)
+      is_match_log(flags) ? evaluator::turn_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)),
+                                                  robot->model, flags.cycle_s)
                           : rows_of_numbers(flags);
   const double shipped_offset_m = robot ? robot->model.ball_offset_m : kicking::RobotModel{}.ball_offset_m;
   const kicking::RotationLever lever{flags.ball_offset_m.value_or(shipped_offset_m), flags.cycle_s};

@@ -52,7 +52,7 @@ Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::v
   json["exit_angle_sds_deg"] = angle_sds_deg;
   json["exit_angle_se_deg"] = degrees(fit.exit_angle_rad.se);
   json["exit_angle_spread_deg"] = degrees(fit.angle_spread_rad);
-  json["exit_speed_pooled_sd_mps"] = fit.exit_speed_sd_mps;
+  json["exit_speed_pooled_sd_mps"] = std::isnan(fit.exit_speed_sd_mps) ? Json(nullptr) : Json(fit.exit_speed_sd_mps);
   json["kind"] = flags.kind;
   json["angle"] = flags.angle;
   json["isotonic"] = fit.isotonic;

@@ -1,6 +1,6 @@
 #include "cli/factorial/play.hpp"
 
-#include "cli/simulate/share_out.hpp"
+#include "cli/calibrate/in_threads.hpp"
 #include "nodes/in_process/play_match.hpp"
 
 namespace trivela::cli {
@@ -32,7 +32,7 @@ std::vector<std::vector<MatchTally>> play_arms(const sim::Scenario& scenario, co
         tally_of(nodes::play_match(scenario, by_evening.of(match)[arm], plan.seed, match, plan.possessions),
                  by_evening.evening_of(match));
   };
-  share_out(arms.size() * plan.matches, plan.jobs, play, progress);
+  in_threads(arms.size() * plan.matches, plan.jobs, play, progress);
   return tallies;
 }
 

@@ -17,9 +17,6 @@ struct EveningPlan {
   unsigned jobs = 1;           ///< threads
 };
 
-/// The seed of a robot's evening, a pure function; other experiments' evenings are others.
-std::uint64_t evening_seed(std::uint64_t seed, std::uint32_t evening, std::uint32_t robot_id);
-
 /// The teams that the evenings leave behind. The same for any number of jobs. A progress bar on a terminal. Throws
 /// UsageError where `base` names robot files, too, and where there are more evenings than matches.
 std::vector<Team> teams_of_evenings(const sim::Scenario& world, const ArmBase& base, const EveningPlan& plan);

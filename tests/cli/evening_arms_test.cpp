@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "cli/factorial/play.hpp"
+#include "cli/simulate/evening_seed.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -36,6 +38,17 @@ TEST(EveningArms, WithoutEveningsAreTheArms) {
   const EveningArms evenings{two_arms(), {}};
   EXPECT_EQ(evenings.evenings(), 1U);
   EXPECT_EQ(evenings.of(17).size(), 2U);
+}
+
+TEST(EveningSeeds, OfTheHeadlinesAreNotThoseThatSettingsWereChosenBy) {
+  std::set<std::uint64_t> seeds;
+  for (const std::uint64_t experiment : {1, 2, 7, 1001, 1002}) {
+    for (std::uint32_t evening = 0; evening < 20; ++evening) {
+      for (std::uint32_t robot = 1; robot <= 5; ++robot)
+        EXPECT_TRUE(seeds.insert(evening_seed(experiment, evening, robot)).second) << experiment;
+    }
+  }
+  EXPECT_LT(*seeds.rbegin(), kEveningSeeds);
 }
 
 TEST(PlayArms, PlaysAMatchWithItsEveningAndCountsItThere) {
