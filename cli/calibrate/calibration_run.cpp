@@ -18,9 +18,10 @@ namespace {
 
 using kicking::degrees;
 
-constexpr std::int64_t kSameKick_ns = 300'000'000;  // from the order to the launch that the laser saw, at most
-constexpr std::size_t kFewestLobs = 2;              // of a set-point (paper, section 2.2)
-constexpr std::uint32_t kMostKicks = 40;            // with a set-point in one more round
+constexpr std::int64_t kSameKick_ns = 300'000'000;          // from the order to the launch that the laser saw, at most
+constexpr double kLaserAngle_rad = kicking::radians(0.03);  // what all lobs of a scanner share: docs/calibration.md
+constexpr std::size_t kFewestLobs = 2;                      // of a set-point (paper, section 2.2)
+constexpr std::uint32_t kMostKicks = 40;                    // with a set-point in one more round
 
 std::vector<std::string> names(const std::vector<std::string>& files) {
   std::vector<std::string> out;
@@ -105,7 +106,7 @@ std::vector<kicking::TrackedTrial> CalibrationRun::followed(const std::vector<Lo
   std::vector<kicking::TrackedTrial> kicks;
   for (std::size_t i = 0; i < standing_.size(); ++i) {
     for (const evaluator::TrackedSpeed& kick : evaluator::standing_kicks(standing_[i].drives, model).rows) {
-      kicks.push_back({.power = kick.power, .up_mps = kick.up_mps});
+      kicks.push_back({.power = kick.power, .up_mps = kick.up_mps, .sideways_rad = kick.sideways_rad});
       for (const LobOfKick& lob : lobs) {
         if (lob.record == i && std::abs(lob.launch_t_ns - kick.order_t_ns) < kSameKick_ns) kicks.back().lob = lob.trial;
       }
@@ -155,16 +156,18 @@ DriveSummary CalibrationRun::standing() {
   }
   for (const auto& [why, lobs] : refused) summary.left_out.push_back(fmt::format("{} flights: {}", lobs, why));
   summary.used = lobs.size();
-  const std::vector<kicking::Trial> trials = kicking::tracked_trials(followed(lobs));
-  kicking::TableFit fit = kicking::fit_table(trials);
+  const kicking::TrackedTrials tracked = kicking::tracked_trials(followed(lobs));
+  kicking::TableFit fit = kicking::fit_table(tracked.trials);
   if (!fit.rises()) {
     // Strong set-points lie within each other's errors: the speeds are pooled, and the file says so.
     for (const std::size_t i : fit.not_rising) {
       summary.left_out.push_back(fmt::format("order of set-point {}: {:.2f} m/s, not faster than a weaker one; pooled",
                                              fit.set_points[i].power, fit.set_points[i].exit_speed_mps.mean));
     }
-    fit = kicking::fit_table(trials, {.least_angle_power = {}, .isotonic = true});
+    fit = kicking::fit_table(tracked.trials, {.least_angle_power = {}, .isotonic = true});
   }
+  fit.exit_angle_rad = tracked.exit_angle_rad;
+  fit.exit_angle_rad.se = std::hypot(fit.exit_angle_rad.se, kLaserAngle_rad);
   summary.left_out.insert(summary.left_out.end(), fit.warnings.begin(), fit.warnings.end());
   update_.set_table(fit, {}, names(scans));
   summary.found = fmt::format("{} set-points, {:.2f} to {:.2f} m/s, exit angle {}", fit.set_points.size(),

@@ -14,7 +14,7 @@ namespace trivela::cli {
 /// How much is kicked.
 struct CalibrationEffort {
   std::uint32_t kicks = 16;        ///< standing: with each set-point, a round
-  std::uint32_t lobs = 5;          ///< accepted ones that each set-point shall have; more rounds until it has them
+  std::uint32_t lobs = 3;          ///< accepted ones that each set-point shall have; more rounds until it has them
   std::uint32_t rounds = 4;        ///< at most
   std::uint32_t drive_kicks = 8;   ///< lateral, straight: with each velocity
   std::uint32_t turn_kicks = 3;    ///< turn: with each step of the bisection

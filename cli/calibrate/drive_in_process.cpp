@@ -64,13 +64,14 @@ void add_kicks(const nodes::MatchRecord& match, DriveRecord& record) {
     const msg::KickReceipt& receipt = match.receipts[i];
     const msg::KickOutcome* const outcome = last_of(match.outcomes, decision.kick_id);
     const msg::KickTruth* const truth = last_of(match.kick_truths, decision.kick_id);
-    evaluator::log::Kick kick{.robot_id = decision.robot_id,
-                              .kick_id = decision.kick_id,
-                              .t_ns = decision.t_ns,
-                              .half = 1,
-                              .policy = std::string{bus::label(decision.policy)},
-                              .ordered = true,
-                              .accepted = receipt.accepted};
+    evaluator::log::Kick kick;
+    kick.robot_id = decision.robot_id;
+    kick.kick_id = decision.kick_id;
+    kick.t_ns = decision.t_ns;
+    kick.half = 1;
+    kick.policy = std::string{bus::label(decision.policy)};
+    kick.ordered = true;
+    kick.accepted = receipt.accepted;
     if (outcome != nullptr) kick.observed = crossing_of(*outcome);
     if (truth != nullptr) kick.truth = crossing_of(*truth);
     record.kicks.push_back(kick);

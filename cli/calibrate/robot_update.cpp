@@ -123,8 +123,7 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   }
   robot_.height_table.reset();
   config::TableOrigin table{origin(kicks, files), {}, {}, {}, fit.isotonic};
-  const bool spreads_known =
-      std::ranges::all_of(fit.set_points, [](const kicking::TrialMean& point) { return point.trials > 1; });
+  const bool spreads_known = std::ranges::all_of(fit.set_points, [](const auto& point) { return point.trials > 1; });
   if (!std::isnan(fit.exit_speed_sd_mps)) table.exit_speed_sd_mps = error(fit.exit_speed_sd_mps);
   std::vector<kicking::AnglePoint> angles;
   for (const kicking::TrialMean& point : fit.set_points) {

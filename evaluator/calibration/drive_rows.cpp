@@ -154,7 +154,8 @@ DriveKicks<TrackedSpeed> standing_kicks(const RecordedDrives& drives, const kick
     if (kick.policy != "standing_drive") continue;
     const auto track = track_of(drives, kick, model);
     if (track) {
-      result.rows.push_back({kick.order_t_ns, kick.power, track->velocity_mps.z()});
+      const Eigen::Vector3d& velocity = track->velocity_mps;
+      result.rows.push_back({kick.order_t_ns, kick.power, velocity.z(), std::atan2(velocity.x(), velocity.y())});
     } else {
       ++unseen;
     }

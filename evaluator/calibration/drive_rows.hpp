@@ -42,7 +42,8 @@ DriveKicks<kicking::TransferRow> transfer_kicks(const RecordedDrives& drives, co
 struct TrackedSpeed {
   std::int64_t order_t_ns = 0;
   double power = 0.0;
-  double up_mps = 0.0;  ///< vertical velocity at the launch
+  double up_mps = 0.0;        ///< vertical velocity at the launch
+  double sideways_rad = 0.0;  ///< direction over ground, clockwise from +y of F
 };
 DriveKicks<TrackedSpeed> standing_kicks(const RecordedDrives& drives, const kicking::RobotModel& model);
 

@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 
 constexpr double kTrackBegin_s = 0.06;  // after the release: four standard deviations of its instant
 constexpr double kTrackEnd_s = 2.0;
-constexpr double kTrackFloor_m = 0.05;  // lower than this over its radius, on its way down, the ball may have touched
+constexpr double kTrackFloor_m = 0.12;  // lower than this over its radius, on its way down, the ball may have touched
+constexpr double kTrackGoal_m = 0.4;    // before the goal line: post and bar throw the ball back, the camera scatters
 constexpr double kTrackBack_m = 0.3;    // between two sightings: somebody has put the ball back for the next kick
 constexpr std::size_t kFewestOfTrack = 10;
 constexpr double kTrackStep_s = 0.01;
@@ -50,9 +51,9 @@ std::vector<SeenBall> in_flight(std::span<const BallSighting> sightings, std::in
     const double t_s = 1e-9 * static_cast<double>(sighting->t_ns - release_t_ns);
     const Vector3d& ball_m = sighting->ball_m;
     if (t_s < kTrackBegin_s) continue;
-    if (t_s > kTrackEnd_s || ball_m.y() >= goal_line_y_m) break;
+    if (t_s > kTrackEnd_s || ball_m.y() >= goal_line_y_m - kTrackGoal_m) break;
     if (!seen.empty() && ball_m.y() < seen.back().ball_m.y() - kTrackBack_m) break;
-    if (t_s > 3.0 * kTrackBegin_s && ball_m.z() < radius_m + kTrackFloor_m) break;
+    if (t_s > 4.0 * kTrackBegin_s && ball_m.z() < radius_m + kTrackFloor_m) break;
     seen.push_back({t_s, ball_m});
   }
   return seen;

@@ -14,11 +14,7 @@ constexpr double kNominal_mps = 0.25;
 
 using TrackColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-double nominal(double v_mps) {
-  if (std::abs(v_mps) < TransferRow::kLeastSpeed_mps) return 0.0;
-  const double rounded = kNominal_mps * std::round(v_mps / kNominal_mps);
-  return rounded != 0.0 ? rounded : v_mps;
-}
+double nominal(double v_mps) { return kNominal_mps * std::round(v_mps / kNominal_mps); }
 
 struct TrackedFit {
   Eigen::Vector3d value;  ///< c, k forward, k backward over ground
@@ -79,13 +75,15 @@ double paper_of_exact(std::span<const TransferRow> rows, const std::vector<std::
 
 TransferFit fit_tracked_transfer(std::span<const TransferRow> rows, double delay_s, double gravity_mps2) {
   std::vector<std::size_t> resting, forward, backward;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    (rows[i].at_rest() ? resting : rows[i].vy_mps > 0.0 ? forward : backward).push_back(i);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double v = nominal(rows[i].vy_mps);
+    (v == 0.0 ? resting : v > 0.0 ? forward : backward).push_back(i);
+  }
   if (resting.size() < 2)
     throw std::invalid_argument(
         "transfer: need at least 2 kicks at rest, which those of a moving robot are held against");
   if (forward.size() < 2 && backward.size() < 2)
-    throw std::invalid_argument("transfer: need at least 2 kicks forward or 2 kicks backward, faster than 0.05 m/s");
+    throw std::invalid_argument("transfer: need at least 2 kicks forward or 2 kicks backward, faster than 0.125 m/s");
   const TrackedFit found = fit_tracks(rows, forward.size() > 0, backward.size() > 0);
 
   std::vector<double> believed_mps, up_mps;
