@@ -23,7 +23,7 @@ struct FactorialFlags {
   std::string blocked = "outside";
 };
 
-void factorial(const FactorialFlags& flags) {
+void factorial(FactorialFlags flags) {
   require_writable(flags.study);
   const sim::Scenario scenario = flags.study.world.load();
   const config::Settings settings = config::load_settings(flags.config);
@@ -42,12 +42,15 @@ void factorial(const FactorialFlags& flags) {
     robots.push_back(config::load_robot(find_robot(robot)));
     report.robots.push_back(robots.back().name);
   }
+  flags.study.draw_evenings(scenario, {flags.config, {}, {}});
+  const std::size_t evenings = flags.study.plan.evenings.size();
+  if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
   std::vector<nodes::Arm> arms;
   for (const Cell& cell : factorial_cells()) {
     report.cells.push_back({cell, {}});
     arms.push_back(arm_of(cell, settings, robots));
   }
-  warn_of_shared_robots(scenario, arms);
+  if (evenings == 0) warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 

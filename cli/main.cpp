@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   cli::add_factorial(app, exit_code);
   cli::add_frontier(app, exit_code);
   cli::add_sensitivity(app, exit_code);
+  cli::add_tune(app, exit_code);
   cli::add_solve(app, exit_code);
   cli::add_align(app, exit_code);
   cli::add_predict(app, exit_code);

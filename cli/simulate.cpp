@@ -19,6 +19,7 @@ struct SimulateFlags {
   std::string arms;
   std::uint32_t matches = 100;
   std::uint32_t possessions = 60;
+  std::uint32_t calibrations = 0;
   std::uint64_t seed = 1;
   unsigned jobs = 1;
   std::string out = "ab.db";
@@ -37,7 +38,9 @@ int simulate(const SimulateFlags& flags) {
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
-  warn_of_shared_robots(plan.scenario, plan.arms);
+  plan.evenings =
+      teams_of_evenings(plan.scenario, flags.base, {flags.calibrations, flags.matches, flags.seed, flags.jobs});
+  if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
   return run_experiment(plan, flags.jobs, flags.out);
 }
 
@@ -66,6 +69,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
   add_world_options(*verb, flags->world);
+  add_calibrations_option(*verb, flags->calibrations);
   add_arm_options(*verb, flags->base);
   verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
   verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");

@@ -11,7 +11,11 @@ namespace trivela::cli {
 
 std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
-void add_study_options(CLI::App& verb, Study& study) {
+void Study::draw_evenings(const sim::Scenario& world, const ArmBase& base) {
+  plan.evenings = teams_of_evenings(world, base, {calibrations, plan.matches, plan.seed, plan.jobs});
+}
+
+void add_play_options(CLI::App& verb, Study& study) {
   PlayPlan& plan = study.plan;
   verb.add_option("--matches", plan.matches, "Matches of each arm")
       ->check(CLI::Range(2, 1000000))
@@ -22,6 +26,20 @@ void add_study_options(CLI::App& verb, Study& study) {
   verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->check(seeds())->capture_default_str();
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
   add_world_options(verb, study.world);
+  add_calibrations_option(verb, study.calibrations);
+}
+
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
+  verb.add_option(
+          "--calibrations", calibrations,
+          "Evenings of calibration that are played for the robots, match m with evening m mod K; 0: robot files")
+      ->check(CLI::Range(0u, 1000u))
+      ->capture_default_str()
+      ->type_name("K");
+}
+
+void add_study_options(CLI::App& verb, Study& study) {
+  add_play_options(verb, study);
   verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");
   verb.add_option("--svg", study.svg, "A chart")->type_name("FILE");
   verb.add_flag("--json", study.json, "JSON instead of text");

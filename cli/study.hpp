@@ -12,6 +12,7 @@
 #include "cli/factorial/play.hpp"
 #include "cli/say.hpp"
 #include "cli/simulate/arms.hpp"
+#include "cli/simulate/evenings.hpp"
 #include "cli/world.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
@@ -22,14 +23,24 @@ namespace trivela::cli {
 struct Study {
   PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
   World world;
+  std::uint32_t calibrations = 0;  ///< evenings; 0: the robot files as they are
   std::string csv, svg;
   bool json = false;
 
   /// Name of the scenario's file and what was changed of it, for the report.
   std::string scenario_name() const;
+
+  /// Plays the evenings of calibration of the plan's seed into the plan, before its matches.
+  void draw_evenings(const sim::Scenario& world, const ArmBase& base);
 };
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --world, --csv, --svg, --json.
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.
+void add_play_options(CLI::App& verb, Study& study);
+
+/// --calibrations alone.
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
+
+/// Those of add_play_options(), and --csv, --svg, --json.
 void add_study_options(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
@@ -90,5 +91,17 @@ void override_settings(Settings& settings, const std::vector<std::string>& lines
 }
 
 std::string to_toml_text(const Settings& settings) { return to_toml(settings); }
+
+std::map<std::string, std::string> setting_values(const Settings& settings) {
+  std::map<std::string, std::string> values;
+  std::istringstream lines{to_toml_text(settings)};
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) section = line.substr(1, line.size() - 2) + '.';
+    if (const auto equals = line.find(" = "); equals != std::string::npos)
+      values[section + line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  return values;
+}
 
 }  // namespace trivela::config

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -148,5 +149,8 @@ void override_settings(Settings& settings, const std::vector<std::string>& lines
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);
+
+/// Every setting by its key, e.g. "policy.predictive.threshold", with its value as TOML has it.
+std::map<std::string, std::string> setting_values(const Settings& settings);
 
 }  // namespace trivela::config

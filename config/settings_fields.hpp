@@ -68,6 +68,10 @@ template <class V>
 void fields(V& v, TestDriveConfig& t) {
   using config::Degrees, config::Range;
   v("kicks_per_level", t.kicks_per_level, Range{1, 1000});
+  v("aim_tolerance_deg", Degrees{t.aim_tolerance_rad}, Range{0.05, 30.0});
+  v("settle_s", t.settle_s, Range{0.0, 5.0});
+  v("rest_speed_mps", t.rest_speed_mps, Range{0.0, 2.0});
+  v("rest_turn_rate_radps", t.rest_turn_rate_radps, Range{0.0, 5.0});
   v("powers", t.powers, Range{0.0, 1000.0});
   v("distance_m", t.distance_m, Range{1.0, 20.0});
   v("straight_distance_m", t.straight_distance_m, Range{1.0, 20.0});

@@ -33,6 +33,13 @@ sim::Scenario evening_scenario(const sim::Scenario& evening, const sim::Scenario
 config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario) {
   settings.run.cycle_s = settings.policy.cycle_s = scenario.cycle_s;
   settings.kick_decision.shadows = false;
+  // The check aims at a height and stands for it, whatever the stopped policy plays by.
+  kicking::PolicyConfig& policy = settings.policy;
+  policy.height_law = kicking::HeightLaw::kExact;
+  policy.aim_tolerance_rad = policy.test_drive.aim_tolerance_rad;
+  policy.settle_s = policy.test_drive.settle_s;
+  policy.rest_speed_mps = policy.test_drive.rest_speed_mps;
+  policy.rest_turn_rate_radps = policy.test_drive.rest_turn_rate_radps;
   const double ball_y_m = scenario.field.goal_line_y_m - scenario.possession.goal_distance_max_m;
   settings.scan_recorder.mount_x_m = scenario.laser.y_m - ball_y_m;
   settings.scan_recorder.mount_z_m = scenario.laser.z_m;

@@ -32,6 +32,7 @@ struct SensitivityReport {
   std::vector<ArmTally> base;     ///< the scenario as it is
   std::vector<PlayedInput> inputs;
   Measure measure = Measure::kPerOpportunity;  ///< or kGoals
+  std::size_t evenings = 0;                    ///< of calibration; 0: robot files
 };
 
 /// Headline i: shots on target per opportunity, or goals, arm i + 1 minus arm i. There is one less than there are arms.

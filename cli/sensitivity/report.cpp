@@ -4,6 +4,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "cli/simulate/interval_words.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
@@ -16,6 +17,11 @@ std::string headline_name(const SensitivityReport& report, std::size_t i) {
 }
 
 bool goals(const SensitivityReport& report) { return report.measure == Measure::kGoals; }
+
+/// The value that the ends stand instead of; a scenario's angles have more digits than anybody wrote.
+std::string shown(const PlayedInput& input) {
+  return is_setting(input.input.key) ? value_text(input.input.key, input.value) : fmt::format("{:.3g}", input.value);
+}
 
 /// Of the columns by arm: efficiency, or goals of opportunities, in per cent.
 std::string share_of_arm(const SensitivityReport& report, const ArmTally& arm) {
@@ -44,9 +50,10 @@ Json json_of(const SensitivityReport& report, const std::vector<ArmTally>& arms)
 std::string to_text(const SensitivityReport& report) {
   std::string text = fmt::format(
       "{} matches of {} opportunities, the same for every arm and value; {}, seed {}. Robots are as they are: none is\n"
-      "calibrated anew for a changed world. {} per 100 opportunities, 95 % intervals by match.\n\n",
+      "calibrated anew for a changed world. {} per 100 opportunities, {}.\n\n",
       report.matches, report.possessions, report.scenario, report.seed,
-      goals(report) ? "Goals past the keeper (the simulator's truth)" : "Shots on target");
+      goals(report) ? "Goals past the keeper (the simulator's truth)" : "Shots on target",
+      interval_words(report.evenings));
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i)
     text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i, report.measure)));
   std::vector<std::vector<std::string>> rows{{"input", "value", "instead of"}};
@@ -55,7 +62,7 @@ std::string to_text(const SensitivityReport& report) {
     rows[0].push_back(arm + (goals(report) ? " [goals/opp., %]" : " [% of kicks]"));
   for (const PlayedInput& input : report.inputs) {
     for (const PlayedEnd& end : input.ends) {
-      std::vector<std::string> row{input.input.key, fmt::format("{:g}", end.value), fmt::format("{:.3g}", input.value)};
+      std::vector<std::string> row{input.input.key, value_text(input.input.key, end.value), shown(input)};
       for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) row.push_back(points_text(change(report, end, i)));
       for (const ArmTally& arm : end.arms) row.push_back(share_of_arm(report, arm));
       rows.push_back(std::move(row));
@@ -74,6 +81,7 @@ nlohmann::ordered_json to_json(const SensitivityReport& report) {
             {"measure", goals(report) ? "goals" : "on_target"},
             {"matches", report.matches},
             {"possessions", report.possessions},
+            {"evenings", report.evenings},
             {"arms", json_of(report, report.base)},
             {"headlines", Json::array()},
             {"inputs", Json::array()}};
@@ -115,7 +123,8 @@ std::string to_csv(const SensitivityReport& report) {
   };
   rows("", "", report.base, nullptr);
   for (const PlayedInput& input : report.inputs) {
-    for (const PlayedEnd& end : input.ends) rows(input.input.key, fmt::format("{:g}", end.value), end.arms, &end);
+    for (const PlayedEnd& end : input.ends)
+      rows(input.input.key, value_text(input.input.key, end.value), end.arms, &end);
   }
   return csv;
 }

@@ -13,6 +13,15 @@ struct TestDriveConfig {
   /// Kicks with each entry; "two kicks a set-point" are the least that show a spread.
   std::uint32_t kicks_per_level = 2;
 
+  /// Every drive but the turn drive kicks a robot at rest, or starts from rest: heading within this, speed and turn
+  /// rate below these for so long. Measuring wants a robot that stands, whatever the stopped policy is content with in
+  /// play (CAMBADA release 1.0: kick_max_deg_error 1; Falcons: 0.25 s; three standard deviations of filtered odometry
+  /// noise).
+  double aim_tolerance_rad = radians(1.0);
+  double settle_s = 0.25;
+  double rest_speed_mps = 0.15;
+  double rest_turn_rate_radps = 0.15;
+
   /// Standing: set-points of the kicker (those of CAMBADA's kicker.map).
   std::vector<double> powers{15, 20, 25, 30, 35, 40, 45, 50};
 

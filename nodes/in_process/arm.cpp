@@ -36,7 +36,12 @@ config::Robot robot_of(const sim::Scenario& scenario, const Arm& arm, std::uint6
   if (arm.table != kOldTable) return robot;
   const std::uint32_t whose = scenario.hand_table.one_for_all ? 1 : robot_id;
   const auto table = sim::draw_hand_table(scenario, sim::team_kicker(scenario, whose), seed, match_id, whose);
-  robot.model = kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m);
+  // Who aims by a law kicks with the table's powers; who weighs a crossing needs what the table says of the balls.
+  const auto only = only_policy(scenario, arm);
+  const bool by_law = !only || *only == kicking::PolicyName::kStopped || *only == kicking::PolicyName::kMoving;
+  robot.model = by_law ? kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m)
+                       : kicking::with_distance_table(robot.model, table, kicking::HeightLaw::kExact,
+                                                      scenario.hand_table.target_height_m);
   return robot;
 }
 

@@ -28,6 +28,7 @@ struct Arm {
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
   std::vector<PolicyChance> random;                    ///< drawn for each possession anew
+  bool own_robots = false;                             ///< evenings of an experiment leave `robots` as they are
 };
 
 /// What is recorded beside the possessions.
