@@ -16,6 +16,7 @@
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
+#include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/record_match.hpp"
 #include "nodes/recorder/session_text.hpp"
 
@@ -54,6 +55,18 @@ std::vector<Played> play_all(const ExperimentPlan& plan, std::uint32_t match_id)
   return played;
 }
 
+/// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
+std::vector<evaluator::log::HalfPolicy> policies_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
+  if (const auto policy = nodes::only_policy(plan.scenario, arm)) return {{1, kicking::name(*policy)}};
+  std::vector<evaluator::log::HalfPolicy> policies;
+  const config::KickDecision settings = nodes::settings_of(arm, plan.options).kick_decision;
+  for (std::uint8_t robot_id = 1; robot_id <= nodes::team_size(plan.scenario); ++robot_id) {
+    const nodes::PolicyAssignment assignment{settings, robot_id};
+    if (!assignment.random()) policies.push_back({1, kicking::name(assignment.in_charge(1, 1).policy), robot_id});
+  }
+  return policies;
+}
+
 /// Sessions of an experiment's arms; what all matches share is made once.
 class Sessions {
  public:
@@ -67,8 +80,7 @@ class Sessions {
       session.software_version = nodes::software_version();
       session.scenario = plan.scenario_name;
       session.idl = nodes::idl_text();
-      if (const auto policy = nodes::only_policy(plan.scenario, arm))
-        session.policies.push_back({1, kicking::name(*policy)});
+      session.policies = policies_of(plan, arm);
       session.arm = arm.name;
       session.kicker_table = arm.table;
       arms_.push_back(std::move(session));

@@ -12,6 +12,7 @@
 #include "evaluator/log/value.hpp"
 #include "evaluator/metrics/ball_sightings.sql.hpp"
 #include "evaluator/metrics/drive_kicks.sql.hpp"
+#include "evaluator/report/log_sessions.hpp"
 #include "kicking/geometry/frames.hpp"
 
 namespace trivela::evaluator {
@@ -44,7 +45,12 @@ struct DriveKick {
 
 std::vector<DriveKick> all_kicks(const log::Reader& reader) {
   std::vector<DriveKick> kicks;
+  SessionBook book;
+  const SessionPlaces places = book.add(reader, "");
+  book.settle();
   reader.query(kDriveKicksSql, [&](std::span<const log::Value> row) {
+    const std::int64_t session = log::integer(row[12]);
+    if (!book.counts(places.at(session), static_cast<int>(log::integer(row[13])), log::integer(row[14]))) return;
     kicks.push_back({.policy = std::get<std::string>(row[0]),
                      .order_t_ns = std::get<std::int64_t>(row[1]),
                      .pose = {log::number(row[2]), log::number(row[3]), log::number(row[4])},
