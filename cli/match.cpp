@@ -16,6 +16,7 @@ namespace {
 struct MatchFlags {
   std::vector<std::string> halves;
   std::string random;
+  bool paired_halves = false;
   double minutes = 5.0;
   std::int64_t seed = 1;
   int domain = -1;
@@ -48,6 +49,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   if (!flags.halves.empty()) lines.push_back(fmt::format("kick_decision.policy_by_half = {}", list(flags.halves)));
   if (!flags.random.empty())
     lines.push_back(fmt::format("kick_decision.random = {}", list(CLI::detail::split(flags.random, ','))));
+  if (flags.paired_halves) lines.emplace_back("simulator.paired_halves = true");
   for (std::string line :
        {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
         fmt::format("kick_decision.assignment_seed = {}", flags.seed),
@@ -75,6 +77,9 @@ void add_match(CLI::App& app, int& exit_code) {
   verb->add_option("--random", flags->random,
                    "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
       ->excludes(half);
+  verb->add_flag("--paired-halves", flags->paired_halves,
+                 "the same possessions in every half; otherwise each has its own")
+      ->needs(half);
   verb->add_option("--minutes", flags->minutes, "length of a half")
       ->check(between(0.01, 1000.0))
       ->capture_default_str();

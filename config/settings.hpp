@@ -100,6 +100,7 @@ struct Simulator {
   std::uint32_t halves = 2;
   double half_minutes = 5.0;
   std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
+  bool paired_halves = false;         ///< every half has the possessions of the first
 };
 
 struct Recorder {

@@ -17,6 +17,7 @@
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
+#include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/record_match.hpp"
 #include "nodes/recorder/session_text.hpp"
 
@@ -56,6 +57,18 @@ std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& even
   return played;
 }
 
+/// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
+std::vector<evaluator::log::HalfPolicy> policies_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
+  if (const auto policy = nodes::only_policy(plan.scenario, arm)) return {{1, kicking::name(*policy)}};
+  std::vector<evaluator::log::HalfPolicy> policies;
+  const config::KickDecision settings = nodes::settings_of(arm, plan.options).kick_decision;
+  for (std::uint8_t robot_id = 1; robot_id <= nodes::team_size(plan.scenario); ++robot_id) {
+    const nodes::PolicyAssignment assignment{settings, robot_id};
+    if (!assignment.random()) policies.push_back({1, kicking::name(assignment.in_charge(1, 1).policy), robot_id});
+  }
+  return policies;
+}
+
 Session session_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
   Session session;
   if (arm.robots.size() == 1 && nodes::team_size(plan.scenario) == 1) session.robot_id = 1;
@@ -64,8 +77,7 @@ Session session_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
   session.software_version = nodes::software_version();
   session.scenario = plan.scenario_name;
   session.idl = nodes::idl_text();
-  if (const auto policy = nodes::only_policy(plan.scenario, arm))
-    session.policies.push_back({1, kicking::name(*policy)});
+  session.policies = policies_of(plan, arm);
   session.arm = arm.name;
   session.kicker_table = arm.table;
   return session;

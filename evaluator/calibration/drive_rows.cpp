@@ -8,6 +8,7 @@
 
 #include "evaluator/calibration/launch_track.hpp"
 #include "kicking/geometry/time.hpp"
+
 namespace trivela::evaluator {
 namespace {
 

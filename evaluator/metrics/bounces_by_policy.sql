@@ -3,7 +3,7 @@
 -- Columns: policy, observed, observed_bounced, truth, truth_bounced.
 SELECT policy, count(bounced) AS observed, coalesce(sum(bounced), 0) AS observed_bounced,
   count(truth_bounced) AS truth, coalesce(sum(truth_bounced), 0) AS truth_bounced
-FROM kicks
+FROM counted_kicks
 WHERE accepted IS NOT 0
   AND outcome = 'on_target'
 GROUP BY policy

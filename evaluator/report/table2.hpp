@@ -9,6 +9,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/bounces.hpp"
 #include "evaluator/report/label_quality.hpp"
+#include "evaluator/report/played_length.hpp"
 #include "evaluator/report/recording_gaps.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -22,10 +23,12 @@ inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "ove
 struct PolicyRow {
   std::string policy;
   std::map<std::string, std::int64_t> kicks_by_outcome;
-  stats::LabelDoubt doubt;           ///< of the labels; 0 where the log does not say
-  std::optional<double> played_min;  ///< minutes of play in its halves; none: the referee was not recorded
+  stats::LabelDoubt doubt;  ///< of the labels; 0 where the log does not say
   Bounces bounces;
-  bool blocked_apart = false;  ///< blocked kicks are neither inside nor outside
+  bool blocked_apart = false;        ///< blocked kicks are neither inside nor outside
+  std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
+  std::int64_t repeated = 0;         ///< kicks in situations that it had in an earlier, paired half
+  std::optional<stats::Interval> paired_ci;  ///< of the efficiency, where some are repeated; none: Wilson's holds
 
   std::int64_t kicks() const;
   std::int64_t of(const std::string& outcome) const;
@@ -40,7 +43,15 @@ struct PolicyRow {
   /// Efficiency if every unknown outcome was outside and as many labels as may be are wrong, and the reverse.
   stats::Interval efficiency_bounds() const;
 
+  /// Of the efficiency, 95 %: Wilson's, by situations where paired halves repeat some.
+  stats::Interval efficiency_ci() const { return paired_ci.value_or(stats::wilson(counts())); }
+
   std::optional<double> kicks_per_min() const;
+};
+
+/// The kicks of a robot with a policy.
+struct RobotRow : PolicyRow {
+  int robot_id = 0;
 };
 
 /// A decision that fired and that order, receipt or outcome is missing of.
@@ -65,7 +76,10 @@ struct RefusedOrders {
 struct Report {
   std::vector<log::RecordedSession> sessions;
   std::vector<PolicyRow> policies;  ///< stopped before moving
-  std::vector<log::Loss> losses;    ///< by stream
+  std::vector<RobotRow> robots;     ///< by robot and policy; empty: the log has one robot
+  std::vector<PlayedLength> lengths;
+  std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
+  std::vector<log::Loss> losses;         ///< by stream
   std::vector<UnclosedKick> unclosed_kicks;
   std::vector<RefusedOrders> refused_orders;
   std::vector<RecordedSilence> silences;
@@ -81,7 +95,8 @@ struct Report {
   std::int64_t unclosed_sessions() const;
   std::int64_t simulated_sessions() const;
 
-  /// Rows are missing, or may be since a session was not closed; a stream was silent, or kicks stand in no log.
+  /// Rows are missing, or may be since a session was not closed; a stream was silent, kicks stand in no log, or the
+  /// match was cut short.
   bool data_lost() const;
 };
 

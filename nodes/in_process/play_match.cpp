@@ -150,15 +150,15 @@ class Game {
   }
 
   void note_assignment(const msg::Referee& referee, const RobotChain& chain) {
-    if (assigned_ == referee.possession_id || !chain.world().possession) return;
-    assigned_ = referee.possession_id;
-    const PolicyChance chance = chain.decider().assignment().in_charge(referee.half, referee.possession_id);
+    const std::uint32_t possession_id = chain.world().possession_id;
+    if (assigned_ == possession_id || !chain.world().possession) return;
+    assigned_ = possession_id;
+    const PolicyChance chance = chain.decider().assignment().in_charge(referee.half, possession_id);
     PlayedPossession& current = played_.possessions.back();
     current.policy = chance.policy;
     current.assignment_probability = chance.probability;
     if (record_)
-      record_->assignments.push_back(
-          {robot_id_, referee.half, referee.possession_id, chance.policy, chance.probability});
+      record_->assignments.push_back({robot_id_, referee.half, possession_id, chance.policy, chance.probability});
   }
 
   void settle(const sim::StepEvents& events) {

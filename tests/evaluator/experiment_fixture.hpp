@@ -53,6 +53,8 @@ class TestExperiment {
   std::string table = "new";       ///< of the next sessions
   std::string config = "a = 1\n";  ///< of the next sessions
   std::string run = "test";        ///< sessions of another run have other keys
+  bool paired_halves = false;      ///< of the next sessions
+  Int robot_id = 1;                ///< of the next rows
 
   void begin() { log_.begin(); }
   void commit() {
@@ -75,17 +77,18 @@ class TestExperiment {
     if (!arm_name.empty()) session.arm = arm_name;
     session.kicker_table = table;
     if (numbered) session.match_id = match_id;
+    session.paired_halves = paired_halves;
     session_id_ = log_.add_session(session, 600'000'000'000);
   }
 
-  /// One opportunity of robot 1. `probability` 1: the policy of the half.
+  /// One opportunity of a robot. `probability` 1: the policy of the half.
   void possession(Int half, Int id, const std::string& policy, double probability,
                   const std::optional<LoggedKick>& kick, double start_y_m = 4.0) {
     const Int t_ns = ++seq_ * 20'000'000;
-    row(possessions_, {Int{1}, seq_, t_ns, half, id, kick ? "kicked" : "disputed", t_ns}, {0.5, start_y_m, 0.0});
+    row(possessions_, {robot_id, seq_, t_ns, half, id, kick ? "kicked" : "disputed", t_ns}, {0.5, start_y_m, 0.0});
     if (probability < 1.0) {
       auto& assigned = log_.row(assignments_, session_id_);
-      assigned.integer(1);
+      assigned.integer(robot_id);
       assigned.integer(half);
       assigned.integer(id);
       assigned.text(policy.c_str());
@@ -95,12 +98,12 @@ class TestExperiment {
     if (!kick) return;
     const Int kick_id = seq_;
     decision(half, id, policy, probability, kick->distance_m, kick_id);
-    row(receipts_, {Int{1}, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
+    row(receipts_, {robot_id, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
     if (!kick->observed.empty()) {
-      row(outcomes_, {Int{1}, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
+      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
     }
     auto& t = log_.row(truths_, session_id_);
-    for (const Int value : {Int{1}, seq_, t_ns, kick_id, half, id}) t.integer(value);
+    for (const Int value : {robot_id, seq_, t_ns, kick_id, half, id}) t.integer(value);
     t.text(kick->truth.c_str());
     t.integer(t_ns);
     for (const double value : {0.0, 4.0, 0.0, 8.0, 3.0}) t.number(value);
@@ -113,6 +116,12 @@ class TestExperiment {
   void held(Int half, Int id, const std::string& policy, double probability, double distance_m) {
     ++seq_;
     decision(half, id, policy, probability, distance_m, 0);
+  }
+
+  /// The referee lets a possession of the half run from an instant for so long.
+  void played_possession(Int half, Int id, double from_s, double minutes) {
+    row(referee_, {Int{1}, ++seq_, static_cast<Int>(from_s * 1e9), half, Int{1}, id}, {});
+    row(referee_, {Int{1}, ++seq_, static_cast<Int>((from_s + minutes * 60.0) * 1e9), half, Int{0}, id}, {});
   }
 
   /// The referee lets a half run for so long.
@@ -132,7 +141,7 @@ class TestExperiment {
 
   void decision(Int half, Int id, const std::string& policy, double probability, double distance_m, Int kick_id) {
     auto& d = log_.row(decisions_, session_id_);
-    for (const Int value : {Int{1}, seq_, seq_ * 20'000'000, kick_id, half, id}) d.integer(value);
+    for (const Int value : {robot_id, seq_, seq_ * 20'000'000, kick_id, half, id}) d.integer(value);
     d.text(policy.c_str());
     d.integer(kick_id != 0 ? 1 : 0);
     d.text(kick_id != 0 ? "fire" : "waiting");

@@ -1,6 +1,5 @@
 #include "evaluator/report/table2.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 
 #include "evaluator/report/render.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/merged_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -25,21 +25,6 @@ PolicyRow row_of(const Report& report, const std::string& policy) {
     if (row.policy == policy) return row;
   }
   return {};
-}
-
-// As the match logs of several robots are merged: keys do not collide, and a second merge changes nothing.
-void merge(const std::filesystem::path& from, const std::filesystem::path& into) {
-  SQLite::Database database(into.string(), SQLite::OPEN_READWRITE);
-  database.exec("ATTACH '" + from.string() + "' AS other");
-  std::vector<std::string> tables;
-  SQLite::Statement names(database, "SELECT name FROM sqlite_schema WHERE type = 'table'");
-  while (names.executeStep()) tables.push_back(names.getColumn(0).getString());
-  for (const std::string& table : tables) {
-    for (int twice = 0; twice < 2; ++twice) {
-      database.exec("INSERT INTO main." + table + " SELECT * FROM other." + table +
-                    " WHERE true ON CONFLICT DO NOTHING");
-    }
-  }
 }
 
 TEST_F(ReportOfALog, ThePapersKicksGiveThePapersTable) {
@@ -271,7 +256,9 @@ TEST_F(ReportOfALog, TheTruthIsComparedWhereBothAreKnown) {
 
 TEST_F(ReportOfALog, SessionsOfAMergedFileArePooled) {
   for (const char* const name : {"match.db", "other.db"}) {
-    MatchLog match(path(name), session(), options());
+    auto of_its_own = session();
+    of_its_own.seed = *name;  // with the same one it would be the same match
+    MatchLog match(path(name), of_its_own, options());
     write_table2(match);
     match.close();
   }
