@@ -4,6 +4,7 @@
 
 #include "cli/factorial/play.hpp"
 #include "cli/factorial/report.hpp"
+#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -210,6 +211,37 @@ TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
       EXPECT_EQ(one[arm][m].on_target, two[arm][m].on_target);
     }
   }
+}
+
+TEST(Factorial, TheShippedWorldsArePlayed) {
+  const std::string config = std::string{TRIVELA_SOURCE_DIR} + "/config/";
+  const config::Settings settings = config::load_settings(config + "default.toml");
+  const std::vector<config::Robot> robots{config::load_robot(config + "robots/calibrated_1.toml")};
+  const PlayPlan plan{.seed = 3, .matches = 4, .possessions = 15};
+  std::vector<nodes::Arm> arms;
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving})
+    arms.push_back(arm_of({"new", policy, Law::kPaper}, settings, robots));
+  const auto played = [&](const std::string& world, const std::string& change = "") {
+    sim::Scenario scenario = config::load_scenario(config + "scenarios/" + world + ".toml");
+    if (!change.empty()) config::override_scenario(scenario, change);
+    std::vector<MatchTally> totals;
+    for (const ArmTally& arm : play_arms(scenario, arms, plan, [](std::size_t, std::size_t) {}))
+      totals.push_back(total_of(arm));
+    return totals;
+  };
+  const auto open = played("default"), kept = played("keeper"), blind = played("keeper", "keeper.sight_sd_mps = 3.0"),
+             log = played("like_2016"), crowded = played("default", "defenders.count = 4");
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    EXPECT_GT(open[i].on_target, 0);
+    EXPECT_EQ(open[i].goals, open[i].on_target) << "nobody is in the goal";
+    EXPECT_EQ(open[i].kicks, kept[i].kicks) << "a keeper changes no kick";
+    EXPECT_LT(kept[i].goals, open[i].goals);
+    EXPECT_GT(blind[i].goals, kept[i].goals);
+    EXPECT_GT(log[i].kicks, open[i].kicks) << "slow opponents leave time";
+    EXPECT_GT(crowded[i].blocked, open[i].blocked);
+  }
+  EXPECT_GT(open[0].bounced, 0) << "the paper's law lets the ball land on the line";
+  EXPECT_LT(open[0].bounced, open[0].on_target);
 }
 
 }  // namespace
