@@ -87,8 +87,8 @@ TEST(Contrast, AllowsForWhatTheMatchesOfAnEveningHaveInCommon) {
   ArmTally nested, apart;
   for (std::uint32_t m = 0; m < 200; ++m) {
     const std::int64_t on_target = 30 + 10 * static_cast<std::int64_t>(m % 10 % 3) + m / 10 % 2;
-    nested.push_back({100, 100, on_target, m % 10});
-    apart.push_back({100, 100, on_target, 0});
+    nested.push_back({.opportunities = 100, .kicks = 100, .on_target = on_target, .calibration = m % 10});
+    apart.push_back({.opportunities = 100, .kicks = 100, .on_target = on_target});
   }
   const Effect by_evening = share_of(nested, Measure::kPerOpportunity),
                by_match = share_of(apart, Measure::kPerOpportunity);

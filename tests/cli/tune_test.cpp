@@ -25,7 +25,7 @@ ArmTally played(double distance, std::uint32_t seed) {
   for (std::uint32_t m = 0; m < 40; ++m) {
     const auto noise = static_cast<std::int64_t>(random() % 7);
     const auto on_target = static_cast<std::int64_t>(std::lround(60.0 - 20.0 * distance)) + noise;
-    arm.push_back({100, 90, on_target, m % 5});
+    arm.push_back({.opportunities = 100, .kicks = 90, .on_target = on_target, .calibration = m % 5});
   }
   return arm;
 }
