@@ -73,7 +73,9 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const RobotUpdate& robot) 
   record.drives = evaluator::recorded_drives(reader);
   if (record.scans.empty()) return record;
   const evaluator::log::ScanReader scans{record.scans};
-  for (const auto& tested : scans.set_points()) record.kicked_powers.push_back(tested.power);
+  for (const auto& tested : scans.set_points()) {
+    if (tested.power) record.kicked_powers.push_back(*tested.power);
+  }
   record.lobs = evaluator::lobs_of_scans(scans);
   return record;
 }
