@@ -132,11 +132,12 @@ TEST_F(CalibratedRobot, ReadsAHeightTableByTheLawAndHeightOfThePolicy) {
   const Robot robot = load_robot(file(text));
   kicking::PolicyConfig policy;
   EXPECT_EQ(robot_for(robot, policy).model.table.back().speed_mps, robot.model.table.back().speed_mps);
-  policy.height_law = kicking::HeightLaw::kPaper;
+  policy.height_law = kicking::HeightLaw::kExact;
   const Robot other = robot_for(robot, policy);
   const kicking::RobotModel& model = other.model;
   EXPECT_NE(model.table.back().speed_mps, robot.model.table.back().speed_mps);
-  const auto asked_mps = kicking::crossing_speed({5.0, 0.0}, model.exit_angle_rad);
+  const auto asked_mps =
+      kicking::crossing_speed({5.0, policy.target_height_m - kicking::Ball{}.radius_m}, model.exit_angle_rad);
   EXPECT_NEAR(model.table.power_for(*asked_mps).power, 22.0, 1e-9) << "at rest the table's power";
   EXPECT_EQ(to_toml_text(other), to_toml_text(robot)) << "the file is what it was";
   policy.height_law = kicking::HeightLaw::kExact;
