@@ -33,8 +33,9 @@ void add_parabolas(const NumberTable& table, const std::string& file, const Tria
   }
   table.require_one_of({"distance_m"});
   table.for_each([&](const Row& row) {
-    trials.trials.push_back(kicking::trial_of_lob(row.positive("power"), row.length_m("height_m", kHighest_m),
-                                                  row.length_m("distance_m", kFarthest_m)));
+    const double height_m = row.length_m("height_m", kHighest_m);
+    const double distance_m = row.length_m("distance_m", kFarthest_m);
+    trials.trials.push_back(kicking::trial_of_lob(row.positive("power"), height_m, distance_m));
   });
 }
 

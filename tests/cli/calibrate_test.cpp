@@ -420,9 +420,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ImpossibleFigure", "transfer runs.csv --robot ./other.toml --out other.toml", 1,
                 "cannot write the robot's file other.toml: a figure is impossible:"},
         Mistake{"UnwritableOut", "deflection t1.csv --robot cambada_1 --out no/such/seven.toml", 1,
-                "cannot write the robot's file no/such/seven.toml"},
+                "cannot write --out no/such/seven.toml: No such file or directory"},
         Mistake{"UnwritableChart", "deflection t1.csv --plot no/such/8.svg", 1,
-                "cannot write the chart to no/such/8.svg"},
+                "cannot write --plot no/such/8.svg: No such file or directory"},
         Mistake{"PlotWithoutOut", "plot lobs.csv", 2, "--out is required"}),
     [](const auto& test) { return test.param.name; });
 
