@@ -54,7 +54,9 @@ TEST(EveningSeeds, OfTheHeadlinesAreNotThoseThatSettingsWereChosenBy) {
 TEST(PlayArms, PlaysAMatchWithItsEveningAndCountsItThere) {
   const sim::Scenario scenario;
   nodes::Arm arm{.name = "moving", .settings = {}, .random = {}};
-  PlayPlan plan{.seed = 3, .matches = 6, .possessions = 20, .jobs = 2, .evenings = {team_of(0.06), team_of(0.3)}};
+  Team wrong = team_of(0.06);
+  wrong[0].model.exit_angle_rad += 0.3;
+  PlayPlan plan{.seed = 3, .matches = 6, .possessions = 20, .jobs = 2, .evenings = {team_of(0.06), wrong}};
   const auto none = [](std::size_t, std::size_t) {};
   const ArmTally both = play_arms(scenario, {arm}, plan, none).front();
   std::vector<ArmTally> alone;

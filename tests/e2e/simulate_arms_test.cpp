@@ -41,8 +41,11 @@ TEST(SimulateArms, ARefusedCommandDoesNotBlockTheCorrectedOne) {
   const Folder folder;
   EXPECT_THAT(refusal(folder, {"--arms", "stopped", "--set", "run.cycle_s=0.01"}, 1),
               HasSubstr("arm stopped: run.cycle_s = 0.01 differs from the scenario's"));
-  EXPECT_THAT(refusal(folder, {"--arms", "moving@old", "--set", "policy.target_height_m=2.0"}, 1),
-              HasSubstr("arm moving@old: height table"));
+  EXPECT_THAT(
+      refusal(folder,
+              {"--arms", "moving@old", "--set", "policy.target_height_m=2.0", "--set", "policy.height_law=\"exact\""},
+              1),
+      HasSubstr("arm moving@old: height table"));
 }
 
 TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {

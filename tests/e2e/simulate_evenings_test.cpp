@@ -14,10 +14,19 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-std::vector<std::string> evenings(const std::string& out, int matches, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{
-      "simulate", "--arms", "stopped,moving", "--matches", fmt::format("{}", matches), "--possessions", "20",
-      "--out",    out,      "--calibrations", "3"};
+std::vector<std::string> evenings(const std::string& out, int matches, std::vector<std::string> more = {},
+                                  int calibrations = 3) {
+  std::vector<std::string> arguments{"simulate",
+                                     "--arms",
+                                     "stopped,moving",
+                                     "--matches",
+                                     fmt::format("{}", matches),
+                                     "--possessions",
+                                     "20",
+                                     "--out",
+                                     out,
+                                     "--calibrations",
+                                     fmt::format("{}", calibrations)};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -78,12 +87,13 @@ TEST(SimulateEvenings, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refusal(evenings("no.db", 3, {"--robot", kRobot}), 2), HasSubstr("--robot and --calibrations"));
   EXPECT_THAT(folder.files(".db"), IsEmpty());
   run(folder, evenings("ab.db", 3));
-  EXPECT_THAT(refusal(simulate("ab.db", 3, {"--arms", "stopped,moving"}), 1), HasSubstr("other arguments"));
+  EXPECT_THAT(refusal(evenings("ab.db", 3, {}, 2), 1), HasSubstr("other arguments"));
 }
 
-std::vector<std::string> tune(const std::string& policy, const std::string& out, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"tune",           policy, "--matches", "12",   "--possessions", "10",
-                                     "--calibrations", "0",    "--robot",   kRobot, "--out",         out};
+std::vector<std::string> tune(const std::string& policy, const std::string& out, std::vector<std::string> more = {},
+                              const std::string& matches = "12") {
+  std::vector<std::string> arguments{"tune",           policy, "--matches", matches, "--possessions", "10",
+                                     "--calibrations", "0",    "--robot",   kRobot,  "--out",         out};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -117,7 +127,7 @@ TEST(Tune, WritesSettingsThatOtherVerbsTakeAndSaysNothingInAPipe) {
 
 TEST(Tune, KeepsTheBestSoFarWhenItIsInterrupted) {
   const Folder folder;
-  Program program{"trivela", tune("moving", "best.toml", {"--matches", "3000", "--jobs", "2"}), folder.path()};
+  Program program{"trivela", tune("moving", "best.toml", {"--jobs", "2"}, "3000"), folder.path()};
   // Each time that matches are played there is a new thread beside the first; the third belongs to the search.
   std::set<std::string> threads;
   const std::string own = fmt::format("/proc/{}/task", program.id());
