@@ -92,7 +92,9 @@ class Mechanism(unittest.TestCase):
         self.assertEqual(self.play(speed, update=True)[1], speed)
 
     def test_programs_at_once_and_programs_that_go_on(self):
-        text = '<!-- run: together="yes" -->\n\n    $ sh -c "trap \'exit 0\' TERM; while :; do :; done"\n    $ true\n'
+        text = ('<!-- run: together="yes" -->\n\n'
+                '    $ sh -c "trap \'exit 0\' TERM; touch ready; while :; do :; done"\n'
+                '    $ sh -c "until [ -e ready ]; do :; done"\n')
         self.assertEqual(self.problems(text), [])
         self.assertIn("exit code", self.problems(text.replace("exit 0", "exit 4"))[0])
         text = '<!-- run: interrupt="ready" -->\n\n    $ sh -c "trap \'exit 0\' INT; echo ready; while :; do :; done"\n'
