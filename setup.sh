@@ -30,6 +30,13 @@ follow() {
   fi
 }
 
+# unused STEM ENDING: STEM.ENDING, or STEM-2.ENDING and so on: the first of which no file is there. A match log is never lost.
+unused() {
+  local n=1 name=$1$2
+  while [[ -e $name || -e $name-wal || -e $name-shm ]]; do n=$((n + 1)); name=$1-$n$2; done
+  echo "$name"
+}
+
 as_root() { if [[ $(id -u) == 0 ]]; then "$@"; else sudo "$@"; fi; }
 
 # Installs what packages.txt lists and is not there yet: all of it, or with "programs" what stands above its last heading.

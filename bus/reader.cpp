@@ -149,6 +149,21 @@ bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
   return !twice;
 }
 
+// A number made of the writer's GUID. One that has gone before its last sample is taken has its handle instead.
+std::uint64_t AnyReader::writer_of(std::int32_t reader, std::uint64_t handle) {
+  const auto known = std::find_if(writers_.begin(), writers_.end(), [&](const auto& w) { return w.first == handle; });
+  if (known != writers_.end()) return known->second;
+  dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, handle);
+  if (endpoint == nullptr) return handle;
+  std::uint64_t number = 14695981039346656037ULL;  // FNV-1a
+  for (const unsigned char byte : endpoint->key.v) number = (number ^ byte) * 1099511628211ULL;
+  dds_builtintopic_free_endpoint(endpoint);
+  constexpr std::size_t kMost = 64;  // writers come and go
+  if (writers_.size() == kMost) writers_.erase(writers_.begin());
+  writers_.emplace_back(handle, number);
+  return number;
+}
+
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
   const std::size_t before = predecessor_.handle() != 0 ? take_from(predecessor_.handle(), sink, context) : 0;
   return before + take_from(reader_.handle(), sink, context);
@@ -162,11 +177,12 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
     for (std::size_t i = 0; i < count; ++i) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
+      const std::uint64_t writer = writer_of(reader, info.publication_handle);
       if (participant_.hearing() != nullptr) {
-        if (!is_new(info.publication_handle, info.source_timestamp)) continue;
+        if (!is_new(writer, info.source_timestamp)) continue;
         if (silence_) silence_->heard(Clock::now());
       }
-      sink(context, loan.sample(i), {info.source_timestamp, info.publication_handle});
+      sink(context, loan.sample(i), {info.source_timestamp, writer});
       ++taken;
     }
     if (count < Loan::kMost) return taken;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bus/entity.hpp"
@@ -21,7 +22,7 @@ namespace trivela::bus {
 /// What comes with a sample.
 struct SampleInfo {
   std::int64_t source_t_ns = 0;  // the writer's real-time clock when it was written
-  std::uint64_t writer = 0;      // tells the writers of a topic apart
+  std::uint64_t writer = 0;  // tells the writers of a topic apart: of its GUID, the same when it is lost and comes back
 };
 
 /// Counts since the reader was made. Lost samples are not among them: Cyclone 0.10 skips them without a word
@@ -89,6 +90,7 @@ class AnyReader {
 
  private:
   bool is_new(std::uint64_t writer, std::int64_t source_t_ns);
+  std::uint64_t writer_of(std::int32_t reader, std::uint64_t handle);
   std::size_t take_from(std::int32_t reader, Sink sink, void* context);
 
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
@@ -113,6 +115,8 @@ class AnyReader {
     std::int64_t source_t_ns;
   };
   std::vector<Newest> newest_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>>
+      writers_;                             // by Cyclone's handle, which changes when one comes back
   std::optional<RenewalPatience> silence_;  // in real time, of a topic with a period
   std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "cli/compare_csv.hpp"
 #include "cli/counts_argument.hpp"
+#include "cli/open_file.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/log_kicks.hpp"
@@ -25,6 +25,7 @@ struct CompareArguments {
   std::string baseline;
   std::string design;
   std::string outcome = "observed";
+  std::string blocked = "outside";
   double smallest_effect_points = 100.0 * evaluator::stats::kSmallestEffect;
   bool json = false;
 };
@@ -37,8 +38,7 @@ evaluator::KickBook read_csv(const CompareArguments& arguments) {
   const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify,
                               arguments.design == "paired"};
   if (arguments.csv == "-") return read_kicks(std::cin, csv_name(arguments), options);
-  std::ifstream file(arguments.csv);
-  if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
+  std::ifstream file = open_file(arguments.csv);
   return read_kicks(file, csv_name(arguments), options);
 }
 
@@ -51,6 +51,8 @@ void check(const CompareArguments& arguments) {
     throw UsageError(fmt::format("--smallest-effect {}: write percentage points between 0 and 100",
                                  arguments.smallest_effect_points));
   }
+  if (arguments.blocked == "apart" && arguments.logs.empty())
+    throw UsageError("--blocked apart needs match logs: counts and tables do not say which kicks were blocked");
   if (arguments.counts.empty()) return;
   for (const auto& [flag, given] :
        {std::pair{"--by", &arguments.by}, std::pair{"--stratify", &arguments.stratify},
@@ -62,11 +64,13 @@ void check(const CompareArguments& arguments) {
 evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   const bool of_csv = !arguments.csv.empty();
   std::string by = arguments.by.empty() ? "policy" : arguments.by;
-  evaluator::KickBook book =
-      of_csv ? read_csv(arguments)
-             : evaluator::read_log_kicks(
-                   {arguments.logs.begin(), arguments.logs.end()},
-                   {.by = arguments.by, .stratify = arguments.stratify, .truth = arguments.outcome == "truth"}, by);
+  evaluator::KickBook book = of_csv ? read_csv(arguments)
+                                    : evaluator::read_log_kicks({arguments.logs.begin(), arguments.logs.end()},
+                                                                {.by = arguments.by,
+                                                                 .stratify = arguments.stratify,
+                                                                 .truth = arguments.outcome == "truth",
+                                                                 .blocked_apart = arguments.blocked == "apart"},
+                                                                by);
   if (arguments.stratify == by) {
     throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
   }
@@ -111,6 +115,9 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"before_after", "alternating", "randomised", "paired"}));
   verb->add_option("--outcome", arguments->outcome, "observed: as the robots saw it; truth: the simulator's (observed)")
       ->check(CLI::IsMember({"observed", "truth"}));
+  verb->add_option("--blocked", arguments->blocked,
+                   "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
+      ->check(CLI::IsMember({"outside", "apart"}));
   verb->add_option("--smallest-effect", arguments->smallest_effect_points,
                    "Smallest difference of interest, in percentage points (5)");
   verb->add_flag("--json", arguments->json, "JSON instead of text");

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/open_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -152,6 +152,13 @@ double Row::positive(std::string_view column) const {
   return value;
 }
 
+double Row::length_m(std::string_view column, double most_m) const {
+  const double value = positive(column);
+  if (value > most_m)
+    throw CellError(column, *word(column), fmt::format("is above {} m: lengths are in metres", most_m));
+  return value;
+}
+
 double Row::acute_angle_rad(std::string_view column) const {
   const double angle_deg = number(column);
   if (angle_deg <= 0.0 || angle_deg >= 90.0) throw CellError(column, *word(column), "is not between 0 and 90 degrees");
@@ -215,8 +222,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
   if (!arguments.csv.empty()) {
     if (!arguments.cells.empty()) throw UsageError("--csv goes without flags for single values");
     if (arguments.csv == "-") return run_rows(verb, std::cin, "standard input", format, std::cout, std::cerr);
-    std::ifstream file(arguments.csv);
-    if (!file || std::filesystem::is_directory(arguments.csv)) throw std::runtime_error("cannot read " + arguments.csv);
+    std::ifstream file = open_file(arguments.csv);
     return run_rows(verb, file, arguments.csv, format, std::cout, std::cerr);
   }
   std::vector<std::string> header;

@@ -54,6 +54,8 @@ class Row {
   double number_in(std::string_view column, double low, double high) const;
   /// The number if it is above zero. @throws CellError
   double positive(std::string_view column) const;
+  /// Above 0 and at most `most_m`: what lies beyond was written in centimetres.
+  double length_m(std::string_view column, double most_m) const;
   /// Angle in degrees between 0 and 90, both excluded, in radians. @throws CellError
   double acute_angle_rad(std::string_view column) const;
 

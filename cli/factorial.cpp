@@ -5,9 +5,9 @@
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/factorial/report.hpp"
+#include "cli/open_file.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -18,11 +18,14 @@ struct FactorialFlags {
   std::vector<std::string> robots{"calibrated_1"};
   std::vector<double> opponent_medians_m{0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0};
   Law law = Law::kReleased;
+  std::vector<double> eye_biases_m{0.0, 0.1, 0.15};
   bool no_sweep = false;
+  std::string blocked = "outside";
 };
 
-void factorial(const FactorialFlags& flags) {
-  const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
+void factorial(FactorialFlags flags) {
+  require_writable(flags.study);
+  const sim::Scenario scenario = flags.study.world.load();
   const config::Settings settings = config::load_settings(flags.config);
   FactorialReport report{.scenario = flags.study.scenario_name(),
                          .seed = flags.study.plan.seed,
@@ -31,31 +34,45 @@ void factorial(const FactorialFlags& flags) {
                          .hand_eye_sd_m = scenario.hand_table.eye_height_sd_m,
                          .hand_day_sd_ratio = scenario.hand_table.day_sd_ratio,
                          .opponent_median_m = scenario.opponent.distance_median_m,
-                         .sweep_law = flags.law};
+                         .sweep_law = flags.law,
+                         .efficiency = flags.blocked == "apart" ? Measure::kUnblocked : Measure::kEfficiency,
+                         .keeper = scenario.keeper.enabled};
   std::vector<config::Robot> robots;
   for (const std::string& robot : flags.robots) {
     robots.push_back(config::load_robot(find_robot(robot)));
     report.robots.push_back(robots.back().name);
   }
+  flags.study.draw_evenings(scenario, {flags.config, {}, {}});
+  const std::size_t evenings = flags.study.plan.evenings.size();
+  if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
   std::vector<nodes::Arm> arms;
   for (const Cell& cell : factorial_cells()) {
     report.cells.push_back({cell, {}});
     arms.push_back(arm_of(cell, settings, robots));
   }
-  warn_of_shared_robots(scenario, arms);
+  if (evenings == 0) warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 
   const std::vector<nodes::Arm> pair{arm_of({"old", kicking::PolicyName::kStopped, flags.law}, settings, robots),
                                      arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
-  std::vector<double> medians_m = flags.no_sweep ? std::vector<double>{} : flags.opponent_medians_m;
-  std::ranges::sort(medians_m);
-  medians_m.erase(std::unique(medians_m.begin(), medians_m.end()), medians_m.end());
-  for (const double median_m : medians_m) {
+  const auto points_of = [&](std::vector<double> values) {
+    if (flags.no_sweep) values.clear();
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  };
+  for (const double median_m : points_of(flags.opponent_medians_m)) {
     sim::Scenario world = scenario;
     world.opponent.distance_median_m = median_m;
     auto two = play_with_bar(world, pair, flags.study.plan, fmt::format("opponents at {:g} m", median_m));
     report.sweep.push_back({median_m, std::move(two[0]), std::move(two[1])});
+  }
+  for (const double bias_m : points_of(flags.eye_biases_m)) {
+    sim::Scenario world = scenario;
+    world.hand_table.target_height_m += bias_m;  // what seems right lies so much too high
+    auto two = play_with_bar(world, pair, flags.study.plan, fmt::format("an eye off by {:g} m", bias_m));
+    report.biases.push_back({bias_m, std::move(two[0]), std::move(two[1])});
   }
   give(flags.study, report);
 }
@@ -67,7 +84,7 @@ void add_factorial(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<FactorialFlags>();
   add_study_options(*verb, flags->study);
   verb->add_option("--config", flags->config, "Configuration of the nodes")
-      ->check(CLI::ExistingFile)
+      ->check(readable_file())
       ->capture_default_str();
   verb->add_option("--robot", flags->robots, "What the robots know with the new table: robot n's n-th")
       ->delimiter(',')
@@ -76,7 +93,16 @@ void add_factorial(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(0.3, 50.0))
       ->capture_default_str();
-  verb->add_option("--law", flags->law, "Law of both sides of the sweep")
+  verb->add_option("--eye-bias", flags->eye_biases_m,
+                   "Second sweep: what seems right to the old table's maker is so much too high [m]")
+      ->delimiter(',')
+      ->check(CLI::Range(-0.5, 1.0))
+      ->capture_default_str();
+  verb->add_option("--blocked", flags->blocked,
+                   "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others")
+      ->check(CLI::IsMember({"outside", "apart"}))
+      ->capture_default_str();
+  verb->add_option("--law", flags->law, "Law of both sides of the sweeps")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Law>{{"paper", Law::kPaper}, {"released", Law::kReleased}, {"exact", Law::kExact}}))
       ->default_str("released");

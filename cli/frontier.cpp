@@ -4,7 +4,6 @@
 #include "cli/frontier/report.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -12,12 +11,14 @@ namespace {
 struct FrontierFlags {
   std::string policy = "predictive";
   std::vector<double> thresholds{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
+  std::string beside = TRIVELA_CONFIG_DIR "/arms/baselines.toml";
   Study study;
   ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
 };
 
 void frontier(const FrontierFlags& flags) {
-  const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
+  require_writable(flags.study);
+  const sim::Scenario scenario = flags.study.world.load();
   std::vector<double> thresholds = flags.thresholds;
   std::ranges::sort(thresholds);
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
@@ -27,9 +28,13 @@ void frontier(const FrontierFlags& flags) {
     arm.settings.policy.predictive.threshold = threshold;
     arms.push_back(std::move(arm));
   }
-  for (nodes::Arm& arm : arms_of("stopped,moving,oracle", flags.base)) arms.push_back(std::move(arm));
-  warn_of_shared_robots(scenario, arms);
-  auto played = play_with_bar(scenario, arms, flags.study.plan, "the frontier");
+  for (const std::string& text : {flags.beside, std::string{"oracle"}}) {
+    for (nodes::Arm& arm : arms_of(text, flags.base)) arms.push_back(std::move(arm));
+  }
+  Study study = flags.study;
+  study.draw_evenings(scenario, flags.base);
+  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
+  auto played = play_with_bar(scenario, arms, study.plan, "the frontier");
   FrontierReport report{.policy = flags.policy,
                         .scenario = flags.study.scenario_name(),
                         .seed = flags.study.plan.seed,
@@ -37,12 +42,13 @@ void frontier(const FrontierFlags& flags) {
                         .possessions = flags.study.plan.possessions,
                         .points = {},
                         .fixed = {},
-                        .oracle = {}};
+                        .oracle = {},
+                        .evenings = study.plan.evenings.size()};
   const std::size_t n = thresholds.size();
   for (std::size_t i = 0; i < n; ++i) report.points.push_back({thresholds[i], std::move(played[i])});
-  for (std::size_t i = n; i < n + 2; ++i) report.fixed.push_back({arms[i].name, std::move(played[i])});
-  report.oracle = FixedPoint{arms[n + 2].name, std::move(played[n + 2])};
-  give(flags.study, report);
+  for (std::size_t i = n; i + 1 < arms.size(); ++i) report.fixed.push_back({arms[i].name, std::move(played[i])});
+  report.oracle = FixedPoint{arms.back().name, std::move(played.back())};
+  give(study, report);
 }
 
 }  // namespace
@@ -58,11 +64,15 @@ void add_frontier(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  verb->add_option("--beside", flags->beside, "Arms beside the frontier: policies, or a file of arms (.toml)")
+      ->capture_default_str();
   add_study_options(*verb, flags->study);
   add_arm_options(*verb, flags->base);
   verb->footer(
-      "Beside the frontier: stopped, moving and oracle on the same opportunities. Whether a policy lies below the\n"
-      "frontier is asked at its own number of kicks, the frontier being linear between thresholds.");
+      "Beside the frontier, on the same opportunities: stopped and moving with their best settings and with the\n"
+      "paper's, and oracle. Whether a policy lies below the frontier is asked at its own number of kicks, the "
+      "frontier\n"
+      "being linear between thresholds.");
   verb->callback([flags, &exit_code] {
     frontier(*flags);
     exit_code = kDone;

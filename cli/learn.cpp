@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "cli/calibrate/robot_update.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/open_file.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "cli/write_file.hpp"
@@ -115,6 +117,7 @@ Json to_json(const LearnedFit& fit, const std::string& written) {
 }
 
 ExitCode learn(const LearnFlags& flags) {
+  require_writable("--out", flags.out);
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
   const auto logged = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
   for (const std::string& remark : logged.remarks) warn(remark);
@@ -143,7 +146,7 @@ void add_learn(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<LearnFlags>();
   verb->add_option("log", flags->logs, "Match logs with kicks of the predictive policy")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(readable_file());
   verb->add_option("--out", flags->out, "The model's file")->capture_default_str()->type_name("FILE");
   verb->add_option("--held-out", flags->options.held_out_share, "Share of the matches that the fit does not see")
       ->check(CLI::Range(0.1, 0.9))
@@ -151,7 +154,7 @@ void add_learn(CLI::App& app, int& exit_code) {
   verb->add_option("--folds", flags->options.folds, "Of the cross-validation by match that chooses the ridge")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
-  verb->add_option("--seed", flags->options.seed, "Which matches are held out")->capture_default_str();
+  verb->add_option("--seed", flags->options.seed, "Which matches are held out")->check(seeds())->capture_default_str();
   verb->add_flag("--shadows", flags->shadows,
                  "Also kicks of other policies, with the probability that predictive gave its own kick of that cycle");
   verb->add_flag("--anyway", flags->anyway, "Write the model even where it is not better");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "cli/csv_rows.hpp"
+#include "cli/open_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -36,7 +36,8 @@ class ReturnRows {
     if (scan != std::floor(scan)) throw CellError("scan", *row.word("scan"), "is not a whole number");
     const ForegroundReturn seen{static_cast<std::int64_t>(scan), to_ns(row.number_in("t_scan_start_s", -1e9, 1e9)),
                                 to_ns(row.number_in("t_beam_s", -1e9, 1e9)),
-                                kicking::radians(row.number_in("angle_deg", -360.0, 360.0)), row.positive("range_m")};
+                                kicking::radians(row.number_in("angle_deg", -360.0, 360.0)),
+                                row.length_m("range_m", 200.0)};
     const auto start = starts_.try_emplace(seen.scan, seen.scan_t_ns).first->second;
     if (start != seen.scan_t_ns) {
       throw CellError("t_scan_start_s", *row.word("t_scan_start_s"),
@@ -149,8 +150,7 @@ std::optional<std::vector<ForegroundReturn>> read_returns(std::istream& in, cons
 }
 
 int run_lob_points(const PointsFlags& flags, const kicking::lob::ScannerPlace& place) {
-  std::ifstream file(flags.points);
-  if (!file || std::filesystem::is_directory(flags.points)) throw std::runtime_error("cannot read " + flags.points);
+  std::ifstream file = open_file(flags.points);
   const auto returns = read_returns(file, flags.points, std::cerr);
   if (!returns) return kFailed;
   kicking::lob::AnalyzerConfig config;

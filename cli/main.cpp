@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <optional>
+#include <string>
 #include <system_error>
 
 #include "cli/finite_numbers.hpp"
@@ -13,10 +16,25 @@ namespace cli = trivela::cli;
 
 namespace {
 
+/// The first word where a verb of `app` must stand and none does; none: what is wrong is something else.
+std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* at = &app;
+  for (int i = 1; i < argc; ++i) {
+    const auto verbs = at->get_subcommands([](const CLI::App* part) { return !part->get_name().empty(); });
+    const auto verb = std::ranges::find(verbs, argv[i], &CLI::App::get_name);
+    if (verb == verbs.end()) {
+      return verbs.empty() || argv[i][0] == '-' ? std::nullopt : std::optional<std::string>{argv[i]};
+    }
+    at = *verb;
+  }
+  return std::nullopt;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "trivela " TRIVELA_VERSION);
   app.footer("Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");
   int exit_code = cli::kDone;
   cli::add_match(app, exit_code);
@@ -33,10 +51,13 @@ int run(int argc, char** argv) {
   cli::add_factorial(app, exit_code);
   cli::add_frontier(app, exit_code);
   cli::add_sensitivity(app, exit_code);
+  cli::add_tune(app, exit_code);
   cli::add_solve(app, exit_code);
   cli::add_align(app, exit_code);
   cli::add_predict(app, exit_code);
   cli::require_finite_numbers(app);
+  if (const auto word = unknown_verb(app, argc, argv))
+    throw cli::UsageError{fmt::format("there is no verb \"{}\"; trivela --help names them all", *word)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

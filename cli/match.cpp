@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/launch/record_lockstep.hpp"
+#include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "config/scenario.hpp"
@@ -15,6 +16,7 @@ namespace {
 struct MatchFlags {
   std::vector<std::string> halves;
   std::string random;
+  bool paired_halves = false;
   double minutes = 5.0;
   std::int64_t seed = 1;
   int domain = -1;
@@ -22,18 +24,6 @@ struct MatchFlags {
   std::string config = TRIVELA_CONFIG_DIR "/default.toml";
   std::vector<std::string> overrides;
   std::string log_level = "warn";
-};
-
-/// CLI::Range lets NaN through.
-struct Between : CLI::Validator {
-  Between(double least, double most) : Validator{fmt::format("{} to {}", least, most)} {
-    func_ = [least, most](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value);
-      return number && value >= least && value <= most ? ""
-                                                       : fmt::format("{} is not within {} to {}", text, least, most);
-    };
-  }
 };
 
 std::string list(const std::vector<std::string>& policies) {
@@ -59,6 +49,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   if (!flags.halves.empty()) lines.push_back(fmt::format("kick_decision.policy_by_half = {}", list(flags.halves)));
   if (!flags.random.empty())
     lines.push_back(fmt::format("kick_decision.random = {}", list(CLI::detail::split(flags.random, ','))));
+  if (flags.paired_halves) lines.emplace_back("simulator.paired_halves = true");
   for (std::string line :
        {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
         fmt::format("kick_decision.assignment_seed = {}", flags.seed),
@@ -66,10 +57,10 @@ config::Settings settings_of(const MatchFlags& flags) {
         fmt::format("run.log_level = \"{}\"", flags.log_level)})
     lines.push_back(std::move(line));
   for (const std::string& line : flags.overrides) lines.push_back(line);
-  for (const std::string& line : lines) config::override_setting(settings, line);
+  config::override_settings(settings, lines);
   refuse_oracle(settings.kick_decision);
   config::load_scenario(settings.run.scenario);
-  config::load_robot(settings.run.robot);
+  config::robot_for(config::load_robot(settings.run.robot), settings.policy);
   return settings;
 }
 
@@ -86,12 +77,13 @@ void add_match(CLI::App& app, int& exit_code) {
   verb->add_option("--random", flags->random,
                    "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
       ->excludes(half);
+  verb->add_flag("--paired-halves", flags->paired_halves,
+                 "the same possessions in every half; otherwise each has its own")
+      ->needs(half);
   verb->add_option("--minutes", flags->minutes, "length of a half")
-      ->check(Between{0.01, 1000.0})
+      ->check(between(0.01, 1000.0))
       ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same match")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same match")->check(seeds())->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
   verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();

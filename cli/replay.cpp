@@ -41,7 +41,7 @@ int replay(const ReplayFlags& flags) {
   settings.run.robot = robot_file.path().string();
   settings.hal.wheels = settings.hal.kicker = "replay";
   settings.hal.replay_log = flags.log;
-  for (const std::string& line : flags.overrides) config::override_setting(settings, line);
+  config::override_settings(settings, flags.overrides);
   return record_lockstep("replay_player", settings, flags.domain, flags.out);
 }
 

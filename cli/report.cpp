@@ -15,6 +15,7 @@ struct ReportArguments {
   bool json = false;
   bool csv = false;
   bool verify = false;
+  std::string blocked = "outside";
 };
 
 }  // namespace
@@ -25,13 +26,16 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("log", arguments->log, "Match log, such as out/match.db")->required();
   auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
   verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
+  verb->add_option("--blocked", arguments->blocked,
+                   "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
+      ->check(CLI::IsMember({"outside", "apart"}));
   verb->add_flag(
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
     using evaluator::log::Check;
     const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
-    const evaluator::Report report = evaluator::make_report(reader);
+    const evaluator::Report report = evaluator::make_report(reader, arguments->blocked == "apart");
     const bool plain = !arguments->json && !arguments->csv;
     if (arguments->json) {
       fmt::print("{}", evaluator::to_json(report));

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "cli/csv_rows.hpp"
+#include "cli/number_checks.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/robot_model.hpp"
 
@@ -17,11 +18,9 @@ struct FlightConstants {
 
 /// Adds --gravity-mps2 and --ball-radius-m.
 inline void add_flight_flags(CLI::App& verb, FlightConstants& constants) {
-  verb.add_option("--gravity-mps2", constants.gravity_mps2, "Gravity")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  verb.add_option("--gravity-mps2", constants.gravity_mps2, "Gravity")->check(above_zero())->capture_default_str();
   verb.add_option("--ball-radius-m", constants.ball.radius_m, "Radius of the ball")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
 }
 

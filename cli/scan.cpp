@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "cli/number_checks.hpp"
 #include "cli/scan/scanner_session.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
@@ -35,7 +36,7 @@ void add_modes(CLI::App& verb, ScanFlags& flags) {
 }
 
 void add_synthetic_flags(CLI::App& verb, SyntheticFlags& flags) {
-  verb.add_option("--seed", flags.seed, "synthetic: same seed, same scans")->capture_default_str();
+  verb.add_option("--seed", flags.seed, "synthetic: same seed, same scans")->check(seeds())->capture_default_str();
   auto* speeds = verb.add_option("--exit-speed-mps", flags.exit_speed_mps, "synthetic: true speeds of the kicks")
                      ->delimiter(',')
                      ->check(CLI::Range(1.0, 30.0));
@@ -86,8 +87,8 @@ void add_scan(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<ScanFlags>();
   add_modes(*verb, *flags);
   verb->add_option("--device", flags->device, "record: /dev/ttyACM0, or tcp://HOST:PORT");
-  verb->add_option("--seconds", flags->seconds, "record: so long; default: until Ctrl-C")->check(CLI::PositiveNumber);
-  verb->add_option("--power", flags->power, "record: set-point of the kicks")->check(CLI::PositiveNumber);
+  verb->add_option("--seconds", flags->seconds, "record: so long; default: until Ctrl-C")->check(above_zero());
+  verb->add_option("--power", flags->power, "record: set-point of the kicks")->check(above_zero());
   auto* tcp = verb->add_option("--tcp", flags->tcp, "emulate: port on the loopback interface, 0: any")
                   ->check(CLI::Range(0, 65535))
                   ->capture_default_str();

@@ -1,65 +1,101 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <optional>
+#include <stdexcept>
 
 #include "cli/sensitivity/report.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
 
 struct SensitivityFlags {
-  std::string arms = "stopped,moving,predictive";
+  std::string arms = "stopped@old,stopped,moving,predictive";
   Study study;
   ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
   std::vector<std::string> inputs;
+  bool goals = false;
 };
 
-std::vector<UncertainInput> chosen(const std::vector<std::string>& keys) {
+std::vector<UncertainInput> chosen(const std::vector<std::string>& keys, const sim::Scenario& scenario) {
   const auto all = uncertain_inputs();
-  if (keys.empty()) return {all.begin(), all.end()};
   std::vector<UncertainInput> some;
+  if (keys.empty()) {
+    std::ranges::copy_if(all, std::back_inserter(some), [&](const auto& input) { return in_force(scenario, input); });
+    return some;
+  }
   for (const std::string& key : keys) {
     const auto found = std::ranges::find(all, key, &UncertainInput::key);
     if (found == all.end()) throw UsageError{fmt::format("--input: \"{}\" is none of the uncertain inputs", key)};
     if (std::ranges::count(keys, key) > 1) throw UsageError{fmt::format("--input: \"{}\" stands twice", key)};
+    if (!in_force(scenario, *found)) {
+      throw UsageError{
+          fmt::format("--input: \"{}\" is off in this scenario: it has no {}", key, key.substr(0, key.find('.')))};
+    }
     some.push_back(*found);
   }
   return some;
 }
 
+/// None, and a remark, where the scenario's other values leave no room for this one.
+std::optional<sim::Scenario> playable_with(const sim::Scenario& scenario, const std::string& key, double value) {
+  try {
+    return cli::with(scenario, key, value);
+  } catch (const std::invalid_argument& error) {
+    warn(fmt::format("left out: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
+/// The arms with another value of a setting.
+std::vector<nodes::Arm> with(std::vector<nodes::Arm> arms, const std::string& key, double value) {
+  for (nodes::Arm& arm : arms) arm.settings.policy = cli::with(arm.settings.policy, key, value);
+  return arms;
+}
+
 void sensitivity(const SensitivityFlags& flags) {
-  const sim::Scenario scenario = config::load_scenario(flags.study.scenario);
+  require_writable(flags.study);
+  const sim::Scenario scenario = flags.study.world.load();
   const std::vector<nodes::Arm> arms = arms_of(flags.arms, flags.base);
-  const std::vector<UncertainInput> inputs = chosen(flags.inputs);
+  const std::vector<UncertainInput> inputs = chosen(flags.inputs, scenario);
   if (arms.size() < 2) throw UsageError{"--arms: two or more, each is compared with the one before it"};
+  if (flags.goals && !scenario.keeper.enabled)
+    throw UsageError{"--goals: this scenario has no keeper; see config/scenarios/keeper.toml"};
   SensitivityReport report{.scenario = flags.study.scenario_name(),
                            .seed = flags.study.plan.seed,
                            .matches = flags.study.plan.matches,
                            .possessions = flags.study.plan.possessions,
                            .arms = {},
                            .base = {},
-                           .inputs = {}};
+                           .inputs = {},
+                           .measure = flags.goals ? Measure::kGoals : Measure::kPerOpportunity,
+                           .evenings = flags.study.calibrations};
   for (const nodes::Arm& arm : arms) report.arms.push_back(arm.name);
-  const auto play = [&](const sim::Scenario& world, const std::string& what) {
-    return play_with_bar(world, arms, flags.study.plan, what);
-  };
-  warn_of_shared_robots(scenario, arms);
-  report.base = play(scenario, "the scenario");
+  Study study = flags.study;
+  study.draw_evenings(scenario, flags.base);
+  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
+  report.base = play_with_bar(scenario, arms, study.plan, "the scenario");
   for (const UncertainInput& input : inputs) {
-    PlayedInput played{input, value_of(scenario, input.key), {}};
+    const bool setting = is_setting(input.key);
+    PlayedInput played{
+        input, setting ? value_of(arms.front().settings.policy, input.key) : value_of(scenario, input.key), {}};
     for (const double value : {input.low, input.high}) {
       if (value == played.value) continue;
-      played.ends.push_back(
-          {value, play(with(scenario, input.key, value), fmt::format("{} = {:g}", input.key, value))});
+      const std::string what = fmt::format("{} = {}", input.key, value_text(input.key, value));
+      if (setting) {
+        played.ends.push_back({value, play_with_bar(scenario, with(arms, input.key, value), study.plan, what)});
+      } else if (const auto world = playable_with(scenario, input.key, value)) {
+        played.ends.push_back({value, play_with_bar(*world, arms, study.plan, what)});
+      }
     }
     report.inputs.push_back(std::move(played));
   }
   sort_by_change(report);
-  give(flags.study, report);
+  give(study, report);
 }
 
 }  // namespace
@@ -72,10 +108,11 @@ void add_sensitivity(CLI::App& app, int& exit_code) {
   add_study_options(*verb, flags->study);
   add_arm_options(*verb, flags->base);
   verb->add_option("--input", flags->inputs, "Only these, e.g. kicker.delay_s,vision.latency_s")->delimiter(',');
+  verb->add_flag("--goals", flags->goals, "Goals past the keeper instead of shots on target");
   verb->footer(
-      "Each uncertain input of the scenario is set to a low and a high value (cli/sensitivity/inputs.cpp says which "
-      "and\n"
-      "why), one at a time, and the same opportunities are played. Robots are not calibrated anew.");
+      "Each uncertain input of the scenario and each setting of the policies is set to a low and a high value\n"
+      "(cli/sensitivity/inputs.cpp says which and why), one at a time, and the same opportunities are played. Robots\n"
+      "are not calibrated anew. Inputs of the hand table matter to arms with it (@old) alone.");
   verb->callback([flags, &exit_code] {
     sensitivity(*flags);
     exit_code = kDone;

@@ -5,11 +5,12 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cli/number_checks.hpp"
 #include "cli/simulate/arms.hpp"
 #include "cli/simulate/experiment.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
+#include "cli/world.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -18,10 +19,11 @@ struct SimulateFlags {
   std::string arms;
   std::uint32_t matches = 100;
   std::uint32_t possessions = 60;
+  std::uint32_t calibrations = 0;
   std::uint64_t seed = 1;
   unsigned jobs = 1;
   std::string out = "ab.db";
-  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  World world;
   ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
   bool shadows = false;
   bool every_cycle = false;
@@ -29,14 +31,16 @@ struct SimulateFlags {
 
 int simulate(const SimulateFlags& flags) {
   ExperimentPlan plan;
-  plan.scenario = config::load_scenario(flags.scenario);
-  plan.scenario_name = std::filesystem::path{flags.scenario}.stem().string();
+  plan.scenario = flags.world.load();
+  plan.scenario_name = flags.world.named(std::filesystem::path{flags.world.file}.stem().string());
   plan.arms = arms_of(flags.arms, flags.base);
   plan.seed = flags.seed;
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
-  warn_of_shared_robots(plan.scenario, plan.arms);
+  plan.evenings =
+      teams_of_evenings(plan.scenario, flags.base, {flags.calibrations, flags.matches, flags.seed, flags.jobs});
+  if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
   return run_experiment(plan, flags.jobs, flags.out);
 }
 
@@ -59,14 +63,13 @@ void add_simulate(CLI::App& app, int& exit_code) {
   verb->add_option("--possessions", flags->possessions, "opportunities of a match")
       ->check(CLI::Range(1u, 100000u))
       ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same matches")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}))
-      ->capture_default_str();
+  verb->add_option("--seed", flags->seed, "same seed, same matches")->check(seeds())->capture_default_str();
   verb->add_option("--jobs", flags->jobs, "threads; the rows do not depend on it")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
   verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
-  verb->add_option("--scenario", flags->scenario, "the world")->capture_default_str();
+  add_world_options(*verb, flags->world);
+  add_calibrations_option(*verb, flags->calibrations);
   add_arm_options(*verb, flags->base);
   verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
   verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");

@@ -84,10 +84,10 @@ void add_solve(CLI::App& app, int& exit_code) {
   add_row_flags(*verb, solve_verb({}, {}).inputs, arguments->rows);
   add_flight_flags(*verb, arguments->constants);
   verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Density of the air")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--robot", arguments->robot_file, "Robot file whose table gives the power")->type_name("FILE");
   verb->callback([arguments, &exit_code] {

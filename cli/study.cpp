@@ -3,12 +3,19 @@
 #include <filesystem>
 
 #include "cli/launch/progress_bar.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/open_file.hpp"
+#include "cli/verbs.hpp"
 
 namespace trivela::cli {
 
-std::string Study::scenario_name() const { return std::filesystem::path{scenario}.filename().string(); }
+std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
-void add_study_options(CLI::App& verb, Study& study) {
+void Study::draw_evenings(const sim::Scenario& world, const ArmBase& base) {
+  plan.evenings = teams_of_evenings(world, base, {calibrations, plan.matches, plan.seed, plan.jobs});
+}
+
+void add_play_options(CLI::App& verb, Study& study) {
   PlayPlan& plan = study.plan;
   verb.add_option("--matches", plan.matches, "Matches of each arm")
       ->check(CLI::Range(2, 1000000))
@@ -16,11 +23,23 @@ void add_study_options(CLI::App& verb, Study& study) {
   verb.add_option("--possessions", plan.possessions, "Opportunities of a match")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9'000'000'000'000'000}))
-      ->capture_default_str();
+  verb.add_option("--seed", plan.seed, "Same seed, same opportunities")->check(seeds())->capture_default_str();
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
-  verb.add_option("--scenario", study.scenario, "The world")->check(CLI::ExistingFile)->capture_default_str();
+  add_world_options(verb, study.world);
+  add_calibrations_option(verb, study.calibrations);
+}
+
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
+  verb.add_option(
+          "--calibrations", calibrations,
+          "Evenings of calibration that are played for the robots, match m with evening m mod K; 0: robot files")
+      ->check(CLI::Range(0u, 1000u))
+      ->capture_default_str()
+      ->type_name("K");
+}
+
+void add_study_options(CLI::App& verb, Study& study) {
+  add_play_options(verb, study);
   verb.add_option("--csv", study.csv, "Everything that was counted as CSV")->type_name("FILE");
   verb.add_option("--svg", study.svg, "A chart")->type_name("FILE");
   verb.add_flag("--json", study.json, "JSON instead of text");
@@ -30,6 +49,13 @@ void add_arm_options(CLI::App& verb, ArmBase& base) {
   verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones");
   verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
   verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");
+}
+
+void require_writable(const Study& study) {
+  if (!study.csv.empty() && study.csv == study.svg)
+    throw UsageError{fmt::format("--csv and --svg are the same file: {}", study.csv)};
+  require_writable("--csv", study.csv);
+  require_writable("--svg", study.svg);
 }
 
 std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "cli/factorial/play.hpp"
 #include "cli/say.hpp"
 #include "cli/simulate/arms.hpp"
+#include "cli/simulate/evenings.hpp"
+#include "cli/world.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
@@ -19,30 +22,45 @@ namespace trivela::cli {
 /// What the verbs have in common that play many matches of several arms and report on them.
 struct Study {
   PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
-  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  World world;
+  std::uint32_t calibrations = 0;  ///< evenings; 0: the robot files as they are
   std::string csv, svg;
   bool json = false;
 
-  /// Name of the scenario's file, for the report.
+  /// Name of the scenario's file and what was changed of it, for the report.
   std::string scenario_name() const;
+
+  /// Plays the evenings of calibration of the plan's seed into the plan, before its matches.
+  void draw_evenings(const sim::Scenario& world, const ArmBase& base);
 };
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --csv, --svg, --json.
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.
+void add_play_options(CLI::App& verb, Study& study);
+
+/// --calibrations alone.
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
+
+/// Those of add_play_options(), and --csv, --svg, --json.
 void add_study_options(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.
 void add_arm_options(CLI::App& verb, ArmBase& base);
 
+/// Throws, before anything is played, where --csv or --svg cannot be written or are the same file.
+void require_writable(const Study& study);
+
 /// Plays the arms with a progress bar that says what they are played for.
 std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,
                                     const PlayPlan& plan, const std::string& what);
 
-/// Writes the report's files that are asked for, and prints it as text or JSON.
+/// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
+/// than the file.
 template <typename Report>
 void give(const Study& study, const Report& report) {
+  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
+  std::fflush(stdout);
   if (!study.csv.empty()) write_file(study.csv, to_csv(report));
   if (!study.svg.empty()) write_file(study.svg, to_svg(report));
-  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
 }
 
 }  // namespace trivela::cli

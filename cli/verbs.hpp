@@ -28,6 +28,7 @@ void add_factorial(CLI::App& app, int& exit_code);
 void add_frontier(CLI::App& app, int& exit_code);
 void add_sensitivity(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_tune(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_align(CLI::App& app, int& exit_code);
 void add_predict(CLI::App& app, int& exit_code);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -7,10 +11,29 @@
 
 namespace trivela::cli {
 
-/// Writes a text file anew. Throws std::runtime_error naming it where that fails.
+/// What a verb will write when it has computed. The verb says so first, since nobody wants to hear after half an hour
+/// that a folder is missing: throws std::runtime_error naming flag, file and reason where it cannot be written now. An
+/// empty path is none. The file stays as it is, and one that was not there is not there afterwards.
+inline void require_writable(const std::string& flag, const std::filesystem::path& path) {
+  if (path.empty()) return;
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error{fmt::format("cannot write {} {}: {}", flag, path.string(), why)};
+  };
+  std::error_code unknown;
+  const bool there = std::filesystem::exists(std::filesystem::symlink_status(path, unknown));
+  if (std::filesystem::is_directory(path, unknown)) fail("it is a folder");
+  if (there && !std::filesystem::is_regular_file(path, unknown)) return;  // a pipe, a terminal: opened once
+  errno = 0;
+  if (!std::ofstream{path, std::ios::app}) fail(std::strerror(errno));
+  if (!there) std::filesystem::remove(path, unknown);
+}
+
+/// Writes a text file anew. Throws std::runtime_error naming it, and the reason, where that fails.
 inline void write_file(const std::filesystem::path& path, const std::string& text) {
+  errno = 0;
   std::ofstream out{path};
-  if (!(out << text) || !out.flush()) throw std::runtime_error{"cannot write " + path.string()};
+  if (!(out << text) || !out.flush())
+    throw std::runtime_error{fmt::format("cannot write {}: {}", path.string(), std::strerror(errno))};
 }
 
 }  // namespace trivela::cli

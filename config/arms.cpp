@@ -16,6 +16,7 @@ void fields(V& v, ArmFields& a) {
   v("policy", a.policy);
   v("table", a.table);
   v("robots", a.robots);
+  v("config", a.config);
   v("random", a.random);
   v("random_probabilities", a.random_probabilities, Range{0.0, 1.0});
 }
@@ -81,9 +82,11 @@ ArmFields read_arm(const TomlSource& source, const toml::node& node) {
   }
   check_draw(source, table, arm);
   const std::filesystem::path folder = std::filesystem::path{source.file}.parent_path();
-  for (std::string& robot : arm.robots) {
-    if (std::filesystem::path{robot}.is_relative()) robot = (folder / robot).string();
-  }
+  const auto relative_to_file = [&](std::string& path) {
+    if (!path.empty() && std::filesystem::path{path}.is_relative()) path = (folder / path).string();
+  };
+  std::ranges::for_each(arm.robots, relative_to_file);
+  relative_to_file(arm.config);
   return arm;
 }
 

@@ -22,6 +22,7 @@ struct ArmFields {
   std::optional<kicking::PolicyName> policy;  ///< none, and `random` empty: the settings say who plays
   std::string table = "new";                  ///< "new" or "old"
   std::vector<std::string> robots;            ///< robot files, robot n's at n - 1; relative to the file
+  std::string config;                         ///< settings in place of the command line's; relative to the file
   std::vector<SettingLine> set;
   std::vector<kicking::PolicyName> random;   ///< drawn for each possession
   std::vector<double> random_probabilities;  ///< of those; empty: alike

@@ -17,9 +17,9 @@ struct FigureOrigin {
 /// Of [table]. The lists run with its powers.
 struct TableOrigin : FigureOrigin {
   std::vector<std::uint32_t> trials;
-  std::vector<double> exit_speed_sds_mps;  ///< from kick to kick; 0 for a single trial
-  double exit_speed_sd_mps = 0.0;          ///< the same, pooled
-  bool isotonic = false;                   ///< speeds that did not rise were pooled
+  std::vector<double> exit_speed_sds_mps;   ///< from kick to kick; empty where a set-point has a single trial
+  std::optional<double> exit_speed_sd_mps;  ///< the same, pooled; none: no set-point has two trials
+  bool isotonic = false;                    ///< speeds that did not rise were pooled
 };
 
 /// Of kicker.exit_angle_deg.

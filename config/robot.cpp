@@ -52,15 +52,12 @@ kicking::DistanceTable height_table_of(const DistanceColumns& columns, const std
   return table;
 }
 
-void read_height_table(const DistanceColumns& columns, const std::string& file, Robot& robot) {
-  robot.height_table = height_table_of(columns, file);
-  const kicking::PolicyConfig policy{};
-  try {
-    robot.model =
-        kicking::with_distance_table(robot.model, *robot.height_table, policy.height_law, policy.target_height_m);
-  } catch (const std::invalid_argument& error) {
-    throw Error{fmt::format("{}: height_table: {}", file, error.what())};
-  }
+Robot with_height_table(Robot robot, const kicking::PolicyConfig& policy, const std::string& whose) try {
+  robot.model =
+      kicking::with_distance_table(robot.model, *robot.height_table, policy.height_law, policy.target_height_m);
+  return robot;
+} catch (const std::invalid_argument& error) {
+  throw Error{fmt::format("{}: height_table: {}", whose, error.what())};
 }
 
 template <class Table>
@@ -84,8 +81,8 @@ Robot load_robot_of_any_table(const std::filesystem::path& path) {
                             source.file, file.table ? ", not both" : "")};
   }
   if (file.height_table) {
-    read_height_table(*file.height_table, source.file, robot);
-    return robot;
+    robot.height_table = height_table_of(*file.height_table, source.file);
+    return with_height_table(robot, {}, source.file);
   }
   const TableColumns& table = *file.table;
   if (table.kind == kicking::TableKind::kTrue) {
@@ -104,6 +101,13 @@ Robot load_robot(const std::filesystem::path& path) {
         "{}: table.kind = \"true\": the policies' laws are drag-free and need an \"effective\" table", path.string())};
   }
   return robot;
+}
+
+Robot robot_for(Robot robot, const kicking::PolicyConfig& policy) {
+  if (!robot.height_table) return robot;
+  const std::string whose =
+      fmt::format("robot {} with policy.target_height_m = {}", robot.name, policy.target_height_m);
+  return with_height_table(std::move(robot), policy, whose);
 }
 
 std::string to_toml_text(const Robot& robot) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
@@ -31,8 +32,17 @@ void read_learned_model(Settings& settings, const std::string& source) {
   const bool wanted = names_learned(k.policy_by_half) || names_learned(k.policy_by_robot) || names_learned(k.random);
   if (wanted && !settings.policy.learned) {
     throw Error{fmt::format(
-        "{}: policy \"learned\" needs kick_decision.learned_model, a file that `trivela learn` has written", source)};
+        "{}: policy \"learned\" needs kick_decision.learned_model, a file that `trivela learn` has written, such as "
+        "--set 'kick_decision.learned_model=\"config/learned.toml\"'",
+        source)};
   }
+}
+
+/// What follows from several settings together.
+void settle(Settings& settings, const std::string& source) {
+  check_policies(settings.kick_decision, source);
+  settings.policy.cycle_s = settings.run.cycle_s;
+  read_learned_model(settings, source);
 }
 
 }  // namespace
@@ -41,15 +51,13 @@ Settings load_settings(const std::filesystem::path& path) {
   Settings settings;
   const TomlSource source = parse_file(path);
   read_into(source, settings);
-  check_policies(settings.kick_decision, source.file);
-  settings.policy.cycle_s = settings.run.cycle_s;
   const std::filesystem::path folder = path.parent_path();
   make_relative_to(folder, settings.run.robot);
   make_relative_to(folder, settings.run.scenario);
   make_relative_to(folder, settings.domain.dds_file);
   make_relative_to(folder, settings.hal.replay_log);
   make_relative_to(folder, settings.kick_decision.learned_model);
-  read_learned_model(settings, source.file);
+  settle(settings, source.file);
   return settings;
 }
 
@@ -77,8 +85,23 @@ void check_policies(const KickDecision& settings, const std::string& source) {
   }
 }
 
-void override_setting(Settings& settings, const std::string& line) { read_into(parse_text(line, "--set"), settings); }
+void override_settings(Settings& settings, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) read_into(parse_text(line, "--set"), settings);
+  settle(settings, "the settings");
+}
 
 std::string to_toml_text(const Settings& settings) { return to_toml(settings); }
+
+std::map<std::string, std::string> setting_values(const Settings& settings) {
+  std::map<std::string, std::string> values;
+  std::istringstream lines{to_toml_text(settings)};
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) section = line.substr(1, line.size() - 2) + '.';
+    if (const auto equals = line.find(" = "); equals != std::string::npos)
+      values[section + line.substr(0, equals)] = line.substr(equals + 3);
+  }
+  return values;
+}
 
 }  // namespace trivela::config

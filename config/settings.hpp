@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -85,12 +86,12 @@ struct KickerDriver {
 
 /// Tracking of a shot.
 struct ShotObserver {
-  double history_s = 0.6;         ///< frames kept for a receipt that arrives late
-  double time_out_s = 3.0;        ///< after the release; what has not crossed by then is short
-  double ball_sd_m = 0.03;        ///< of one observation and axis
-  std::uint32_t fit_frames = 10;  ///< frames before the goal line that the crossing is fitted to
-  double lost_s = 0.3;            ///< without an observation for longer the ball is lost
-  double rest_speed_mps = 0.3;    ///< slower is at rest
+  double history_s = 0.6;           ///< frames kept for a receipt that arrives late
+  double time_out_s = 3.0;          ///< after the release; what has not crossed by then is short
+  double ball_sd_m = 0.03;          ///< of one observation and axis, before flights have shown what it is
+  double label_probability = 0.95;  ///< an outcome that is less certain is unknown
+  double lost_s = 0.3;              ///< without an observation for longer the ball is lost
+  double rest_speed_mps = 0.3;      ///< slower is at rest
 };
 
 /// What the simulator plays.
@@ -99,6 +100,7 @@ struct Simulator {
   std::uint32_t halves = 2;
   double half_minutes = 5.0;
   std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
+  bool paired_halves = false;         ///< every half has the possessions of the first
 };
 
 struct Recorder {
@@ -141,10 +143,15 @@ Settings load_settings(const std::filesystem::path& path);
 /// Throws Error naming key and value where the policies in charge make no sense together.
 void check_policies(const KickDecision& settings, const std::string& source);
 
-/// One line of TOML such as `run.robot_id = 2` on top. Throws Error naming it.
-void override_setting(Settings& settings, const std::string& line);
+/// Lines of TOML such as `run.robot_id = 2` on top, and what follows from all of them together: the cycle of the
+/// policies, their learned model. Relative file names are relative to the working directory. Throws Error naming line
+/// or key, also for policies that do not go together.
+void override_settings(Settings& settings, const std::vector<std::string>& lines);
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);
+
+/// Every setting by its key, e.g. "policy.predictive.threshold", with its value as TOML has it.
+std::map<std::string, std::string> setting_values(const Settings& settings);
 
 }  // namespace trivela::config

@@ -68,6 +68,10 @@ template <class V>
 void fields(V& v, TestDriveConfig& t) {
   using config::Degrees, config::Range;
   v("kicks_per_level", t.kicks_per_level, Range{1, 1000});
+  v("aim_tolerance_deg", Degrees{t.aim_tolerance_rad}, Range{0.05, 30.0});
+  v("settle_s", t.settle_s, Range{0.0, 5.0});
+  v("rest_speed_mps", t.rest_speed_mps, Range{0.0, 2.0});
+  v("rest_turn_rate_radps", t.rest_turn_rate_radps, Range{0.0, 5.0});
   v("powers", t.powers, Range{0.0, 1000.0});
   v("distance_m", t.distance_m, Range{1.0, 20.0});
   v("straight_distance_m", t.straight_distance_m, Range{1.0, 20.0});
@@ -214,7 +218,7 @@ void fields(V& v, ShotObserver& s) {
   v("history_s", s.history_s, Range{0.05, 10.0});
   v("time_out_s", s.time_out_s, Range{0.2, 30.0});
   v("ball_sd_m", s.ball_sd_m, Range{1e-4, 1.0});
-  v("fit_frames", s.fit_frames, Range{3, 1000});
+  v("label_probability", s.label_probability, Range{0.5, 1.0});
   v("lost_s", s.lost_s, Range{0.02, 5.0});
   v("rest_speed_mps", s.rest_speed_mps, Range{0.0, 5.0});
 }
@@ -225,6 +229,7 @@ void fields(V& v, Simulator& s) {
   v("halves", s.halves, Range{1, 255});
   v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
   v("max_possessions", s.max_possessions, Range{0, 1000000});
+  v("paired_halves", s.paired_halves);
 }
 
 template <class V>

@@ -32,13 +32,18 @@ TomlSource parse_text(std::string_view text, std::string name) {
 }
 
 TomlSource parse_file(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& why) {
+    const std::string looked =
+        path.is_relative() ? fmt::format(" (in {})", std::filesystem::current_path().string()) : "";
+    throw Error{fmt::format("{}: cannot read the configuration: {}{}", path.string(), why, looked)};
+  };
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) fail("it is a folder");
   errno = 0;
   std::ifstream in{path, std::ios::binary};
+  if (!in) fail(errno == 0 ? "not a file" : std::strerror(errno));
   const std::string text{std::istreambuf_iterator<char>{in}, {}};
-  if (!in || in.bad()) {
-    throw Error{fmt::format("{}: cannot read the configuration: {}", path.string(),
-                            errno == 0 ? "not a file" : std::strerror(errno))};
-  }
+  if (in.bad()) fail("reading it failed");
   return parse_text(text, path.string());
 }
 

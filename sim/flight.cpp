@@ -65,6 +65,7 @@ void advance(BallMotion& motion, const Ball& ball, double dt_s) {
     fly(motion, drag, ball.gravity_mps2, dt_floor);
     dt_s -= dt_floor;
     motion.position_m.z = ball.radius_m;
+    motion.bounced = true;
     Vec3& v = motion.velocity_mps;
     if (-v.z < ball.roll_below_mps) {
       motion.rolling = true;

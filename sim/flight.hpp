@@ -10,6 +10,7 @@ struct BallMotion {
   Vec3 position_m;  ///< centre, in F
   Vec3 velocity_mps;
   bool rolling = false;  ///< stays on the floor
+  bool bounced = false;  ///< has touched the floor since it was released
 };
 
 /// k of the drag a = -k |v| v [1/m]: k = rho C_d pi r^2 / (2 m).

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
 
 #include "kicking/ballistics/drag.hpp"
 #include "sim/flight.hpp"
@@ -17,6 +20,7 @@ namespace trivela::sim {
 namespace {
 
 constexpr int kDegree = 2;
+constexpr std::uint32_t kMostTries = 100;
 constexpr double kLeastRise = 0.1;  // of the power from one distance to the next; less is not rising
 
 /// Power at which the ball passes `height_m` over the launch at `distance_m`, fractional; none: out of reach.
@@ -54,27 +58,30 @@ std::vector<double> smoothed(const std::vector<kicking::DistancePoint>& points) 
   return {fitted.begin(), fitted.end()};
 }
 
-}  // namespace
+/// A table, or why nobody could play by it.
+using Made = std::variant<kicking::DistanceTable, std::string>;
 
-kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& kicker, std::uint64_t seed,
-                                       std::uint32_t match, std::uint32_t robot) {
+/// The table of one try; every try has numbers of its own.
+Made make_table(const Scenario& scenario, const Kicker& kicker, const Draws& draws, std::uint32_t robot,
+                std::uint32_t tried) {
   const HandTable& hand = scenario.hand_table;
-  const Draws draws{seed, match};
-  const double day_ratio = 1.0 + hand.day_sd_ratio * draws.normal(Role::kHandTable, robot, 0);
-  const double launch_to_target_m = hand.target_height_m - scenario.ball.radius_m;
+  const auto first = tried * (1 + static_cast<std::uint32_t>(hand.distances_m.size()));
+  const auto common = draws.normals(Role::kHandTable, robot, first);
+  const double day_ratio = 1.0 + hand.day_sd_ratio * common[0];
+  // A ball taken for higher than it flies is sent lower.
+  const double launch_to_target_m = hand.target_height_m - scenario.ball.radius_m - hand.eye_bias_sd_m * common[1];
   std::vector<kicking::DistancePoint> noted;
   for (std::size_t i = 0; i < hand.distances_m.size(); ++i) {
-    const auto noise = draws.normals(Role::kHandTable, robot, 1 + static_cast<std::uint32_t>(i));
+    const auto noise = draws.normals(Role::kHandTable, robot, first + 1 + static_cast<std::uint32_t>(i));
     const double mean_ratio = 1.0 + kicker.speed_sd_ratio * noise[1] / std::sqrt(hand.kicks_per_distance);
-    // A ball taken for higher than it flies is sent lower.
     const double height_m = launch_to_target_m - hand.eye_height_sd_m * noise[0];
     const auto power =
         power_through(kicker, scenario.ball, hand.distances_m[i], height_m, day_ratio * std::max(0.5, mean_ratio));
     if (power) noted.push_back({hand.distances_m[i], std::round(*power)});
   }
   if (noted.size() < 2) {
-    throw std::runtime_error{fmt::format("hand_table: {} of {} distances are within the kicker's reach, need 2",
-                                         noted.size(), hand.distances_m.size())};
+    return fmt::format("{} of {} distances are within the kicker's reach, need 2", noted.size(),
+                       hand.distances_m.size());
   }
   const std::vector<double> powers = smoothed(noted);
   kicking::DistanceTable table;
@@ -83,8 +90,22 @@ kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& k
     if (!table.points.empty() && power < table.points.back().power + kLeastRise) continue;
     table.points.push_back({noted[i].distance_m, power});
   }
-  if (table.points.size() < 2) throw std::runtime_error{"hand_table: the powers found do not rise with the distance"};
+  if (table.points.size() < 2) return "the powers found do not rise with the distance";
   return table;
+}
+
+}  // namespace
+
+kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& kicker, std::uint64_t seed,
+                                       std::uint32_t match, std::uint32_t robot) {
+  std::string why;
+  for (std::uint32_t tried = 0; tried < kMostTries; ++tried) {
+    Made made = make_table(scenario, kicker, Draws{seed, match}, robot, tried);
+    if (auto* const table = std::get_if<kicking::DistanceTable>(&made)) return std::move(*table);
+    why = std::get<std::string>(made);
+  }
+  throw std::runtime_error{fmt::format("hand_table: none of {} tables of match {} can be played by; the last one: {}",
+                                       kMostTries, match, why)};
 }
 
 }  // namespace trivela::sim

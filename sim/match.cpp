@@ -21,6 +21,7 @@ namespace trivela::sim {
 namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+constexpr int kHalfShift = 24;  // a half has fewer possessions than 2^24
 
 /// The first nanosecond that lies `wait_s` or more after `start_t_ns`.
 std::int64_t instant_after(std::int64_t start_t_ns, double wait_s) {
@@ -40,12 +41,13 @@ struct Match::State {
   enum class Phase { kStop, kPlay, kClosing, kDone };  // kClosing: the stop that ends a half
 
   State(const Scenario& values, std::uint64_t match_seed, int half_count, double half_minutes,
-        std::uint32_t possession_limit)
+        std::uint32_t possession_limit, bool halves_paired)
       : scenario(playable(values)),
         seed(match_seed),
         halves(half_count),
         half_ns(kicking::nanoseconds(half_minutes * 60.0)),
         max_possessions(possession_limit),
+        paired_halves(halves_paired),
         cycle_ns(kicking::nanoseconds(values.cycle_s)),
         substeps(static_cast<std::int64_t>(std::ceil(values.cycle_s / values.substep_s - 1e-9))),
         time_limit_ns(kicking::nanoseconds(values.possession.time_limit_s)),
@@ -67,7 +69,7 @@ struct Match::State {
     ++possession_id;
     phase = Phase::kStop;
     ending.reset();
-    const Draws draws{seed, possession_id};
+    const Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
     world.place(opportunity, kickers[opportunity.robot - 1u].speed_scale_ratio, draws);
     sensors.begin(draws);
@@ -75,6 +77,11 @@ struct Match::State {
     sensors.remember(world);
     stop_until_t_ns = world.t_ns() + kicking::nanoseconds(scenario.possession.stop_s);
     if (scenario.possession.stop_s <= 0.0) start_play();
+  }
+
+  /// Number of the possession's situation: in the first half its own.
+  std::uint32_t situation() const {
+    return paired_halves ? possession_id : static_cast<std::uint32_t>(half - 1) << kHalfShift | possession_id;
   }
 
   void start_play() {
@@ -140,6 +147,7 @@ struct Match::State {
                               .outcome = result.outcome,
                               .crossing = result.crossing,
                               .saved = result.saved,
+                              .bounced = result.bounced,
                               .release_t_ns = shot->release_t_ns(),
                               .release_position_m = shot->released().position_m,
                               .release_velocity_mps = shot->released().velocity_mps,
@@ -186,6 +194,7 @@ struct Match::State {
   int halves;
   std::int64_t half_ns;
   std::uint32_t max_possessions;
+  bool paired_halves;
   std::int64_t cycle_ns;
   std::int64_t substeps;
   std::int64_t time_limit_ns;
@@ -208,8 +217,8 @@ struct Match::State {
 };
 
 Match::Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes,
-             std::uint32_t max_possessions)
-    : state_(std::make_unique<State>(scenario, seed, halves, half_minutes, max_possessions)) {}
+             std::uint32_t max_possessions, bool paired_halves)
+    : state_(std::make_unique<State>(scenario, seed, halves, half_minutes, max_possessions, paired_halves)) {}
 Match::~Match() = default;
 Match::Match(Match&&) noexcept = default;
 Match& Match::operator=(Match&&) noexcept = default;

@@ -20,19 +20,21 @@ namespace trivela::sim {
 /// line counts as. A coil
 /// energised before the end of a possession wins: its ball leaves first.
 ///
-/// Possession n of a half depends on (seed, n) alone, so that every half and every policy meets the same poses,
-/// opponents and noise: the draws of one role never shift another's. Between steps the world stands still; the same
-/// seed and the same commands give the same bits.
+/// Possession n of a half depends on (seed, half, n) alone, so that every policy meets the same poses, opponents and
+/// noise: the draws of one role never shift another's. Each half has possessions of its own, unless the halves are
+/// paired: then possession n is the same situation in all of them. Between steps the world stands still; the same seed
+/// and the same commands give the same bits.
 ///
 ///     while (!match.done()) { publish(match.sense()); report(match.step(commands)); }
 class Match {
  public:
   /// `halves` halves of `half_minutes` minutes each, or of `max_possessions` possessions if those are over first (0: no
   /// such limit); a half ends with the possession under way and one more stop, after which the observers have seen
-  /// everything. Throws std::runtime_error naming key and value for a scenario that
-  /// first_problem() refuses, fewer than 1 or more than 255 halves, or a duration that is not positive.
+  /// everything. `paired_halves`: every half has the possessions of the first. Throws std::runtime_error naming key and
+  /// value for a scenario that first_problem() refuses, fewer than 1 or more than 255 halves, or a duration that is not
+  /// positive.
   Match(const Scenario& scenario, std::uint64_t seed, int halves, double half_minutes,
-        std::uint32_t max_possessions = 0);
+        std::uint32_t max_possessions = 0, bool paired_halves = false);
   ~Match();
   Match(Match&&) noexcept;
   Match& operator=(Match&&) noexcept;

@@ -29,6 +29,8 @@ enum class Role : std::uint32_t {
   kHandTable,
   kReferee,
   kTeam,
+  kKeeper,
+  kDefender,
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

@@ -95,13 +95,33 @@ struct Opponent {
   double body_height_m = 0.8;       ///< rules: 52 x 52 x 80 cm
 };
 
+/// A robot that stands in a ball's way on a line of its own and moves along it (sim/guard.hpp).
+struct Guard {
+  double reaction_s = 0.25;   ///< it acts on what the ball did so long ago; assumption
+  double sight_sd_mps = 0.5;  ///< error of the ball's speed across its way, one a kick; assumption: a line through 8
+                              ///< pictures of a quarter of a second, each 0.1 m off
+  double speed_mps = 2.0;     ///< sideways; Falcons configuration, robot 1 (the keeper): 2.0 m/s
+  double acceleration_mps2 = 4.5;  ///< the same file: 4.5 m/s2
+  double half_width_m = 0.26;      ///< rules: 52 cm wide
+  double height_m = 0.8;           ///< rules: 80 cm high
+  double overlap_m = 0.05;         ///< of ball and body; a ball that overlaps less goes on. Assumption
+};
+
 /// The opponents' keeper. Off where shots between posts and bar are counted, as Table 2 of the paper does.
 struct Keeper {
   bool enabled = false;
-  double reaction_s = 0.25;    ///< from the release until it moves; assumption
-  double speed_mps = 2.0;      ///< sideways, at once; assumption
-  double half_width_m = 0.26;  ///< rules: 52 cm wide
-  double height_m = 0.8;       ///< rules: 80 cm high
+  Guard guard;
+  double side_extension_m = 0.08;  ///< of a frame that it pushes out to one side ...; assumption: 60 x 60 x 90 cm
+  double up_extension_m = 0.1;     ///< ... or up, one at a time; assumption, the same
+  double extension_s = 0.1;        ///< until the frame is out; assumption
+};
+
+/// Opponents that stand before their goal and stop what comes low. Off in most worlds.
+struct Defenders {
+  double count = 0.0;            ///< 0: none
+  double line_distance_m = 1.0;  ///< of their line before the goal line; assumption: outside the goal area (0.75 m)
+  double spread_sd_m = 0.5;      ///< of each one's place about the line from the ball to the goal's middle; assumption
+  Guard guard;
 };
 
 /// The referee.
@@ -144,6 +164,7 @@ struct Vision {
 /// The camera that follows the ball in flight, referred to the goal seen in the same picture.
 struct FlightCamera {
   double latency_s = 0.04;      ///< assumption
+  double period_s = 0.02;       ///< between exposures; one a cycle at most; assumption: 50 frames a second
   double position_sd_m = 0.03;  ///< per axis and frame; assumption
   double dropout_ratio = 0.02;  ///< frames without a ball; assumption
 };
@@ -171,6 +192,8 @@ struct HandTable {
   double kicks_per_distance = 3.0;                       ///< whose mean is judged; assumption
   double eye_height_sd_m = 0.15;                         ///< of a height judged by eye; assumption: a ball's radius up
                                                          ///< to its diameter
+  double eye_bias_sd_m = 0.0;  ///< of one more error that all heights of a table share: what its maker takes for a good
+                               ///< height; assumption: none
   double day_sd_ratio = 0.04;  ///< kicker speed, day of the table against the match; assumption ("differences within
                                ///< the same robot over time", paper, section 2)
   bool one_for_all = false;    ///< robot 1's table serves everybody; paper: "configured individually for each robot"
@@ -186,6 +209,7 @@ struct Scenario {
   Possession possession;
   Opponent opponent;
   Keeper keeper;
+  Defenders defenders;
   Referee referee;
   Team team;
   Odometry odometry;

@@ -104,13 +104,33 @@ void fields(V& v, Opponent& o) {
   v("body_height_m", o.body_height_m, Range{0.0, 2.0});
 }
 
+/// Keys of whoever has a guard's body, in the same section.
+template <class V>
+void guard_fields(V& v, Guard& g) {
+  v("reaction_s", g.reaction_s, Range{0.0, 5.0});
+  v("sight_sd_mps", g.sight_sd_mps, Range{0.0, 5.0});
+  v("speed_mps", g.speed_mps, Range{0.0, 10.0});
+  v("acceleration_mps2", g.acceleration_mps2, Range{0.1, 200.0});
+  v("half_width_m", g.half_width_m, Range{0.0, 1.0});
+  v("height_m", g.height_m, Range{0.0, 2.0});
+  v("overlap_m", g.overlap_m, Range{0.0, 0.2});
+}
+
 template <class V>
 void fields(V& v, Keeper& k) {
   v("enabled", k.enabled);
-  v("reaction_s", k.reaction_s, Range{0.0, 5.0});
-  v("speed_mps", k.speed_mps, Range{0.0, 10.0});
-  v("half_width_m", k.half_width_m, Range{0.0, 1.0});
-  v("height_m", k.height_m, Range{0.0, 2.0});
+  guard_fields(v, k.guard);
+  v("side_extension_m", k.side_extension_m, Range{0.0, 1.0});
+  v("up_extension_m", k.up_extension_m, Range{0.0, 1.0});
+  v("extension_s", k.extension_s, Range{0.0, 5.0});
+}
+
+template <class V>
+void fields(V& v, Defenders& d) {
+  v("count", d.count, Range{0.0, 4.0});
+  v("line_distance_m", d.line_distance_m, Range{0.1, 9.0});
+  v("spread_sd_m", d.spread_sd_m, Range{0.0, 10.0});
+  guard_fields(v, d.guard);
 }
 
 template <class V>
@@ -152,6 +172,7 @@ void fields(V& v, Vision& s) {
 template <class V>
 void fields(V& v, FlightCamera& c) {
   v("latency_s", c.latency_s, Range{0.0, 0.5});
+  v("period_s", c.period_s, Range{0.001, 1.0});
   v("position_sd_m", c.position_sd_m, Range{0.0, 5.0});
   v("dropout_ratio", c.dropout_ratio, kRatio);
 }
@@ -177,6 +198,7 @@ void fields(V& v, HandTable& h) {
   v("target_height_m", h.target_height_m, Range{0.11, 2.0});
   v("kicks_per_distance", h.kicks_per_distance, Range{1.0, 100.0});
   v("eye_height_sd_m", h.eye_height_sd_m, Range{0.0, 2.0});
+  v("eye_bias_sd_m", h.eye_bias_sd_m, Range{0.0, 2.0});
   v("day_sd_ratio", h.day_sd_ratio, Range{0.0, 0.15});
   v("one_for_all", h.one_for_all);
 }
@@ -192,6 +214,7 @@ void fields(V& v, Scenario& s) {
   v("possession", s.possession);
   v("opponent", s.opponent);
   v("keeper", s.keeper);
+  v("defenders", s.defenders);
   v("referee", s.referee);
   v("team", s.team);
   v("odometry", s.odometry);

@@ -29,6 +29,8 @@ SensorSuite::SensorSuite(const Scenario& scenario)
     : scenario_(scenario),
       vision_latency_ns_(kicking::nanoseconds(scenario.vision.latency_s)),
       flight_latency_ns_(kicking::nanoseconds(scenario.flight_camera.latency_s)),
+      flight_period_ns_(kicking::nanoseconds(scenario.flight_camera.period_s)),
+      cycle_ns_(kicking::nanoseconds(scenario.cycle_s)),
       slow_keep_(std::exp(-scenario.cycle_s / scenario.vision.slow_time_s)),
       past_(snapshots(scenario)) {
   const Robot& robot = scenario.robot;
@@ -144,6 +146,11 @@ VisionFrame SensorSuite::vision(const World& world) const {
 FlightFrame SensorSuite::flight(const World& world) const {
   const FlightCamera& c = scenario_.flight_camera;
   FlightFrame frame{.t_exposure_ns = world.t_ns() - flight_latency_ns_, .ball = {}};
+  if (flight_period_ns_ > cycle_ns_ && frame.t_exposure_ns >= 0) {
+    const std::int64_t since_ns = frame.t_exposure_ns % flight_period_ns_;
+    if (since_ns >= cycle_ns_) return frame;  // the camera has not exposed since the last cycle
+    frame.t_exposure_ns -= since_ns;
+  }
   const auto seen = at(frame.t_exposure_ns);
   if (!seen || draws_.uniform(Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
   const auto [x, y, z, spare] = draws_.normals(Role::kFlightNoise, cycle_);

@@ -30,7 +30,8 @@ class SensorSuite {
 
   WheelSample wheels(const World& world) const;
 
-  /// Exposed `latency_s` ago. Before begin() nothing was seen. What is not asked for costs nothing and changes nothing.
+  /// Exposed `latency_s` ago; of the flight camera the last exposure until then, none where the cycle before has shown
+  /// it. Before begin() nothing was seen. What is not asked for costs nothing and changes nothing.
   VisionFrame vision(const World& world) const;
   FlightFrame flight(const World& world) const;
 
@@ -58,6 +59,8 @@ class SensorSuite {
   const Scenario& scenario_;
   const std::int64_t vision_latency_ns_;
   const std::int64_t flight_latency_ns_;
+  const std::int64_t flight_period_ns_;
+  const std::int64_t cycle_ns_;
   const double slow_keep_;  // of the slow error, from cycle to cycle
   std::vector<WheelRow> wheels_;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
+#include "sim/guard.hpp"
 #include "sim/margin.hpp"
 
 namespace trivela::sim {
@@ -21,6 +22,8 @@ kicking::Goal goal_of(const Field& field) {
 
 kicking::Ball ball_of(const Ball& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
 
+bool touched_floor(const BallMotion& motion) { return motion.bounced || motion.rolling; }
+
 /// How far along y a rolling ball still goes; without end in the air, where its fall decides nothing about the line.
 double reach_y_m(const BallMotion& motion, const Ball& ball) {
   if (!motion.rolling || ball.rolling_deceleration_mps2 <= 0.0) return HUGE_VAL;
@@ -30,8 +33,9 @@ double reach_y_m(const BallMotion& motion, const Ball& ball) {
 
 }  // namespace
 
-Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns)
+Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const Draws& draws)
     : scenario_(scenario),
+      draws_(draws),
       released_(released),
       ball_(released),
       release_t_ns_(t_ns),
@@ -56,10 +60,11 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   const std::int64_t before_t_ns = std::exchange(t_ns_, t_ns);
   if (result_) return;
   farthest_y_m_ = std::max(farthest_y_m_, ball_.position_m.y);
+  if (scenario_.defenders.count > 0.0) meet_defenders(before, before_t_ns, dt_s);
+  if (result_) return;
   if (ball_.position_m.y >= scenario_.field.goal_line_y_m) {
-    const double until_s = time_to_goal_s(before, dt_s);
-    ball_ = before;
-    sim::advance(ball_, scenario_.ball, until_s);
+    double until_s = dt_s;
+    ball_ = at_line(before, scenario_.field.goal_line_y_m, dt_s, until_s);
     meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
     return sim::advance(ball_, scenario_.ball, dt_s - until_s);
   }
@@ -70,21 +75,28 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   if (!result_ && (at_rest(ball_) || age_s >= scenario_.possession.flight_limit_s)) settle_short(t_ns);
 }
 
-/// When, within the step from `before`, the ball reaches the plane of the goal: the secant from both ends, which a
-/// nearly straight way meets at once.
-double Shot::time_to_goal_s(const BallMotion& before, double dt_s) const {
-  const double line = scenario_.field.goal_line_y_m;
-  double low_s = 0.0, high_s = dt_s, low = before.position_m.y - line, high = ball_.position_m.y - line;
+/// The ball where, within the step from `before`, it reaches a plane of constant y, `until_s` after `before`: the
+/// secant from both ends, which a nearly straight way meets at once.
+BallMotion Shot::at_line(const BallMotion& before, double line_y_m, double dt_s, double& until_s) const {
+  const auto after = [&](double t_s) {
+    BallMotion ball = before;
+    sim::advance(ball, scenario_.ball, t_s);
+    return ball;
+  };
+  double low_s = 0.0, low = before.position_m.y - line_y_m, high = ball_.position_m.y - line_y_m;
+  until_s = dt_s;
   for (int i = 0; i < 8 && high - low > 0.0; ++i) {
-    const double middle_s = low_s - low * (high_s - low_s) / (high - low);
-    BallMotion middle = before;
-    sim::advance(middle, scenario_.ball, middle_s);
-    const double y = middle.position_m.y - line;
-    if (std::abs(y) < 1e-9) return middle_s;
-    (y < 0.0 ? low_s : high_s) = middle_s;
+    const double middle_s = low_s - low * (until_s - low_s) / (high - low);
+    const BallMotion middle = after(middle_s);
+    const double y = middle.position_m.y - line_y_m;
+    if (std::abs(y) < 1e-9) {
+      until_s = middle_s;
+      return middle;
+    }
+    (y < 0.0 ? low_s : until_s) = middle_s;
     (y < 0.0 ? low : high) = y;
   }
-  return high_s;
+  return after(until_s);
 }
 
 void Shot::meet_goal_plane(std::int64_t t_ns) {
@@ -95,7 +107,7 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
   const bool saved =
       outcome == kicking::Outcome::kOnTarget && keeper_has(crossing, kicking::seconds(t_ns - release_t_ns_));
-  result_ = ShotResult{t_ns, outcome, crossing, margin, saved};
+  result_ = ShotResult{t_ns, outcome, crossing, margin, saved, touched_floor(ball_)};
   if (saved || outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
     const double kept = saved ? scenario_.ball.body_restitution_ratio : scenario_.ball.frame_restitution_ratio;
     const Vec3& v = ball_.velocity_mps;
@@ -105,9 +117,37 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
 
 bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
   const Keeper& keeper = scenario_.keeper;
-  if (!keeper.enabled || crossing.z_m - scenario_.ball.radius_m >= keeper.height_m) return false;
-  const double moved_m = keeper.speed_mps * std::max(0.0, flown_s - keeper.reaction_s);
-  return std::abs(crossing.x_m) <= moved_m + keeper.half_width_m + scenario_.ball.radius_m;
+  if (!keeper.enabled) return false;
+  const auto noise = draws_.normals(Role::kKeeper, 0);
+  return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, 0.0,
+                     {crossing, flown_s, scenario_.ball.radius_m}, {noise[0], noise[1]});
+}
+
+/// Each defender stands where the line from the ball to the goal's middle crosses theirs, give or take its spread.
+void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, double dt_s) {
+  const Defenders& defenders = scenario_.defenders;
+  const double goal_y_m = scenario_.field.goal_line_y_m, line_y_m = goal_y_m - defenders.line_distance_m;
+  if (before.position_m.y >= line_y_m || ball_.position_m.y < line_y_m) return;
+  double until_s = dt_s;
+  const BallMotion there = at_line(before, line_y_m, dt_s, until_s);
+  const std::int64_t t_ns = before_t_ns + std::llround(until_s * 1e9);
+  const GuardedBall ball{
+      {there.position_m.x, there.position_m.z}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
+  const Vec3& from = released_.position_m;
+  const double middle_x_m = from.x * defenders.line_distance_m / (goal_y_m - from.y);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(defenders.count); ++i) {
+    const auto noise = draws_.normals(Role::kDefender, 0, i);
+    const double place_m = middle_x_m + defenders.spread_sd_m * noise[2];
+    if (!guard_stops(defenders.guard, {}, place_m, ball, {noise[0], noise[1]})) continue;
+    ball_ = there;
+    ball_.velocity_mps.y *= -scenario_.ball.body_restitution_ratio;
+    block(t_ns);
+    return sim::advance(ball_, scenario_.ball, dt_s - until_s);
+  }
+}
+
+void Shot::block(std::int64_t t_ns) {
+  result_ = ShotResult{t_ns, kicking::Outcome::kBlocked, std::nullopt, std::nullopt, false, touched_floor(ball_)};
 }
 
 /// The ball comes within reach of the opponent in the next dt_s: its way over the floor is straight.
@@ -134,12 +174,12 @@ void Shot::meet_opponent(const PlanPoint& opponent, std::int64_t t_ns) {
   const double push = (1.0 + scenario_.ball.body_restitution_ratio) * inward / distance;
   v.x += push * dx;
   v.y += push * dy;
-  result_ = ShotResult{t_ns, kicking::Outcome::kBlocked, std::nullopt, std::nullopt, false};
+  block(t_ns);
 }
 
 void Shot::settle_short(std::int64_t t_ns) {
-  result_ =
-      ShotResult{t_ns, kicking::Outcome::kShort, std::nullopt, scenario_.field.goal_line_y_m - farthest_y_m_, false};
+  result_ = ShotResult{t_ns,  kicking::Outcome::kShort, std::nullopt, scenario_.field.goal_line_y_m - farthest_y_m_,
+                       false, touched_floor(ball_)};
 }
 
 }  // namespace trivela::sim

@@ -7,6 +7,7 @@
 #include "kicking/outcome/outcome.hpp"
 #include "sim/flight.hpp"
 #include "sim/opponent_body.hpp"
+#include "sim/random.hpp"
 #include "sim/scenario.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
@@ -19,17 +20,18 @@ struct ShotResult {
   kicking::Outcome outcome{};
   std::optional<Crossing> crossing;
   std::optional<double> margin_m;
-  bool saved = false;  ///< on target, but the keeper had it
+  bool saved = false;    ///< on target, but the keeper had it
+  bool bounced = false;  ///< touched the floor before the first of these
 };
 
 /// A released ball on its way to the goal. The goal frame is flat, in the plane of the goal line: what counts is where
 /// the centre passes it. Post and bar throw the ball back, an opponent's body (a cylinder) turns it away; the first
-/// thing met decides. A keeper stands in the middle of the goal line; `reaction_s` after the release it moves to where
-/// the ball will cross, and has what comes within its width and height.
+/// thing met decides. A keeper stands in the middle of the goal line, defenders on theirs before it; what they stop
+/// sim/guard.hpp says. A ball that a defender stops is blocked.
 class Shot {
  public:
-  /// `scenario` must outlive the shot.
-  Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns);
+  /// `scenario` must outlive the shot. `draws`: where defenders stand and what they and the keeper mistake.
+  Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const Draws& draws = {0, 0});
 
   /// Moves the ball to t_ns, a control cycle ahead at most, while the opponents stand.
   void advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents);
@@ -43,14 +45,17 @@ class Shot {
 
  private:
   void step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents);
-  double time_to_goal_s(const BallMotion& before, double dt_s) const;
+  BallMotion at_line(const BallMotion& before, double line_y_m, double dt_s, double& until_s) const;
   void meet_goal_plane(std::int64_t t_ns);
   bool keeper_has(const Crossing& crossing, double flown_s) const;
+  void meet_defenders(const BallMotion& before, std::int64_t before_t_ns, double dt_s);
+  void block(std::int64_t t_ns);
   bool passes(const PlanPoint& opponent, double dt_s) const;
   void meet_opponent(const PlanPoint& opponent, std::int64_t t_ns);
   void settle_short(std::int64_t t_ns);
 
   const Scenario& scenario_;
+  Draws draws_;
   BallMotion released_;
   BallMotion ball_;
   std::int64_t release_t_ns_;

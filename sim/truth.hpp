@@ -30,7 +30,8 @@ struct KickTruth {
   std::uint32_t possession_id = 0;
   kicking::Outcome outcome{};
   std::optional<Crossing> crossing;
-  bool saved = false;  ///< on target, but the keeper had it
+  bool saved = false;    ///< on target, but the keeper had it
+  bool bounced = false;  ///< touched the floor before that, or before the goal line
   std::int64_t release_t_ns = 0;
   Vec3 release_position_m;    ///< ball centre
   Vec3 release_velocity_mps;  ///< over ground

@@ -50,7 +50,7 @@ void World::coil_events() {
   shot_.emplace(scenario_,
                 release(*stroke, body_.pose(), body_.twist(), scenario_.kicker, scenario_.robot.ball_offset_m,
                         scenario_.ball.radius_m),
-                t_ns_);
+                t_ns_, draws_);
   shot_kick_id_ = stroke->kick_id;
 }
 

@@ -25,10 +25,10 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-AimErrors errors(const evaluator::log::Reader& reader, const config::Settings& settings, auto&& crossing_of) {
+AimErrors errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings, auto&& crossing_of) {
   AimErrors result;
   std::vector<double> height_m, sideways_m;
-  for (const evaluator::log::Kick& kick : reader.kicks()) {
+  for (const evaluator::log::Kick& kick : kicks) {
     if (!kick.accepted.value_or(false)) continue;
     ++result.kicks;
     const std::optional<Crossing>& seen = crossing_of(kick);
@@ -42,14 +42,29 @@ AimErrors errors(const evaluator::log::Reader& reader, const config::Settings& s
   return result;
 }
 
-/// Horizontal speed with which the world's kicker sends a standing robot's ball, `distance_m` from the target.
-double world_v_h_mps(const config::Robot& robot, const sim::Scenario& world, const config::Settings& settings,
+/// How the world's kicker sends a standing robot's ball, `distance_m` from the target.
+sim::Exit world_exit(const config::Robot& robot, const sim::Scenario& world, const config::Settings& settings,
                      double distance_m) {
   kicking::PolicyInput input;
   input.pose = {settings.policy.target_x_m, settings.goal.y_m - distance_m, 0.0};
   const auto shot = kicking::stopped_shot(settings.policy, robot.model, settings.goal, input);
-  const sim::Exit exit = sim::exit_at(world.kicker, shot.power.value_or(robot.model.table.front().power));
-  return world.kicker.speed_scale_ratio * exit.speed_mps * std::cos(exit.elevation_rad);
+  sim::Exit exit = sim::exit_at(world.kicker, shot.power.value_or(robot.model.table.front().power));
+  exit.speed_mps *= world.kicker.speed_scale_ratio;
+  return exit;
+}
+
+double horizontal_mps(const sim::Exit& exit) { return exit.speed_mps * std::cos(exit.elevation_rad); }
+
+double world_v_h_mps(const config::Robot& robot, const sim::Scenario& world, const config::Settings& settings,
+                     double distance_m) {
+  return horizontal_mps(world_exit(robot, world, settings, distance_m));
+}
+
+/// Effective over true horizontal speed: in the drag-free law the robot's own speed is smaller by it, too.
+double world_effective_ratio(const config::Robot& robot, const sim::Scenario& world, const config::Settings& settings,
+                             double distance_m) {
+  const sim::Exit exit = world_exit(robot, world, settings, distance_m);
+  return horizontal_mps(sim::effective_exit(exit, world.ball)) / horizontal_mps(exit);
 }
 
 double world_alpha_slope(const config::Robot& robot, const sim::Scenario& world, const config::Settings& settings) {
@@ -81,14 +96,16 @@ double world_beta_slope(const config::Robot& robot, const sim::Scenario& world, 
 
 }  // namespace
 
-AimErrors observed_errors(const evaluator::log::Reader& reader, const config::Settings& settings) {
+std::string exit_speed_key(double power) { return fmt::format("exit_speed_{:g}_mps", power); }
+
+AimErrors observed_errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings) {
   return errors(
-      reader, settings, [](const evaluator::log::Kick& kick) -> const auto& { return kick.observed; });
+      kicks, settings, [](const evaluator::log::Kick& kick) -> const auto& { return kick.observed; });
 }
 
-AimErrors true_errors(const evaluator::log::Reader& reader, const config::Settings& settings) {
+AimErrors true_errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings) {
   return errors(
-      reader, settings, [](const evaluator::log::Kick& kick) -> const auto& { return kick.truth; });
+      kicks, settings, [](const evaluator::log::Kick& kick) -> const auto& { return kick.truth; });
 }
 
 std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Scenario& world,
@@ -101,7 +118,7 @@ std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Sc
     exit.speed_mps *= world.kicker.speed_scale_ratio;
     const sim::Exit effective = sim::effective_exit(exit, world.ball);
     angle_sum_rad += effective.elevation_rad;
-    figures.push_back({fmt::format("exit_speed_{:g}_mps", point.power), point.speed_mps, effective.speed_mps});
+    figures.push_back({exit_speed_key(point.power), point.speed_mps, effective.speed_mps});
   }
   const auto points = static_cast<double>(model.table.set_points().size());
   figures.push_back({"exit_angle_deg", degrees(model.exit_angle_rad), degrees(angle_sum_rad / points)});
@@ -109,9 +126,16 @@ std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Sc
   figures.push_back({"alpha_slope_deg_per_mps", degrees(model.alpha_slope_rad_per_mps),
                      degrees(world_alpha_slope(robot, world, settings))});
   figures.push_back({"beta_slope_s", model.beta_slope_s, world_beta_slope(robot, world, settings)});
-  figures.push_back({"transfer_forward_ratio", model.transfer_exact.forward, world.kicker.transfer_forward_ratio});
-  figures.push_back({"transfer_backward_ratio", model.transfer_exact.backward, world.kicker.transfer_backward_ratio});
-  figures.push_back({"transfer_lateral_ratio", model.transfer_exact.lateral, world.kicker.transfer_lateral_ratio});
+  const auto effective = [&](double transfer, double distance_m) {
+    return transfer * world_effective_ratio(robot, world, settings, distance_m);
+  };
+  const kicking::TestDriveConfig& drive = settings.policy.test_drive;
+  figures.push_back({"transfer_forward_ratio", model.transfer_exact.forward,
+                     effective(world.kicker.transfer_forward_ratio, drive.straight_distance_m)});
+  figures.push_back({"transfer_backward_ratio", model.transfer_exact.backward,
+                     effective(world.kicker.transfer_backward_ratio, drive.straight_distance_m)});
+  figures.push_back({"transfer_lateral_ratio", model.transfer_exact.lateral,
+                     effective(world.kicker.transfer_lateral_ratio, drive.distance_m)});
   // What the robot must expect of its kicks, beside what the world draws.
   const kicking::KickSpreads& spreads = model.spreads;
   figures.push_back({"speed_sd_ratio", spreads.speed_sd_ratio, world.kicker.speed_sd_ratio});

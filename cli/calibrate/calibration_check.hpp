@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,10 @@ struct AimErrors {
 };
 
 /// By what the robot saw.
-AimErrors observed_errors(const evaluator::log::Reader& reader, const config::Settings& settings);
+AimErrors observed_errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings);
 
 /// By the simulator's truth: for a report alone.
-AimErrors true_errors(const evaluator::log::Reader& reader, const config::Settings& settings);
+AimErrors true_errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings);
 
 /// A calibrated figure beside the world's.
 struct WorldFigure {
@@ -34,10 +35,14 @@ struct WorldFigure {
   double world = 0.0;
 };
 
+/// WorldFigure::key of a set-point's exit speed.
+std::string exit_speed_key(double power);
+
 /// The robot's figures beside what the scenario's world would show a test drive without noise: effective values of its
 /// true table; alpha and beta as the fits' lines over the drives' own velocities, by rigid-body velocities from the
-/// true exit of the power that each drive kicks with; delay and transfer as they are. Read from the scenario, for a
-/// report alone: no fit ever sees it.
+/// true exit of the power that each drive kicks with; the delay as it is; transfer as that of the drag-free law: the
+/// world's times effective over true horizontal speed of the power that the drives kick with. Read from the scenario,
+/// for a report alone: no fit ever sees it.
 std::vector<WorldFigure> against_world(const config::Robot& robot, const sim::Scenario& world,
                                        const config::Settings& settings);
 

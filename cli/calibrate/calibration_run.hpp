@@ -1,19 +1,20 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "cli/calibrate/drive_match.hpp"
+#include "cli/calibrate/drive_source.hpp"
 #include "cli/calibrate/robot_update.hpp"
+#include "config/settings.hpp"
+#include "kicking/calibration/tracked_trials.hpp"
 
 namespace trivela::cli {
 
 /// How much is kicked.
 struct CalibrationEffort {
   std::uint32_t kicks = 16;        ///< standing: with each set-point, a round
-  std::uint32_t lobs = 5;          ///< accepted ones that each set-point shall have; more rounds until it has them
+  std::uint32_t lobs = 3;          ///< accepted ones that each set-point shall have; more rounds until it has them
   std::uint32_t rounds = 4;        ///< at most
   std::uint32_t drive_kicks = 8;   ///< lateral, straight: with each velocity
   std::uint32_t turn_kicks = 3;    ///< turn: with each step of the bisection
@@ -32,13 +33,14 @@ struct DriveSummary {
   std::vector<std::string> left_out;  ///< kinds of kicks without use
 };
 
-/// The evening's procedure: each step plays its matches, fits, and writes the robot's file with what was found. All
-/// that a fit sees is what the robot and the laser recorded. Throws what DriveMatches throws, and std::runtime_error
+/// The evening's procedure: each step plays its matches, fits, and brings the robot up to date with what was found. All
+/// that a fit sees is what the robot and the laser recorded. Throws what the source throws, and std::runtime_error
 /// where there are too few kicks, saying how many more are needed.
 class CalibrationRun {
  public:
-  CalibrationRun(DriveMatches& matches, const sim::Scenario& scenario, const config::Settings& settings,
-                 const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update, std::filesystem::path file);
+  /// `source` outlives it. The drives have the seeds `seed`, `seed` + 1, ...
+  CalibrationRun(DriveSource& source, const sim::Scenario& scenario, const config::Settings& settings,
+                 const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update);
 
   DriveSummary standing();   ///< laser: table and exit angle (paper, section 2)
   DriveSummary delay();      ///< of the same kicks, by the flight camera
@@ -50,18 +52,24 @@ class CalibrationRun {
   const RobotUpdate& robot() const { return update_; }
 
  private:
+  struct LobOfKick {
+    std::size_t record = 0;  ///< of standing_
+    std::int64_t launch_t_ns = 0;
+    kicking::Trial trial;
+  };
+  /// The standing kicks that the flight camera followed, with the lobs that the laser saw of them.
+  std::vector<kicking::TrackedTrial> followed(const std::vector<LobOfKick>& lobs) const;
   DriveRecord play(DriveSummary& summary, const std::string& name, kicking::PolicyName policy, double ball_to_goal_m,
                    bool laser, std::size_t possessions, std::vector<std::string> settings);
-  void write();
 
-  DriveMatches& matches_;
+  DriveSource& source_;
   sim::Scenario scenario_;
   config::Settings settings_;
   CalibrationEffort effort_;
   std::int64_t seed_;
   RobotUpdate update_;
-  std::filesystem::path file_;
-  std::vector<std::filesystem::path> standing_logs_;
+  std::vector<DriveRecord> standing_;
+  std::vector<kicking::TransferRow> lateral_;  ///< kicks of the lateral drive
 };
 
 }  // namespace trivela::cli

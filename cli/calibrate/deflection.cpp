@@ -7,6 +7,8 @@
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -29,7 +31,8 @@ DeflectionRows rows_of_numbers(const DeflectionFlags& flags) {
   for (const char* column : {"vx_mps", "d_m", "b_m"}) table.require_one_of({column});
   DeflectionRows rows;
   table.for_each([&](const Row& row) {
-    rows.rows.push_back({.vx_mps = row.number("vx_mps"), .distance_m = row.positive("d_m"), .b_m = row.number("b_m")});
+    rows.rows.push_back(
+        {.vx_mps = row.number("vx_mps"), .distance_m = row.length_m("d_m", kFieldLength_m), .b_m = row.number("b_m")});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
     if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
@@ -114,10 +117,12 @@ evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::Deflection
 }
 
 void calibrate_deflection(const DeflectionFlags& flags) {
+  require_writable("--plot", flags.plot);
   const auto robot = robot_of(flags);
-  const DeflectionRows kicks = is_match_log(flags)
-                                   ? evaluator::lateral_kicks(evaluator::log::Reader(flags.input), robot->model)
-                                   : rows_of_numbers(flags);
+  const DeflectionRows kicks =
+      is_match_log(flags)
+          ? evaluator::lateral_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
+          : rows_of_numbers(flags);
   std::optional<double> delay_s = flags.delay_s;
   if (!delay_s && robot) delay_s = robot->model.delay_s;
   const kicking::DeflectionFit fit = kicking::fit_deflection(kicks.rows, delay_s);
@@ -138,7 +143,7 @@ void add_calibrate_deflection(CLI::App& calibrate, int& exit_code) {
       "of where the robot pointed the ball crossed, the ball's horizontal speed), or a match log with lateral drives.");
   add_fit_flags(*verb, *flags);
   verb->add_option("--v-h-mps", flags->v_h_mps, "Horizontal speed of the ball, to tell flight and delay apart")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--delay-s", flags->delay_s, "Order to release; default the robot's")->check(CLI::Range(0.0, 0.5));
   verb->add_option("--plot", flags->plot, "Figure 8 as SVG")->type_name("FILE");
   verb->callback([flags, &exit_code] {

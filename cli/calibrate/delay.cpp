@@ -58,8 +58,9 @@ FitReport report_of(const Delays& delays, const kicking::DelayFit& fit) {
 
 void calibrate_delay(const FitFlags& flags) {
   const auto robot = flags.robot.empty() && flags.out.empty() ? std::nullopt : robot_of(flags);
-  const Delays delays =
-      is_match_log(flags) ? evaluator::release_delays(evaluator::log::Reader(flags.input)) : delays_of_numbers(flags);
+  const Delays delays = is_match_log(flags)
+                            ? evaluator::release_delays(evaluator::recorded_drives(evaluator::log::Reader(flags.input)))
+                            : delays_of_numbers(flags);
   const kicking::DelayFit fit = kicking::fit_delay(delays.rows);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate delay", robot, report_of(delays, fit),

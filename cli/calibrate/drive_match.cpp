@@ -10,6 +10,8 @@
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/write_file.hpp"
 #include "config/scenario.hpp"
+#include "evaluator/calibration/lobs_of_scans.hpp"
+#include "evaluator/log/scan_log.hpp"
 
 namespace trivela::cli {
 
@@ -21,15 +23,18 @@ constexpr double kLongest_s = 8.0;  // that a possession of a drive takes, stop 
 
 }  // namespace
 
-DriveMatches::DriveMatches(config::Settings settings, fs::path folder, SignalInbox& signals)
-    : settings_(std::move(settings)), folder_(std::move(folder)), signals_(signals) {}
+DriveMatches::DriveMatches(config::Settings settings, fs::path folder, fs::path robot_file, SignalInbox& signals)
+    : settings_(std::move(settings)),
+      folder_(std::move(folder)),
+      robot_file_(std::move(robot_file)),
+      signals_(signals) {}
 
-DriveRecord DriveMatches::play(const DrivePlan& plan, const fs::path& robot_file) {
+DriveRecord DriveMatches::play(const DrivePlan& plan, const RobotUpdate& robot) {
   DriveRecord record;
-  record.log = folder_ / (plan.name + ".db");
-  if (plan.scenario.laser.enabled) record.scans = folder_ / (plan.name + ".scans.db");
+  record.log = (folder_ / (plan.name + ".db")).string();
+  if (plan.scenario.laser.enabled) record.scans = (folder_ / (plan.name + ".scans.db")).string();
   const fs::path scenario_file = folder_ / (plan.name + ".scenario.toml");
-  for (const fs::path& file : {record.scans, scenario_file}) {
+  for (const fs::path& file : {fs::path{record.scans}, scenario_file}) {
     if (!file.empty() && fs::exists(file)) {
       throw UsageError{
           fmt::format("{} exists already; a record is never overwritten, choose another --out-dir", file.string())};
@@ -37,9 +42,10 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const fs::path& robot_file
   }
   const LogClaim claim{record.log};
   write_file(scenario_file, config::to_toml_text(plan.scenario));
+  robot.write(robot_file_);
 
   config::Settings settings = settings_;
-  settings.run.robot = robot_file.string();
+  settings.run.robot = robot_file_.string();
   settings.run.scenario = scenario_file.string();
   settings.kick_decision.policy_by_half = {plan.policy};
   settings.simulator.seed = plan.seed;
@@ -48,20 +54,29 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const fs::path& robot_file
   settings.simulator.half_minutes = plan.possessions * kLongest_s / 60.0;
   settings.scan_recorder.enabled = plan.scenario.laser.enabled;
   settings.scan_recorder.device = "sim";
-  if (plan.scenario.laser.enabled) settings.scan_recorder.file = record.scans.string();
-  for (const std::string& line : plan.settings) config::override_setting(settings, line);
-  settings = lockstep_settings(std::move(settings), -1, record.log.string());
+  if (plan.scenario.laser.enabled) settings.scan_recorder.file = record.scans;
+  config::override_settings(settings, plan.settings);
+  settings = lockstep_settings(std::move(settings), -1, record.log);
 
   const ConfigFile config{config::to_toml_text(settings)};
   const MatchResult result = run_match("simulator", config.path(), signals_, more_nodes(settings), true);
   record.played_s = result.played_s;
   record.wall_s = result.wall_s;
   if (!result.trouble.empty()) {
-    throw std::runtime_error{fmt::format(
-        "{}: {} after {:.1f} s of play; {}", plan.name, result.trouble, result.played_s,
-        claim.recorded() ? "what was recorded until then is in " + record.log.string() : "nothing was recorded")};
+    throw std::runtime_error{
+        fmt::format("{}: {} after {:.1f} s of play; {}", plan.name, result.trouble, result.played_s,
+                    claim.recorded() ? "what was recorded until then is in " + record.log : "nothing was recorded")};
   }
-  if (lost_rows(record.log.string()) > 0) throw std::runtime_error{plan.name + ": rows were lost"};
+  if (lost_rows(record.log) > 0) throw std::runtime_error{plan.name + ": rows were lost"};
+  const evaluator::log::Reader reader{record.log};
+  record.kicks = reader.kicks();
+  record.drives = evaluator::recorded_drives(reader);
+  if (record.scans.empty()) return record;
+  const evaluator::log::ScanReader scans{record.scans};
+  for (const auto& tested : scans.set_points()) {
+    if (tested.power) record.kicked_powers.push_back(*tested.power);
+  }
+  record.lobs = evaluator::lobs_of_scans(scans);
   return record;
 }
 

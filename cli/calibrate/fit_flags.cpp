@@ -9,6 +9,7 @@
 #include "cli/calibrate/input_kind.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/say.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
@@ -40,6 +41,7 @@ bool is_simulated(const FitFlags& flags) {
 
 std::optional<config::Robot> robot_of(const FitFlags& flags) {
   const bool log = is_match_log(flags);
+  require_writable("--out", flags.out);
   if (flags.robot.empty()) {
     if (log) throw UsageError(fmt::format("{} is a match log: it needs --robot", flags.input));
     if (!flags.out.empty()) throw UsageError("--out needs --robot, the robot that the figure goes into");
@@ -81,11 +83,6 @@ std::string text_of(const kicking::Estimate& estimate, double unit) {
   return fmt::format("{:.4g} +- {:.2g}", estimate.value * unit, estimate.se * unit);
 }
 
-void write_chart(const evaluator::Chart& chart, const std::string& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << evaluator::to_svg(chart);
-  out.flush();
-  if (!out) throw std::runtime_error("cannot write the chart to " + path);
-}
+void write_chart(const evaluator::Chart& chart, const std::string& path) { write_file(path, evaluator::to_svg(chart)); }
 
 }  // namespace trivela::cli

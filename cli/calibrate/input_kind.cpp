@@ -1,17 +1,16 @@
 #include "cli/calibrate/input_kind.hpp"
 
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "cli/open_file.hpp"
 #include "evaluator/log/scan_log.hpp"
 
 namespace trivela::cli {
 
 InputKind input_kind(const std::string& file) {
   if (file == "-") return InputKind::kNumbers;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw std::runtime_error("cannot read " + file);
+  std::ifstream in = open_file(file);
   const std::string magic = "SQLite format 3";
   std::string start(magic.size(), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));

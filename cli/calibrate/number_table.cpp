@@ -1,19 +1,19 @@
 #include "cli/calibrate/number_table.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <sstream>
+
+#include "cli/open_file.hpp"
 
 namespace trivela::cli {
 namespace {
 
 std::string text_of(const std::string& file) {
   if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw std::runtime_error("cannot read " + file);
+  std::ifstream in = open_file(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -11,6 +11,9 @@
 
 namespace trivela::cli {
 
+/// No field is longer: a distance beyond it was not written in metres.
+inline constexpr double kFieldLength_m = 40.0;
+
 /// Rows of a measured table: CSV, or columns apart by blanks. What follows a '#' at the start of a line, in a table
 /// with blanks anywhere, is a comment.
 class NumberTable {

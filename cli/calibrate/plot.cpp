@@ -8,6 +8,7 @@
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/calibrate/trials.hpp"
 #include "cli/say.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/constants.hpp"
@@ -130,6 +131,7 @@ std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>&
 }
 
 void plot(const PlotFlags& flags) {
+  require_writable("--out", flags.out);
   const Trials trials = read_trials(flags.inputs, {.columns = flags.columns});
   const TrialsByPower powers = by_power(trials.trials);
   write_chart(chart_of(powers), flags.out);

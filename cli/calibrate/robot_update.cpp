@@ -99,6 +99,11 @@ void RobotUpdate::changed(const std::string& key, double before, double after, c
   changes_.push_back(fmt::format("{} {} -> {} ({})", key, number(before), number(after), certainty));
 }
 
+/// Single kicks, one angle given for all, or an observer whose noise explains everything.
+void RobotUpdate::unknown(const std::string& key, double before) {
+  changes_.push_back(fmt::format("{} stays {}: the kicks do not show it", key, number(before)));
+}
+
 void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& choice,
                             const std::vector<std::string>& files) {
   std::vector<kicking::SetPoint> points = fit.table();
@@ -117,23 +122,25 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
     robot_.model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
   }
   robot_.height_table.reset();
-  config::TableOrigin table{origin(kicks, files), {}, {}, error(fit.exit_speed_sd_mps), fit.isotonic};
+  config::TableOrigin table{origin(kicks, files), {}, {}, {}, fit.isotonic};
+  const bool spreads_known = std::ranges::all_of(fit.set_points, [](const auto& point) { return point.trials > 1; });
+  if (!std::isnan(fit.exit_speed_sd_mps)) table.exit_speed_sd_mps = error(fit.exit_speed_sd_mps);
   std::vector<kicking::AnglePoint> angles;
   for (const kicking::TrialMean& point : fit.set_points) {
     table.trials.push_back(static_cast<std::uint32_t>(point.trials));
-    table.exit_speed_sds_mps.push_back(error(point.exit_speed_mps.sd));
-    angles.push_back({point.power, figure_deg(point.exit_angle_rad.mean)});
+    if (spreads_known) table.exit_speed_sds_mps.push_back(error(point.exit_speed_mps.sd));
+    if (choice.angle_per_set_point) angles.push_back({point.power, figure_deg(point.exit_angle_rad.mean)});
   }
-  changes_.push_back(fmt::format("table: {} set-points from {} kicks, exit speed sd {} m/s", points.size(), kicks,
-                                 number(fit.exit_speed_sd_mps)));
+  changes_.push_back(fmt::format("table: {} set-points from {} kicks, exit speed sd {}", points.size(), kicks,
+                                 table.exit_speed_sd_mps ? number(fit.exit_speed_sd_mps) + " m/s" : "unknown"));
   robot_.model.exit_angles.reset();
   if (choice.angle_per_set_point) robot_.model.exit_angles.emplace(angles);
   changed("kicker.exit_angle_deg", degrees(robot_.model.exit_angle_rad), degrees(fit.exit_angle_rad.value),
-          certainty(degrees(fit.exit_angle_rad.se), kicks));
+          certainty(degrees(fit.exit_angle_rad.se), fit.exit_angles));
   robot_.model.exit_angle_rad = figure_deg(fit.exit_angle_rad.value);
   kicking::KickSpreads& spreads = robot_.model.spreads;
   const auto spread = [&](const char* key, double& before, double after, double unit) {
-    if (!(after > 0.0)) return;  // single kicks, or one angle given for all: not measured
+    if (!(after > 0.0)) return unknown(fmt::format("kicker.spreads.{}", key), before / unit);
     changed(fmt::format("kicker.spreads.{}", key), before / unit, after / unit, fmt::format("{} kicks", kicks));
     before = figure(after / unit) * unit;
   };
@@ -141,7 +148,8 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   spread("exit_angle_sd_deg", spreads.exit_angle_sd_rad, fit.exit_angle_sd_rad, kicking::radians(1.0));
   spread("table_sd_ratio", spreads.table_sd_ratio, fit.exit_speed_se_ratio, 1.0);
   calibration().table = std::move(table);
-  calibration().exit_angle = {origin(kicks, files), error_deg(fit.exit_angle_rad.se), error_deg(fit.angle_spread_rad)};
+  calibration().exit_angle = {origin(fit.exit_angles, files), error_deg(fit.exit_angle_rad.se),
+                              error_deg(fit.angle_spread_rad)};
 }
 
 void RobotUpdate::set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files) {
@@ -232,6 +240,7 @@ void RobotUpdate::set_transfer_spread() {
 void RobotUpdate::set_direction(const kicking::DirectionFit& fit, std::size_t kicks,
                                 const std::vector<std::string>& files) {
   double& direction_sd_rad = robot_.model.spreads.direction_sd_rad;
+  if (std::isnan(fit.sd_rad.value)) return unknown("kicker.spreads.direction_sd_deg", degrees(direction_sd_rad));
   changed("kicker.spreads.direction_sd_deg", degrees(direction_sd_rad), degrees(fit.sd_rad.value),
           certainty(degrees(fit.sd_rad.se), kicks));
   direction_sd_rad = figure_deg(fit.sd_rad.value);

@@ -47,7 +47,7 @@ class RobotUpdate {
   /// kicker.delay_s and kicker.spreads.delay_sd_s.
   void set_delay(const kicking::DelayFit& fit, const std::vector<std::string>& files);
 
-  /// kicker.spreads.direction_sd_deg.
+  /// kicker.spreads.direction_sd_deg, which stays where the kicks do not show it.
   void set_direction(const kicking::DirectionFit& fit, std::size_t kicks, const std::vector<std::string>& files);
 
   const config::Robot& robot() const { return robot_; }
@@ -66,6 +66,7 @@ class RobotUpdate {
   config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files) const;
   config::Calibration& calibration();
   void set_transfer_spread();
+  void unknown(const std::string& key, double before);
   void changed(const std::string& key, double before, double after, const std::string& certainty);
 
   config::Robot robot_;

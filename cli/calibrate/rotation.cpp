@@ -7,6 +7,8 @@
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -37,7 +39,7 @@ RotationRows rows_of_numbers(const RotationFlags& flags) {
     rows.rows.push_back(
         {.omega_radps = in_degrees ? kicking::radians(row.number("omega_degps")) : row.number("omega_radps"),
          .allowed_error_m = row.number(error),
-         .distance_m = row.word("d_m") ? row.positive("d_m") : flags.distance_m});
+         .distance_m = row.word("d_m") ? row.length_m("d_m", kFieldLength_m) : flags.distance_m});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
     if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
@@ -121,9 +123,11 @@ evaluator::Chart chart_of(const RotationRows& kicks, const kicking::RotationFit&
 }
 
 void calibrate_rotation(const RotationFlags& flags) {
+  require_writable("--plot", flags.plot);
   const auto robot = robot_of(flags);
   const RotationRows kicks =
-      is_match_log(flags) ? evaluator::turn_kicks(evaluator::log::Reader(flags.input), robot->model, flags.cycle_s)
+      is_match_log(flags) ? evaluator::turn_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)),
+                                                  robot->model, flags.cycle_s)
                           : rows_of_numbers(flags);
   const double shipped_offset_m = robot ? robot->model.ball_offset_m : kicking::RobotModel{}.ball_offset_m;
   const kicking::RotationLever lever{flags.ball_offset_m.value_or(shipped_offset_m), flags.cycle_s};
@@ -147,10 +151,10 @@ void add_calibrate_rotation(CLI::App& calibrate, int& exit_code) {
       "when turning clockwise; or a match log with turn drives.");
   add_fit_flags(*verb, *flags);
   verb->add_option("--distance-m", flags->distance_m, "Robot to target, where the table has no d_m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   verb->add_option("--v-h-mps", flags->v_h_mps, "Horizontal speed of the ball, to tell delay and lever apart")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--ball-offset-m", flags->ball_offset_m, "Robot's centre to ball; default the robot's")
       ->check(CLI::Range(0.0, 0.6));
   verb->add_option("--cycle-s", flags->cycle_s, "Control cycle: the order is half of it late on average")

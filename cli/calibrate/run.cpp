@@ -8,9 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/calibrate/calibration_check.hpp"
-#include "cli/calibrate/calibration_run.hpp"
+#include "cli/calibrate/drive_in_process.hpp"
+#include "cli/calibrate/drive_match.hpp"
+#include "cli/calibrate/evening.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/open_file.hpp"
 #include "cli/verbs.hpp"
+#include "cli/write_file.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "sim/team.hpp"
@@ -39,22 +43,9 @@ struct RunFlags {
   std::string log_level = "warn";
   std::int64_t seed = 1;
   CalibrationEffort effort;
+  bool in_process = false;
   bool json = false;
 };
-
-/// The settings that all matches share. The scanner's place beside the field is measured with a tape: it is the
-/// operator's knowledge.
-config::Settings settings_of(const RunFlags& flags, const sim::Scenario& scenario) {
-  config::Settings settings = config::load_settings(flags.config);
-  settings.run.log_level = flags.log_level;
-  settings.run.cycle_s = settings.policy.cycle_s = scenario.cycle_s;
-  settings.kick_decision.shadows = false;
-  const double ball_y_m = scenario.field.goal_line_y_m - scenario.possession.goal_distance_max_m;
-  settings.scan_recorder.mount_x_m = scenario.laser.y_m - ball_y_m;
-  settings.scan_recorder.mount_z_m = scenario.laser.z_m;
-  settings.scan_recorder.mount_front_elevation_rad = scenario.laser.front_elevation_rad;
-  return settings;
-}
 
 /// Where the robot's file goes. Throws UsageError where it exists.
 fs::path robot_file(const RunFlags& flags) {
@@ -142,44 +133,46 @@ int calibrate(const RunFlags& flags) {
     const sim::Kicker kicker = sim::team_kicker(config::load_scenario(flags.team), flags.number);
     scenario.kicker.speed_scale_ratio = noise_free.kicker.speed_scale_ratio = kicker.speed_scale_ratio;
   }
-  const config::Settings settings = settings_of(flags, scenario);
-  config::Robot robot = config::load_robot(flags.start);
-  robot.name = flags.robot;
-  robot.source =
-      fmt::format("simulated: trivela calibrate run --in simulation; what [calibration] does not name comes from: {}",
-                  robot.source);
-  robot.calibration.reset();
+  config::Settings settings = config::load_settings(flags.config);
+  settings.run.log_level = flags.log_level;
+  settings = evening_settings(std::move(settings), scenario);
+  const EveningOptions options{
+      .scenario = scenario,
+      .settings = settings,
+      .start = config::load_robot(flags.start),
+      .name = flags.robot,
+      .seed = flags.seed,
+      .effort = flags.effort,
+      .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number)};
   const fs::path file = robot_file(flags);
   fs::create_directories(flags.out_dir);
+  require_writable("the robot's file", file);
   fs::path part = file;
   part += ".part";  // until every figure is in it
 
   SignalInbox signals;
-  DriveMatches matches{settings, fs::absolute(flags.out_dir), signals};
-  CalibrationRun run{
-      matches,      scenario,         settings,
-      flags.effort, flags.seed * 100, RobotUpdate{robot, "trivela calibrate run --in simulation", today()},
-      part};
+  std::unique_ptr<DriveSource> source;
+  if (flags.in_process) {
+    source = std::make_unique<DrivesInProcess>(settings);
+  } else {
+    source = std::make_unique<DriveMatches>(settings, fs::absolute(flags.out_dir), part, signals);
+  }
   Report report{flags.json};
-  report.add(run.standing());
-  report.add(run.delay());
-  report.add(run.direction());
-  report.add(run.lateral());
-  report.add(run.turn());
-  report.add(run.straight());
-  fs::rename(part, file);
+  const Evening evening = play_evening(options, *source, [&](const DriveSummary& summary) { report.add(summary); });
+  evening.robot.write(file);
 
-  DrivePlan check{.name = "6_check",
-                  .policy = kicking::PolicyName::kStopped,
-                  .scenario = noise_free,
-                  .possessions = flags.effort.check_kicks,
-                  .seed = flags.seed,
-                  .settings = {}};
-  const DriveRecord played = matches.play(check, file);
-  const evaluator::log::Reader reader{played.log};
-  const AimErrors observed = observed_errors(reader, settings);
-  report.finish(run.robot(), file.string(), observed, true_errors(reader, settings),
-                against_world(run.robot().robot(), scenario, settings));
+  const DrivePlan check{.name = "6_check",
+                        .policy = kicking::PolicyName::kStopped,
+                        .scenario = noise_free,
+                        .possessions = flags.effort.check_kicks,
+                        .seed = flags.seed,
+                        .settings = {}};
+  const DriveRecord played = source->play(check, evening.robot);
+  std::error_code none;
+  fs::remove(part, none);
+  const AimErrors observed = observed_errors(played.kicks, settings);
+  report.finish(evening.robot, file.string(), observed, true_errors(played.kicks, settings),
+                against_world(evening.robot.robot(), scenario, settings));
   const bool met = observed.median_height_m <= kHeightGate_m && observed.median_sideways_m <= kSidewaysGate_m;
   if (!met) {
     fmt::print(stderr, "trivela: the check missed its gate: {} m in height and {} m sideways\n", kHeightGate_m,
@@ -211,7 +204,7 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   verb->add_option("--check-scenario", flags->check, "world of the check")->capture_default_str();
   verb->add_option("--team", flags->team,
                    "scenario of the matches: the drives have a kicker as fast as one of its robots")
-      ->check(CLI::ExistingFile);
+      ->check(readable_file());
   verb->add_option("--number", flags->number, "which robot of the team")
       ->check(CLI::Range(1, 5))
       ->capture_default_str();
@@ -231,6 +224,8 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+  verb->add_flag("--in-process", flags->in_process,
+                 "without bus, nodes and records: the same robot in seconds; nothing but its file is written");
   verb->add_flag("--json", flags->json, "report as JSON on standard output");
   verb->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
 }

@@ -8,4 +8,7 @@ namespace trivela::cli {
 /// finished robot file. The simulator's truth is read once, for a report at the end.
 void add_calibrate_run(CLI::App& calibrate, int& exit_code);
 
+/// `trivela calibrate evenings`: many of them in process, beside the world's truth.
+void add_calibrate_evenings(CLI::App& calibrate, int& exit_code);
+
 }  // namespace trivela::cli

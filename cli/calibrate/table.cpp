@@ -9,6 +9,7 @@
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/calibrate/trials.hpp"
 #include "cli/say.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -52,7 +53,7 @@ Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::v
   json["exit_angle_sds_deg"] = angle_sds_deg;
   json["exit_angle_se_deg"] = degrees(fit.exit_angle_rad.se);
   json["exit_angle_spread_deg"] = degrees(fit.angle_spread_rad);
-  json["exit_speed_pooled_sd_mps"] = fit.exit_speed_sd_mps;
+  json["exit_speed_pooled_sd_mps"] = std::isnan(fit.exit_speed_sd_mps) ? Json(nullptr) : Json(fit.exit_speed_sd_mps);
   json["kind"] = flags.kind;
   json["angle"] = flags.angle;
   json["isotonic"] = fit.isotonic;
@@ -92,6 +93,7 @@ std::vector<std::string> not_rising(const kicking::TableFit& fit) {
 
 ExitCode calibrate_table(const TableFlags& flags) {
   const auto target = robot_target(flags.robot, flags.out);
+  require_writable("the robot's file", target);
   const TableChoice choice{flags.kind == "true" ? kicking::TableKind::kTrue : kicking::TableKind::kEffective,
                            flags.angle == "per-setpoint"};
   TrialFlags trial_flags{choice.kind, std::nullopt, flags.columns};

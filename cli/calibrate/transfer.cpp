@@ -43,28 +43,32 @@ TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<con
         {.vy_mps = row.number("vy_mps"),
          .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power")) : row.positive("v0_mps"),
          .exit_angle_rad = exit_angle_rad(row, flags, robot),
-         .distance_m = row.positive("d_m"),
+         .distance_m = row.length_m("d_m", kFieldLength_m),
          .z_cross_m = row.number("z_cross_m")});
   });
   return rows;
 }
 
-Json json_of_direction(const std::optional<kicking::TransferDirection>& direction) {
+Json json_of_direction(const std::optional<kicking::TransferDirection>& direction, bool tracked) {
   if (!direction) return nullptr;
   return {{"kicks", direction->kicks},
           {"exact", json_of(direction->exact)},
           {"paper", json_of(direction->paper)},
-          {"rms_m", direction->rms_m}};
+          {tracked ? "rms_mps" : "rms_m", direction->rms}};
 }
 
 FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, double delay_s) {
+  const bool tracked = !kicks.rows.empty() && kicks.rows.front().track.has_value();
   FitReport report;
   report.json = {{"delay_s", delay_s},
                  {"standing_ratio", fit.standing_ratio ? json_of(*fit.standing_ratio) : Json(nullptr)},
-                 {"forward", json_of_direction(fit.forward)},
-                 {"backward", json_of_direction(fit.backward)},
+                 {"forward", json_of_direction(fit.forward, tracked)},
+                 {"backward", json_of_direction(fit.backward, tracked)},
                  {"rows", Json::array()}};
-  std::vector<std::vector<std::string>> lines{{"vy [m/s]", "V0 [m/s]", "d [m]", "z [m]", "- exact law [m]"}};
+  std::vector<std::vector<std::string>> lines{{"vy [m/s]", "V0 [m/s]"}};
+  for (const char* column : {tracked ? "along [m/s]" : "d [m]", tracked ? "up [m/s]" : "z [m]",
+                             tracked ? "- fitted [m/s]" : "- exact law [m]"})
+    lines.front().emplace_back(column);
   std::string constants;
   const auto add = [&](const char* name, const std::optional<kicking::TransferDirection>& direction) {
     if (!direction) {
@@ -73,20 +77,25 @@ FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, 
     }
     for (std::size_t i = 0; i < direction->rows.size(); ++i) {
       const kicking::TransferRow& row = kicks.rows[direction->rows[i]];
+      const double second = tracked ? row.track->along_mps : row.distance_m;
+      const double third = tracked ? row.track->up_mps : row.z_cross_m;
       report.json["rows"].push_back({{"vy_mps", row.vy_mps},
                                      {"v0_mps", row.v0_mps},
-                                     {"d_m", row.distance_m},
-                                     {"z_cross_m", row.z_cross_m},
-                                     {"residual_m", direction->residual_m[i]}});
+                                     {tracked ? "along_mps" : "d_m", second},
+                                     {tracked ? "up_mps" : "z_cross_m", third},
+                                     {tracked ? "residual_mps" : "residual_m", direction->residual[i]}});
       lines.push_back({fmt::format("{:+.2f}", row.vy_mps), fmt::format("{:.3f}", row.v0_mps),
-                       fmt::format("{:.2f}", row.distance_m), fmt::format("{:.3f}", row.z_cross_m),
-                       fmt::format("{:+.3f}", direction->residual_m[i])});
+                       fmt::format("{:.2f}", second), fmt::format("{:.3f}", third),
+                       fmt::format("{:+.3f}", direction->residual[i])});
     }
-    constants += fmt::format("{} ({} kicks): k = {} in the exact law (rms {:.3f} m), {} in the paper's\n", name,
-                             direction->kicks, text_of(direction->exact), direction->rms_m, text_of(direction->paper));
+    constants += fmt::format("{} ({} kicks): k = {} in the exact law (rms {:.3f} {}), {} in the paper's\n", name,
+                             direction->kicks, text_of(direction->exact), direction->rms, tracked ? "m/s" : "m",
+                             text_of(direction->paper));
   };
   if (fit.standing_ratio)
-    constants = fmt::format("kicks at rest: V0 is {} of the rows'\n", text_of(*fit.standing_ratio));
+    constants =
+        fmt::format("kicks at rest: {} {}\n", tracked ? "effective speed over the tracked one" : "V0 of the rows' is",
+                    text_of(*fit.standing_ratio));
   add("forward", fit.forward);
   add("backward", fit.backward);
   report.text = evaluator::text_table(lines) + "\n" + constants;
@@ -100,9 +109,10 @@ FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, 
 
 void calibrate_transfer(const TransferFlags& flags) {
   const auto robot = robot_of(flags);
-  const TransferRows kicks = is_match_log(flags)
-                                 ? evaluator::straight_kicks(evaluator::log::Reader(flags.input), robot->model)
-                                 : rows_of_numbers(flags, robot);
+  const TransferRows kicks =
+      is_match_log(flags)
+          ? evaluator::transfer_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
+          : rows_of_numbers(flags, robot);
   const double delay_s = flags.delay_s.value_or(robot ? robot->model.delay_s : 0.0);
   const double ball_radius_m = (robot ? robot->model : kicking::RobotModel{}).ball.radius_m;
   const kicking::TransferFit fit = kicking::fit_transfer(kicks.rows, delay_s, ball_radius_m);

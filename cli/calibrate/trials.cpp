@@ -16,6 +16,11 @@ namespace {
 
 using kicking::TableKind;
 
+// No kicker of the league comes near them.
+constexpr double kHighest_m = 15.0;
+constexpr double kFarthest_m = 40.0;
+constexpr double kFastest_mps = 40.0;  // what a robot's file may hold
+
 const char* counted(std::size_t n) { return n == 1 ? "lob" : "lobs"; }
 
 /// Trials of heights and distances. Those are of the parabola, whatever the drag.
@@ -28,9 +33,16 @@ void add_parabolas(const NumberTable& table, const std::string& file, const Tria
   }
   table.require_one_of({"distance_m"});
   table.for_each([&](const Row& row) {
-    trials.trials.push_back(
-        kicking::trial_of_lob(row.positive("power"), row.positive("height_m"), row.positive("distance_m")));
+    const double power = row.positive("power");
+    const double height_m = row.length_m("height_m", kHighest_m);
+    trials.trials.push_back(kicking::trial_of_lob(power, height_m, row.length_m("distance_m", kFarthest_m)));
   });
+}
+
+double speed_mps(const Row& row) {
+  const double value = row.positive("exit_speed_mps");
+  if (value <= kFastest_mps) return value;
+  throw CellError("exit_speed_mps", *row.word("exit_speed_mps"), fmt::format("is above {} m/s", kFastest_mps));
 }
 
 void add_speeds(const NumberTable& table, const std::string& file, const TrialFlags& flags, Trials& trials) {
@@ -45,7 +57,7 @@ void add_speeds(const NumberTable& table, const std::string& file, const TrialFl
   table.for_each([&](const Row& row) {
     trials.trials.push_back({row.positive("power"),
                              with_angle ? row.acute_angle_rad("exit_angle_deg") : *flags.exit_angle_rad,
-                             row.positive("exit_speed_mps")});
+                             speed_mps(row)});
   });
 }
 

@@ -63,23 +63,24 @@ std::optional<double> meets(const std::vector<SweepPoint>& sweep, double level,
   return std::nullopt;
 }
 
-double efficiency_of(const ArmTally& matches) {
-  const MatchTally total = total_of(matches);
-  return static_cast<double>(total.on_target) / static_cast<double>(total.kicks);
-}
-
-bool within(double value, evaluator::stats::Counts counts) {
-  const auto ci = evaluator::stats::wilson(counts);
-  return value >= ci.lo && value <= ci.hi;
+double efficiency_of(const ArmTally& matches, Measure efficiency) {
+  const auto counts = counts_of(total_of(matches), efficiency);
+  return static_cast<double>(counts.inside) / static_cast<double>(counts.n);
 }
 
 }  // namespace
 
-std::vector<NamedEffect> effects_of(const std::vector<PlayedCell>& cells) {
+bool within_papers(const ArmTally& matches, Measure efficiency, evaluator::stats::Counts paper) {
+  const auto ci = evaluator::stats::wilson(paper);
+  const double value = efficiency_of(matches, efficiency);
+  return value >= ci.lo && value <= ci.hi;
+}
+
+std::vector<NamedEffect> effects_of(const std::vector<PlayedCell>& cells, Measure efficiency) {
   std::vector<NamedEffect> effects;
   const auto add = [&](const char* key, const char* what, const Weight& weight) {
     const auto terms = terms_of(cells, weight);
-    effects.push_back({key, what, contrast(terms, Measure::kEfficiency), contrast(terms, Measure::kPerOpportunity)});
+    effects.push_back({key, what, contrast(terms, efficiency), contrast(terms, Measure::kPerOpportunity)});
   };
   const auto of_motion_cells = [](const Cell& cell) { return std::abs(motion_sign(cell)); };
   add("calibration", "new - old table, over stopped, moving and laws",
@@ -110,7 +111,7 @@ Gain gain_of(const std::vector<PlayedCell>& cells, Measure measure) {
           .motion = sum([&](const Cell& cell) { return motion_sign(cell) / (2.0 * laws); })};
 }
 
-SweepAnswer answer_of(const std::vector<SweepPoint>& sweep) {
+SweepAnswer answer_of(const std::vector<SweepPoint>& sweep, Measure efficiency) {
   if (sweep.empty()) throw std::invalid_argument("factorial: the sweep has no point");
   SweepAnswer answer;
   const auto ratio = [](const SweepPoint& point) { return kick_ratio(point.older, point.newer); };
@@ -123,8 +124,10 @@ SweepAnswer answer_of(const std::vector<SweepPoint>& sweep) {
   const double older = *evaluator::stats::efficiency(kPaperOlder), newer = *evaluator::stats::efficiency(kPaperNewer);
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < sweep.size(); ++i) {
-    const double e1 = efficiency_of(sweep[i].older), e2 = efficiency_of(sweep[i].newer);
-    if (within(e1, kPaperOlder) && within(e2, kPaperNewer)) answer.pair_within.push_back(i);
+    const double e1 = efficiency_of(sweep[i].older, efficiency), e2 = efficiency_of(sweep[i].newer, efficiency);
+    if (within_papers(sweep[i].older, efficiency, kPaperOlder) &&
+        within_papers(sweep[i].newer, efficiency, kPaperNewer))
+      answer.pair_within.push_back(i);
     const double off = std::hypot(e1 - older, e2 - newer);
     if (!(off < least)) continue;
     least = off;

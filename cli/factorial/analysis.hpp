@@ -32,8 +32,9 @@ struct NamedEffect {
 /// calibration (new - old table), motion (moving - stopped), released_law and exact_law (each - paper), each averaged
 /// over all levels of the other two factors; calibration_x_motion, exact_law_x_motion; prediction (predictive - moving
 /// with the exact law), averaged over tables, and calibration_x_prediction.
+/// `efficiency`: kEfficiency or, with blocked kicks apart, kUnblocked.
 /// @throws std::invalid_argument naming a cell that is missing.
-std::vector<NamedEffect> effects_of(const std::vector<PlayedCell>& cells);
+std::vector<NamedEffect> effects_of(const std::vector<PlayedCell>& cells, Measure efficiency = Measure::kEfficiency);
 
 /// From the old table and `stopped` to the new one and `moving`, averaged over the laws: calibration and motion, each
 /// as the mean of both orders of introducing them, add up to it.
@@ -65,6 +66,9 @@ struct SweepAnswer {
 };
 
 /// @throws std::invalid_argument for an empty sweep.
-SweepAnswer answer_of(const std::vector<SweepPoint>& sweep);
+SweepAnswer answer_of(const std::vector<SweepPoint>& sweep, Measure efficiency = Measure::kEfficiency);
+
+/// An arm lies in the 95 % Wilson interval of what the paper counted.
+bool within_papers(const ArmTally& matches, Measure efficiency, evaluator::stats::Counts paper);
 
 }  // namespace trivela::cli

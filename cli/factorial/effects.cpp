@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -13,20 +11,8 @@ namespace {
 
 double real(std::int64_t n) { return static_cast<double>(n); }
 
-std::vector<std::uint32_t> match_numbers(const ArmTally& arm) {
-  std::map<std::uint32_t, std::uint32_t> next;  // by calibration
-  std::vector<std::uint32_t> numbers;
-  for (const MatchTally& match : arm) numbers.push_back(next[match.calibration]++);
-  return numbers;
-}
-
 bool in_two_matches(const ArmTally& arm, Measure measure) {
-  const auto numbers = match_numbers(arm);
-  std::set<std::uint32_t> with_any;
-  for (std::size_t i = 0; i < arm.size(); ++i) {
-    if (counts_of(arm[i], measure).n > 0) with_any.insert(numbers[i]);
-  }
-  return with_any.size() >= 2;
+  return std::ranges::count_if(arm, [&](const MatchTally& match) { return counts_of(match, measure).n > 0; }) >= 2;
 }
 
 }  // namespace
@@ -39,14 +25,17 @@ MatchTally total_of(const ArmTally& matches) {
     total.opportunities += match.opportunities;
     total.kicks += match.kicks;
     total.on_target += match.on_target;
+    total.blocked += match.blocked;
+    total.bounced += match.bounced;
+    total.goals += match.goals;
   }
   return total;
 }
 
 std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u) {
-  const auto numbers = match_numbers(arm);
   std::vector<evaluator::stats::Influence> influences;
-  for (std::size_t i = 0; i < arm.size(); ++i) influences.push_back({numbers[i], arm[i].calibration, u[i]});
+  for (std::size_t m = 0; m < arm.size(); ++m)
+    influences.push_back({static_cast<std::uint32_t>(m), arm[m].calibration, u[m]});
   return influences;
 }
 
@@ -56,7 +45,19 @@ double reach_of(const ArmTally& arm, const std::vector<double>& u) {
 }
 
 evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
-  return {tally.on_target, measure == Measure::kEfficiency ? tally.kicks : tally.opportunities};
+  switch (measure) {
+    case Measure::kEfficiency:
+      return {tally.on_target, tally.kicks};
+    case Measure::kUnblocked:
+      return {tally.on_target, tally.kicks - tally.blocked};
+    case Measure::kGoals:
+      return {tally.goals, tally.opportunities};
+    case Measure::kBounced:
+      return {tally.bounced, tally.on_target};
+    case Measure::kPerOpportunity:
+      break;
+  }
+  return {tally.on_target, tally.opportunities};
 }
 
 Effect contrast(std::span<const Term> terms, Measure measure) {

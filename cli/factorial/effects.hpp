@@ -14,17 +14,22 @@ struct MatchTally {
   std::int64_t opportunities = 0;
   std::int64_t kicks = 0;
   std::int64_t on_target = 0;     ///< observed
+  std::int64_t blocked = 0;       ///< observed
+  std::int64_t bounced = 0;       ///< on target, and by the simulator's truth it touched the floor before
+  std::int64_t goals = 0;         ///< by the simulator's truth: on target and past the keeper, where there is one
   std::uint32_t calibration = 0;  ///< number of the evening that its robots were calibrated on
 };
 
 /// Shares that arms are compared by.
 enum class Measure {
-  kEfficiency,     ///< on target of kicks
-  kPerOpportunity  ///< on target of opportunities
+  kEfficiency,      ///< on target of kicks
+  kUnblocked,       ///< on target of the kicks that nobody blocked
+  kPerOpportunity,  ///< on target of opportunities
+  kGoals,           ///< goals of opportunities
+  kBounced          ///< bounced of kicks on target
 };
 
-/// An arm's matches, calibration by calibration, each in the order of their numbers: those at the same place of two
-/// calibrations are the same match. All arms have the same ones.
+/// An arm's matches, in the order of their numbers; each was played on one evening's calibration (EveningArms).
 using ArmTally = std::vector<MatchTally>;
 
 /// A number with its 95 % interval. NaN: there are too few kicks for it, or for the interval alone.
@@ -37,8 +42,8 @@ bool has_interval(const Effect& effect);
 
 MatchTally total_of(const ArmTally& matches);
 
-/// What each entry of the arms adds to an estimate's error, and to what match and calibration it belongs. `u`: one
-/// number an entry, in the order of `arm`.
+/// What each match of the arms adds to an estimate's error, and to what calibration it belongs. `u`: one number a
+/// match, in the order of `arm`.
 std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u);
 
 /// Half the width of the 95 % interval of an estimate with these influences: Student's t times the standard error, by

@@ -26,26 +26,38 @@ double kicks_per_opportunity(const ArmTally& matches) {
   return static_cast<double>(total.kicks) / static_cast<double>(total.opportunities);
 }
 
+std::string percent_of(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? fmt::format("{:.1f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole)) : "-";
+}
+
 const char* law_text(const Cell& cell) { return cell.policy == PolicyName::kPredictive ? "-" : name(cell.law); }
 
 std::string cells_text(const FactorialReport& report) {
-  std::vector<std::vector<std::string>> rows{
-      {"table", "policy", "law", "kicks", "kicks/opp.", "efficiency [%]", "on target/opp. [%]"}};
+  std::vector<std::vector<std::string>> rows{{"table", "policy", "law", "kicks", "kicks/opp.", "efficiency [%]",
+                                              "on target/opp. [%]", "blocked [%]", "bounced in [%]"}};
+  if (report.keeper) rows[0].push_back("goals/opp. [%]");
   for (const PlayedCell& played : report.cells) {
+    const MatchTally total = total_of(played.matches);
     rows.push_back({played.cell.table, kicking::name(played.cell.policy), law_text(played.cell),
-                    std::to_string(total_of(played.matches).kicks),
-                    fmt::format("{:.3f}", kicks_per_opportunity(played.matches)),
-                    share_text(share_of(played.matches, Measure::kEfficiency)),
-                    share_text(share_of(played.matches, Measure::kPerOpportunity))});
+                    std::to_string(total.kicks), fmt::format("{:.3f}", kicks_per_opportunity(played.matches)),
+                    share_text(share_of(played.matches, report.efficiency)),
+                    share_text(share_of(played.matches, Measure::kPerOpportunity)),
+                    percent_of(total.blocked, total.kicks), percent_of(total.bounced, total.on_target)});
+    if (report.keeper) rows.back().push_back(share_text(share_of(played.matches, Measure::kGoals)));
   }
   return evaluator::text_table(rows) +
-         "  The law is that of height and motion; predictive computes its own crossing and has none.\n";
+         "  The law is that of height and motion; predictive computes its own crossing and has none. Efficiency: on "
+         "target\n  of " +
+         (report.efficiency == Measure::kUnblocked ? "the kicks that nobody blocked" : "kicks, blocked ones included") +
+         "; blocked: of kicks. Bounced in: of those on target, by the simulator's truth\n  they touched the floor "
+         "before the line; Table 2 counts them.\n" +
+         (report.keeper ? "  Goals: by the simulator's truth, on target and past its keeper.\n" : "");
 }
 
 std::string effects_text(const FactorialReport& report) {
   std::vector<std::vector<std::string>> rows{{"effect [points]", "efficiency", "on target/opp."}};
   std::string legend;
-  for (const NamedEffect& effect : effects_of(report.cells)) {
+  for (const NamedEffect& effect : effects_of(report.cells, report.efficiency)) {
     rows.push_back({effect.key, points_text(effect.efficiency), points_text(effect.per_opportunity)});
     legend += fmt::format("  {}: {}\n", effect.key, effect.what);
   }
@@ -67,13 +79,12 @@ std::string gain_sentence(const FactorialReport& report) {
       "its assumptions, among them those on the old table (heights judged by eye to {:g} m, kicker {:g} % from day to "
       "day) and on the opponents (median {:g} m): others give other shares. It says nothing about why the paper's "
       "tournaments differed.\n",
-      sentence("efficiency", Measure::kEfficiency),
-      sentence("shots on target per opportunity", Measure::kPerOpportunity), report.scenario, report.hand_eye_sd_m,
-      100.0 * report.hand_day_sd_ratio, report.opponent_median_m);
+      sentence("efficiency", report.efficiency), sentence("shots on target per opportunity", Measure::kPerOpportunity),
+      report.scenario, report.hand_eye_sd_m, 100.0 * report.hand_day_sd_ratio, report.opponent_median_m);
 }
 
 std::string sweep_sentence(const FactorialReport& report) {
-  const SweepAnswer answer = answer_of(report.sweep);
+  const SweepAnswer answer = answer_of(report.sweep, report.efficiency);
   const double first_m = report.sweep.front().opponent_median_m, last_m = report.sweep.back().opponent_median_m;
   std::string text;
   const bool has_ratio = std::ranges::any_of(
@@ -104,8 +115,8 @@ std::string sweep_sentence(const FactorialReport& report) {
       "lie "
       "in the paper's own 95 % intervals ({:.0f} to {:.0f} and {:.0f} to {:.0f} %) {}. Agreement of such numbers would "
       "not say that the assumptions are right.\n",
-      nearest.opponent_median_m, share_text(share_of(nearest.older, Measure::kEfficiency)),
-      share_text(share_of(nearest.newer, Measure::kEfficiency)), 100.0 * answer.off_older, 100.0 * answer.off_newer,
+      nearest.opponent_median_m, share_text(share_of(nearest.older, report.efficiency)),
+      share_text(share_of(nearest.newer, report.efficiency)), 100.0 * answer.off_older, 100.0 * answer.off_newer,
       100.0 * older.lo, 100.0 * older.hi, 100.0 * newer.lo, 100.0 * newer.hi,
       within.empty() ? "nowhere in this sweep" : fmt::format("at {} m", fmt::join(within, ", ")));
   return text;
@@ -118,8 +129,8 @@ std::string sweep_text(const FactorialReport& report) {
     const Effect ratio = kick_ratio(point.older, point.newer);
     rows.push_back({fmt::format("{:g}", point.opponent_median_m),
                     effect_text(ratio, [](double value) { return fmt::format("{:.2f}", value); }),
-                    share_text(share_of(point.older, Measure::kEfficiency)),
-                    share_text(share_of(point.newer, Measure::kEfficiency)),
+                    share_text(share_of(point.older, report.efficiency)),
+                    share_text(share_of(point.newer, report.efficiency)),
                     fmt::format("{:.3f}", kicks_per_opportunity(point.older)),
                     fmt::format("{:.3f}", kicks_per_opportunity(point.newer))});
   }
@@ -130,12 +141,15 @@ std::string sweep_text(const FactorialReport& report) {
          evaluator::text_table(rows) + "\n" + sweep_sentence(report);
 }
 
-Json json_of_arm(const ArmTally& matches) {
+Json json_of_arm(const ArmTally& matches, Measure efficiency) {
   const MatchTally total = total_of(matches);
   return {{"opportunities", total.opportunities},
           {"kicks", total.kicks},
           {"on_target", total.on_target},
-          {"efficiency", json_of(share_of(matches, Measure::kEfficiency))},
+          {"blocked", total.blocked},
+          {"bounced", total.bounced},
+          {"goals", total.goals},
+          {"efficiency", json_of(share_of(matches, efficiency))},
           {"on_target_per_opportunity", json_of(share_of(matches, Measure::kPerOpportunity))}};
 }
 
@@ -143,11 +157,11 @@ Json json_of_gain(const Gain& gain) {
   return {{"gain", json_of(gain.gain)}, {"calibration", json_of(gain.calibration)}, {"motion", json_of(gain.motion)}};
 }
 
-std::string csv_of_arm(const ArmTally& matches) {
+std::string csv_of_arm(const ArmTally& matches, Measure efficiency, const std::string& bias = "") {
   const MatchTally total = total_of(matches);
-  return fmt::format("{},{},{},{},{},1\n", total.opportunities, total.kicks, total.on_target,
-                     csv_cells(share_of(matches, Measure::kEfficiency)),
-                     csv_cells(share_of(matches, Measure::kPerOpportunity)));
+  return fmt::format("{},{},{},{},{},{},{},{},{},1\n", total.opportunities, total.kicks, total.on_target,
+                     csv_cells(share_of(matches, efficiency)), csv_cells(share_of(matches, Measure::kPerOpportunity)),
+                     total.blocked, total.bounced, total.goals, bias);
 }
 
 }  // namespace
@@ -161,6 +175,7 @@ std::string to_text(const FactorialReport& report) {
       report.matches, report.possessions, report.scenario, report.seed, fmt::join(report.robots, ", "),
       cells_text(report), effects_text(report), gain_sentence(report));
   if (!report.sweep.empty()) text += "\n" + sweep_text(report);
+  if (!report.biases.empty()) text += "\n" + pair_text(report.biases, report.sweep_law);
   return text;
 }
 
@@ -171,33 +186,35 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
             {"seed", report.seed},
             {"matches", report.matches},
             {"possessions", report.possessions},
+            {"blocked", report.efficiency == Measure::kUnblocked ? "apart" : "outside"},
             {"cells", Json::array()},
             {"effects", Json::array()},
             {"gain",
-             {{"efficiency", json_of_gain(gain_of(report.cells, Measure::kEfficiency))},
+             {{"efficiency", json_of_gain(gain_of(report.cells, report.efficiency))},
               {"on_target_per_opportunity", json_of_gain(gain_of(report.cells, Measure::kPerOpportunity))}}},
             {"answer", gain_sentence(report)}};
   for (const PlayedCell& played : report.cells) {
     Json cell{{"table", played.cell.table},
               {"policy", kicking::name(played.cell.policy)},
               {"law", played.cell.policy == PolicyName::kPredictive ? Json() : Json(name(played.cell.law))}};
-    cell.update(json_of_arm(played.matches));
+    cell.update(json_of_arm(played.matches, report.efficiency));
     json["cells"].push_back(std::move(cell));
   }
-  for (const NamedEffect& effect : effects_of(report.cells)) {
+  for (const NamedEffect& effect : effects_of(report.cells, report.efficiency)) {
     json["effects"].push_back({{"effect", effect.key},
                                {"of", effect.what},
                                {"efficiency", json_of(effect.efficiency)},
                                {"on_target_per_opportunity", json_of(effect.per_opportunity)}});
   }
+  if (!report.biases.empty()) json["pair"] = pair_json(report.biases);
   if (report.sweep.empty()) return json;
-  const SweepAnswer answer = answer_of(report.sweep);
+  const SweepAnswer answer = answer_of(report.sweep, report.efficiency);
   Json sweep{{"law", name(report.sweep_law)}, {"points", Json::array()}};
   for (const SweepPoint& point : report.sweep) {
     sweep["points"].push_back({{"opponent_median_m", point.opponent_median_m},
                                {"kick_ratio", json_of(kick_ratio(point.older, point.newer))},
-                               {"old_stopped", json_of_arm(point.older)},
-                               {"new_moving", json_of_arm(point.newer)}});
+                               {"old_stopped", json_of_arm(point.older, report.efficiency)},
+                               {"new_moving", json_of_arm(point.newer, report.efficiency)}});
   }
   sweep["ratio_at_m"] = evaluator::json_of(answer.ratio_at_m);
   sweep["ratio_from_m"] = evaluator::json_of(answer.ratio_from_m);
@@ -215,16 +232,22 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
 std::string to_csv(const FactorialReport& report) {
   std::string csv =
       "kind,table,policy,law,opponent_median_m,opportunities,kicks,on_target,efficiency,efficiency_low,efficiency_high,"
-      "per_opportunity,per_opportunity_low,per_opportunity_high,simulated\n";
-  const auto row = [&](const char* kind, const Cell& cell, double median_m, const ArmTally& matches) {
+      "per_opportunity,per_opportunity_low,per_opportunity_high,blocked,bounced,goals,eye_bias_m,simulated\n";
+  const auto row = [&](const char* kind, const Cell& cell, double median_m, const ArmTally& matches,
+                       const std::string& bias = "") {
     const char* law = cell.policy == PolicyName::kPredictive ? "" : name(cell.law);
     csv += fmt::format("{},{},{},{},{:g},{}", kind, cell.table, kicking::name(cell.policy), law, median_m,
-                       csv_of_arm(matches));
+                       csv_of_arm(matches, report.efficiency, bias));
   };
   for (const PlayedCell& played : report.cells) row("cell", played.cell, report.opponent_median_m, played.matches);
   for (const SweepPoint& point : report.sweep) {
     row("sweep", {"old", PolicyName::kStopped, report.sweep_law}, point.opponent_median_m, point.older);
     row("sweep", {"new", PolicyName::kMoving, report.sweep_law}, point.opponent_median_m, point.newer);
+  }
+  for (const BiasPoint& point : report.biases) {
+    const std::string bias = fmt::format("{:g}", point.eye_bias_m);
+    row("bias", {"old", PolicyName::kStopped, report.sweep_law}, report.opponent_median_m, point.older, bias);
+    row("bias", {"new", PolicyName::kMoving, report.sweep_law}, report.opponent_median_m, point.newer, bias);
   }
   return csv;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/factorial/analysis.hpp"
+#include "cli/factorial/pair.hpp"
 
 namespace trivela::cli {
 
@@ -19,15 +20,19 @@ struct FactorialReport {
   double hand_day_sd_ratio = 0.0;  ///< and of the kicker from day to day
   double opponent_median_m = 0.0;
   Law sweep_law = Law::kReleased;
+  Measure efficiency = Measure::kEfficiency;  ///< kUnblocked: blocked kicks stand apart
+  bool keeper = false;                        ///< goals mean something
   std::vector<PlayedCell> cells{};
   std::vector<SweepPoint> sweep{};  ///< empty: not asked for
+  std::vector<BiasPoint> biases{};  ///< empty: not asked for
 };
 
 std::string to_text(const FactorialReport& report);
 nlohmann::ordered_json to_json(const FactorialReport& report);
 
 /// A row a cell and a row a point of the sweep and side: kind, table, policy, law, opponent_median_m, opportunities,
-/// kicks, on_target and both measures with their intervals, which are empty where there are too few kicks.
+/// kicks, on_target and both measures with their intervals, which are empty where there are too few kicks; blocked and
+/// bounced kicks, goals; and, of rows of kind "bias", the common error of the eye.
 std::string to_csv(const FactorialReport& report);
 
 /// Shots on target per opportunity over the table, a line a policy and law, with 95 % intervals.

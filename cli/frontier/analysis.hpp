@@ -29,8 +29,9 @@ struct FrontierReport {
   std::uint32_t matches = 0;
   std::uint32_t possessions = 0;      ///< opportunities a match
   std::vector<FrontierPoint> points;  ///< thresholds rising
-  std::vector<FixedPoint> fixed;      ///< stopped, moving
+  std::vector<FixedPoint> fixed;      ///< policies without a threshold
   std::optional<FixedPoint> oracle;
+  std::size_t evenings = 0;  ///< of calibration; 0: robot files
 };
 
 double kicks_per_opportunity(const MatchTally& total);

@@ -6,6 +6,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "cli/simulate/interval_words.hpp"
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
@@ -76,19 +77,19 @@ std::string to_text(const FrontierReport& report) {
                      share_text(share_of(*row.matches, Measure::kPerOpportunity)), fmt::format("{}", total.kicks)});
   }
   std::string text = evaluator::kSimulated;
-  text += fmt::format(
-      "{} matches of {} opportunities, the same for every policy and threshold; {}, seed {}; 95 % intervals by "
-      "match.\n\n{}\n",
-      report.matches, report.possessions, report.scenario, report.seed, evaluator::text_table(table));
+  text +=
+      fmt::format("{} matches of {} opportunities, the same for every policy and threshold; {}, seed {}; {}.\n\n{}\n",
+                  report.matches, report.possessions, report.scenario, report.seed, interval_words(report.evenings),
+                  evaluator::text_table(table));
   for (const FixedPoint& fixed : report.fixed) text += sentence(report, fixed);
   if (report.oracle) text += oracle_sentence(report);
   return text;
 }
 
 nlohmann::ordered_json to_json(const FrontierReport& report) {
-  Json json{{"simulated", true},       {"policy", report.policy},   {"scenario", report.scenario},
-            {"seed", report.seed},     {"matches", report.matches}, {"possessions", report.possessions},
-            {"points", Json::array()}, {"standings", Json::array()}};
+  Json json{{"simulated", true},           {"policy", report.policy},   {"scenario", report.scenario},
+            {"seed", report.seed},         {"matches", report.matches}, {"possessions", report.possessions},
+            {"evenings", report.evenings}, {"points", Json::array()},   {"standings", Json::array()}};
   for (const Row& row : rows_of(report)) {
     const MatchTally total = total_of(*row.matches);
     json["points"].push_back(

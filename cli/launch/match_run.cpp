@@ -22,7 +22,7 @@ namespace {
 constexpr std::array kNodes{"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
 constexpr std::chrono::seconds kPatience{10};
 
-/// The feeder's "t_s total_s" lines.
+/// The feeder's "t_s total_s" lines; the last one says "end".
 class ProgressPipe {
  public:
   ProgressPipe() {
@@ -52,15 +52,20 @@ class ProgressPipe {
     for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
       char* rest = nullptr;
       played_s = std::strtod(text_.c_str(), &rest);
-      total_s = std::strtod(rest, nullptr);
+      total_s = std::strtod(rest, &rest);
+      whole_ = whole_ || std::strncmp(rest, " end", 4) == 0;
       text_.erase(0, end + 1);
     }
     return n == 0;
   }
 
+  /// Whether the feeder has said that all was played.
+  bool whole() const { return whole_; }
+
  private:
   std::array<int, 2> ends_{-1, -1};
   std::string text_;
+  bool whole_ = false;
 };
 
 /// Where nobody reads.
@@ -136,6 +141,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
     }
     if (over && children.back().wait(kPatience) && children.back().succeeded()) {
       children.pop_back();
+      if (!progress.whole()) result.trouble = fmt::format("{} was stopped before the end", feeder);
       break;
     }
     if (result.trouble = casualty(children); !result.trouble.empty()) break;

@@ -89,7 +89,7 @@ void LiveScene::begin() {
   broadcast_.publish(Channel::kSetup, setup_.dump());
   if (!power_ && !options_.plan.powers.empty()) power_ = options_.plan.powers.front();
   if (!power_) return;
-  const evaluator::log::TestedSetPoint tested{.t_ns = session.started_t_ns, .power = *power_};
+  const evaluator::log::TestedSetPoint tested{.t_ns = session.started_t_ns, .power = power_};
   writer_->set_point(tested);
   book_.set_point(tested);
 }
@@ -113,7 +113,7 @@ void LiveScene::take(const kicking::lob::Scan& scan) {
   broadcast_.publish(Channel::kLobs, lobs().dump());
 }
 
-void LiveScene::set_power(double power) {
+void LiveScene::set_power(std::optional<double> power) {
   if (power_ == power) return;
   power_ = power;
   if (!writer_) return broadcast_.publish(Channel::kStatus, status().dump());
@@ -189,6 +189,12 @@ void LiveScene::judge(const json& arguments) {
   const auto lob = arguments.at("lob").get<std::size_t>();
   if (lob >= book_.count(views_.size())) throw CommandError{404, fmt::format("there is no lob {}", lob)};
   writer_->verdict(book_.judge(lob, arguments.at("accepted").get<bool>(), arguments.value("why", "")));
+  if (!power_ && !options_.plan.powers.empty()) {  // the plan was done, and may lack a kick now
+    const auto done = kicks_done(options_.plan, book_.lobs(views_.size()));
+    for (std::size_t i = 0; i < done.size() && !power_; ++i) {
+      if (done[i] < options_.plan.trials) set_power(options_.plan.powers[i]);
+    }
+  }
   broadcast_.publish(Channel::kLobs, lobs().dump());
 }
 

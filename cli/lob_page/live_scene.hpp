@@ -46,7 +46,7 @@ class LiveScene : public Scene {
   void run();
   void begin();
   void take(const kicking::lob::Scan& scan);
-  void set_power(double power);
+  void set_power(std::optional<double> power);
   void judge(const nlohmann::json& arguments);
   void look_at_link();
   nlohmann::json status() const;

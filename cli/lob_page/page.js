@@ -227,7 +227,8 @@ function showPlan() {
   const done = plan.powers.reduce((sum, row) => sum + Math.min(row.done, plan.trials), 0);
   const now = plan.powers.find((row) => row.power === status.power);
   const next = live() && now && now.done < plan.trials ? `; next: power ${now.power}, kick ${now.done + 1}` : '';
-  $('progress').textContent = done >= kicks ? `All ${kicks} kicks are done.` : `${done} of ${kicks} kicks done${next}`;
+  const more = live() && status.power === null ? ' Choose a power for more.' : '';
+  $('progress').textContent = done >= kicks ? `All ${kicks} kicks are done.${more}` : `${done} of ${kicks} kicks done${next}`;
   $('plan').replaceChildren(...plan.powers.map((row) => {
     const chip = element('button', row.power,
       {'data-power': row.power, 'aria-pressed': row.power === status.power});

@@ -64,7 +64,7 @@ std::vector<int> kicks_done(const CalibrationPlan& plan, std::span<const kicking
   return done;
 }
 
-double next_power(const CalibrationPlan& plan, const std::vector<int>& done, double power) {
+std::optional<double> next_power(const CalibrationPlan& plan, const std::vector<int>& done, double power) {
   const std::size_t n = plan.powers.size();
   const auto found = std::find(plan.powers.begin(), plan.powers.end(), power);
   const auto start =
@@ -73,7 +73,8 @@ double next_power(const CalibrationPlan& plan, const std::vector<int>& done, dou
     const std::size_t place = (start + i) % n;
     if (done[place] < plan.trials) return plan.powers[place];
   }
-  return power;
+  const bool the_last = found != plan.powers.end() && done[start] == plan.trials;
+  return the_last ? std::nullopt : std::optional{power};
 }
 
 }  // namespace trivela::cli::lob_page

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ std::vector<double> parse_powers(const std::string& list);
 /// Accepted lobs of each power of the plan.
 std::vector<int> kicks_done(const CalibrationPlan& plan, std::span<const kicking::lob::LobRecord> lobs);
 
-/// The power to kick with next: `power` while it lacks kicks, else the next of the plan that does, the first ones last;
-/// `power` where none does.
-double next_power(const CalibrationPlan& plan, const std::vector<int>& done, double power);
+/// The power to kick with next after an accepted kick with `power`: the same while it lacks kicks, else the next of the
+/// plan that does, the first ones last. None: that kick was the plan's last, and what is kicked after it is no trial of
+/// any power until somebody names one. A power that was named by hand when the plan was done, or in none, stays.
+std::optional<double> next_power(const CalibrationPlan& plan, const std::vector<int>& done, double power);
 
 }  // namespace trivela::cli::lob_page

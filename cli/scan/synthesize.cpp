@@ -5,6 +5,7 @@
 
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
+#include "cli/write_file.hpp"
 #include "config/robot.hpp"
 #include "sim/random.hpp"
 
@@ -83,6 +84,7 @@ SyntheticScans synthesize(const SyntheticFlags& flags, const MountFlags& mount) 
 }
 
 int write_synthetic(const SyntheticScans& scans, const std::filesystem::path& out, const std::string& truth_csv) {
+  require_writable("--truth", truth_csv);
   evaluator::log::WriterOptions options;
   options.queue_capacity += scans.record.scans.size();  // all come at once
   evaluator::log::ScanWriter writer(out, scans.session, options);

@@ -5,15 +5,15 @@
 
 namespace trivela::cli {
 
-Effect headline(const std::vector<ArmTally>& arms, std::size_t i) {
+Effect headline(const std::vector<ArmTally>& arms, std::size_t i, Measure measure) {
   const Term terms[] = {{&arms.at(i + 1), 1.0}, {&arms.at(i), -1.0}};
-  return contrast(terms, Measure::kPerOpportunity);
+  return contrast(terms, measure);
 }
 
 Effect change(const SensitivityReport& report, const PlayedEnd& end, std::size_t i) {
   const Term terms[] = {
       {&end.arms.at(i + 1), 1.0}, {&end.arms.at(i), -1.0}, {&report.base.at(i + 1), -1.0}, {&report.base.at(i), 1.0}};
-  return contrast(terms, Measure::kPerOpportunity);
+  return contrast(terms, report.measure);
 }
 
 double largest_change(const SensitivityReport& report, const PlayedInput& input) {

@@ -31,10 +31,12 @@ struct SensitivityReport {
   std::vector<std::string> arms;  ///< names, at least two
   std::vector<ArmTally> base;     ///< the scenario as it is
   std::vector<PlayedInput> inputs;
+  Measure measure = Measure::kPerOpportunity;  ///< or kGoals
+  std::size_t evenings = 0;                    ///< of calibration; 0: robot files
 };
 
-/// Headline i: shots on target per opportunity, arm i + 1 minus arm i. There is one less than there are arms.
-Effect headline(const std::vector<ArmTally>& arms, std::size_t i);
+/// Headline i: shots on target per opportunity, or goals, arm i + 1 minus arm i. There is one less than there are arms.
+Effect headline(const std::vector<ArmTally>& arms, std::size_t i, Measure measure = Measure::kPerOpportunity);
 
 /// Headline i at an end minus headline i of the scenario, on the same opportunities.
 Effect change(const SensitivityReport& report, const PlayedEnd& end, std::size_t i);

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <concepts>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
+#include "config/settings_fields.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::cli {
 namespace {
+
+const std::string kSection = "policy.";
 
 constexpr UncertainInput kInputs[] = {
     {"ball.drag_coefficient", 0.20, 0.35, "spread of published footballs below 12 m/s"},
@@ -62,6 +67,25 @@ constexpr UncertainInput kInputs[] = {
     {"opponent.further_median_m", 2.5, 6.0, "matters with more than one"},
     {"opponent.body_radius_m", 0.2, 0.3, "a narrow one; two at once"},
     {"opponent.body_height_m", 0.4, 0.8, "half; the rules' limit"},
+    {"keeper.reaction_s", 0.15, 0.5, "sense to act alone (CAMBADA, 140 ms); twice"},
+    {"keeper.sight_sd_mps", 0.2, 1.5, "0.04 m a picture; three times"},
+    {"keeper.speed_mps", 1.0, 3.0, "half, one and a half"},
+    {"keeper.acceleration_mps2", 2.0, 6.0, "half, one and a third"},
+    {"keeper.half_width_m", 0.2, 0.3, "a narrow one; the frame always out"},
+    {"keeper.height_m", 0.5, 0.9, "low; the frame always out"},
+    {"keeper.overlap_m", 0.0, 0.11, "a touch; half the ball"},
+    {"keeper.side_extension_m", 0.0, 0.3, "none; a wide one"},
+    {"keeper.up_extension_m", 0.0, 0.2, "none; twice"},
+    {"keeper.extension_s", 0.05, 0.3, "half, three times"},
+    {"defenders.line_distance_m", 0.75, 2.25, "edge of the goal area, of the penalty area"},
+    {"defenders.spread_sd_m", 0.25, 1.0, "half, twice"},
+    {"defenders.reaction_s", 0.15, 0.5, "as the keeper's"},
+    {"defenders.sight_sd_mps", 0.2, 1.5, "as the keeper's"},
+    {"defenders.speed_mps", 1.0, 3.0, "half, one and a half"},
+    {"defenders.acceleration_mps2", 2.0, 6.0, "half, one and a third"},
+    {"defenders.half_width_m", 0.2, 0.3, "a narrow one; a wide one"},
+    {"defenders.height_m", 0.4, 0.8, "half; the rules' limit"},
+    {"defenders.overlap_m", 0.0, 0.11, "a touch; half the ball"},
     {"referee.stops_per_min", 0.0, 3.0, "none; six times"},
     {"odometry.wheel_sd_radps", 0.2, 1.8, "a third, three times"},
     {"odometry.slip_sd_ratio", 0.0, 0.06, "none; three times"},
@@ -82,63 +106,161 @@ constexpr UncertainInput kInputs[] = {
     {"vision.opponent_range_m", 3.0, 9.0, "half, one and a half"},
     {"flight_camera.position_sd_m", 0.01, 0.10, "a third, three times: what is observed, not what is kicked"},
     {"flight_camera.latency_s", 0.02, 0.1, "half, two and a half times"},
+    {"flight_camera.period_s", 0.02, 0.1, "each cycle; ten frames a second"},
     {"flight_camera.dropout_ratio", 0.0, 0.2, "none; every fifth frame"},
+    {"hand_table.eye_height_sd_m", 0.05, 0.30, "a third, twice: arms with the old table alone"},
+    {"hand_table.day_sd_ratio", 0.0, 0.06, "the same day; half as much again"},
+    {"hand_table.kicks_per_distance", 1.0, 10.0, "one; an afternoon of them"},
+    {"hand_table.target_height_m", 0.4, 0.8, "low; nearly at the bar"},
 };
 
-/// Finds one number of a scenario by its key, reads it and may set it.
+/// Settings of the policies: what the comparison of policies rests on beside the world. Laws by their place.
+constexpr UncertainInput kSettings[] = {
+    {"policy.height_law", 0, 2, "the paper's range law; the crossing of the target"},
+    {"policy.motion_law", 0, 1, "the paper's V0 - k v cos(theta); velocities added at the release"},
+    {"policy.alpha_law", 0, 1, "the paper's line; velocities added"},
+    {"policy.target_height_m", 0.3, 0.8, "low; nearly at the bar; the paper's height law has none"},
+    {"policy.alignment.half_width_m", 0.1, 1.0, "the paper's w; the whole goal"},
+    {"policy.alignment.extension", 0, 1, "max(w, d tan beta); w + d tan beta"},
+    {"policy.aim_tolerance_deg", 0.5, 8.0, "finer than the compass; half the goal from 7 m"},
+    {"policy.settle_s", 0.0, 0.4, "none; longer than the Falcons'"},
+    {"policy.rest_speed_mps", 0.1, 0.3, "two standard deviations of odometry; twice the assumed one"},
+    {"policy.rest_turn_rate_radps", 0.1, 0.5, "two standard deviations of odometry; thrice the assumed one"},
+    {"policy.stopped_turn_gain_hz", 3.0, 16.0, "half; nearly three times"},
+    {"policy.moving_turn_gain_hz", 6.0, 40.0, "half; three times"},
+    {"policy.dribble_mps", 0.0, 2.2, "stands where it gained the ball; the limit with the ball"},
+    {"policy.keep_off_m", 1.5, 4.0, "near; far"},
+    {"policy.predictive.threshold", 0.0, 0.6, "none; careful"},
+    {"policy.predictive.horizon_s", 0.4, 2.0, "a third; nearly twice"},
+    {"policy.predictive.step_s", 0.02, 0.1, "every cycle; every fifth"},
+    {"policy.predictive.bounce_ratio", 0.5, 1.0, "every second bounces over; all go in"},
+    {"policy.predictive.position_sd_m", 0.05, 0.25, "half; twice the published noise"},
+    {"policy.predictive.heading_sd_deg", 0.2, 2.0, "a quarter; two and a half times"},
+    {"policy.predictive.speed_sd_mps", 0.0, 0.2, "none; four times"},
+    {"policy.predictive.turn_rate_sd_radps", 0.0, 0.2, "none; four times"},
+    {"policy.predictive.twist_lag_s", 0.0, 0.06, "none; three times"},
+    {"policy.predictive.dispute_distance_m", 0.3, 0.8, "the bodies overlap; an arm's length"},
+    {"policy.predictive.closing_mps", 0.3, 2.0, "the log of 2016; half as fast again"},
+    {"policy.predictive.closing_sd_mps", 0.2, 1.0, "a third; twice"},
+    {"policy.predictive.closing_walk_mps2", 0.1, 1.5, "a fifth; three times"},
+    {"policy.predictive.opponent_sd_m", 0.05, 0.4, "a third; three times"},
+    {"policy.predictive.opponent_lag_s", 0.0, 0.12, "none; twice"},
+    {"policy.predictive.hazard_per_s", 0.02, 0.5, "a fifth; five times"},
+    {"policy.predictive.opponent_radius_m", 0.2, 0.3, "a narrow one; two at once"},
+    {"policy.predictive.opponent_height_m", 0.4, 0.8, "half; the rules' limit"},
+};
+
+/// Finds one number or law by its key, reads it and may set it.
 struct Finder {
   std::string_view key;
   std::optional<double> set;
   std::string section{};
   std::optional<double> found{};
+  std::string label{};  // of a law
 
   bool is(std::string_view name) const {
     return key.size() == section.size() + name.size() && key.starts_with(section) && key.ends_with(name);
   }
-  void operator()(std::string_view name, double& value, sim::Range) {
-    if (!is(name)) return;
-    found = value;
-    if (set) value = *set;
+
+  template <class T, class... Limits>
+  void operator()(std::string_view name, T&& field, const Limits&... limits) {
+    using Field = std::remove_cvref_t<T>;
+    if constexpr (std::same_as<Field, double>) {
+      if (is(name)) number(field, field, 1.0, limits...);
+    } else if constexpr (config::AngleField<Field>) {
+      if (is(name)) number(field.rad, kicking::degrees(field.rad), kicking::radians(1.0), limits...);
+    } else if constexpr (config::NamedEnum<Field>) {
+      if (is(name)) law(field);
+    } else if constexpr (config::Section<Field>) {
+      const std::string outer = section;
+      section += std::string{name} + '.';
+      fields(*this, field);
+      section = outer;
+    }
   }
-  void operator()(std::string_view name, sim::Degrees angle, sim::Range) {
-    if (!is(name)) return;
-    found = kicking::degrees(angle.rad);
-    if (set) angle.rad = kicking::radians(*set);
+
+  /// `shown` is the field in the unit of its key, which is `unit` of the field's.
+  void number(double& field, double shown, double unit, const auto&... limits) {
+    found = shown;
+    if (!set) return;
+    ((*set < limits.min || *set > limits.max ? refuse() : void()), ...);
+    field = *set * unit;
   }
-  void operator()(std::string_view, std::vector<double>&, sim::Range) {}
-  void operator()(std::string_view, bool&) {}
-  template <class T>
-  void operator()(std::string_view name, T& nested) {
-    const std::string outer = section;
-    section += std::string{name} + '.';
-    fields(*this, nested);
-    section = outer;
+
+  template <class E>
+  void law(E& field) {
+    const auto& entries = config::Names<E>::entries;
+    if (set && (*set < 0.0 || *set > static_cast<double>(entries.size() - 1) || *set != std::floor(*set))) refuse();
+    if (set) field = entries[static_cast<std::size_t>(*set)].second;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i].second != field) continue;
+      found = static_cast<double>(i);
+      label = entries[i].first;
+    }
   }
+
+  void refuse() const { throw std::invalid_argument{fmt::format("{} = {}: beyond its limits", key, *set)}; }
 };
 
-double visit(sim::Scenario& scenario, const std::string& key, std::optional<double> value) {
-  Finder finder{key, value};
-  fields(finder, scenario);
-  if (!finder.found) throw std::invalid_argument{fmt::format("\"{}\" is no number of a scenario", key)};
-  return *finder.found;
+Finder visit(auto& where, const std::string& section, const std::string& key, std::optional<double> value) {
+  Finder finder{key, value, section};
+  fields(finder, where);
+  if (finder.found) return finder;
+  throw std::invalid_argument{
+      fmt::format("\"{}\" is no number of a {}", key, section.empty() ? "scenario" : "policy's settings")};
+}
+
+std::vector<UncertainInput> all_inputs() {
+  std::vector<UncertainInput> all{std::begin(kInputs), std::end(kInputs)};
+  all.insert(all.end(), std::begin(kSettings), std::end(kSettings));
+  return all;
 }
 
 }  // namespace
 
-std::span<const UncertainInput> uncertain_inputs() { return kInputs; }
+std::span<const UncertainInput> uncertain_inputs() {
+  static const std::vector<UncertainInput> kAll = all_inputs();
+  return kAll;
+}
+
+bool is_setting(std::string_view key) { return key.starts_with(kSection); }
+
+bool in_force(const sim::Scenario& scenario, const UncertainInput& input) {
+  const std::string_view key = input.key;
+  if (key.starts_with("keeper.")) return scenario.keeper.enabled;
+  return !key.starts_with("defenders.") || scenario.defenders.count > 0.0;
+}
 
 double value_of(const sim::Scenario& scenario, const std::string& key) {
   sim::Scenario copy = scenario;
-  return visit(copy, key, std::nullopt);
+  return *visit(copy, "", key, std::nullopt).found;
+}
+
+double value_of(const kicking::PolicyConfig& policy, const std::string& key) {
+  kicking::PolicyConfig copy = policy;
+  return *visit(copy, kSection, key, std::nullopt).found;
 }
 
 sim::Scenario with(const sim::Scenario& scenario, const std::string& key, double value) {
   sim::Scenario changed = scenario;
-  visit(changed, key, value);
+  visit(changed, "", key, value);
   if (const auto problem = sim::first_problem(changed)) {
     throw std::invalid_argument{fmt::format("{} = {}: {}: {}", key, value, problem->key, problem->why)};
   }
   return changed;
+}
+
+kicking::PolicyConfig with(const kicking::PolicyConfig& policy, const std::string& key, double value) {
+  kicking::PolicyConfig changed = policy;
+  visit(changed, kSection, key, value);
+  return changed;
+}
+
+std::string value_text(const std::string& key, double value) {
+  if (!is_setting(key)) return fmt::format("{:g}", value);
+  kicking::PolicyConfig any;
+  const std::string law = visit(any, kSection, key, value).label;
+  return law.empty() ? fmt::format("{:g}", value) : law;
 }
 
 }  // namespace trivela::cli

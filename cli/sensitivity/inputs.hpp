@@ -2,14 +2,17 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
+#include "kicking/policy/policy_config.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::cli {
 
-/// An input of the world that nobody measured, or few did, and how far it may be off. Values in the unit of its key.
+/// An input of the world that nobody measured, or few did, or a setting of the policies that somebody chose, and how
+/// far it may be off. Values in the unit of its key; a law's is its place among those that the key may name, from 0.
 struct UncertainInput {
-  const char* key;  ///< as in a scenario file: "kicker.delay_s"
+  const char* key;  ///< as in a scenario file, "kicker.delay_s", or in default.toml, "policy.settle_s"
   double low;
   double high;
   const char* why;  ///< these two
@@ -17,11 +20,22 @@ struct UncertainInput {
 
 std::span<const UncertainInput> uncertain_inputs();
 
-/// The value of `key` in the unit of its name. @throws std::invalid_argument for a key that is no number of a scenario.
-double value_of(const sim::Scenario& scenario, const std::string& key);
+/// Whether it can change anything: a keeper's where there is one, defenders' where there are some, all others always.
+bool in_force(const sim::Scenario& scenario, const UncertainInput& input);
 
-/// The scenario with another value there. @throws std::invalid_argument as value_of(), and for a scenario that
-/// sim::first_problem() then refuses.
+/// Is it a setting of the policies?
+bool is_setting(std::string_view key);
+
+/// The value of `key` in the unit of its name. @throws std::invalid_argument for a key that is no number there.
+double value_of(const sim::Scenario& scenario, const std::string& key);
+double value_of(const kicking::PolicyConfig& policy, const std::string& key);
+
+/// The scenario, or the settings, with another value there. @throws std::invalid_argument as value_of(), and for a
+/// value that is refused there.
 sim::Scenario with(const sim::Scenario& scenario, const std::string& key, double value);
+kicking::PolicyConfig with(const kicking::PolicyConfig& policy, const std::string& key, double value);
+
+/// The value for people: a law by its name.
+std::string value_text(const std::string& key, double value);
 
 }  // namespace trivela::cli

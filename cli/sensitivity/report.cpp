@@ -4,6 +4,7 @@
 
 #include "cli/factorial/effect_json.hpp"
 #include "cli/factorial/effect_text.hpp"
+#include "cli/simulate/interval_words.hpp"
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 
@@ -16,8 +17,18 @@ std::string headline_name(const SensitivityReport& report, std::size_t i) {
   return fmt::format("{} - {}", report.arms[i + 1], report.arms[i]);
 }
 
-std::string efficiency(const ArmTally& arm) {
+bool goals(const SensitivityReport& report) { return report.measure == Measure::kGoals; }
+
+/// The value that the ends stand instead of; a scenario's angles have more digits than anybody wrote.
+std::string shown(const PlayedInput& input) {
+  return is_setting(input.input.key) ? value_text(input.input.key, input.value) : fmt::format("{:.3g}", input.value);
+}
+
+/// Of the columns by arm: efficiency, or goals of opportunities, in per cent.
+std::string share_of_arm(const SensitivityReport& report, const ArmTally& arm) {
   const MatchTally total = total_of(arm);
+  if (goals(report))
+    return fmt::format("{:.1f}", 100.0 * static_cast<double>(total.goals) / static_cast<double>(total.opportunities));
   if (total.kicks == 0) return "-";
   return fmt::format("{:.1f}", 100.0 * static_cast<double>(total.on_target) / static_cast<double>(total.kicks));
 }
@@ -29,7 +40,8 @@ Json json_of(const SensitivityReport& report, const std::vector<ArmTally>& arms)
     json.push_back({{"arm", report.arms[i]},
                     {"opportunities", total.opportunities},
                     {"kicks", total.kicks},
-                    {"on_target", total.on_target}});
+                    {"on_target", total.on_target},
+                    {"goals", total.goals}});
   }
   return json;
 }
@@ -40,39 +52,39 @@ std::string to_text(const SensitivityReport& report) {
   std::string text = evaluator::kSimulated;
   text += fmt::format(
       "{} matches of {} opportunities, the same for every arm and value; {}, seed {}. Robots are as they are: none is\n"
-      "calibrated anew for a changed world. Shots on target per 100 opportunities, 95 % intervals by match.\n\n",
-      report.matches, report.possessions, report.scenario, report.seed);
+      "calibrated anew for a changed world. {} per 100 opportunities, {}.\n\n",
+      report.matches, report.possessions, report.scenario, report.seed,
+      goals(report) ? "Goals past the keeper (the simulator's truth)" : "Shots on target",
+      interval_words(report.evenings));
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i)
-    text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i)));
+    text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i, report.measure)));
   std::vector<std::vector<std::string>> rows{{"input", "value", "instead of"}};
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) rows[0].push_back("change of " + headline_name(report, i));
-  for (const std::string& arm : report.arms) rows[0].push_back(arm + " [% of kicks]");
+  for (const std::string& arm : report.arms)
+    rows[0].push_back(arm + (goals(report) ? " [goals/opp., %]" : " [% of kicks]"));
   for (const PlayedInput& input : report.inputs) {
     for (const PlayedEnd& end : input.ends) {
-      std::vector<std::string> row{input.input.key, fmt::format("{:g}", end.value), fmt::format("{:.3g}", input.value)};
+      std::vector<std::string> row{input.input.key, value_text(input.input.key, end.value), shown(input)};
       for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) row.push_back(points_text(change(report, end, i)));
-      for (const ArmTally& arm : end.arms) row.push_back(efficiency(arm));
+      for (const ArmTally& arm : end.arms) row.push_back(share_of_arm(report, arm));
       rows.push_back(std::move(row));
     }
   }
   std::vector<std::string> base{"(the scenario)", "", ""};
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) base.push_back("");
-  for (const ArmTally& arm : report.base) base.push_back(efficiency(arm));
+  for (const ArmTally& arm : report.base) base.push_back(share_of_arm(report, arm));
   rows.push_back(std::move(base));
   return text + "\n" + evaluator::text_table(rows);
 }
 
 nlohmann::ordered_json to_json(const SensitivityReport& report) {
-  Json json{{"simulated", true},
-            {"scenario", report.scenario},
-            {"seed", report.seed},
-            {"matches", report.matches},
-            {"possessions", report.possessions},
-            {"arms", json_of(report, report.base)},
-            {"headlines", Json::array()},
-            {"inputs", Json::array()}};
+  Json json{{"simulated", true},           {"scenario", report.scenario},
+            {"seed", report.seed},         {"measure", goals(report) ? "goals" : "on_target"},
+            {"matches", report.matches},   {"possessions", report.possessions},
+            {"evenings", report.evenings}, {"arms", json_of(report, report.base)},
+            {"headlines", Json::array()},  {"inputs", Json::array()}};
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i) {
-    Json line = json_of(headline(report.base, i));
+    Json line = json_of(headline(report.base, i, report.measure));
     line["headline"] = headline_name(report, i);
     json["headlines"].push_back(std::move(line));
   }
@@ -109,7 +121,8 @@ std::string to_csv(const SensitivityReport& report) {
   };
   rows("", "", report.base, nullptr);
   for (const PlayedInput& input : report.inputs) {
-    for (const PlayedEnd& end : input.ends) rows(input.input.key, fmt::format("{:g}", end.value), end.arms, &end);
+    for (const PlayedEnd& end : input.ends)
+      rows(input.input.key, value_text(input.input.key, end.value), end.arms, &end);
   }
   return csv;
 }

@@ -91,7 +91,10 @@ std::string to_svg(const SensitivityReport& report) {
       "<title>Sensitivity</title>\n<style>\n{2}polyline.bar{{stroke-width:8}}\npolyline.whisker{{stroke-width:1.2}}\n"
       "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
       width, bottom + kBottom, evaluator::svg_style());
-  svg += text(0.5 * width, 28.0, "middle", "Change of the difference in shots on target, points of 100 opportunities",
+  svg += text(0.5 * width, 28.0, "middle",
+              report.measure == Measure::kGoals
+                  ? "Change of the difference in goals, points of 100 opportunities"
+                  : "Change of the difference in shots on target, points of 100 opportunities",
               " class=\"title\"");
   svg += text(0.5 * width, 46.0, "middle", evaluator::kSimulatedFigure);
   svg += line("bar c0", 20.0, 54.0, 50.0, 54.0) + text(58.0, 59.0, "start", "low") +

@@ -76,7 +76,7 @@ void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, cons
   }
   if (policy == kicking::PolicyName::kLearned && !settings.policy.learned) {
     throw UsageError{
-        fmt::format("{}: the policy learned needs a model: --set kick_decision.learned_model=FILE", arm.place)};
+        fmt::format("{}: the policy learned needs a model: --set 'kick_decision.learned_model=\"FILE\"'", arm.place)};
   }
 }
 
@@ -107,8 +107,9 @@ nodes::Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
   arm.name = fields.name;
   arm.policy = fields.policy;
   arm.table = fields.table;
-  arm.settings = arm_settings(fields, base.config, base.overrides);
+  arm.settings = arm_settings(fields, fields.config.empty() ? base.config : fields.config, base.overrides);
   arm.robots = load_robots(fields, base);
+  arm.own_robots = !fields.robots.empty();
   for (std::size_t i = 0; i < fields.random.size(); ++i) {
     const double alike = 1.0 / static_cast<double>(fields.random.size());
     arm.random.push_back(

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <thread>
 
+#include "cli/factorial/effects.hpp"
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/simulate/arms.hpp"
@@ -17,6 +18,7 @@
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/simulated.hpp"
+#include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/record_match.hpp"
 #include "nodes/recorder/session_text.hpp"
 
@@ -42,12 +44,13 @@ double processor_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<Played> play_all(const ExperimentPlan& plan, std::uint32_t match_id) {
-  std::vector<Played> played(plan.arms.size());
-  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& evenings, std::uint32_t match_id) {
+  const std::vector<nodes::Arm>& arms = evenings.of(match_id);
+  std::vector<Played> played(arms.size());
+  for (std::size_t i = 0; i < arms.size(); ++i) {
     const double before_s = processor_s();
-    const nodes::PlayedMatch match = nodes::play_match(plan.scenario, plan.arms[i], plan.seed, match_id,
-                                                       plan.possessions, plan.options, &played[i].record);
+    const nodes::PlayedMatch match = nodes::play_match(plan.scenario, arms[i], plan.seed, match_id, plan.possessions,
+                                                       plan.options, &played[i].record);
     played[i].processor_s = processor_s() - before_s;
     played[i].seed = match.match_seed;
     played[i].end_t_ns = match.end_t_ns;
@@ -55,29 +58,47 @@ std::vector<Played> play_all(const ExperimentPlan& plan, std::uint32_t match_id)
   return played;
 }
 
-/// Sessions of an experiment's arms; what all matches share is made once.
+/// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
+std::vector<evaluator::log::HalfPolicy> policies_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
+  if (const auto policy = nodes::only_policy(plan.scenario, arm)) return {{1, kicking::name(*policy)}};
+  std::vector<evaluator::log::HalfPolicy> policies;
+  const config::KickDecision settings = nodes::settings_of(arm, plan.options).kick_decision;
+  for (std::uint8_t robot_id = 1; robot_id <= nodes::team_size(plan.scenario); ++robot_id) {
+    const nodes::PolicyAssignment assignment{settings, robot_id};
+    if (!assignment.random()) policies.push_back({1, kicking::name(assignment.in_charge(1, 1).policy), robot_id});
+  }
+  return policies;
+}
+
+Session session_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
+  Session session;
+  if (arm.robots.size() == 1 && nodes::team_size(plan.scenario) == 1) session.robot_id = 1;
+  session.simulated = session.simulated_clock = true;
+  session.config_toml = nodes::session_config(nodes::settings_of(arm, plan.options), arm.robots, &plan.scenario);
+  session.software_version = nodes::software_version();
+  session.scenario = plan.scenario_name;
+  session.idl = nodes::idl_text();
+  session.policies = policies_of(plan, arm);
+  session.arm = arm.name;
+  session.kicker_table = arm.table;
+  return session;
+}
+
+/// Sessions of an experiment's arms; what all matches of an evening share is made once.
 class Sessions {
  public:
-  Sessions(const ExperimentPlan& plan, const std::string& arguments)
-      : arguments_sha256_(evaluator::log::sha256(arguments)) {
-    for (const nodes::Arm& arm : plan.arms) {
-      Session session;
-      if (arm.robots.size() == 1 && nodes::team_size(plan.scenario) == 1) session.robot_id = 1;
-      session.simulated = session.simulated_clock = true;
-      session.config_toml = nodes::session_config(nodes::settings_of(arm, plan.options), arm.robots, &plan.scenario);
-      session.software_version = nodes::software_version();
-      session.scenario = plan.scenario_name;
-      session.idl = nodes::idl_text();
-      if (const auto policy = nodes::only_policy(plan.scenario, arm))
-        session.policies.push_back({1, kicking::name(*policy)});
-      session.arm = arm.name;
-      session.kicker_table = arm.table;
-      arms_.push_back(std::move(session));
+  Sessions(const ExperimentPlan& plan, const EveningArms& evenings, const std::string& arguments)
+      : arguments_sha256_(evaluator::log::sha256(arguments)), sessions_(evenings.evenings()) {
+    for (std::uint32_t k = 0; k < evenings.evenings(); ++k) {
+      for (const nodes::Arm& arm : evenings.of(k)) {
+        sessions_[k].push_back(session_of(plan, arm));
+        if (!plan.evenings.empty()) sessions_[k].back().calibration_id = k;
+      }
     }
   }
 
   const Session& of(std::uint32_t match_id, std::size_t arm, std::uint64_t match_seed) {
-    Session& session = arms_[arm];
+    Session& session = sessions_[match_id % sessions_.size()][arm];
     session.uuid = evaluator::log::experiment_uuid(arguments_sha256_, match_id, static_cast<std::uint32_t>(arm));
     session.match_id = match_id;
     session.seed = static_cast<std::int64_t>(match_seed);
@@ -86,20 +107,22 @@ class Sessions {
 
  private:
   std::string arguments_sha256_;
-  std::vector<Session> arms_;
+  std::vector<std::vector<Session>> sessions_;  // by evening and arm
 };
 
 /// Threads that play matches, and write them in order, until none is left.
 class Workers {
  public:
   /// Throws std::runtime_error where so many threads cannot be started.
-  Workers(const ExperimentPlan& plan, MatchQueue<std::vector<Played>>& queue, unsigned jobs, auto write)
+  Workers(const ExperimentPlan& plan, const EveningArms& evenings, MatchQueue<std::vector<Played>>& queue,
+          unsigned jobs, auto write)
       : queue_(queue) {
     try {
       for (unsigned i = 0; i < jobs; ++i) {
-        threads_.emplace_back([&plan, &queue, write] {
+        threads_.emplace_back([&plan, &evenings, &queue, write] {
           try {
-            while (const auto match_id = queue.next()) queue.done(*match_id, play_all(plan, *match_id), write);
+            while (const auto match_id = queue.next())
+              queue.done(*match_id, play_all(plan, evenings, *match_id), write);
           } catch (...) {
             queue.fail(std::current_exception());
           }
@@ -127,43 +150,57 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-struct ArmSum {
-  std::int64_t opportunities = 0;
-  std::int64_t kicks = 0;
-  std::int64_t on_target = 0;
-};
-
-std::map<std::string, ArmSum> sums(const std::string& out) {
-  std::map<std::string, ArmSum> arms;
+/// What the arms did in each match.
+std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std::string& out) {
+  std::map<std::string, ArmTally> arms;
+  const EveningArms evenings{{}, plan.evenings};
+  for (const nodes::Arm& arm : plan.arms) {
+    for (std::uint32_t m = 0; m < plan.matches; ++m) arms[arm.name].push_back({.calibration = evenings.evening_of(m)});
+  }
   const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
-  const auto count = [&](const std::string& rows, std::int64_t ArmSum::*field) {
-    reader.query("SELECT arm, count(*) FROM sessions JOIN " + rows + " GROUP BY arm",
-                 [&](auto row) { arms[std::get<std::string>(row[0])].*field = std::get<std::int64_t>(row[1]); });
+  const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
+    reader.query("SELECT arm, match_id, count(*) FROM sessions JOIN " + rows + " GROUP BY arm, match_id",
+                 [&](auto row) {
+                   const auto match = static_cast<std::size_t>(std::get<std::int64_t>(row[1]));
+                   arms.at(std::get<std::string>(row[0])).at(match).*field = std::get<std::int64_t>(row[2]);
+                 });
   };
-  count("possession_truths USING (session_id)", &ArmSum::opportunities);
-  count("kick_receipts USING (session_id) WHERE accepted = 1", &ArmSum::kicks);
-  count("kick_outcomes USING (session_id) WHERE on_target = 1", &ArmSum::on_target);
+  count("possession_truths USING (session_id)", &MatchTally::opportunities);
+  count("kick_receipts USING (session_id) WHERE accepted = 1", &MatchTally::kicks);
+  count("kick_outcomes USING (session_id) WHERE on_target = 1", &MatchTally::on_target);
+  count("kick_truths USING (session_id) WHERE outcome = 'on_target' AND saved = 0", &MatchTally::goals);
   return arms;
 }
 
 void print_arms(const ExperimentPlan& plan, const std::string& out, const std::vector<double>& processor_s,
                 std::int64_t matches) {
-  const auto arms = sums(out);
+  const auto arms = tallies_of(plan, out);
   std::size_t width = 3;
   for (const nodes::Arm& arm : plan.arms) width = std::max(width, arm.name.size());
+  const bool keeper = plan.scenario.keeper.enabled;
   fmt::print("{}", evaluator::kSimulated);
-  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>26}\n", "arm", width, "opportunities", "kicks", "on target",
-             "on target/opportunity", "opportunities/s and core");
+  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>16}{}  {:>26}\n", "arm", width, "opportunities", "kicks",
+             "on target", "on target/opportunity", "95 %", keeper ? "  goals/opportunity" : "",
+             "opportunities/s and core");
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {
-    const auto found = arms.find(plan.arms[i].name);
-    const ArmSum sum = found == arms.end() ? ArmSum{} : found->second;
+    const ArmTally& tally = arms.at(plan.arms[i].name);
+    const MatchTally sum = total_of(tally);
+    const Effect share = share_of(tally, Measure::kPerOpportunity);
     const double played = static_cast<double>(matches) * plan.possessions;
-    fmt::print(
-        "{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>26}\n", plan.arms[i].name, width, sum.opportunities, sum.kicks,
-        sum.on_target,
-        sum.opportunities > 0 ? static_cast<double>(sum.on_target) / static_cast<double>(sum.opportunities) : 0.0,
-        processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
+    const double goals = sum.opportunities > 0 ? share_of(tally, Measure::kGoals).value : 0.0;
+    fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>16}{}  {:>26}\n", plan.arms[i].name, width,
+               sum.opportunities, sum.kicks, sum.on_target, sum.opportunities > 0 ? share.value : 0.0,
+               has_interval(share) ? fmt::format("{:.4f} to {:.4f}", share.ci.lo, share.ci.hi) : "-",
+               keeper ? fmt::format("  {:>17.4f}", goals) : "",
+               processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
   }
+  if (plan.evenings.empty()) {
+    fmt::print("intervals by match: for these robot files, not for other evenings of calibration (--calibrations)\n");
+  } else {
+    fmt::print("intervals by match and evening: {} evenings of calibration, match m has evening m mod {}\n",
+               plan.evenings.size(), plan.evenings.size());
+  }
+  if (keeper) fmt::print("goals: by the simulator's truth, on target and past its keeper\n");
 }
 
 }  // namespace
@@ -173,6 +210,10 @@ std::string ExperimentPlan::arguments() const {
                                  nodes::software_version(), seed, possessions, options.shadows, options.every_cycle);
   text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
   for (const nodes::Arm& arm : arms) text += "\n### arm\n" + describe(arm);
+  for (std::size_t k = 0; k < evenings.size(); ++k) {
+    text += fmt::format("\n### evening {} of calibration\n", k);
+    for (const config::Robot& robot : evenings[k]) text += config::to_toml_text(robot);
+  }
   return text;
 }
 
@@ -180,9 +221,11 @@ void check_playable(const ExperimentPlan& plan) {
   if (plan.arms.size() > evaluator::log::kMostArms)
     throw UsageError{
         fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), evaluator::log::kMostArms)};
-  for (const nodes::Arm& arm : plan.arms) {
-    nodes::check_playable(plan.scenario, arm, plan.possessions);
+  const EveningArms evenings{plan.arms, plan.evenings};
+  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+    nodes::check_playable(plan.scenario, plan.arms[i], plan.possessions);
     for (std::uint32_t match_id = 0; match_id < std::min(plan.matches, kTriedMatches); ++match_id) {
+      const nodes::Arm& arm = evenings.of(match_id)[i];
       for (std::uint8_t robot_id = 1; robot_id <= nodes::team_size(plan.scenario); ++robot_id) {
         try {
           nodes::robot_of(plan.scenario, arm, plan.seed, match_id, robot_id);
@@ -200,7 +243,8 @@ int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string&
   const std::string arguments = plan.arguments();
   ExperimentLog log{out, {arguments, plan.matches}};
   nodes::MatchTables tables{log};
-  Sessions sessions{plan, arguments};
+  const EveningArms evenings{plan.arms, plan.evenings};
+  Sessions sessions{plan, evenings, arguments};
   const auto first = static_cast<std::uint32_t>(log.matches_done());
   if (first > 0) fmt::print("{} of {} matches are in {} already\n", first, plan.matches, out);
   std::vector<double> processor_s(plan.arms.size());
@@ -217,7 +261,7 @@ int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string&
   };
   {
     MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
-    const Workers workers{plan, queue, jobs, write};
+    const Workers workers{plan, evenings, queue, jobs, write};
     ProgressBar bar;
     std::uint32_t done = first;
     while (done < plan.matches && !(interrupted = signals.stop_requested())) {

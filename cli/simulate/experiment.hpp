@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/simulate/evening_arms.hpp"
 #include "nodes/in_process/play_match.hpp"
 
 namespace trivela::cli {
@@ -17,6 +18,7 @@ struct ExperimentPlan {
   std::uint32_t matches = 1;
   std::uint32_t possessions = 60;
   nodes::PlayOptions options;
+  std::vector<Team> evenings;  ///< of calibration; match m is played with evening m mod their number; empty: none
 
   /// Everything that the rows depend on, as text.
   std::string arguments() const;

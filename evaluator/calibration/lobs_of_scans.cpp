@@ -12,12 +12,12 @@ constexpr std::int64_t kSameLaunch_ns = 500'000'000;  // no kicker charges twice
 
 void annotate(kicking::lob::LobRecord& lob, std::span<const log::TestedSetPoint> set_points,
               std::span<const log::Verdict> verdicts) {
-  std::int64_t latest_t_ns = 0;
+  const log::TestedSetPoint* latest = nullptr;
   for (const log::TestedSetPoint& tested : set_points) {
-    if (tested.t_ns > lob.launch_t_ns || (lob.power && tested.t_ns < latest_t_ns)) continue;
-    lob.power = tested.power;
-    latest_t_ns = tested.t_ns;
+    if (tested.t_ns > lob.launch_t_ns || (latest != nullptr && tested.t_ns < latest->t_ns)) continue;
+    latest = &tested;
   }
+  if (latest != nullptr) lob.power = latest->power;
   const log::Verdict* last = nullptr;
   for (const log::Verdict& verdict : verdicts) {
     if (std::abs(verdict.launch_t_ns - lob.launch_t_ns) <= kSameLaunch_ns) last = &verdict;

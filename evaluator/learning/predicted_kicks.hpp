@@ -28,9 +28,7 @@ struct PredictedKicks {
   std::vector<std::string> remarks;
 };
 
-/// Reads the predicted kicks of match logs. A session counts once, in however many of the logs it stands. Sessions of
-/// one scenario and seed are one match, whatever log they are in and whatever else they were played with; so are
-/// recordings of robots whose times overlap. A simulated session without seed and match_id is a match of its own.
+/// Reads the predicted kicks of match logs, each kick once, with its match, as SessionBook says.
 /// @throws std::runtime_error as log::Reader does, and for a log of a version that had no predictions.
 PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source);
 

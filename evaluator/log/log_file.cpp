@@ -60,7 +60,11 @@ LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
       has_wal_(fs::exists(path_ + "-wal")),
       whole_(check == Check::kWhole),
       budget_(std::make_unique<Budget>()) {
-  if (!fs::is_regular_file(path)) throw std::runtime_error(fmt::format("there is no {} {}", kind.name, path_));
+  if (fs::is_directory(path)) throw std::runtime_error(fmt::format("{} is a folder, no {}", path_, kind.name));
+  if (!fs::is_regular_file(path)) {
+    throw std::runtime_error(fmt::format("there is no {} {}{}", kind.name, path_,
+                                         path.is_relative() ? " (in " + fs::current_path().string() + ")" : ""));
+  }
   whole_ = whole_ || (check == Check::kIfShort && size_of(path_) <= kShort_B);
   try {
     open();

@@ -68,6 +68,24 @@ std::optional<std::string> Reader::doubt() const {
   return std::nullopt;
 }
 
+void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const {
+  SQLite::Database& database = impl_->file.database();
+  SQLite::Statement session(database, "INSERT OR IGNORE INTO temp.left_out_sessions VALUES (?)");
+  for (const std::int64_t session_id : session_ids) {
+    session.bind(1, session_id);
+    session.exec();
+    session.reset();
+  }
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO temp.left_out_kicks VALUES (?, ?, ?)");
+  for (const RecordedKick& kick : kicks) {
+    insert.bind(1, kick.session_id);
+    insert.bind(2, kick.robot_id);
+    insert.bind(3, kick.kick_id);
+    insert.exec();
+    insert.reset();
+  }
+}
+
 void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,

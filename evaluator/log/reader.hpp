@@ -48,6 +48,13 @@ struct Kick {
   std::optional<double> truth_margin_m;  ///< true crossing to the nearest edge of another outcome
 };
 
+/// A kick as a recording has it.
+struct RecordedKick {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::int64_t kick_id = 0;
+};
+
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader {
  public:
@@ -85,6 +92,9 @@ class Reader {
   /// Calls `fn` for each row of a table, ordered by session, robot and seq as far as the table has them.
   /// Throws std::runtime_error naming a table or column that does not exist.
   void for_each_row(std::string_view table, const std::vector<std::string>& columns, const RowFunction& fn) const;
+
+  /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
+  void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const;
 
   /// Calls `fn` for each row of a query. Throws std::runtime_error where the query fails or would write.
   void query(std::string_view sql, const RowFunction& fn) const;

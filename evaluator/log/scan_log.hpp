@@ -28,8 +28,8 @@ struct ScanSession {
 /// From t_ns on kicks are of this set-point.
 struct TestedSetPoint {
   std::int64_t t_ns = 0;
-  double power = 0.0;
-  std::int64_t kick_id = 0;  ///< 0: entered by hand
+  std::optional<double> power{};  ///< none: of no set-point any more; 0 in the record
+  std::int64_t kick_id = 0;       ///< 0: entered by hand
 };
 
 /// What a human said of the lob launched at launch_t_ns; the last word counts.

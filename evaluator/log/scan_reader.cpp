@@ -143,7 +143,7 @@ std::vector<TestedSetPoint> ScanReader::set_points() const {
     Cells cells(row);
     TestedSetPoint& tested = set_points.emplace_back();
     tested.t_ns = cells.integer();
-    tested.power = cells.number();
+    if (const double power = cells.number(); power != 0.0) tested.power = power;
     tested.kick_id = cells.integer();
   });
   return set_points;

@@ -40,7 +40,7 @@ CREATE TABLE set_points (                  -- the power of the kicks from t_ns o
   session_id INTEGER NOT NULL,             -- sessions.session_id
   seq INTEGER NOT NULL,                    -- counts them, from 0
   t_ns INTEGER NOT NULL,                   -- kicks launched from then on
-  power REAL NOT NULL,                     -- set-point of the robot's own table
+  power REAL NOT NULL,                     -- set-point of the robot's own table; 0: of none, as after a plan's end
   kick_id INTEGER NOT NULL,                -- of the order; 0: entered by hand
   PRIMARY KEY (session_id, seq)
 ) STRICT, WITHOUT ROWID;

@@ -79,7 +79,8 @@ bool ScanWriter::push(const kicking::lob::Scan& scan) {
 
 void ScanWriter::set_point(const TestedSetPoint& tested) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->writer.push(impl_->set_points, {impl_->next_set_point++, tested.t_ns, tested.power, tested.kick_id});
+  impl_->writer.push(impl_->set_points,
+                     {impl_->next_set_point++, tested.t_ns, tested.power.value_or(0.0), tested.kick_id});
 }
 
 void ScanWriter::verdict(const Verdict& verdict) {

@@ -37,6 +37,18 @@ std::string own_kicks(std::string_view schema, const std::string& name) {
   return fmt::format("CREATE TEMP VIEW {} AS{}", name, std::regex_replace(body, table, "$1 main.$2"));
 }
 
+/// Of what is left out nothing yet.
+constexpr const char* kCountedKicks = R"(
+CREATE TEMP TABLE left_out_sessions (session_id INTEGER NOT NULL PRIMARY KEY) STRICT;
+CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER NOT NULL, kick_id INTEGER NOT NULL,
+  PRIMARY KEY (session_id, robot_id, kick_id)) STRICT, WITHOUT ROWID;
+CREATE TEMP VIEW counted_kicks AS
+SELECT k.* FROM temp.kicks AS k
+WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
+  AND NOT EXISTS (SELECT 1 FROM left_out_kicks AS l
+    WHERE l.session_id = k.session_id AND l.robot_id = k.robot_id AND l.kick_id = k.kick_id);
+)";
+
 }  // namespace
 
 std::string_view schema_of(const LogKind& kind, int version) {
@@ -58,6 +70,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version == 1) database.exec(kVersion1Sql);
   if (version == 2) database.exec(kVersion2Sql);
   if (version == 3) database.exec(kVersion3Sql);
+  database.exec(kCountedKicks);
 }
 
 void create_tables(SQLite::Database& database) {

@@ -31,7 +31,8 @@ struct Column {
 std::string_view schema_of(const LogKind& kind, int version);
 
 /// Views of this connection through which a match log of any version is read as one of kMatchLog.version. Views of the
-/// file are never used. Throws SQLite::Exception.
+/// file are never used. View counted_kicks is kicks without what the connection's tables left_out_sessions and
+/// left_out_kicks name. Throws SQLite::Exception.
 void create_reading_views(SQLite::Database& database, int version);
 
 /// Creates the tables of a match log. Throws SQLite::Exception.

@@ -7,7 +7,8 @@ SELECT 'idl of session ' || session_id, idl FROM main.sessions;
 
 CREATE TEMP VIEW sessions AS
 SELECT s.*, 'idl of session ' || session_id AS idl_sha256, NULL AS arm, NULL AS kicker_table, NULL AS match_id,
-  NULL AS continues_uuid, NULL AS replays_uuid, s.simulated AS paired_halves, NULL AS planned_s, NULL AS calibration_id
+  NULL AS continues_uuid, CASE WHEN s.scenario LIKE 'replay of %' THEN 'not noted' END AS replays_uuid,
+  s.simulated AS paired_halves, NULL AS planned_s, NULL AS calibration_id
 FROM main.sessions AS s;
 
 CREATE TEMP VIEW experiments AS

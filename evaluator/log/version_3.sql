@@ -1,8 +1,8 @@
 -- A match log of version 3 as queries of version 4 know it: views of this connection that stand before its tables.
 -- What version 3 did not have is empty, NULL or what was true then.
 CREATE TEMP VIEW sessions AS
-SELECT s.*, NULL AS replays_uuid, s.simulated AS paired_halves, NULL AS planned_s,
-  NULL AS calibration_id
+SELECT s.*, CASE WHEN s.scenario LIKE 'replay of %' THEN 'not noted' END AS replays_uuid,
+  s.simulated AS paired_halves, NULL AS planned_s, NULL AS calibration_id
 FROM main.sessions AS s;
 
 CREATE TEMP VIEW session_policies AS

@@ -1,6 +1,8 @@
 -- Kicks that the driver did not refuse, in the order of their time.
--- Columns: session_id, robot_id, half, possession_id, policy, outcome, truth_outcome (NULL: not known), distance_m.
-SELECT session_id, robot_id, half, possession_id, policy, outcome, truth_outcome, distance_m
+-- Columns: session_id, robot_id, half, possession_id, policy, outcome, truth_outcome (NULL: not known), distance_m,
+-- observed_p_on_target, bounced, truth_bounced, truth_saved (NULL: not said), kick_id.
+SELECT session_id, robot_id, half, possession_id, policy, outcome, truth_outcome, distance_m, observed_p_on_target,
+  bounced, truth_bounced, truth_saved, kick_id
 FROM kicks
 WHERE accepted IS NOT 0
 ORDER BY session_id, t_ns, robot_id;

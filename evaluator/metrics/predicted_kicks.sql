@@ -3,10 +3,11 @@
 -- corrected: the first decision and the latest outcome count. Unknown outcomes and kicks that the driver did not accept
 -- are left out.
 -- Columns: policy, session_id, robot_id, p_on_target, distance_m, vx_mps, vy_mps, omega_radps, power,
--- opponent_distance_m, on_target.
+-- opponent_distance_m, on_target, kick_id.
 SELECT d.policy, d.session_id, d.robot_id,
   CASE d.policy WHEN 'predictive' THEN d.p_on_target ELSE w.p_on_target END AS p_on_target,
-  d.distance_m, d.vx_mps, d.vy_mps, d.omega_radps, d.power, d.opponent_distance_m, c.outcome = 'on_target' AS on_target
+  d.distance_m, d.vx_mps, d.vy_mps, d.omega_radps, d.power, d.opponent_distance_m, c.outcome = 'on_target' AS on_target,
+  d.kick_id
 FROM kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick

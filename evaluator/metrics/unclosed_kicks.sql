@@ -2,7 +2,7 @@
 -- Columns: session_id, robot_id, kick_id, t_ns, policy, has_order, has_receipt, has_outcome.
 SELECT session_id, robot_id, kick_id, t_ns, policy,
   order_seq IS NOT NULL AS has_order, accepted IS NOT NULL AS has_receipt, outcome IS NOT NULL AS has_outcome
-FROM kicks
+FROM counted_kicks
 WHERE order_seq IS NULL
   OR accepted IS NULL
   OR (accepted = 1 AND outcome IS NULL)

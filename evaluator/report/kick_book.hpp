@@ -15,6 +15,7 @@ enum class Ending : std::uint8_t {
   kInside,   ///< a kick on target: between the posts and below the bar, saves included
   kOutside,  ///< a kick that was not
   kUnknown,  ///< a kick whose outcome nobody knows
+  kBlocked,  ///< a kick that was blocked, where those stand apart; otherwise it is outside
 };
 
 /// How it came that one policy played here and another there; decides what a difference may be called.
@@ -38,6 +39,10 @@ struct Opportunity {
   std::uint32_t setting = 0;  ///< what it was played with apart from what is compared: others make no pair
   Ending ending = Ending::kNoKick;
   std::uint32_t calibration = 0;  ///< number of the evening that the robots were calibrated on; 0 where none is named
+  double doubt = 0.0;             ///< probability that a kick called inside was not, or one called outside was
+  std::optional<bool> bounced{};  ///< it touched the floor before the line, as observed; none: not said
+  std::optional<bool> truth_bounced{};  ///< the same by the simulator's truth
+  bool goal = false;                    ///< by the simulator's truth: on target and past the keeper
 };
 
 /// Everything that a comparison looks at, whether it comes from match logs or a table of kicks.
@@ -56,6 +61,8 @@ struct KickBook {
   std::vector<double> planned_shares;  ///< of the groups, where drawn at random with constant chances; else empty
   bool simulated = false;
   std::string outcome = "observed";  ///< "observed" or "truth"
+  bool keeper = false;               ///< of these matches a keeper saved something: goals are fewer than balls inside
+  bool blocked_apart = false;        ///< blocked kicks stand apart
   std::vector<std::string> remarks;  ///< sentences on what was read
 };
 

@@ -53,15 +53,46 @@ void infer_drawn(KickBook& book, const LoggedOpportunities& logged, const std::v
   if (std::abs(sum - 1.0) < 1e-6) book.planned_shares = shares;
 }
 
-void infer_from_halves(KickBook& book, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows,
-                       const std::string& by) {
-  std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> halves;  // groups by match and half
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Opportunity& o = book.opportunities[i];
-    halves[o.match][logged.rows[rows[i]].half].insert(o.group);
+// Who played when: the groups of each half of a match, and of each robot.
+struct WhoPlayed {
+  std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> by_match_and_half;
+  std::map<int, std::set<std::uint32_t>> by_robot;
+
+  WhoPlayed(const KickBook& book, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Opportunity& o = book.opportunities[i];
+      by_match_and_half[o.match][logged.rows[rows[i]].half].insert(o.group);
+      by_robot[logged.rows[rows[i]].robot_id].insert(o.group);
+    }
   }
+
+  bool always_alone() const {
+    return std::ranges::all_of(by_robot, [](const auto& of) { return of.second.size() == 1; });
+  }
+  bool each_with_all(std::size_t groups) const {
+    return std::ranges::all_of(by_robot, [&](const auto& of) { return of.second.size() == groups; });
+  }
+  bool side_by_side() const {
+    return std::ranges::any_of(by_match_and_half, [](const auto& match) {
+      return std::ranges::any_of(match.second, [](const auto& half) { return half.second.size() > 1; });
+    });
+  }
+};
+
+void infer_from_robots(KickBook& book, const WhoPlayed& who) {
+  if (who.each_with_all(book.groups.size())) {
+    book.design = Design::kAlternating;
+    book.design_reason = "side by side in the same matches, and each robot played with each";
+  } else {
+    book.design_reason =
+        who.always_alone() ? "side by side in the same matches, each robot always with the same: the robots differ, too"
+                           : "side by side in the same matches, but not every robot played with each";
+  }
+}
+
+void infer_from_halves(KickBook& book, const WhoPlayed& who, const std::string& by) {
   std::set<std::uint32_t> first, second;  // groups that had a first half alone, a second one
-  for (const auto& [match, by_half] : halves) {
+  for (const auto& [match, by_half] : who.by_match_and_half) {
     if (by_half.size() < 2 || by_half.begin()->second == by_half.rbegin()->second) continue;
     first.insert(by_half.begin()->second.begin(), by_half.begin()->second.end());
     second.insert(by_half.rbegin()->second.begin(), by_half.rbegin()->second.end());
@@ -69,10 +100,12 @@ void infer_from_halves(KickBook& book, const LoggedOpportunities& logged, const 
   if (!first.empty() && first == second) {
     book.design = Design::kAlternating;
     book.design_reason = "both halves were played with each";
-  } else if (!first.empty()) {
-    book.design_reason = "one after the other in every match, always in the same order of halves";
   } else if (by == "robot") {
     book.design_reason = "robots play side by side but from other places";
+  } else if (who.by_robot.size() > 1 && who.side_by_side()) {
+    infer_from_robots(book, who);
+  } else if (!first.empty()) {
+    book.design_reason = "one after the other in every match, always in the same order of halves";
   } else {
     book.design_reason = "in different matches, or with different settings";
   }
@@ -85,9 +118,38 @@ void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::
   if (drawn) return infer_drawn(book, logged, rows);
   const bool numbered = std::ranges::all_of(
       logged.sessions, [](const ComparedSession& session) { return session.match_id && session.simulated; });
-  if (!numbered || !share_opportunities(book)) return infer_from_halves(book, logged, rows, by);
+  const bool paired_halves = std::ranges::all_of(
+      logged.sessions, [](const ComparedSession& session) { return session.paired_halves || !session.counts; });
+  if (!(numbered || paired_halves) || !share_opportunities(book))
+    return infer_from_halves(book, WhoPlayed(book, logged, rows), by);
   book.design = Design::kPaired;
-  book.design_reason = "the sessions have the same matches by number";
+  book.design_reason =
+      numbered ? "the sessions have the same matches by number" : "the halves of each match have the same possessions";
+}
+
+void keep_first_of_paired_halves(KickBook& book, const LoggedOpportunities& logged, std::vector<std::size_t>& rows) {
+  std::map<std::pair<std::uint32_t, Situation>, int> first_half;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Opportunity& o = book.opportunities[i];
+    const int half = logged.rows[rows[i]].half;
+    const auto place = first_half.try_emplace({o.group, situation_of(o)}, half).first;
+    place->second = std::min(place->second, half);
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Opportunity& o = book.opportunities[i];
+    const LoggedOpportunity& row = logged.rows[rows[i]];
+    const bool again = logged.sessions[row.session].paired_halves && o.id != 0 &&
+                       first_half.at({o.group, situation_of(o)}) != row.half;
+    if (again) continue;
+    book.opportunities[kept] = o;
+    rows[kept++] = rows[i];
+  }
+  if (kept < rows.size())
+    book.remarks.push_back(
+        fmt::format("{} opportunities left out: the same situations in a later half", rows.size() - kept));
+  book.opportunities.resize(kept);
+  rows.resize(kept);
 }
 
 void keep_common_settings(KickBook& book, const std::string& by) {

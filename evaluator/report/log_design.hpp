@@ -14,6 +14,10 @@ namespace trivela::evaluator {
 void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows,
                   const std::string& by, bool drawn);
 
+/// Of a paired book, where halves have the same possessions: of situations that a group had in several halves the
+/// first. `rows` as for infer_design(), which stay in step.
+void keep_first_of_paired_halves(KickBook& book, const LoggedOpportunities& logged, std::vector<std::size_t>& rows);
+
 /// Of a paired book the opportunities whose setting all groups played: what else differs is then the same for all.
 /// Throws std::runtime_error where there is no such setting, or a group has an opportunity twice.
 void keep_common_settings(KickBook& book, const std::string& by);

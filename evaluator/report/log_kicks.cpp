@@ -60,33 +60,43 @@ class Settings {
   explicit Settings(const std::string& by) : by_(by) {}
 
   std::uint32_t of(const ComparedSession& session, const std::string& policy) {
-    if (by_ == "arm" || by_ == "robot") return 0;
-    const Setting setting{by_ == "policy" ? "" : policy, by_ == "table" ? "" : session.table, session.setup.settings};
+    const std::int64_t evening = session.calibration_id.value_or(0);
+    const bool any = by_ == "arm" || by_ == "robot";
+    const Setting setting{by_ == "policy" || any ? "" : policy, by_ == "table" || any ? "" : session.table,
+                          any ? 0 : session.setup.settings, evening};
     return numbers_.try_emplace(setting, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
 
  private:
-  using Setting = std::tuple<std::string, std::string, std::uint32_t>;
+  using Setting = std::tuple<std::string, std::string, std::uint32_t, std::int64_t>;
   std::string by_;
   std::map<Setting, std::uint32_t> numbers_;
 };
 
-// Minutes of the halves whose opportunities are in the book.
+// Minutes of play of the possessions that a group had; the whole session's, where that is what is compared.
 void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::string& by, Settings& settings) {
   std::set<std::uint32_t> kept;  // settings
   for (const Opportunity& o : book.opportunities) kept.insert(o.setting);
   const auto left_out = [&](std::uint32_t setting) {
     return book.design == Design::kPaired && !kept.contains(setting);
   };
-  for (const LoggedHalf& half : logged.halves) {
-    const ComparedSession& session = logged.sessions[half.session];
-    const std::string name = by == "arm"      ? session.arm
-                             : by == "table"  ? session.table
-                             : by == "policy" ? half.policy
-                                              : std::string();
-    const auto group = std::ranges::find(book.groups, name);
-    if (group == book.groups.end() || left_out(settings.of(session, half.policy))) continue;
-    book.minutes[{static_cast<std::uint32_t>(group - book.groups.begin()), session.match}] += half.minutes;
+  for (const PlayedSpan& span : logged.spans) {
+    const ComparedSession& session = logged.sessions[span.session];
+    std::set<std::string> names;
+    const bool of_session = by == "arm" || by == "table";
+    if (of_session && span.had_it.empty()) names.insert(by == "arm" ? session.arm : session.table);
+    for (const PolicyOfRobot& who : span.had_it) {
+      if (left_out(settings.of(session, who.policy))) continue;
+      names.insert(by == "arm"      ? session.arm
+                   : by == "table"  ? session.table
+                   : by == "policy" ? who.policy
+                                    : fmt::format("robot {}", who.robot_id));
+    }
+    for (const std::string& name : names) {
+      const auto group = std::ranges::find(book.groups, name);
+      if (group == book.groups.end()) continue;
+      book.minutes[{static_cast<std::uint32_t>(group - book.groups.begin()), session.match}] += span.minutes;
+    }
   }
 }
 
@@ -115,8 +125,13 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   const auto group_name = *name_by(logged, by);
   KickBook book;
   book.groups = groups_of(logged, by, group_name);
+  if (book.groups.empty() && !logged.rows.empty()) {
+    throw std::runtime_error(fmt::format("--by {0}: no session of these logs names its {0}{1}", by,
+                                         by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
+  }
   book.outcome = options.truth ? "truth" : "observed";
   book.remarks = logged.remarks;
+  book.blocked_apart = options.blocked_apart;
   book.matches = logged.matches;
   book.has_matches = true;
   for (const ComparedSession& session : logged.sessions) book.simulated = book.simulated || session.simulated;
@@ -150,14 +165,20 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     opportunity.group = group->second;
     opportunity.match = logged.sessions[o.session].match;
     if (o.has_possession && o.possession_id != 0) {
-      opportunity.id = static_cast<std::uint64_t>(o.half) << 48 | static_cast<std::uint64_t>(o.possession_id);
+      const std::uint64_t half = logged.sessions[o.session].paired_halves ? 1 : static_cast<std::uint64_t>(o.half);
+      opportunity.id = half << 48 | static_cast<std::uint64_t>(o.possession_id);
     }
     const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
     opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
     opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
-    opportunity.ending = o.ending;
+    opportunity.ending = options.blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
     opportunity.calibration =
         evenings.try_emplace(logged.sessions[o.session].calibration_id, evenings.size()).first->second;
+    if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
+    opportunity.bounced = o.bounced;
+    opportunity.truth_bounced = o.truth_bounced;
+    opportunity.goal = o.goal;
+    book.keeper = book.keeper || o.saved;
     book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());
@@ -170,7 +191,10 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     book.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
   }
   infer_design(book, logged, rows, by, drawn);
-  if (book.design == Design::kPaired) keep_common_settings(book, by);
+  if (book.design == Design::kPaired) {
+    keep_first_of_paired_halves(book, logged, rows);
+    keep_common_settings(book, by);
+  }
   if (!drawn) add_minutes(book, logged, by, settings);
   return book;
 }

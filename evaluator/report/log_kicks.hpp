@@ -15,6 +15,7 @@ struct LogKicks {
   std::string
       stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
   bool truth = false;  ///< outcomes by the simulator's truth; otherwise as observed
+  bool blocked_apart = false;  ///< blocked kicks stand apart; otherwise they are outside
 };
 
 /// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value

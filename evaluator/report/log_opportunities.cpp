@@ -5,13 +5,14 @@
 #include <cmath>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/value.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
-#include "evaluator/metrics/minutes_by_half.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
+#include "evaluator/report/log_minutes.hpp"
 #include "evaluator/report/log_sessions.hpp"
 
 namespace trivela::evaluator {
@@ -25,26 +26,55 @@ Ending ending_of(const std::string& outcome) {
   return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
 }
 
-// Place of a possession in the rows.
-using Key = std::tuple<std::uint32_t, int, int, std::int64_t>;  // session, robot, half, possession
+std::optional<bool> said(const log::Value& value) {
+  const auto* const number = std::get_if<std::int64_t>(&value);
+  return number != nullptr ? std::optional(*number != 0) : std::nullopt;
+}
+
+// Place of a possession in the rows: of all recordings of a play one.
+using Key = std::tuple<std::uint32_t, int, int, std::int64_t>;  // play, robot, half, possession
 
 struct KeyHash {
   std::size_t operator()(const Key& key) const {
-    const auto [session, robot, half, possession] = key;
-    std::uint64_t h = (static_cast<std::uint64_t>(session) << 32) ^ static_cast<std::uint64_t>(possession);
+    const auto [play, robot, half, possession] = key;
+    std::uint64_t h = (static_cast<std::uint64_t>(play) << 32) ^ static_cast<std::uint64_t>(possession);
     h ^= static_cast<std::uint64_t>(robot * 2 + half) << 56;
     h *= 0x9E3779B97F4A7C15ULL;
     return static_cast<std::size_t>(h ^ (h >> 29));
   }
 };
+using Places = std::unordered_map<Key, std::size_t, KeyHash>;
 
-void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions, bool truth,
-                       LoggedOpportunities& logged) {
+// A row of compared_kicks.sql.
+struct SeenKick {
+  std::uint32_t session = 0;
+  int robot_id = 0;
+  int half = 0;
+  std::int64_t possession_id = 0;
+  std::string policy;
+  std::string outcome;
+  std::optional<double> distance_m;
+  std::int64_t kick_id = 0;
+  std::optional<double> p_inside;  // of the observed label; none where the truth is asked for
+  std::optional<bool> bounced;
+  std::optional<bool> truth_bounced;
+  bool saved = false;
+  bool goal = false;
+};
+
+// What the logs say, of every session; what counts is known when all are read.
+struct SeenRows {
+  std::vector<LoggedOpportunity> opportunities;
+  std::vector<SeenKick> kicks;
+  HeardPlay play;
+};
+
+void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions, SeenRows& seen) {
   // The goal's middle is the same all over a log; a log without a kick needs no distance.
   std::optional<double> goal_y_m;
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
                [&](Cells row) { goal_y_m = log::number_if_any(row[0]); });
-  std::unordered_map<Key, std::size_t, KeyHash> places;
+  Places places;  // with the session in the play's place
   reader.query(kOpportunitiesSql, [&](Cells row) {
     const auto session = sessions.find(integer(row[0]));
     if (session == sessions.end()) return;
@@ -58,8 +88,8 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     const auto x_m = log::number_if_any(row[6]), y_m = log::number_if_any(row[7]);
     o.start_x_m = x_m;
     if (x_m && y_m && goal_y_m) o.start_distance_m = std::hypot(*x_m, *goal_y_m - *y_m);
-    places[{o.session, o.robot_id, o.half, o.possession_id}] = logged.rows.size();
-    logged.rows.push_back(std::move(o));
+    places[{o.session, o.robot_id, o.half, o.possession_id}] = seen.opportunities.size();
+    seen.opportunities.push_back(std::move(o));
   });
   reader.query(kFirstDecisionsSql, [&](Cells row) {
     const auto session = sessions.find(integer(row[0]));
@@ -67,59 +97,155 @@ void add_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
     const auto place = places.find(
         {session->second, static_cast<int>(integer(row[1])), static_cast<int>(integer(row[2])), integer(row[3])});
     if (place == places.end()) return;
-    logged.rows[place->second].first = {log::number_if_any(row[5]).value_or(0.0),
-                                        log::number_if_any(row[6]).value_or(0.0), log::number_if_any(row[7])};
+    seen.opportunities[place->second].first = {log::number_if_any(row[5]).value_or(0.0),
+                                               log::number_if_any(row[6]).value_or(0.0), log::number_if_any(row[7])};
   });
-  std::int64_t alone = 0;
+}
+
+void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, bool truth, SeenRows& seen) {
   reader.query(kComparedKicksSql, [&](Cells row) {
     const auto session = sessions.find(integer(row[0]));
     if (session == sessions.end()) return;
-    const Key key{session->second, static_cast<int>(integer(row[1])), static_cast<int>(integer(row[2])),
-                  integer(row[3])};
-    const auto place = places.find(key);
+    const bool saved = said(row[11]).value_or(false);
+    seen.kicks.push_back({.session = session->second,
+                          .robot_id = static_cast<int>(integer(row[1])),
+                          .half = static_cast<int>(integer(row[2])),
+                          .possession_id = integer(row[3]),
+                          .policy = text_if_any(row[4]),
+                          .outcome = text_if_any(row[truth ? 6 : 5]),
+                          .distance_m = log::number_if_any(row[7]),
+                          .kick_id = integer(row[12]),
+                          .p_inside = truth ? std::nullopt : log::number_if_any(row[8]),
+                          .bounced = said(row[9]),
+                          .truth_bounced = said(row[10]),
+                          .saved = saved,
+                          .goal = text_if_any(row[6]) == "on_target" && !saved});
+  });
+}
+
+// What a recording lacks another one of the play may have.
+void complete(LoggedOpportunity& o, LoggedOpportunity&& other) {
+  if (o.policy.empty()) o.policy = std::move(other.policy);
+  if (!o.probability) o.probability = other.probability;
+  if (!o.start_x_m) o.start_x_m = other.start_x_m;
+  if (!o.start_distance_m) o.start_distance_m = other.start_distance_m;
+  if (!o.first) o.first = other.first;
+}
+
+Places add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedOpportunities& logged) {
+  Places places;
+  for (LoggedOpportunity& o : opportunities) {
+    const ComparedSession& session = logged.sessions[o.session];
+    if (!session.counts) continue;
+    const auto [place, added] =
+        places.try_emplace({session.play, o.robot_id, o.half, o.possession_id}, logged.rows.size());
+    if (added) {
+      logged.rows.push_back(std::move(o));
+    } else {
+      complete(logged.rows[place->second], std::move(o));
+    }
+  }
+  return places;
+}
+
+void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, const Places& places, bool truth,
+               LoggedOpportunities& logged) {
+  std::int64_t alone = 0;
+  for (const SeenKick& kick : kicks) {
+    if (!book.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
+    const ComparedSession& session = logged.sessions[kick.session];
+    const auto place = places.find({session.play, kick.robot_id, kick.half, kick.possession_id});
     if (place == places.end()) {
       LoggedOpportunity o;
-      std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+      o.session = kick.session;
+      o.robot_id = kick.robot_id;
+      o.half = kick.half;
+      o.possession_id = kick.possession_id;
       o.has_possession = false;
       logged.rows.push_back(std::move(o));
       ++alone;
     }
     LoggedOpportunity& o = place == places.end() ? logged.rows.back() : logged.rows[place->second];
-    o.policy = text_if_any(row[4]);  // of two kicks of a possession the later one
-    const std::string outcome = text_if_any(row[truth ? 6 : 5]);
+    o.policy = kick.policy;  // of two kicks of a possession the later one
     // The simulator settles every ball that left; without its word there was none in front of the kicker.
-    const bool no_ball = truth && outcome.empty() && logged.sessions[o.session].simulated;
-    o.ending = no_ball ? Ending::kNoKick : ending_of(outcome);
-    o.distance_m = log::number_if_any(row[7]);
-  });
+    const bool no_ball = truth && kick.outcome.empty() && session.simulated;
+    o.ending = no_ball ? Ending::kNoKick : ending_of(kick.outcome);
+    o.distance_m = kick.distance_m;
+    o.doubt = !kick.p_inside                 ? 0.0
+              : o.ending == Ending::kInside  ? 1.0 - *kick.p_inside
+              : o.ending == Ending::kOutside ? *kick.p_inside
+                                             : 0.0;
+    o.blocked = kick.outcome == "blocked";
+    o.bounced = kick.bounced;
+    o.truth_bounced = kick.truth_bounced;
+    o.saved = kick.saved;
+    o.goal = kick.goal;
+  }
   if (alone > 0 && !places.empty()) {
     logged.remarks.push_back(fmt::format("{} kicks belong to no possession that the log knows", alone));
   }
 }
 
-}  // namespace
+// One log after the other, and then everything together.
+class OpportunityReading {
+ public:
+  explicit OpportunityReading(bool truth) : truth_(truth) {}
 
-LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth) {
-  LoggedOpportunities logged;
-  SessionBook book(logged);
-  for (const std::filesystem::path& path : logs) {
-    const log::Reader reader(path);
-    const SessionPlaces fresh = book.add(reader, path.string());
-    add_opportunities(reader, fresh, truth, logged);
-    reader.query(kMinutesByHalfSql, [&](Cells row) {
-      const auto session = fresh.find(integer(row[0]));
-      if (session == fresh.end()) return;
-      logged.halves.push_back({session->second, static_cast<int>(integer(row[1])), text_if_any(row[2]),
-                               log::number_if_any(row[3]).value_or(0.0)});
-    });
+  SessionPlaces add(const log::Reader& reader, const std::string& name) {
+    SessionPlaces fresh = book_.add(reader, name);
+    see_opportunities(reader, fresh, seen_);
+    see_kicks(reader, fresh, truth_, seen_);
+    hear_play(reader, fresh, seen_.play);
+    reader.query("SELECT count(*) FROM assignments WHERE possession_id = 0 AND probability < 1.0",
+                 [&](Cells row) { logged_.draws_of_halves += integer(row[0]); });
     std::int64_t missing = 0;
     for (const log::Loss& loss : reader.losses()) missing += loss.missing();
     if (missing > 0)
-      logged.remarks.push_back(
-          fmt::format("{}: {} rows are missing (trivela report says which)", path.string(), missing));
+      losses_.push_back(fmt::format("{}: {} rows are missing (trivela report says which)", name, missing));
+    return fresh;
   }
-  book.number_matches();
-  return logged;
+
+  const SessionBook& book() const { return book_; }
+
+  void settle() { book_.settle(); }
+
+  LoggedOpportunities finish() && {
+    logged_.sessions = book_.sessions();
+    logged_.matches = book_.matches();
+    logged_.not_counted = book_.not_counted();
+    logged_.remarks = book_.remarks();
+    logged_.remarks.insert(logged_.remarks.end(), logged_.not_counted.begin(), logged_.not_counted.end());
+    const Places places = add_opportunities(std::move(seen_.opportunities), logged_);
+    add_kicks(seen_.kicks, book_, places, truth_, logged_);
+    logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
+    logged_.spans = played_spans(seen_.play, logged_);
+    return std::move(logged_);
+  }
+
+ private:
+  bool truth_;
+  SessionBook book_;
+  SeenRows seen_;
+  LoggedOpportunities logged_;
+  std::vector<std::string> losses_;
+};
+
+}  // namespace
+
+LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth) {
+  OpportunityReading reading(truth);
+  for (const std::filesystem::path& path : logs) reading.add(log::Reader(path), path.string());
+  reading.book().refuse_replays_alone();
+  reading.settle();
+  return std::move(reading).finish();
+}
+
+LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth) {
+  OpportunityReading reading(truth);
+  const SessionPlaces places = reading.add(reader, name);
+  reading.settle();
+  reader.leave_out(reading.book().sessions_left_out(places), reading.book().kicks_left_out(places));
+  return std::move(reading).finish();
 }
 
 }  // namespace trivela::evaluator

@@ -1,31 +1,24 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluator/log/reader.hpp"
 #include "evaluator/report/kick_book.hpp"
-#include "evaluator/report/session_setup.hpp"
+#include "evaluator/report/one_play.hpp"
 
 namespace trivela::evaluator {
 
-/// A session as a comparison needs it.
-struct ComparedSession {
-  std::int64_t session_id = 0;
-  std::int64_t started_utc_ns = 0;
-  std::optional<std::int64_t> closed_utc_ns;
-  std::optional<std::int64_t> seed;
-  std::string scenario;
-  bool simulated = false;
-  std::string arm;    ///< empty: none
-  std::string table;  ///< empty: none
-  std::optional<std::int64_t> match_id;
-  std::string config_sha256;
-  std::optional<std::int64_t> calibration_id;
-  SessionSetup setup;
-  std::uint32_t match = 0;  ///< number of its match over all logs, from 0
+/// A robot with the policy that was in charge of it.
+struct PolicyOfRobot {
+  int robot_id = 0;
+  std::string policy;  ///< empty: not known
+
+  auto operator<=>(const PolicyOfRobot&) const = default;
 };
 
 /// What the robot believed when it first had to decide in a possession.
@@ -48,29 +41,40 @@ struct LoggedOpportunity {
   std::optional<double> distance_m;        ///< ball to target at the kick, as the robot believed; none: no kick
   std::optional<FirstDecision> first;      ///< none: the log has not every cycle
   Ending ending = Ending::kNoKick;
-  bool has_possession = true;  ///< false: a kick alone
+  double doubt = 0.0;                   ///< probability that a kick called inside was not, or one called outside was
+  bool blocked = false;                 ///< the kick, an Ending::kOutside
+  std::optional<bool> bounced{};        ///< as observed
+  std::optional<bool> truth_bounced{};  ///< by the simulator's truth
+  bool saved = false;                   ///< by the simulator's truth
+  bool goal = false;                    ///< by the simulator's truth
+  bool has_possession = true;           ///< false: a kick alone
 };
 
-/// Minutes of play of a half.
-struct LoggedHalf {
-  std::uint32_t session = 0;
+/// Play while a possession lasted.
+struct PlayedSpan {
+  std::uint32_t session = 0;  ///< place in the sessions; of several recordings of a play the first
   int half = 0;
-  std::string policy;  ///< empty: drawn for each possession
   double minutes = 0.0;
+  std::vector<PolicyOfRobot> had_it;  ///< robots that had the ball in it, each with its policy; empty: nobody is known
 };
 
 /// What logs know of opportunities and kicks, their sessions merged.
 struct LoggedOpportunities {
   std::vector<ComparedSession> sessions;
   std::vector<LoggedOpportunity> rows;
-  std::vector<LoggedHalf> halves;
+  std::vector<PlayedSpan> spans;
   std::uint32_t matches = 0;
-  std::vector<std::string> remarks;  ///< sentences on sessions that were not closed, that stand twice, and on loss
+  std::int64_t draws_of_halves = 0;      ///< policies drawn where nobody counted possessions: one a half
+  std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
+  std::vector<std::string> remarks;      ///< these, and sentences on sessions that were not closed and on loss
 };
 
 /// Sessions are one match that have the same match_id or seed and world; recorded on robots: that overlap in time. A
-/// session that stands in several logs counts once, and so does a match of an experiment that was played again with the
-/// same configuration. Throws std::runtime_error where a log cannot be read.
+/// session that stands in several logs counts once, and so does what several sessions recorded of one play, as
+/// find_plays() says. Throws std::runtime_error where a log cannot be read, or the logs hold replays alone.
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth);
+
+/// The same of one log, a replay alone too; the reader's counted_kicks has from then on what counts.
+LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth);
 
 }  // namespace trivela::evaluator

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "evaluator/log/value.hpp"
 #include "evaluator/metrics/compared_sessions.sql.hpp"
+#include "evaluator/metrics/kick_words.sql.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -31,7 +35,14 @@ ComparedSession session_of(SessionCells row, const std::map<std::string, Session
   session.table = log::text_if_any(row[7]);
   session.match_id = log::integer_if_any(row[8]);
   session.config_sha256 = log::text_if_any(row[9]);
-  session.calibration_id = log::integer_if_any(row[10]);
+  session.uuid = log::text_if_any(row[10]);
+  session.continues_uuid = log::text_if_any(row[11]);
+  session.is_replay = log::integer(row[12]) != 0;
+  session.paired_halves = log::integer(row[13]) != 0;
+  session.lockstep = log::integer(row[14]) != 0;
+  session.ended_utc_ns = log::integer(row[15]);
+  session.row_count = log::integer(row[16]);
+  session.calibration_id = log::integer_if_any(row[17]);
   if (const auto setup = setups.find(session.config_sha256); setup != setups.end()) session.setup = setup->second;
   return session;
 }
@@ -40,7 +51,7 @@ ComparedSession session_of(SessionCells row, const std::map<std::string, Session
 
 SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& name) {
   SessionPlaces fresh;
-  std::int64_t again = 0, open = 0, replayed = 0;
+  std::int64_t again = 0, open = 0;
   const auto setups = setups_of(reader, setups_);
   reader.query(kComparedSessionsSql, [&](SessionCells row) {
     ComparedSession session = session_of(row, setups);
@@ -48,35 +59,89 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
       ++again;
       return;
     }
-    const bool numbered = session.match_id && session.seed;
-    if (numbered &&
-        !played_.insert({*session.seed, session.arm, session.config_sha256, session.table, session.calibration_id})
-             .second) {
-      ++replayed;
-      return;
-    }
     open += session.closed_utc_ns ? 0 : 1;
-    fresh[session.session_id] = static_cast<std::uint32_t>(logged_.sessions.size());
-    logged_.sessions.push_back(std::move(session));
+    fresh[session.session_id] = static_cast<std::uint32_t>(sessions_.size());
+    sessions_.push_back(std::move(session));
+    names_.push_back(name);
   });
-  add_remarks(reader, name, again, replayed, open);
+  reader.query(kKickWordsSql, [&](SessionCells row) {
+    const auto session = fresh.find(log::integer(row[0]));
+    if (session == fresh.end()) return;
+    kicks_.push_back({session->second, static_cast<int>(log::integer(row[1])), log::integer(row[2]),
+                      log::integer(row[3]), log::integer(row[4]), static_cast<int>(log::integer(row[5]))});
+  });
+  note_log(reader, name, again, open);
   return fresh;
 }
 
-void SessionBook::add_remarks(const log::Reader& reader, const std::string& name, std::int64_t again,
-                              std::int64_t replayed, std::int64_t open) {
+void SessionBook::note_log(const log::Reader& reader, const std::string& name, std::int64_t again, std::int64_t open) {
   const auto remark = [&](std::int64_t n, const char* what) {
-    if (n > 0) logged_.remarks.push_back(fmt::format("{}: {} {}", name, n, what));
+    if (n > 0) remarks_.push_back(fmt::format("{}: {} {}", name, n, what));
   };
   remark(again, "of its sessions stand in an earlier log, too, and count once");
-  remark(replayed, "of its matches were played before with the same seed, arm and configuration, and count once");
   if (const auto doubt = reader.doubt(); doubt && !reader.verification().compared && reader.verification().rows > 0)
-    logged_.remarks.push_back(fmt::format("{}: {}", name, *doubt));
+    remarks_.push_back(fmt::format("{}: {}", name, *doubt));
   remark(open, "sessions were not closed, their last kicks may be missing");
   reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches", [&](SessionCells row) {
-    logged_.remarks.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
-                                          log::integer(row[0]), log::integer(row[1])));
+    remarks_.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
+                                   log::integer(row[0]), log::integer(row[1])));
   });
+}
+
+void SessionBook::settle() {
+  find_plays(sessions_, kicks_);
+  for (const std::size_t i : evaluator::kicks_left_out(sessions_, kicks_))
+    left_out_[{kicks_[i].session, kicks_[i].robot_id, kicks_[i].kick_id}] = sessions_[kicks_[i].session].counts;
+  note_left_out();
+  number_matches();
+}
+
+void SessionBook::note_left_out() {
+  std::map<std::string, std::int64_t> replays, repetitions, twice;  // by log
+  for (std::size_t i = 0; i < sessions_.size(); ++i) {
+    if (!sessions_[i].counts) ++(sessions_[i].is_replay ? replays : repetitions)[names_[i]];
+  }
+  for (const auto& [kick, of_a_session_that_counts] : left_out_)
+    twice[names_[std::get<0>(kick)]] += of_a_session_that_counts ? 1 : 0;
+  const auto remark = [&](const std::map<std::string, std::int64_t>& counts, const char* one, const char* many) {
+    for (const auto& [name, n] : counts) {
+      if (n > 0) not_counted_.push_back(fmt::format("{}: {} {}", name, n, n == 1 ? one : many));
+    }
+  };
+  remark(repetitions, "of its matches was played before with the same seed, arm and configuration, and counts once",
+         "of its matches were played before with the same seed, arm and configuration, and count once");
+  remark(replays, "of its sessions replays another one and is left out: its kicks were never made",
+         "of its sessions replay others and are left out: their kicks were never made");
+  remark(twice, "of its kicks stands in another recording of the same match, too, and counts once",
+         "of its kicks stand in another recording of the same match, too, and count once");
+}
+
+void SessionBook::refuse_replays_alone() const {
+  if (sessions_.empty() || !std::ranges::all_of(sessions_, &ComparedSession::is_replay)) return;
+  throw std::runtime_error(fmt::format(
+      "{}: a replay, whose kicks were never made, and nothing else: there is nothing to count", names_.front()));
+}
+
+bool SessionBook::counts(std::uint32_t session, int robot_id, std::int64_t kick_id) const {
+  return sessions_[session].counts && !left_out_.contains({session, robot_id, kick_id});
+}
+
+std::vector<std::int64_t> SessionBook::sessions_left_out(const SessionPlaces& places) const {
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, place] : places) {
+    if (!sessions_[place].counts) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::vector<log::RecordedKick> SessionBook::kicks_left_out(const SessionPlaces& places) const {
+  std::vector<log::RecordedKick> kicks;
+  for (const auto& [kick, counts] : left_out_) {
+    const auto& [place, robot_id, kick_id] = kick;
+    const std::int64_t id = sessions_[place].session_id;
+    if (places.contains(id)) kicks.push_back({id, robot_id, kick_id});
+  }
+  return kicks;
 }
 
 void SessionBook::number_matches() {
@@ -86,29 +151,34 @@ void SessionBook::number_matches() {
   std::set<std::string> of_several_worlds;
   std::int64_t last_end_utc_ns = 0;
   std::optional<std::uint32_t> last_real;
-  std::vector<std::size_t> order(logged_.sessions.size());
+  std::map<std::uint32_t, std::uint32_t> of_play;
+  std::vector<std::size_t> order(sessions_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return logged_.sessions[i].started_utc_ns; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return sessions_[i].started_utc_ns; });
   for (const std::size_t i : order) {
-    ComparedSession& session = logged_.sessions[i];
+    ComparedSession& session = sessions_[i];
+    if (!session.counts) continue;
     if (session.simulated && (session.match_id || session.seed)) {
       const Numbered key{session.scenario, session.seed ? *session.seed : *session.match_id};
-      const auto [place, added] = simulated.try_emplace({key, session.setup.world}, logged_.matches);
-      logged_.matches += added ? 1 : 0;
+      const auto [place, added] = simulated.try_emplace({key, session.setup.world}, matches_);
+      matches_ += added ? 1 : 0;
       session.match = place->second;
       if (first_world.try_emplace(key, session.setup.world).first->second != session.setup.world)
         of_several_worlds.insert(session.scenario);
       continue;
     }
-    if (session.simulated || !last_real || session.started_utc_ns >= last_end_utc_ns) {
-      last_real = logged_.matches++;
+    const auto known = of_play.find(session.play);
+    if (known != of_play.end()) {
+      last_real = known->second;
+    } else if (session.simulated || !last_real || session.started_utc_ns >= last_end_utc_ns) {
+      last_real = matches_++;
       last_end_utc_ns = session.started_utc_ns;
     }
-    session.match = *last_real;
-    last_end_utc_ns = std::max(last_end_utc_ns, session.closed_utc_ns.value_or(session.started_utc_ns));
+    of_play[session.play] = session.match = *last_real;
+    last_end_utc_ns = std::max(last_end_utc_ns, session.ended_utc_ns);
   }
   for (const std::string& scenario : of_several_worlds)
-    logged_.remarks.push_back(fmt::format(
+    remarks_.push_back(fmt::format(
         "scenario '{}' is not the same in all sessions: matches of the same seed are not the same opportunities",
         scenario));
 }

@@ -27,7 +27,7 @@ std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t old
                                          bool of_opportunities) {
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, stats::MatchCounts> cells;
   for (const Opportunity& o : book.opportunities) {
-    if (!of_opportunities && (o.ending == Ending::kUnknown || o.ending == Ending::kNoKick)) continue;
+    if (!of_opportunities && o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
     if (o.group != older && o.group != newer) continue;
     const stats::MatchCounts empty{o.match, o.stratum, {}, {}, o.calibration};
     stats::MatchCounts& cell = cells.try_emplace({o.match, o.calibration, o.stratum}, empty).first->second;

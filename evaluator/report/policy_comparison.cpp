@@ -11,48 +11,64 @@
 
 #include "evaluator/report/pair_counts.hpp"
 #include "evaluator/report/policy_headline.hpp"
-#include "evaluator/stats/robustness.hpp"
 #include "evaluator/stats/sample_ratio.hpp"
 #include "evaluator/stats/several_tests.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
+Ending past_keeper(Ending ending, bool goal) {
+  return goal ? Ending::kInside : ending == Ending::kNoKick ? ending : Ending::kOutside;
+}
+
+void count(Bounces& bounces, const Opportunity& o) {
+  bounces.observed += o.bounced ? 1 : 0;
+  bounces.observed_bounced += o.bounced.value_or(false) ? 1 : 0;
+  bounces.truth += o.truth_bounced ? 1 : 0;
+  bounces.truth_bounced += o.truth_bounced.value_or(false) ? 1 : 0;
+}
+
 GroupResult group_result(const KickBook& book, std::uint32_t group) {
   GroupResult result;
   result.name = book.groups[group];
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<stats::ClusterCounts, 2>> cells;  // match, calibration
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<stats::ClusterCounts, 3>> cells;  // match, calibration
   for (const Opportunity& o : book.opportunities) {
     if (o.group != group) continue;
     result.opportunities += book.has_opportunities ? 1 : 0;
     result.inside += o.ending == Ending::kInside ? 1 : 0;
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
+    result.blocked += o.ending == Ending::kBlocked ? 1 : 0;
+    result.goals += o.goal ? 1 : 0;
+    if (o.ending == Ending::kInside) count(result.bounces, o);
+    result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
     if (!book.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
-    auto& [all, known] = cells.try_emplace({o.match, o.calibration}, std::array{empty, empty}).first->second;
+    auto& [all, known, past] =
+        cells.try_emplace({o.match, o.calibration}, std::array{empty, empty, empty}).first->second;
     add(all.counts, o.ending);
+    add(past.counts, past_keeper(o.ending, o.goal));
     if (o.ending == Ending::kInside || o.ending == Ending::kOutside) add(known.counts, o.ending);
   }
-  std::vector<stats::ClusterCounts> opportunities, kicks;
+  std::vector<stats::ClusterCounts> opportunities, kicks, goals;
   std::set<std::uint32_t> matches;
   for (const auto& [key, cell] : cells) {
     matches.insert(key.first);
     opportunities.push_back(cell[0]);
     kicks.push_back(cell[1]);
+    goals.push_back(cell[2]);
   }
   result.matches = matches.size();
   const auto by_match = stats::clustered_wilson(kicks);
   result.efficiency_ci = by_match.value_or(stats::wilson(result.efficiency()));
   result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(stats::wilson(result.per_opportunity()));
+  result.goals_ci = stats::clustered_wilson(goals).value_or(stats::wilson({result.goals, result.opportunities}));
   result.by_match = by_match.has_value();
   for (const auto& [key, minutes] : book.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
   }
-  if (result.unknown > 0) {
-    result.efficiency_bounds = {*stats::efficiency({result.inside, result.kicks()}),
-                                *stats::efficiency({result.inside + result.unknown, result.kicks()})};
-  }
+  if (result.unknown > 0 || result.doubt.sum() > 0.0)
+    result.efficiency_bounds = stats::efficiency_bounds({result.efficiency(), result.unknown, result.doubt});
   return result;
 }
 
@@ -68,6 +84,20 @@ std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_mat
   result.difference = *stats::efficiency(result.newer) - *stats::efficiency(result.older);
   result.independent = stats::newcombe(result.older, result.newer);
   if (has_matches) result.clustered = stats::clustered_difference(cells);
+  return result;
+}
+
+// The same book with goals as what is inside.
+KickBook goals_of(KickBook book) {
+  for (Opportunity& o : book.opportunities) o.ending = past_keeper(o.ending, o.goal);
+  return book;
+}
+
+std::optional<Effect> goals_effect(const KickBook& goals, std::uint32_t place, bool paired) {
+  if (!paired) return effect(cells_of(goals, 0, place, true), goals.has_matches);
+  const auto played = paired_opportunities(goals, 0, place);
+  auto result = effect(played.cells, goals.has_matches);
+  if (result) result->independent = stats::paired_newcombe(played.counts);
   return result;
 }
 
@@ -158,15 +188,17 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
   pair.on_target_rate = rate(book, older, newer, place, true);
   pair.kick_rate = rate(book, older, newer, place, false);
   pair.unknown = older.unknown + newer.unknown;
+  pair.expected_wrong = older.doubt.sum() + newer.doubt.sum();
   if (!pair.efficiency && !pair.per_opportunity) {
     const GroupResult& empty = older.efficiency().n == 0 ? older : newer;
     pair.why_none = fmt::format("{} has no kick whose outcome is known, so there is nothing to compare", empty.name);
     return pair;
   }
   const auto known = [&](const GroupResult& g) {
-    return pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
+    const auto counts = pair.per_opportunity ? stats::Counts{g.inside, g.opportunities - g.unknown} : g.efficiency();
+    return stats::DoubtfulCounts{counts, g.unknown, g.doubt};
   };
-  pair.bounds = stats::difference_bounds(known(older), older.unknown, known(newer), newer.unknown);
+  pair.bounds = stats::difference_bounds(known(older), known(newer));
   pair.headline = headline_of(pair, smallest_effect);
   return pair;
 }
@@ -191,8 +223,11 @@ PolicyComparison compare_policies(KickBook book, const std::string& by, double s
                                          book.opportunities.size()));
   }
   std::vector<double> p_values;
+  const auto goals = book.keeper && book.has_opportunities ? std::optional(goals_of(book)) : std::nullopt;
   for (std::uint32_t place = 1; place < book.groups.size(); ++place) {
     result.pairs.push_back(pair_result(book, result.groups[0], result.groups[place], place, smallest_effect));
+    PairResult& pair = result.pairs.back();
+    if (goals) pair.goals = goals_effect(*goals, place, pair.pairs.has_value());
     if (result.pairs.back().headline) p_values.push_back(result.pairs.back().headline->p);
   }
   const auto adjusted = stats::holm(p_values);

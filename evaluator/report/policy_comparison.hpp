@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/report/bounces.hpp"
 #include "evaluator/report/comparison.hpp"
 #include "evaluator/report/kick_book.hpp"
 #include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/label_doubt.hpp"
 #include "evaluator/stats/paired.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/strata.hpp"
@@ -22,15 +24,20 @@ struct GroupResult {
   std::int64_t inside = 0;
   std::int64_t outside = 0;
   std::int64_t unknown = 0;
+  stats::LabelDoubt doubt;             ///< of the labels
+  std::int64_t blocked = 0;            ///< where they stand apart; otherwise they are outside
+  std::int64_t goals = 0;              ///< by the simulator's truth: on target and past the keeper
+  Bounces bounces;                     ///< of those inside
   std::size_t matches = 0;             ///< 0: not known
   std::optional<double> minutes;       ///< of play; none: not known
   stats::Interval efficiency_ci;       ///< of inside / (inside + outside)
   stats::Interval per_opportunity_ci;  ///< of inside / opportunities
+  stats::Interval goals_ci;            ///< of goals / opportunities
   bool by_match = false;               ///< the intervals allow for kicks of one match being alike
   std::optional<stats::Interval>
-      efficiency_bounds;  ///< if every unknown kick was outside, and inside; none: no unknown
+      efficiency_bounds;  ///< with the unknown kicks and the doubt of the labels; none: neither
 
-  std::int64_t kicks() const { return inside + outside + unknown; }
+  std::int64_t kicks() const { return inside + outside + unknown + blocked; }
   stats::Counts efficiency() const { return {inside, inside + outside}; }
   stats::Counts per_opportunity() const { return {inside, opportunities}; }
 };
@@ -92,6 +99,7 @@ struct PairResult {
   std::optional<Comparison> kicks;           ///< efficiency, kicks taken as independent; none: one has no kick
   std::optional<Effect> efficiency;          ///< of kicks
   std::optional<Effect> per_opportunity;     ///< of opportunities
+  std::optional<Effect> goals;               ///< past the keeper, of opportunities; none: no keeper saved anything
   std::optional<stats::PairedCounts> pairs;  ///< opportunities that both had
   std::int64_t unpaired = 0;                 ///< opportunities without a partner
   double mcnemar_p = 1.0;
@@ -100,6 +108,7 @@ struct PairResult {
   std::optional<stats::RateRatio> kick_rate;       ///< kicks a minute
   stats::Interval bounds{-1.0, 1.0};               ///< of the headline's crude difference, if the unknown were known
   std::int64_t unknown = 0;
+  double expected_wrong = 0.0;       ///< labels of both
   std::optional<Headline> headline;  ///< none: nothing to compare
   std::string why_none;              ///< why there is no headline
 };

@@ -12,7 +12,7 @@ Json inside_of_n(stats::Counts counts) { return {{"inside", counts.inside}, {"n"
 // Infinity, which JSON does not have, as null.
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
-Json group_json(const GroupResult& g) {
+Json group_json(const GroupResult& g, bool keeper, bool blocked_apart) {
   const auto per = [](std::int64_t n, std::optional<double> minutes) {
     return minutes && *minutes > 0.0 ? Json(static_cast<double>(n) / *minutes) : Json();
   };
@@ -22,6 +22,12 @@ Json group_json(const GroupResult& g) {
           {"inside", g.inside},
           {"outside", g.outside},
           {"unknown", g.unknown},
+          {"expected_wrong", {{"inside", g.doubt.inside}, {"outside", g.doubt.outside}}},
+          {"blocked", blocked_apart ? Json(g.blocked) : Json()},
+          {"bounced", bounces_json(g.bounces)},
+          {"goals", keeper ? Json(g.goals) : Json()},
+          {"goals_per_opportunity", keeper ? json_of(stats::efficiency({g.goals, g.opportunities})) : Json()},
+          {"goals_per_opportunity_ci95", keeper && g.opportunities > 0 ? json_of(g.goals_ci) : Json()},
           {"matches", g.matches > 0 ? Json(g.matches) : Json()},
           {"efficiency", json_of(stats::efficiency(g.efficiency()))},
           {"efficiency_ci95", json_of(g.efficiency_ci)},
@@ -125,6 +131,7 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
                {"more_needed", needed_sentence(pair, c)},
                {"headline", headline_json(pair)},
                {"on_target_per_opportunity", effect_json(pair.per_opportunity)},
+               {"goals_per_opportunity", effect_json(pair.goals)},
                {"efficiency", effect_json(pair.efficiency)}};
   json["pairs"] = pair.pairs ? Json{{"both", pair.pairs->both},           {"new_only", pair.pairs->newer_only},
                                     {"old_only", pair.pairs->older_only}, {"neither", pair.pairs->neither},
@@ -134,6 +141,7 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
   json["on_target_per_min"] = rate_json(pair.on_target_rate);
   json["kicks_per_min"] = rate_json(pair.kick_rate);
   json["unknown"] = pair.unknown;
+  json["expected_wrong"] = pair.expected_wrong;
   json["difference_bounds"] = json_of(pair.bounds);
   json["independent_kicks"] = pair.kicks ? counts_json(*pair.kicks) : Json();
   return json;
@@ -152,7 +160,8 @@ std::string to_json(const PolicyComparison& c) {
                {"groups", Json::array()},
                {"comparisons", Json::array()},
                {"remarks", c.book.remarks}};
-  for (const GroupResult& group : c.groups) json["groups"].push_back(group_json(group));
+  for (const GroupResult& group : c.groups)
+    json["groups"].push_back(group_json(group, c.book.keeper, c.book.blocked_apart));
   for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
   return json_text(json);
 }

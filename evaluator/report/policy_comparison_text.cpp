@@ -28,7 +28,12 @@ std::string groups_table(const PolicyComparison& c) {
                      share_ci(g.efficiency(), g.efficiency_ci),
                      g.matches > 0 ? number(static_cast<std::int64_t>(g.matches)) : "-"});
   }
+  if (c.book.blocked_apart) {
+    table[0].push_back("blocked");
+    for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(number(c.groups[i].blocked));
+  }
   std::string text = "\nEfficiency\n" + text_table(table);
+  if (c.book.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
   text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
                                     : "  95 %: Wilson's, kicks taken as independent\n";
   return text;
@@ -62,6 +67,21 @@ const char* clusters(const stats::Clustered& clustered) {
 
 std::string calibrations(const stats::Clustered& clustered) {
   return clustered.calibrations > 1 ? fmt::format(", {} calibrations", clustered.calibrations) : "";
+}
+
+// What Table 2 does not tell of the balls inside: how many bounced, how many passed the keeper.
+std::string inside_text(const PolicyComparison& c) {
+  std::vector<NamedBounces> bounces;
+  for (const GroupResult& g : c.groups) bounces.push_back({g.name, g.bounces});
+  std::string text = bounce_lines(bounces);
+  if (!text.empty()) text = "\nOf the balls inside\n" + text;
+  if (!c.book.keeper || !c.book.has_opportunities) return text;
+  Table table = {{c.by, "inside", "goals", "goals an opp.", "95 %"}};
+  for (const GroupResult& g : c.groups) {
+    const stats::Counts goals{g.goals, g.opportunities};
+    table.push_back({g.name, number(g.inside), number(g.goals), share(goals), share_ci(goals, g.goals_ci)});
+  }
+  return text + "\nGoals: past the keeper, by the simulator's truth\n" + text_table(table);
 }
 
 std::string effect_lines(const std::string& name, const Effect& effect, const char* independent) {
@@ -155,6 +175,7 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
   if (pair.per_opportunity) {
     text += effect_lines("on target an opp.", *pair.per_opportunity, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
   }
+  if (pair.goals) text += effect_lines("goals an opp.", *pair.goals, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
   text += pairs_lines(pair);
   if (pair.efficiency) text += effect_lines("efficiency", *pair.efficiency, "Newcombe, kicks independent");
   text += rate_line("on target a minute", pair.on_target_rate);
@@ -170,11 +191,14 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
                       *pair.kicks->e_value, *pair.kicks->e_value_ci));
     }
   }
-  if (pair.unknown > 0) {
+  if (pair.unknown > 0 || pair.expected_wrong > 0.0) {
+    const std::string wrong = pair.expected_wrong > 0.0
+                                  ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
+                                  : std::string();
     text +=
-        bullet(fmt::format("{} outcomes are unknown. If all of them went against {}, the crude difference would be "
+        bullet(fmt::format("{} outcomes are unknown{}. If all of that went against {}, the crude difference would be "
                            "{:+.1f} points, if all for it {:+.1f}.",
-                           pair.unknown, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+                           pair.unknown, wrong, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
   }
   if (const auto& clustered = (pair.headline->of_opportunities ? pair.per_opportunity : pair.efficiency)->clustered;
       clustered && clustered->calibrations > 1 && !clustered->by_calibration) {
@@ -214,7 +238,7 @@ std::string to_text(const PolicyComparison& c) {
                             ? ". The assignment did not go as planned: trust nothing below before that is explained."
                             : "");
   }
-  text += groups_table(c) + volume_table(c);
+  text += groups_table(c) + volume_table(c) + inside_text(c);
   for (const PairResult& pair : c.pairs) text += pair_text(pair, c);
   if (!c.book.remarks.empty()) text += "\nData\n";
   for (const std::string& remark : c.book.remarks) text += bullet(remark);

@@ -26,6 +26,13 @@ stats::Context context_of(const LoggedOpportunity& o, bool from_decisions) {
 std::string refusal(const LoggedOpportunities& logged, const std::string& policy,
                     const std::map<std::string, std::int64_t>& counts) {
   if (logged.rows.empty()) return "the log has no opportunities";
+  if (counts.empty() && logged.draws_of_halves > 0) {
+    return fmt::format(
+        "policies were drawn at random, but nobody counted possessions: each of the {} draws held for a whole half, "
+        "and "
+        "what came of it cannot be told from what else the half was; a robot of today counts its own gains of the ball",
+        logged.draws_of_halves);
+  }
   if (counts.empty()) {
     return "no policy was drawn at random in this log: every decision was certain, so what another policy would have "
            "done there was never tried (no overlap); play with random assignment, even 10 % is enough";

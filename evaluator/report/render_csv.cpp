@@ -16,7 +16,7 @@ std::string to_csv(const Report& report) {
   for (const std::string& miss : kMisses) text += "," + miss;
   text += ",simulated,data_lost\n";
   for (const PolicyRow& row : report.policies) {
-    const auto wilson = stats::wilson(row.counts());
+    const auto wilson = row.efficiency_ci();
     const auto bounds = row.efficiency_bounds();
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", row.policy, row.inside(), row.outside(), row.unknown(),
                         cell(stats::efficiency(row.counts())), wilson.lo, wilson.hi, bounds.lo, bounds.hi,

@@ -12,16 +12,22 @@ Json policy_json(const PolicyRow& row) {
           {"outside", row.outside()},
           {"unknown", row.unknown()},
           {"efficiency", json_of(stats::efficiency(row.counts()))},
-          {"wilson95", json_of(stats::wilson(row.counts()))},
+          {"wilson95", json_of(row.efficiency_ci())},
+          {"repeated_in_paired_halves", row.repeated},
           {"efficiency_bounds", json_of(row.efficiency_bounds())},
+          {"expected_wrong", {{"inside", row.doubt.inside}, {"outside", row.doubt.outside}}},
           {"played_min", json_of(row.played_min)},
           {"kicks_per_min", json_of(row.kicks_per_min())},
+          {"bounced", bounces_json(row.bounces)},
+          {"blocked", row.blocked_apart ? "apart" : "outside"},
           {"misses", misses}};
 }
 
 Json session_json(const log::RecordedSession& session) {
   Json policies = Json::array();
-  for (const auto& half : session.policies) policies.push_back({{"half", half.half}, {"policy", half.policy}});
+  for (const auto& half : session.policies) {
+    policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
+  }
   return {{"uuid", session.uuid},
           {"robot_id", json_of(session.robot_id)},
           {"simulated", session.simulated},
@@ -31,6 +37,9 @@ Json session_json(const log::RecordedSession& session) {
           {"config_sha256", session.config_sha256},
           {"closed", session.closed_t_ns.has_value()},
           {"continues", session.continues_uuid.empty() ? Json() : Json(session.continues_uuid)},
+          {"replays", session.replays_uuid.empty() ? Json() : Json(session.replays_uuid)},
+          {"paired_halves", session.paired_halves},
+          {"planned_s", json_of(session.planned_s)},
           {"policies", policies}};
 }
 
@@ -65,6 +74,17 @@ Json unrecorded_json(const UnrecordedOrders& orders) {
           {"counts", orders.counts()}};
 }
 
+Json labels_json(const LabelQuality& labels) {
+  Json rows = Json::array();
+  for (const SightingsRow& row : labels.rows) {
+    rows.push_back({{"sightings", row.sightings},
+                    {"kicks", row.kicks},
+                    {"unknown", row.unknown},
+                    {"expected_wrong", labels.has_probabilities ? Json(row.expected_wrong) : Json()}});
+  }
+  return {{"by_sightings", rows}, {"goal_warnings", labels.goal_warnings()}};
+}
+
 Json quality_json(const Report& report) {
   Json quality = {{"data_lost", report.data_lost()},
                   {"rows_missing", report.rows_missing()},
@@ -90,10 +110,19 @@ Json quality_json(const Report& report) {
     quality["refused_orders"].push_back(
         {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});
   }
+  quality["not_counted"] = report.not_counted;
+  quality["lengths"] = Json::array();
+  for (const PlayedLength& length : report.lengths) {
+    quality["lengths"].push_back({{"session_id", length.session_id},
+                                  {"planned_s", length.planned_s},
+                                  {"recorded_s", length.recorded_s},
+                                  {"cut_short", length.cut_short()}});
+  }
   for (const RecordedSilence& silence : report.silences) quality["silences"].push_back(silence_json(silence));
   for (const UnrecordedOrders& orders : report.unrecorded_orders) {
     quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
+  quality["labels"] = labels_json(report.labels);
   quality["verification"] = {{"verified_rows", report.verified_rows},
                              {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
@@ -107,12 +136,18 @@ Json quality_json(const Report& report) {
 std::string to_json(const Report& report) {
   Json json = {{"simulated", report.simulated_sessions() > 0}, {"policies", Json::array()}};
   for (const PolicyRow& row : report.policies) json["policies"].push_back(policy_json(row));
+  json["robots"] = Json::array();
+  for (const RobotRow& row : report.robots) {
+    json["robots"].push_back(policy_json(row));
+    json["robots"].back()["robot_id"] = row.robot_id;
+  }
   json["sessions"] = Json::array();
   for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session));
   json["data_quality"] = quality_json(report);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
-                   "kick was outside, and inside"};
+                   "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "
+                   "the reverse"};
   return json_text(json);
 }
 

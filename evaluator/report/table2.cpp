@@ -1,12 +1,18 @@
 #include "evaluator/report/table2.hpp"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
-#include "evaluator/metrics/minutes_by_policy.sql.hpp"
+#include "evaluator/metrics/bounces_by_policy.sql.hpp"
 #include "evaluator/metrics/outcomes_by_policy.sql.hpp"
+#include "evaluator/metrics/outcomes_by_robot.sql.hpp"
 #include "evaluator/metrics/refused_orders.sql.hpp"
 #include "evaluator/metrics/truth_agreement.sql.hpp"
 #include "evaluator/metrics/unclosed_kicks.sql.hpp"
+#include "evaluator/report/log_opportunities.hpp"
+#include "evaluator/report/pair_counts.hpp"
+#include "evaluator/stats/clustered.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -16,18 +22,91 @@ using Cells = std::span<const log::Value>;
 using log::integer;
 const std::string& text(const log::Value& value) { return std::get<std::string>(value); }
 
-std::vector<PolicyRow> policy_rows(const log::Reader& reader) {
-  std::map<std::string, PolicyRow, std::greater<>> rows;  // "stopped" before "moving": the older policy first
-  reader.query(kMinutesByPolicySql, [&](Cells row) {
-    const auto* const played_min = std::get_if<double>(&row[1]);
-    rows[text(row[0])].played_min = played_min != nullptr ? std::optional(*played_min) : std::nullopt;
-  });
+using Rows = std::map<std::string, PolicyRow, std::greater<>>;  // "stopped" before "moving": the older policy first
+
+// What sessions say of robots that they have not recorded is nobody's.
+void forget_absent_robots(std::vector<log::RecordedSession>& sessions, const LoggedOpportunities& logged) {
+  std::map<std::int64_t, std::set<int>> robots;  // by session
+  for (const LoggedOpportunity& o : logged.rows) robots[logged.sessions[o.session].session_id].insert(o.robot_id);
+  for (log::RecordedSession& session : sessions) {
+    std::set<int> own;
+    for (const log::HalfPolicy& half : session.policies) own.insert(half.robot_id);
+    const std::set<int>& recorded = robots[session.session_id];
+    const bool others = recorded.empty() || std::ranges::any_of(recorded, [&](int id) { return !own.contains(id); });
+    std::erase_if(session.policies, [&](const log::HalfPolicy& half) {
+      return half.robot_id == 0 ? !others : !recorded.contains(half.robot_id);
+    });
+  }
+}
+
+void add_minutes(std::optional<double>& sum, double minutes) { sum = sum.value_or(0.0) + minutes; }
+
+// Situations of paired halves are one thing each, however many halves had them.
+void allow_for_paired_halves(const LoggedOpportunities& logged, Rows& rows) {
+  using Situation = std::tuple<std::uint32_t, std::uint32_t, int, int, std::int64_t>;  // match, play, robot, half, id
+  std::map<std::string, std::map<Situation, stats::Counts>> situations;
+  for (const LoggedOpportunity& o : logged.rows) {
+    if (o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
+    const ComparedSession& session = logged.sessions[o.session];
+    const int half = session.paired_halves && o.possession_id != 0 ? 0 : o.half;
+    stats::Counts& counts = situations[o.policy][{session.match, session.play, o.robot_id, half, o.possession_id}];
+    if (half == 0 && counts.n > 0) ++rows[o.policy].repeated;
+    add(counts, o.ending);
+  }
+  for (auto& [policy, row] : rows) {
+    if (row.repeated == 0) continue;
+    std::vector<stats::Counts> counts;
+    for (const auto& [situation, of] : situations[policy]) counts.push_back(of);
+    row.paired_ci = stats::clustered_wilson(counts);
+  }
+}
+
+std::vector<PolicyRow> policy_rows(const log::Reader& reader, const std::vector<log::RecordedSession>& sessions,
+                                   const LoggedOpportunities& logged, bool blocked_apart) {
+  Rows rows;
+  for (const log::RecordedSession& session : sessions) {
+    for (const log::HalfPolicy& half : session.policies) rows[half.policy];  // whether it kicked or not
+  }
+  for (const PlayedSpan& span : logged.spans) {
+    std::set<std::string> policies;
+    for (const PolicyOfRobot& who : span.had_it) policies.insert(who.policy);
+    policies.erase("");
+    for (const std::string& policy : policies) add_minutes(rows[policy].played_min, span.minutes);
+  }
   reader.query(kOutcomesByPolicySql,
                [&](Cells row) { rows[text(row[0])].kicks_by_outcome[text(row[1])] = integer(row[2]); });
+  reader.query(kBouncesByPolicySql, [&](Cells row) {
+    rows[text(row[0])].bounces = {integer(row[1]), integer(row[2]), integer(row[3]), integer(row[4])};
+  });
+  allow_for_paired_halves(logged, rows);
   std::vector<PolicyRow> result;
   for (auto& [policy, row] : rows) {
     row.policy = policy;
+    row.blocked_apart = blocked_apart;
     result.push_back(std::move(row));
+  }
+  return result;
+}
+
+std::vector<RobotRow> robot_rows(const log::Reader& reader, const LoggedOpportunities& logged, bool blocked_apart) {
+  std::map<std::pair<int, std::string>, RobotRow> rows;
+  std::set<int> robots;
+  for (const PlayedSpan& span : logged.spans) {
+    for (const PolicyOfRobot& who : span.had_it) {
+      if (who.robot_id != 0) add_minutes(rows[{who.robot_id, who.policy}].played_min, span.minutes);
+    }
+  }
+  reader.query(kOutcomesByRobotSql, [&](Cells row) {
+    rows[{static_cast<int>(integer(row[0])), text(row[1])}].kicks_by_outcome[text(row[2])] = integer(row[3]);
+  });
+  for (auto& [key, row] : rows) {
+    std::tie(row.robot_id, row.policy) = key;
+    row.blocked_apart = blocked_apart;
+    robots.insert(row.robot_id);
+  }
+  std::vector<RobotRow> result;
+  for (auto& [key, row] : rows) {
+    if (robots.size() > 1) result.push_back(std::move(row));
   }
   return result;
 }
@@ -45,10 +124,7 @@ std::int64_t PolicyRow::of(const std::string& outcome) const {
   return found == kicks_by_outcome.end() ? 0 : found->second;
 }
 
-stats::Interval PolicyRow::efficiency_bounds() const {
-  if (kicks() == 0) return {0.0, 1.0};
-  return {*stats::efficiency({inside(), kicks()}), *stats::efficiency({inside() + unknown(), kicks()})};
-}
+stats::Interval PolicyRow::efficiency_bounds() const { return stats::efficiency_bounds({counts(), unknown(), doubt}); }
 
 std::optional<double> PolicyRow::kicks_per_min() const {
   if (!played_min || *played_min <= 0.0) return std::nullopt;
@@ -71,22 +147,32 @@ std::int64_t Report::simulated_sessions() const {
 
 bool Report::data_lost() const {
   return rows_missing() > 0 || unclosed_sessions() > 0 || std::ranges::any_of(silences, &RecordedSilence::counts) ||
-         std::ranges::any_of(unrecorded_orders, &UnrecordedOrders::counts);
+         std::ranges::any_of(unrecorded_orders, &UnrecordedOrders::counts) ||
+         std::ranges::any_of(lengths, &PlayedLength::cut_short);
 }
 
-Report make_report(const log::Reader& reader) {
-  Report report{.sessions = reader.sessions(),
-                .policies = policy_rows(reader),
+Report make_report(const log::Reader& reader, bool blocked_apart) {
+  const LoggedOpportunities logged = read_opportunities(reader, "this log", false);
+  std::vector<log::RecordedSession> sessions = reader.sessions();
+  forget_absent_robots(sessions, logged);
+  Report report{.sessions = sessions,
+                .policies = policy_rows(reader, sessions, logged, blocked_apart),
+                .robots = robot_rows(reader, logged, blocked_apart),
+                .lengths = played_lengths(reader, logged.sessions),
+                .not_counted = logged.not_counted,
                 .losses = reader.losses(),
                 .unclosed_kicks = {},
                 .refused_orders = {},
                 .silences = silences_of(reader),
                 .unrecorded_orders = unrecorded_orders_of(reader),
+                .labels = label_quality_of(reader),
                 .warnings = reader.warnings(),
                 .doubt = reader.doubt(),
                 .verified_rows = reader.verification().compared ? reader.verification().rows : 0};
+  for (PolicyRow& row : report.policies) row.doubt = report.labels.doubts[row.policy];
+  for (std::string& warning : report.labels.goal_warnings()) report.warnings.push_back(std::move(warning));
   for (const log::RecordedSession& session : report.sessions) {
-    if (!session.scenario.starts_with("replay of ")) continue;
+    if (session.replays_uuid.empty()) continue;
     report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
                               ": the outcomes are those of the recorded kicks, whatever was ordered here");
   }

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/bounces.hpp"
+#include "evaluator/report/label_quality.hpp"
+#include "evaluator/report/played_length.hpp"
 #include "evaluator/report/recording_gaps.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -20,21 +23,35 @@ inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "ove
 struct PolicyRow {
   std::string policy;
   std::map<std::string, std::int64_t> kicks_by_outcome;
-  std::optional<double> played_min;  ///< minutes of play in its halves; none: the referee was not recorded
+  stats::LabelDoubt doubt;  ///< of the labels; 0 where the log does not say
+  Bounces bounces;
+  bool blocked_apart = false;        ///< blocked kicks are neither inside nor outside
+  std::optional<double> played_min;  ///< minutes of play in the possessions in which it had the ball; none: not known
+  std::int64_t repeated = 0;         ///< kicks in situations that it had in an earlier, paired half
+  std::optional<stats::Interval> paired_ci;  ///< of the efficiency, where some are repeated; none: Wilson's holds
 
   std::int64_t kicks() const;
   std::int64_t of(const std::string& outcome) const;
   std::int64_t inside() const { return of("on_target"); }
   std::int64_t unknown() const { return of("unknown"); }
-  std::int64_t outside() const { return kicks() - inside() - unknown(); }
+  std::int64_t blocked() const { return of("blocked"); }
+  std::int64_t outside() const { return kicks() - inside() - unknown() - (blocked_apart ? blocked() : 0); }
 
   /// Inside of the kicks whose outcome is known.
   stats::Counts counts() const { return {inside(), inside() + outside()}; }
 
-  /// Efficiency if every unknown outcome was outside, and if every one was inside. No kick: [0, 1].
+  /// Efficiency if every unknown outcome was outside and as many labels as may be are wrong, and the reverse.
   stats::Interval efficiency_bounds() const;
 
+  /// Of the efficiency, 95 %: Wilson's, by situations where paired halves repeat some.
+  stats::Interval efficiency_ci() const { return paired_ci.value_or(stats::wilson(counts())); }
+
   std::optional<double> kicks_per_min() const;
+};
+
+/// The kicks of a robot with a policy.
+struct RobotRow : PolicyRow {
+  int robot_id = 0;
 };
 
 /// A decision that fired and that order, receipt or outcome is missing of.
@@ -59,11 +76,15 @@ struct RefusedOrders {
 struct Report {
   std::vector<log::RecordedSession> sessions;
   std::vector<PolicyRow> policies;  ///< stopped before moving
-  std::vector<log::Loss> losses;    ///< by stream
+  std::vector<RobotRow> robots;     ///< by robot and policy; empty: the log has one robot
+  std::vector<PlayedLength> lengths;
+  std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
+  std::vector<log::Loss> losses;         ///< by stream
   std::vector<UnclosedKick> unclosed_kicks;
   std::vector<RefusedOrders> refused_orders;
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
+  LabelQuality labels;
   std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
   std::optional<std::string> doubt;      ///< a sentence on rows that nobody compared with their digest
   std::int64_t verified_rows = 0;        ///< that are as they were recorded
@@ -74,11 +95,13 @@ struct Report {
   std::int64_t unclosed_sessions() const;
   std::int64_t simulated_sessions() const;
 
-  /// Rows are missing, or may be since a session was not closed; a stream was silent, or kicks stand in no log.
+  /// Rows are missing, or may be since a session was not closed; a stream was silent, kicks stand in no log, or the
+  /// match was cut short.
   bool data_lost() const;
 };
 
-/// Counts what is in the log. Throws std::runtime_error where it cannot be read.
-Report make_report(const log::Reader& reader);
+/// Counts what is in the log. `blocked_apart`: blocked kicks stand apart, efficiency is of the others; otherwise they
+/// are outside, as in the paper's Table 2. Throws std::runtime_error where it cannot be read.
+Report make_report(const log::Reader& reader, bool blocked_apart = false);
 
 }  // namespace trivela::evaluator

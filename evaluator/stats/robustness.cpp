@@ -44,15 +44,6 @@ std::optional<Fragility> fragility(Counts older, Counts newer, double alpha) {
                    })};
 }
 
-Interval difference_bounds(Counts older, std::int64_t older_unknown, Counts newer, std::int64_t newer_unknown) {
-  const auto share = [](Counts known, std::int64_t unknown, std::int64_t inside_of_them) {
-    return static_cast<double>(known.inside + inside_of_them) / static_cast<double>(known.n + unknown);
-  };
-  if (older.n + older_unknown == 0 || newer.n + newer_unknown == 0) return {-1.0, 1.0};
-  return {share(newer, newer_unknown, 0) - share(older, older_unknown, older_unknown),
-          share(newer, newer_unknown, newer_unknown) - share(older, older_unknown, 0)};
-}
-
 double e_value(double risk_ratio) {
   const double rr = risk_ratio < 1.0 ? 1.0 / risk_ratio : risk_ratio;
   return rr + std::sqrt(rr * (rr - 1.0));

@@ -16,10 +16,6 @@ struct Fragility {
 /// None: p is alpha or above already.
 std::optional<Fragility> fragility(Counts older, Counts newer, double alpha = 0.05);
 
-/// Difference newer - older where some outcomes are not known: if every unknown kick of the newer was outside and of
-/// the older inside, and the reverse. A group without kicks: [-1, 1].
-Interval difference_bounds(Counts older, std::int64_t older_unknown, Counts newer, std::int64_t newer_unknown);
-
 /// E-value of a risk ratio (VanderWeele and Ding 2017): rr + sqrt(rr (rr - 1)), of 1 / rr below 1. As strong an
 /// association, with the policy and with the outcome, would an unrecorded difference between the matches need to
 /// explain the ratio away. 1 for a ratio of 1.

@@ -25,9 +25,9 @@ DirectionFit fit_direction(std::span<const LaunchDirection> kicks) {
   }
   const Spread seen = spread_of(directions);
   DirectionFit fit{.mean_rad = seen.mean, .seen_sd_rad = seen.sd, .observer_sd_rad = std::sqrt(observer_square)};
-  const double sd = std::sqrt(std::max(0.0, seen.sd * seen.sd - observer_square));
-  const double freedom = std::sqrt(2.0 * (n - 1.0));
-  fit.sd_rad = {sd, (sd > 0.0 ? seen.sd * seen.sd / sd : seen.sd) / freedom};
+  const double square = seen.sd * seen.sd - observer_square;
+  if (!(square > 0.0)) return fit;
+  fit.sd_rad = {std::sqrt(square), seen.sd * seen.sd / std::sqrt(2.0 * (n - 1.0) * square)};
   return fit;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,13 @@ namespace trivela::kicking {
 /// A number with its standard error.
 using lob::Estimate;
 
-/// Mean and standard deviation of a sample; sd 0 for a single value.
+/// A figure that these data do not show.
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean and standard deviation of a sample; sd kUnknown for a single value.
 struct Spread {
   double mean = 0.0;
-  double sd = 0.0;  ///< with n - 1
+  double sd = kUnknown;  ///< with n - 1
 };
 
 /// @throws std::invalid_argument for an empty sample or a value that is not finite.

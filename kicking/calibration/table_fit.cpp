@@ -36,7 +36,8 @@ void check(std::span<const Trial> trials) {
     if (!(std::isfinite(trial.exit_speed_mps) && trial.exit_speed_mps > 0.0)) {
       fail("the exit speed must be finite and above 0");
     }
-    if (!(trial.exit_angle_rad > 0.0 && trial.exit_angle_rad < 0.5 * std::numbers::pi)) {
+    if (!std::isnan(trial.exit_angle_rad) &&
+        !(trial.exit_angle_rad > 0.0 && trial.exit_angle_rad < 0.5 * std::numbers::pi)) {
       fail("the exit angle must lie between 0 and 90 degrees");
     }
   }
@@ -46,13 +47,19 @@ using TrialsByPower = std::map<double, std::vector<const Trial*>>;
 
 Spread spread_of(const std::vector<const Trial*>& trials, double Trial::*column) {
   std::vector<double> values;
-  for (const Trial* trial : trials) values.push_back(trial->*column);
-  return kicking::spread_of(values);
+  for (const Trial* trial : trials) {
+    if (!std::isnan(trial->*column)) values.push_back(trial->*column);
+  }
+  return values.empty() ? Spread{kUnknown, kUnknown} : kicking::spread_of(values);
 }
 
 double range_of(const std::vector<const Trial*>& trials, double Trial::*column) {
-  const auto [least, most] = std::ranges::minmax(trials, {}, [column](const Trial* trial) { return trial->*column; });
-  return most->*column - least->*column;
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const Trial* trial : trials) {
+    least = std::fmin(least, trial->*column);
+    most = std::fmax(most, trial->*column);
+  }
+  return most - least;
 }
 
 /// Mean angle over the trials that count, spread of the set-points' angles, and what is worth a warning.
@@ -62,16 +69,20 @@ void fit_angle(const TrialsByPower& by_power, const TableOptions& options, Table
   double most = -HUGE_VAL;
   for (const TrialMean& point : fit.set_points) {
     if (options.least_angle_power && point.power < *options.least_angle_power) continue;
-    for (const Trial* trial : by_power.at(point.power)) angles.push_back(trial->exit_angle_rad);
-    least = std::min(least, point.exit_angle_rad.mean);
-    most = std::max(most, point.exit_angle_rad.mean);
+    for (const Trial* trial : by_power.at(point.power)) {
+      if (!std::isnan(trial->exit_angle_rad)) angles.push_back(trial->exit_angle_rad);
+    }
+    least = std::fmin(least, point.exit_angle_rad.mean);
+    most = std::fmax(most, point.exit_angle_rad.mean);
   }
+  if (angles.empty() && !options.least_angle_power) throw std::invalid_argument("table: no trial has an exit angle");
   if (angles.empty()) {
     throw std::invalid_argument("table: no power reaches " + short_number(*options.least_angle_power) +
                                 ", from which the exit angle counts");
   }
   const Spread spread = kicking::spread_of(angles);
   fit.exit_angle_rad = {spread.mean, spread.sd / std::sqrt(static_cast<double>(angles.size()))};
+  fit.exit_angles = angles.size();
   fit.angle_spread_rad = most - least;
   if (fit.angle_spread_rad > kAngleSpread_rad) {
     fit.warnings.push_back("the exit angle differs by " + in_degrees(fit.angle_spread_rad) +
@@ -91,22 +102,35 @@ void warn_of_trials(const TrialsByPower& by_power, TableFit& fit) {
   }
 }
 
-void pool_spreads(TableFit& fit) {
-  double speeds = 0.0, ratios = 0.0, angles = 0.0, shares = 0.0;
-  int freedom = 0;
-  for (const TrialMean& point : fit.set_points) {
-    const int own = point.trials - 1;
-    const double ratio = point.exit_speed_mps.sd / point.exit_speed_mps.mean;
-    speeds += own * point.exit_speed_mps.sd * point.exit_speed_mps.sd;
-    ratios += own * ratio * ratio;
-    angles += own * point.exit_angle_rad.sd * point.exit_angle_rad.sd;
-    shares += 1.0 / point.trials;
-    freedom += own;
+/// Pooled standard deviation of samples; NaN: none has two values.
+class PooledSd {
+ public:
+  void add(double sd, int values) {
+    if (values < 2) return;
+    squares_ += (values - 1) * sd * sd;
+    freedom_ += values - 1;
   }
-  if (freedom == 0) return;
-  fit.exit_speed_sd_mps = std::sqrt(speeds / freedom);
-  fit.exit_speed_sd_ratio = std::sqrt(ratios / freedom);
-  fit.exit_angle_sd_rad = std::sqrt(angles / freedom);
+  double sd() const { return freedom_ > 0 ? std::sqrt(squares_ / freedom_) : kUnknown; }
+
+ private:
+  double squares_ = 0.0;
+  int freedom_ = 0;
+};
+
+void pool_spreads(const TrialsByPower& by_power, TableFit& fit) {
+  PooledSd speeds, ratios, angles;
+  double shares = 0.0;
+  for (const TrialMean& point : fit.set_points) {
+    speeds.add(point.exit_speed_mps.sd, point.trials);
+    ratios.add(point.exit_speed_mps.sd / point.exit_speed_mps.mean, point.trials);
+    const auto seen = std::ranges::count_if(by_power.at(point.power),
+                                            [](const Trial* trial) { return !std::isnan(trial->exit_angle_rad); });
+    angles.add(point.exit_angle_rad.sd, static_cast<int>(seen));
+    shares += 1.0 / point.trials;
+  }
+  fit.exit_speed_sd_mps = speeds.sd();
+  fit.exit_speed_sd_ratio = ratios.sd();
+  fit.exit_angle_sd_rad = angles.sd();
   fit.exit_speed_se_ratio = fit.exit_speed_sd_ratio * std::sqrt(shares / static_cast<double>(fit.set_points.size()));
 }
 
@@ -157,7 +181,7 @@ TableFit fit_table(std::span<const Trial> trials, const TableOptions& options) {
   }
   fit_angle(by_power, options, fit);
   warn_of_trials(by_power, fit);
-  pool_spreads(fit);
+  pool_spreads(by_power, fit);
   fit.not_rising = kicking::not_rising(fit.set_points);
   if (options.isotonic && !fit.not_rising.empty()) {
     std::vector<WeightedSpeed> speeds;

@@ -14,7 +14,7 @@ namespace trivela::kicking {
 /// One kick of a calibration: a set-point and how the ball left.
 struct Trial {
   double power = 0.0;
-  double exit_angle_rad = 0.0;
+  double exit_angle_rad = 0.0;  ///< NaN: nobody saw it
   double exit_speed_mps = 0.0;
 };
 
@@ -26,8 +26,8 @@ Trial trial_of_lob(double power, double height_m, double distance_m);
 struct TrialMean {
   double power = 0.0;
   int trials = 0;
-  Spread exit_speed_mps;  ///< sd 0 for a single trial; the mean after the isotonic fit, where that was asked for
-  Spread exit_angle_rad;
+  Spread exit_speed_mps;  ///< sd NaN for a single trial; the mean after the isotonic fit, where that was asked for
+  Spread exit_angle_rad;  ///< of the trials whose angle was seen; NaN: none
 };
 
 struct TableOptions {
@@ -42,15 +42,16 @@ struct TableOptions {
 struct TableFit {
   std::vector<TrialMean> set_points;    ///< powers rising
   Estimate exit_angle_rad;              ///< mean over the trials that count, as in the paper
+  std::size_t exit_angles = 0;          ///< trials that it is the mean of
   double angle_spread_rad = 0.0;        ///< greatest less least mean angle of a set-point
-  double exit_speed_sd_mps = 0.0;       ///< from kick to kick, pooled over the set-points; 0: no power has two trials
-  double exit_speed_sd_ratio = 0.0;     ///< the same of each set-point's own speed
-  double exit_speed_se_ratio = 0.0;     ///< of a set-point's mean, root mean square over the set-points
-  double exit_angle_sd_rad = 0.0;       ///< from kick to kick, pooled over the set-points, measurement included
-  std::vector<std::size_t> not_rising;  ///< set-points not faster than an earlier one, before the isotonic fit
-  bool isotonic = false;                ///< the isotonic fit changed the speeds
-  std::vector<double> residual_mps;     ///< trial - speed of its set-point, in the order of the trials
-  std::vector<std::string> warnings;    ///< single trials, angles that differ by more than 1 degree
+  double exit_speed_sd_mps = kUnknown;  ///< from kick to kick, pooled over the set-points; NaN: no power has two trials
+  double exit_speed_sd_ratio = kUnknown;  ///< the same of each set-point's own speed
+  double exit_speed_se_ratio = kUnknown;  ///< of a set-point's mean, root mean square over the set-points
+  double exit_angle_sd_rad = kUnknown;    ///< from kick to kick, pooled over the set-points, measurement included
+  std::vector<std::size_t> not_rising;    ///< set-points not faster than an earlier one, before the isotonic fit
+  bool isotonic = false;                  ///< the isotonic fit changed the speeds
+  std::vector<double> residual_mps;       ///< trial - speed of its set-point, in the order of the trials
+  std::vector<std::string> warnings;      ///< single trials, angles that differ by more than 1 degree
 
   /// Does each speed lie above its predecessor?
   bool rises() const;

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "kicking/ballistics/crossing.hpp"
+#include "kicking/calibration/tracked_transfer.hpp"
 
 namespace trivela::kicking {
 namespace {
 
-constexpr double kLeastSpeed_mps = 0.05;
 constexpr double kLeastShare = 0.1;  // of its own horizontal speed that the ball keeps with any k tried
 
 [[noreturn]] void fail(std::size_t row, const std::string& why) {
@@ -116,8 +116,6 @@ struct World {
   double gravity_mps2;
 };
 
-bool at_rest(const TransferRow& row) { return std::abs(row.vy_mps) < kLeastSpeed_mps; }
-
 double needed_v0_mps(std::span<const TransferRow> rows, std::size_t i, const World& world) {
   const TransferRow& row = rows[i];
   const auto v0_mps =
@@ -129,7 +127,7 @@ double needed_v0_mps(std::span<const TransferRow> rows, std::size_t i, const Wor
 std::optional<Estimate> standing_ratio(std::span<const TransferRow> rows, const World& world) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (at_rest(rows[i])) ratios.push_back(needed_v0_mps(rows, i, world) / rows[i].v0_mps);
+    if (rows[i].at_rest()) ratios.push_back(needed_v0_mps(rows, i, world) / rows[i].v0_mps);
   }
   if (ratios.size() < 2) return std::nullopt;
   const auto n = static_cast<double>(ratios.size());
@@ -159,7 +157,7 @@ std::optional<TransferDirection> direction(std::span<const TransferRow> rows, do
   std::vector<Kick> kicks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TransferRow& row = rows[i];
-    if (sign * row.vy_mps < kLeastSpeed_mps) continue;
+    if (sign * row.vy_mps < TransferRow::kLeastSpeed_mps) continue;
     result.rows.push_back(i);
     kicks.push_back({row.vy_mps, row.v0_mps * std::cos(row.exit_angle_rad), row.v0_mps * std::sin(row.exit_angle_rad),
                      row.distance_m - row.vy_mps * world.delay_s, row.z_cross_m - world.ball_radius_m});
@@ -171,8 +169,8 @@ std::optional<TransferDirection> direction(std::span<const TransferRow> rows, do
   result.kicks = static_cast<int>(n);
   result.exact = {k, std::sqrt(fit.squares(k) / (n - 1.0) / fit.information(k))};
   result.paper = paper_ratio(rows, result.rows, world);
-  result.residual_m = fit.residuals_m(k);
-  result.rms_m = std::sqrt(fit.squares(k) / n);
+  result.residual = fit.residuals_m(k);
+  result.rms = std::sqrt(fit.squares(k) / n);
   return result;
 }
 
@@ -180,6 +178,8 @@ std::optional<TransferDirection> direction(std::span<const TransferRow> rows, do
 
 TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m, double gravity_mps2) {
   check(rows, delay_s);
+  if (!rows.empty() && std::ranges::all_of(rows, [](const TransferRow& row) { return row.track.has_value(); }))
+    return fit_tracked_transfer(rows, delay_s, gravity_mps2);
   const World world{delay_s, ball_radius_m, gravity_mps2};
   TransferFit fit{standing_ratio(rows, world), {}, {}, {}};
   const Estimate ratio = fit.standing_ratio.value_or(Estimate{1.0, 0.0});

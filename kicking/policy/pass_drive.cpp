@@ -27,7 +27,7 @@ Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, cons
 /// straight before the target, at `distance_m`. At 0 m/s it stands there: the kick that the others are held against.
 Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
                      PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
-  const Shot shot = stopped_shot(config, robot, goal, input);
+  const Shot shot = drive_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
   set_alignment(judgement, align(input.pose, 0.0, 0.0, 0.0, target, config.alignment));
@@ -46,8 +46,8 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
     judgement.drive.vx_mps = velocity.x();
     judgement.drive.vy_mps = velocity.y();
     const bool there = (mark - position).norm() <= kAtMark_m &&
-                       std::hypot(input.twist.vx_mps, input.twist.vy_mps) <= config.rest_speed_mps &&
-                       std::abs(wrap_angle(input.pose.heading_rad)) <= 2.0 * config.aim_tolerance_rad;
+                       std::hypot(input.twist.vx_mps, input.twist.vy_mps) <= config.test_drive.rest_speed_mps &&
+                       std::abs(wrap_angle(input.pose.heading_rad)) <= 2.0 * config.test_drive.aim_tolerance_rad;
     judgement.reason = there ? Reason::kKickerNotReady : Reason::kApproaching;
     passing = there && input.kicker_ready;
     if (!passing) return judgement;

@@ -13,10 +13,10 @@ constexpr int kBisections = 40;  // of a gap between set-points: 1e-11 of a powe
 constexpr int kRounds = 12;
 
 /// The point that the drag-free flight shall pass, by the law for heights.
-FlightPoint flight_point(const PolicyConfig& config, const RobotModel& robot, double distance_m,
+FlightPoint flight_point(HeightLaw law, double target_height_m, const RobotModel& robot, double distance_m,
                          const Elevation& exit_angle) {
-  const FlightPoint target{distance_m, config.target_height_m - robot.ball.radius_m};
-  switch (config.height_law) {
+  const FlightPoint target{distance_m, target_height_m - robot.ball.radius_m};
+  switch (law) {
     case HeightLaw::kPaper:
       return {distance_m, 0.0};
     case HeightLaw::kExtendedRange:
@@ -119,16 +119,29 @@ Eigen::Vector2d held_ball(const TurnedPose& robot, const RobotModel& model) {
   return robot.to_field(0.0, model.ball_offset_m);
 }
 
-Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+namespace {
+
+Shot shot_at_rest(HeightLaw law, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                  const PolicyInput& input) {
   Shot shot;
   shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
   shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
   set_speeds(shot, robot, [&](const Elevation& angle) {
-    const auto v0_mps = crossing_speed(flight_point(config, robot, shot.distance_m, angle), angle);
+    const auto v0_mps = crossing_speed(flight_point(law, config.target_height_m, robot, shot.distance_m, angle), angle);
     return Speeds{v0_mps, v0_mps};
   });
   set_power(shot, robot, goal, input);
   return shot;
+}
+
+}  // namespace
+
+Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+  return shot_at_rest(config.height_law, config, robot, goal, input);
+}
+
+Shot drive_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+  return shot_at_rest(HeightLaw::kExact, config, robot, goal, input);
 }
 
 Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
@@ -139,7 +152,7 @@ Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal
       target_on_line(config, goal) - (exact ? held_ball(shot.release, robot) : held_ball(input.pose, robot));
   shot.distance_m = line.norm();
   set_speeds(shot, robot, [&](const Elevation& angle) {
-    const FlightPoint point = flight_point(config, robot, shot.distance_m, angle);
+    const FlightPoint point = flight_point(config.height_law, config.target_height_m, robot, shot.distance_m, angle);
     Speeds speeds{crossing_speed(point, angle), std::nullopt};
     if (!speeds.v0_mps) return speeds;
     if (exact) {

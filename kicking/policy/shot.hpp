@@ -30,6 +30,9 @@ Eigen::Vector2d held_ball(const TurnedPose& robot, const RobotModel& model);
 /// Shot of a robot taken to stand still: V_kick = V0, from where the ball is now.
 Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);
 
+/// The same of a test drive: always by the exact height law, whatever is played by.
+Shot drive_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);
+
 /// Shot of a moving robot by the configured height and motion laws.
 Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input);
 

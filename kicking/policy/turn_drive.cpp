@@ -49,7 +49,7 @@ Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, 
   }
   const double omega_radps = drive.turn_radps[progress.level];
   const double sense = std::copysign(1.0, omega_radps);
-  const Shot shot = stopped_shot(config, robot, goal, input);
+  const Shot shot = drive_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
   AlignmentRule rule = config.alignment;
@@ -62,8 +62,8 @@ Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, 
     const double start_rad = bearing({input.pose.x_m, input.pose.y_m}, target) - sense * drive.turn_lead_rad;
     const double error_rad = wrap_angle(start_rad - input.pose.heading_rad);
     judgement.drive.omega_radps = turn_rate_for(error_rad, config.stopped_turn_gain_hz, config);
-    const bool there = std::abs(error_rad) <= 3.0 * config.aim_tolerance_rad &&
-                       std::abs(input.twist.omega_radps) <= config.rest_turn_rate_radps;
+    const bool there = std::abs(error_rad) <= 3.0 * drive.aim_tolerance_rad &&
+                       std::abs(input.twist.omega_radps) <= drive.rest_turn_rate_radps;
     judgement.reason = there ? Reason::kKickerNotReady : Reason::kTurning;
     progress.passing = there && input.kicker_ready;
     if (!progress.passing) return judgement;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "kicking/policy/policy.hpp"
 #include "nodes/kick_decision/assignment.hpp"
 #include "sim/scenario.hpp"
+#include "sim/sensors.hpp"
 
 namespace trivela::nodes {
 
@@ -26,12 +28,14 @@ struct Arm {
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
   std::vector<PolicyChance> random;                    ///< drawn for each possession anew
+  bool own_robots = false;                             ///< evenings of an experiment leave `robots` as they are
 };
 
 /// What is recorded beside the possessions.
 struct PlayOptions {
-  bool shadows = false;      ///< the policies that are not in charge judge as well
-  bool every_cycle = false;  ///< record every decision, not only those that fire
+  bool shadows = false;                              ///< the policies that are not in charge judge as well
+  bool every_cycle = false;                          ///< record every decision, not only those that fire
+  std::function<void(const sim::Sensors&)> watch{};  ///< gets what every cycle's sensors say; none: nobody looks
 };
 
 /// The arm's settings as its robots play by them, but for kick_decision.assignment_seed, which is the match's.

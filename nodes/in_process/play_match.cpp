@@ -42,19 +42,19 @@ std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>
 class Game {
  public:
   Game(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
-       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record)
+       std::uint64_t seed_of_match, std::uint32_t possessions, const PlayOptions& options, MatchRecord* record)
       : scenario_(scenario),
         arm_(arm),
         options_(options),
         record_(record),
         seed_(seed),
         match_id_(match_id),
-        settings_(settings_of_match(arm, match_seed(seed, match_id), options)),
-        session_(session_of(match_seed(seed, match_id))),
+        settings_(settings_of_match(arm, seed_of_match, options)),
+        session_(session_of(seed_of_match)),
         oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
-        match_(scenario, match_seed(seed, match_id), 1, kEndless_min, possessions),
+        match_(scenario, seed_of_match, 1, kEndless_min, possessions),
         observer_(settings_.shot_observer, settings_.goal) {
-    played_.match_seed = match_seed(seed, match_id);
+    played_.match_seed = seed_of_match;
     played_.possessions.reserve(possessions);
     kick_ids_.reserve(possessions);
   }
@@ -67,7 +67,8 @@ class Game {
  private:
   void cycle() {
     const bool follows = observer_.follows();
-    const sim::Sensors sensors = match_.sense({.flight = follows});
+    const sim::Sensors sensors = match_.sense({.flight = follows || options_.watch});
+    if (options_.watch) options_.watch(sensors);
     ++played_.cycles;
     played_.end_t_ns = sensors.t_ns;
     const msg::Referee referee = hear(sensors);
@@ -149,20 +150,24 @@ class Game {
   }
 
   void note_assignment(const msg::Referee& referee, const RobotChain& chain) {
-    if (assigned_ == referee.possession_id || !chain.world().possession) return;
-    assigned_ = referee.possession_id;
-    const PolicyChance chance = chain.decider().assignment().in_charge(referee.half, referee.possession_id);
+    const std::uint32_t possession_id = chain.world().possession_id;
+    if (assigned_ == possession_id || !chain.world().possession) return;
+    assigned_ = possession_id;
+    const PolicyChance chance = chain.decider().assignment().in_charge(referee.half, possession_id);
     PlayedPossession& current = played_.possessions.back();
     current.policy = chance.policy;
     current.assignment_probability = chance.probability;
     if (record_)
-      record_->assignments.push_back(
-          {robot_id_, referee.half, referee.possession_id, chance.policy, chance.probability});
+      record_->assignments.push_back({robot_id_, referee.half, possession_id, chance.policy, chance.probability});
   }
 
   void settle(const sim::StepEvents& events) {
     for (const sim::KickTruth& truth : events.kicks) {
-      if (PlayedPossession* of = possession_of(truth.kick_id)) of->kick->truth = truth.outcome;
+      if (PlayedPossession* of = possession_of(truth.kick_id)) {
+        of->kick->truth = truth.outcome;
+        of->kick->truth_saved = truth.saved;
+        of->kick->truth_bounced = truth.bounced;
+      }
       if (!record_) continue;
       record_->kick_truths.push_back(truth_message(truth));
       record_->kick_truths.back().robot_id = robot_of(truth.kick_id);
@@ -240,7 +245,13 @@ std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
 PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
   check_playable(scenario, arm, possessions);
-  return Game{scenario, arm, seed, match_id, possessions, options, record}.play();
+  return Game{scenario, arm, seed, match_id, match_seed(seed, match_id), possessions, options, record}.play();
+}
+
+PlayedMatch play_seeded_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed,
+                              std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+  check_playable(scenario, arm, possessions);
+  return Game{scenario, arm, seed, 0, seed, possessions, options, record}.play();
 }
 
 }  // namespace trivela::nodes

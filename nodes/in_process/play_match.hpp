@@ -22,4 +22,9 @@ std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id);
 PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint32_t possessions, const PlayOptions& options = {}, MatchRecord* record = nullptr);
 
+/// The same with the match's own seed, as `trivela match --seed`. An old table is drawn as for match 0 of `seed`.
+PlayedMatch play_seeded_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed,
+                              std::uint32_t possessions, const PlayOptions& options = {},
+                              MatchRecord* record = nullptr);
+
 }  // namespace trivela::nodes

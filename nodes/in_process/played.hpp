@@ -23,6 +23,8 @@ struct PlayedKick {
   std::optional<kicking::Crossing> predicted;              ///< crossing of the goal line
   kicking::Outcome observed = kicking::Outcome::kUnknown;  ///< by the shot observer
   std::optional<kicking::Outcome> truth;                   ///< of the simulator; none: the ball never left
+  bool truth_saved = false;                                ///< of the simulator: the keeper had it
+  bool truth_bounced = false;                              ///< of the simulator: it touched the floor before that
 };
 
 /// One opportunity: a possession of the ball by one of our robots.

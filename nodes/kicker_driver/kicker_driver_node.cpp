@@ -32,8 +32,9 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
                            bus::writes<msg::KickReceipt, msg::SimFire>(), words);
-    orders.on_liveliness = [logger = context_.logger](const bus::Liveliness& writers) {
-      if (writers.alive == 0 && writers.lapsed > 0) logger->warn("the decision loop is silent: no order comes");
+    orders.on_liveliness = [this](const bus::Liveliness& writers) {
+      if (loop_.fell_silent(writers, context_.steady_ns()))
+        context_.logger->warn("the decision loop is silent: no order comes");
     };
   }
   node_.on<msg::KickOrder>([this](const msg::KickOrder& order) { on_order(order); },

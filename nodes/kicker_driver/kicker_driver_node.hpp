@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hal/kicker.hpp"
+#include "nodes/kicker_driver/loop_watch.hpp"
 #include "nodes/kicker_driver/order_desk.hpp"
 #include "nodes/runtime/node_context.hpp"
 
@@ -36,6 +37,7 @@ class KickerDriverNode {
   OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
+  LoopWatch loop_;
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;

@@ -59,8 +59,16 @@ std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableI
     log_.add_loss(table, LossKind::kRejected);
     return std::nullopt;
   }
-  if (finding.gap > 0) log_.add_loss(table, LossKind::kGaps, finding.gap);
   if (finding.out_of_order) log_.add_loss(table, LossKind::kOutOfOrder);
+  if (finding.repeated) return std::nullopt;  // a writer that comes back says again what it keeps
+  if (finding.filled) log_.add_loss(table, LossKind::kGaps, -1);
+  if (finding.gap > 0) {
+    log_.add_loss(table, LossKind::kGaps, finding.gap);
+    const auto before = watch.latest.find(sample.robot_id);
+    if (watch.events && before != watch.latest.end() && before->second.second < sample.t_ns)
+      log_.silence({table, sample.robot_id, before->second.second, sample.t_ns});
+  }
+  if (!finding.out_of_order) watch.latest[sample.robot_id] = {sample.seq, sample.t_ns};
   sample.seq = static_cast<std::uint64_t>(finding.seq);
   log_.push(id, row_of(sample));
   return finding.seq;
@@ -75,6 +83,7 @@ void RecorderNode::record(const std::string& table) {
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
   std::optional<std::size_t> voice;
+  state_->streams[table].events = state_->silences && bus::meta<T>::period_s <= 0.0;
   if (state_->silences && bus::meta<T>::period_s > 0.0) voice = state_->silences->add(table, bus::meta<T>::period_s);
   node_.on<T>(
       [this, table, id, cycle_stream, voice, &watch = state_->streams[table]](const T& sample,
@@ -104,6 +113,7 @@ void RecorderNode::record_decisions() {
   const TableId assignments = log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"});
   bus::ReaderOptions everything;
   everything.keep_all = true;
+  state_->streams["kick_decisions"].events = state_->silences != nullptr;
   node_.on<msg::KickDecision>(
       [this, decisions, shadows, assignments, &watch = state_->streams["kick_decisions"]](
           const msg::KickDecision& decision, const bus::SampleInfo& info) {

@@ -19,11 +19,12 @@ struct StreamWatch {
   SequenceWatch numbers;
   InstantWatch instants;
   std::map<std::uint8_t, std::pair<std::uint64_t, std::int64_t>> latest{};  ///< seq and t_ns of a robot's last sample
+  bool events = false;  ///< without a period: what is skipped has no silence of its own
 
   /// A sample that a late joiner is given once more.
-  bool repeats(std::uint8_t robot_id, std::uint64_t seq, std::int64_t t_ns) {
-    const std::pair sample{seq, t_ns};
-    return std::exchange(latest[robot_id], sample) == sample;
+  bool repeats(std::uint8_t robot_id, std::uint64_t seq, std::int64_t t_ns) const {
+    const auto last = latest.find(robot_id);
+    return last != latest.end() && last->second == std::pair{seq, t_ns};
   }
 };
 

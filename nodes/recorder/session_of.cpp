@@ -3,17 +3,60 @@
 #include <optional>
 
 #include "config/scenario.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/log/value.hpp"
 #include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/recorder/session_text.hpp"
 #include "nodes/runtime/now_ns.hpp"
 
 namespace trivela::nodes {
+namespace {
 
-evaluator::log::Session session_of(const NodeContext& context) {
+using evaluator::log::Session;
+
+/// Who a replay replays, and how long that was.
+void describe_replay(const config::Hal& hal, Session& session) {
+  const std::filesystem::path log{hal.replay_log};
+  session.scenario = "replay of " + log.filename().string();
+  const evaluator::log::Reader reader{log, evaluator::log::Check::kQuick};  // hal::ReplayLog looks at every row
+  const auto sessions = reader.sessions();
+  if (sessions.size() != 1) return;  // nor does the replay find out which
+  session.replays_uuid = sessions.front().uuid;
+  session.paired_halves = sessions.front().paired_halves;
+  reader.query("SELECT 1e-9 * (max(t_ns) - min(t_ns)) FROM referee",
+               [&](auto row) { session.planned_s = evaluator::log::number_if_any(row[0]); });
+}
+
+void describe_simulation(const config::Settings& settings, Session& session) {
+  const config::Simulator& simulator = settings.simulator;
+  session.seed = simulator.seed;
+  session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
+  session.paired_halves = simulator.paired_halves;
+  // A half that may end with its possessions has no length that anybody could know.
+  if (simulator.max_possessions == 0) session.planned_s = simulator.halves * simulator.half_minutes * 60.0;
+}
+
+/// The policies of the halves, and of the robots that have one of their own.
+std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& settings, std::size_t halves) {
+  std::vector<evaluator::log::HalfPolicy> policies;
+  if (!settings.random.empty()) return policies;
+  for (std::size_t robot_id = 0; robot_id <= settings.policy_by_robot.size(); ++robot_id) {
+    const PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};
+    for (std::size_t half = 1; half <= halves; ++half) {
+      const auto policy = assignment.in_charge(static_cast<std::uint8_t>(half), 0).policy;
+      policies.push_back({static_cast<int>(half), kicking::name(policy), static_cast<int>(robot_id)});
+    }
+  }
+  return policies;
+}
+
+}  // namespace
+
+Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
   const bool simulated = settings.run.lockstep || settings.hal.wheels == "sim";
-  evaluator::log::Session session;
+  Session session;
   session.simulated = simulated;
   session.simulated_clock = settings.run.lockstep;
   const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
@@ -21,23 +64,17 @@ evaluator::log::Session session_of(const NodeContext& context) {
   session.realtime_offset_ns = realtime_ns - session.started_t_ns;
   std::optional<sim::Scenario> scenario;
   if (settings.hal.wheels == "replay") {
-    session.scenario = "replay of " + std::filesystem::path{settings.hal.replay_log}.filename().string();
+    describe_replay(settings.hal, session);
   } else if (simulated) {
-    session.seed = settings.simulator.seed;
-    session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
+    describe_simulation(settings, session);
     scenario = config::load_scenario(settings.run.scenario);
   }
   session.config_toml = session_config(settings, {context.robot}, scenario ? &*scenario : nullptr);
   session.software_version = software_version();
   session.idl = idl_text();
-  const PolicyAssignment assignment{settings.kick_decision, context.robot_id()};
-  if (assignment.random()) return session;
-  const auto& by_half = settings.kick_decision.policy_by_half;
-  const std::size_t halves = simulated ? settings.simulator.halves : std::max<std::size_t>(by_half.size(), 2);
-  for (std::size_t half = 1; half <= halves; ++half) {
-    const auto policy = assignment.in_charge(static_cast<std::uint8_t>(half), 0).policy;
-    session.policies.push_back({static_cast<int>(half), kicking::name(policy)});
-  }
+  const std::size_t by_half = settings.kick_decision.policy_by_half.size();
+  session.policies =
+      policies_of(settings.kick_decision, simulated ? settings.simulator.halves : std::max<std::size_t>(by_half, 2));
   return session;
 }
 

@@ -81,6 +81,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   secure_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
   CLI::App app{fmt::format("Trivela's {} node", name)};
+  app.set_version_flag("--version", fmt::format("trivela-{} {}", name, TRIVELA_VERSION));
   std::string config_file;
   std::vector<std::string> overrides;
   int realtime_priority = 0;
@@ -100,8 +101,8 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     bus::Stop stop;
     const bus::StopOnSignals on_signals{stop};
     config::Settings settings = config::load_settings(config_file);
-    for (const std::string& line : overrides) config::override_setting(settings, line);
-    const config::Robot robot = config::load_robot(settings.run.robot);
+    config::override_settings(settings, overrides);
+    const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings.policy);
     const auto logger = make_logger(name, settings.run.log_level);
     if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {
       logger->warn("real-time scheduling was not permitted");

@@ -1,6 +1,8 @@
 #include "nodes/shot_observer/observer.hpp"
 
 #include <cmath>
+#include <iterator>
+#include <tuple>
 
 #include "nodes/runtime/none.hpp"
 
@@ -22,9 +24,13 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.observations = static_cast<std::uint32_t>(shot.sightings);
   out.exit_speed_mps = shot.verdict.exit_speed_mps.value_or(kNone);
   out.exit_elevation_rad = shot.verdict.exit_elevation_rad.value_or(kNone);
-  for (double* const p : {&out.p_on_target, &out.p_wide_left, &out.p_wide_right, &out.p_over, &out.p_short, &out.p_post,
-                          &out.p_bar, &out.p_blocked, &out.residual_sd_m})
-    *p = kNone;
+  double* const probabilities[] = {&out.p_on_target, &out.p_wide_left, &out.p_wide_right, &out.p_over,
+                                   &out.p_short,     &out.p_post,      &out.p_bar,        &out.p_blocked};
+  static_assert(std::size(probabilities) == std::tuple_size_v<kicking::OutcomeProbabilities>);
+  for (std::size_t i = 0; i < std::size(probabilities); ++i)
+    *probabilities[i] = shot.verdict.probabilities ? (*shot.verdict.probabilities)[i] : kNone;
+  out.bounced = shot.verdict.bounced;
+  out.residual_sd_m = shot.verdict.residual_sd_m.value_or(kNone);
   return out;
 }
 
@@ -37,8 +43,9 @@ void append(std::vector<msg::KickOutcome>& outcomes, const std::vector<TrackedSh
 std::vector<msg::KickOutcome> Observer::receipt(const msg::KickReceipt& receipt, const kicking::RobotModel& model) {
   std::vector<msg::KickOutcome> outcomes;
   if (!receipt.accepted) return outcomes;
-  const double expected_mps = model.table.speed_for(receipt.power) * std::cos(model.exit_angle_at(receipt.power));
-  append(outcomes, tracker_.release(receipt.kick_id, receipt.release_t_ns, expected_mps));
+  const double v_mps = model.table.speed_for(receipt.power), angle_rad = model.exit_angle_at(receipt.power);
+  append(outcomes, tracker_.release(receipt.kick_id, receipt.release_t_ns, v_mps * std::cos(angle_rad),
+                                    v_mps * std::sin(angle_rad)));
   return outcomes;
 }
 

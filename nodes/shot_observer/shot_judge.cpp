@@ -2,21 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kicking/constants.hpp"
+#include "kicking/outcome/p_inside.hpp"
+#include "nodes/shot_observer/flight_stories.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 using kicking::Outcome;
+using kicking::OutcomeProbabilities;
 
-constexpr std::size_t kFewest = 5;         // sightings that a verdict needs
-constexpr std::size_t kFewestInPiece = 3;  // that a flight after a bounce is fitted to
-constexpr std::size_t kWindow = 7;       // sightings that a velocity is taken from: 0.28 m/s per axis at 3 cm and 50 Hz
-constexpr double kLostSpeedShare = 0.6;  // of the expected speed: less was taken away; drag leaves more than 0.9
-constexpr double kTurnedAside_mps = 2.0;  // five standard deviations of the difference of two windows
-constexpr double kNearFloor_m = 0.25;     // a minimum of z below it is a bounce
-const kicking::Ball kBall{};
+constexpr std::size_t kFewest = 5;     // sightings that a verdict needs
+constexpr std::size_t kWindow = 7;     // sightings that the exit is taken from
+constexpr double kNearFloor_m = 0.25;  // a minimum of z below it is a bounce
+// What happens how often, before anything is seen.
+constexpr double kBlocked = 0.05;         // an opponent turns a kick on its way
+constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
+constexpr double kSaved = 0.005;          // a ball between posts and bar comes back
+constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
+constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
+constexpr double kSystematic_m = 0.01;    // of the crossing: goal, camera and ball are not known better
+constexpr double kRestDoubt_mps = 0.15;
 
 /// The sightings of the flight up to the first bounce: the release is only expected, so that the first ones may show
 /// the ball in the handler still.
@@ -35,22 +43,6 @@ std::span<const Sighting> in_the_air(std::span<const Sighting> sightings) {
   return sightings;
 }
 
-bool turned_aside(std::span<const Sighting> airborne, double expected_speed_mps) {
-  for (std::size_t first = 0; first + kWindow <= airborne.size(); ++first) {
-    const auto piece = fit_flight(airborne.subspan(first, kWindow), kicking::kGravity_mps2);
-    if (!piece) continue;
-    const Eigen::Vector2d velocity = piece->velocity_mps.head<2>();
-    if (velocity.norm() < kLostSpeedShare * expected_speed_mps) return true;
-    if (first + 2 * kWindow > airborne.size()) continue;
-    const auto later = fit_flight(airborne.subspan(first + kWindow, kWindow), kicking::kGravity_mps2);
-    if (!later) continue;
-    const Eigen::Vector2d along = velocity.normalized();
-    const Eigen::Vector2d next = later->velocity_mps.head<2>();
-    if (std::abs(next.y() * along.x() - next.x() * along.y()) > kTurnedAside_mps) return true;
-  }
-  return false;
-}
-
 void describe_exit(std::span<const Sighting> airborne, ShotVerdict& verdict) {
   const auto piece = fit_flight(airborne.first(std::min(airborne.size(), kWindow)), kicking::kGravity_mps2);
   if (!piece || airborne.size() < kWindow) return;
@@ -58,76 +50,98 @@ void describe_exit(std::span<const Sighting> airborne, ShotVerdict& verdict) {
   verdict.exit_elevation_rad = std::atan2(piece->velocity_mps.z(), piece->velocity_mps.head<2>().norm());
 }
 
-/// Near the floor all the time: there every minimum of the height is noise.
-bool rolls(std::span<const Sighting> sightings) {
-  return std::all_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.ball_m.z() < kNearFloor_m; });
+double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }
+
+/// Shares of the stories, their sum not yet 1; `nothing` is that of none of the outcomes.
+struct Weights {
+  OutcomeProbabilities outcome{};
+  double nothing = 0.0;
+};
+
+/// The ball crossed the line: clean, or it met the frame.
+void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log_back, double share,
+                    const kicking::Goal& goal, Weights& weights) {
+  const double sd_x_m = std::hypot(crossing.sd_x_m, kSystematic_m), sd_z_m = std::hypot(crossing.sd_z_m, kSystematic_m);
+  OutcomeProbabilities p = kicking::crossing_probabilities(crossing.x_m, sd_x_m, crossing.z_m, sd_z_m, goal);
+  const double passed = share * std::exp(log_passed), back = share * std::exp(log_back);
+  for (const Outcome outcome : {Outcome::kWideLeft, Outcome::kWideRight, Outcome::kOver})
+    of(weights.outcome, outcome) = passed * of(p, outcome);
+  for (const Outcome outcome : {Outcome::kPost, Outcome::kBar}) of(weights.outcome, outcome) = back * of(p, outcome);
+  of(weights.outcome, Outcome::kOnTarget) = (passed + kSaved * back) * of(p, Outcome::kOnTarget);
 }
 
-/// The sightings that the crossing is fitted to: what was met at the line itself must not count.
-std::span<const Sighting> last_before_line(std::span<const Sighting> sightings, FlightEnd end,
-                                           const kicking::Goal& goal, std::size_t frames) {
-  const auto farthest = std::max_element(sightings.begin(), sightings.end(), [](const Sighting& a, const Sighting& b) {
-    return a.ball_m.y() < b.ball_m.y();
-  });
-  auto last = static_cast<std::size_t>(farthest - sightings.begin());
-  if (end == FlightEnd::kBeyondLine) {
-    const auto beyond =
-        std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) { return s.ball_m.y() > goal.y_m; });
-    last = std::min(sightings.size(), static_cast<std::size_t>(beyond - sightings.begin()) + 1);
+/// Probability that the ball had come to the line when the sightings ended.
+double reached(const FlightStories& stories, const ShotTrack& track) {
+  if (!stories.crossing) return 0.0;
+  if (stories.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
+    return 1.0;
+  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  return kicking::normal_below(end_s - stories.crossing->t_s, stories.crossing->sd_t_s);
+}
+
+Weights weigh(const FlightStories& stories, const ShotTrack& track, const kicking::Goal& goal,
+              const config::ShotObserver& settings) {
+  Weights weights;
+  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  const double there = reached(stories, track);
+  double log_passed = stories.log_passed, log_back = stories.log_thrown_back;
+  if (track.end == FlightEnd::kBeyondLine) log_back += std::log(kAgainstTheEnd);
+  if (track.end == FlightEnd::kThrownBack) log_passed += std::log(kAgainstTheEnd);
+  // The best story has the likelihood 1, so that nothing overflows.
+  double best = stories.seen_after_crossing ? std::max(log_passed, log_back) : 0.0;
+  for (const Turn& turn : stories.turns) best = std::max(best, turn.log_likelihood);
+  const double free = std::exp(-best);
+  if (there > 0.0) weigh_crossing(*stories.crossing, log_passed - best, log_back - best, there, goal, weights);
+
+  const bool ended_free = !stories.seen_after_crossing && there < 1.0;
+  if (ended_free && track.end == FlightEnd::kAtRest) of(weights.outcome, Outcome::kShort) = (1.0 - there) * free;
+  if (ended_free && track.end == FlightEnd::kTakenAway) {
+    FlightFilter ball = stories.last;
+    ball.advance(std::max(0.0, end_s - stories.last_t_s));
+    const double sd_mps = std::hypot(kRestDoubt_mps, std::sqrt(ball.y().var_v_m2ps2));
+    const double lies = kicking::normal_below(3.0 * settings.rest_speed_mps - ball.speed_mps(), sd_mps);
+    of(weights.outcome, Outcome::kShort) = (1.0 - there) * free * lies;
+    weights.nothing = (1.0 - there) * free * (1.0 - lies) * kStopped_per_s * end_s;
   }
-  const auto before = sightings.first(last);
-  const auto latest = before.last(std::min(before.size(), frames));
-  if (rolls(latest)) return latest;
-  auto piece = after_last_bounce(before, kNearFloor_m);
-  // A bounce right before the line leaves too little behind it: the flight before tells where it went.
-  for (auto rest = before; piece.size() < kFewestInPiece && piece.size() < rest.size();) {
-    rest = rest.first(rest.size() - piece.size());
-    piece = after_last_bounce(rest, kNearFloor_m);
+  double& blocked = of(weights.outcome, Outcome::kBlocked);
+  const double whole_s = std::max(stories.last_t_s, 0.1);
+  for (std::size_t i = 0; i < stories.turns.size(); ++i) {
+    const Turn& turn = stories.turns[i];
+    const double share = i == 0 ? kBlockedAtOnce : (1.0 - kBlockedAtOnce) * turn.within_s / whole_s;
+    blocked += kBlocked * share * std::exp(turn.log_likelihood - best);
   }
-  return piece.last(std::min(piece.size(), frames));
-}
-
-/// Nearly at rest when it was seen last.
-bool slow(std::span<const Sighting> sightings, const config::ShotObserver& settings) {
-  const auto piece = fit_flight(sightings.last(kFewest), 0.0);
-  return piece && piece->velocity_mps.head<2>().norm() < 3.0 * settings.rest_speed_mps;
-}
-
-Outcome nearer_of_post_and_bar(double x_m, double z_m, const kicking::Goal& goal) {
-  const double to_post_m = std::abs(std::abs(x_m) - goal.half_width_m);
-  const double to_bar_m = std::abs(z_m - goal.height_m);
-  return to_post_m < to_bar_m ? Outcome::kPost : Outcome::kBar;
+  if (ended_free && track.end == FlightEnd::kTakenAway)
+    blocked += kBlocked * (1.0 - kBlockedAtOnce) * std::max(0.0, end_s - stories.last_t_s) / whole_s * free;
+  return weights;
 }
 
 }  // namespace
 
-ShotVerdict judge_shot(std::span<const Sighting> sightings, FlightEnd end, double expected_speed_mps,
-                       const kicking::Goal& goal, const config::ShotObserver& settings) {
+ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
-  const auto airborne = in_the_air(sightings);
-  describe_exit(airborne, verdict);
-  if (sightings.size() < kFewest) return verdict;
-  const auto before_line = last_before_line(sightings, end, goal, settings.fit_frames);
-  const bool frame_hit = end == FlightEnd::kThrownBack;
-  if (!frame_hit && turned_aside(airborne, expected_speed_mps)) {
-    verdict.outcome = Outcome::kBlocked;
-    return verdict;
-  }
-  if (end == FlightEnd::kAtRest) verdict.outcome = Outcome::kShort;
-  if (end == FlightEnd::kTakenAway) verdict.outcome = slow(sightings, settings) ? Outcome::kShort : Outcome::kBlocked;
-  if (end != FlightEnd::kBeyondLine && !frame_hit) return verdict;
+  describe_exit(in_the_air(track.sightings), verdict);
+  if (track.sightings.size() < kFewest) return verdict;
+  const auto stories = flight_stories(track, goal.y_m);
+  if (!stories) return verdict;
+  verdict.residual_sd_m = stories->residual_sd_m;
+  verdict.bounced = stories->crossing ? stories->crossing->ball.bounced() : stories->last.bounced();
+  if (track.end == FlightEnd::kLost && !stories->seen_after_crossing) return verdict;
 
-  const auto piece = fit_flight(before_line, rolls(before_line) ? 0.0 : kicking::kGravity_mps2);
-  const auto t_s = piece ? piece->time_at_y_s(goal.y_m) : std::nullopt;
-  if (!t_s) return verdict;
-  const Eigen::Vector3d crossing = piece->at(*t_s);
-  verdict.x_cross_m = crossing.x();
-  verdict.z_cross_m = std::max(crossing.z(), kBall.radius_m);
-  verdict.sd_cross_m = piece->sd_m(*t_s, settings.ball_sd_m);
-  verdict.outcome = kicking::classify(*verdict.x_cross_m, *verdict.z_cross_m, goal);
-  if (frame_hit && verdict.outcome != Outcome::kPost && verdict.outcome != Outcome::kBar) {
-    verdict.outcome = nearer_of_post_and_bar(*verdict.x_cross_m, *verdict.z_cross_m, goal);
+  Weights weights = weigh(*stories, track, goal, settings);
+  const double sum = std::accumulate(weights.outcome.begin(), weights.outcome.end(), weights.nothing);
+  if (!(sum > 0.0)) return verdict;
+  for (double& p : weights.outcome) p /= sum;
+  const auto likeliest = std::max_element(weights.outcome.begin(), weights.outcome.end());
+  if (*likeliest >= settings.label_probability)
+    verdict.outcome = static_cast<Outcome>(likeliest - weights.outcome.begin());
+  const double not_there =
+      of(weights.outcome, Outcome::kBlocked) + of(weights.outcome, Outcome::kShort) + weights.nothing / sum;
+  if (stories->crossing && not_there < 0.5) {
+    verdict.x_cross_m = stories->crossing->x_m;
+    verdict.z_cross_m = stories->crossing->z_m;
+    verdict.sd_cross_m = std::max(stories->crossing->sd_x_m, stories->crossing->sd_z_m);
   }
+  verdict.probabilities = weights.outcome;
   return verdict;
 }
 

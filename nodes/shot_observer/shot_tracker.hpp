@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "nodes/shot_observer/camera_noise.hpp"
 #include "nodes/shot_observer/shot_judge.hpp"
 
 namespace trivela::nodes {
@@ -19,14 +20,16 @@ struct TrackedShot {
 
 /// Follows the ball after each release until the shot is settled. It sees the flight camera's frames and the receipts
 /// and nothing else. A receipt may come later than the first frames of its flight: the last `history_s` of frames are
-/// kept.
+/// kept. How far a sighting may be off it learns from flight to flight.
 class ShotTracker {
  public:
-  ShotTracker(const config::ShotObserver& settings, const kicking::Goal& goal) : settings_(settings), goal_(goal) {}
+  ShotTracker(const config::ShotObserver& settings, const kicking::Goal& goal)
+      : settings_(settings), goal_(goal), noise_(settings.ball_sd_m) {}
 
-  /// A kick was accepted and leaves at `release_t_ns` with `expected_speed_mps` over ground. A shot still open becomes
-  /// unknown.
-  std::vector<TrackedShot> release(std::int64_t kick_id, std::int64_t release_t_ns, double expected_speed_mps);
+  /// A kick was accepted and leaves at `release_t_ns` with `expected_speed_mps` over ground and `expected_climb_mps`
+  /// upwards (none: not known). A shot still open is judged by what was seen of it.
+  std::vector<TrackedShot> release(std::int64_t kick_id, std::int64_t release_t_ns, double expected_speed_mps,
+                                   std::optional<double> expected_climb_mps = std::nullopt);
 
   /// One frame; nullopt where the ball was not seen.
   std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
@@ -42,6 +45,7 @@ class ShotTracker {
     std::int64_t kick_id;
     std::int64_t release_t_ns;
     double expected_speed_mps;
+    std::optional<double> expected_climb_mps;
     std::int64_t seen_t_ns;
     double farthest_y_m;
     std::vector<Sighting> sightings;
@@ -51,11 +55,14 @@ class ShotTracker {
   std::optional<FlightEnd> missed(std::int64_t t_ns) const;
   std::optional<FlightEnd> step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
   bool at_rest() const;
+  bool beyond_line(double y_m) const;
+  bool came_back(double y_m) const;
   FlightEnd where_it_was() const;
   TrackedShot settle(FlightEnd end, std::int64_t t_ns);
 
   config::ShotObserver settings_;
   kicking::Goal goal_;
+  CameraNoise noise_;
   std::deque<Sighting> history_;
   std::optional<Open> open_;
 };

@@ -100,6 +100,7 @@ msg::KickTruth truth_message(const sim::KickTruth& truth) {
   out.release_vz_mps = truth.release_velocity_mps.z;
   out.margin_m = truth.margin_m.value_or(kNone);
   out.saved = truth.saved;
+  out.bounced = truth.bounced;
   return out;
 }
 

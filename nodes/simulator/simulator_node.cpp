@@ -36,8 +36,12 @@ sim::Scenario scenario_of(const config::Settings& settings) {
 }
 
 sim::Match match_of(const sim::Scenario& scenario, const config::Simulator& settings) {
-  return sim::Match{scenario, static_cast<std::uint64_t>(settings.seed), static_cast<int>(settings.halves),
-                    settings.half_minutes, settings.max_possessions};
+  return sim::Match{scenario,
+                    static_cast<std::uint64_t>(settings.seed),
+                    static_cast<int>(settings.halves),
+                    settings.half_minutes,
+                    settings.max_possessions,
+                    settings.paired_halves};
 }
 
 }  // namespace

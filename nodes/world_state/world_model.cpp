@@ -105,6 +105,8 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   out.sd_position_m = pose_.sd_position_m();
   out.sd_heading_rad = pose_.sd_heading_rad();
   describe_ball(pose, odometry.t_ns, out);
+  const std::uint32_t own = gains_.see(out.t_ns, out.half, out.playing, out.possession);
+  if (referee && out.possession_id == 0) out.possession_id = own;
   return out;
 }
 

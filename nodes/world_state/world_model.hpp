@@ -7,6 +7,7 @@
 #include "config/settings.hpp"
 #include "nodes/world_state/ball_filter.hpp"
 #include "nodes/world_state/decay.hpp"
+#include "nodes/world_state/gain_count.hpp"
 #include "nodes/world_state/pose_filter.hpp"
 
 namespace trivela::nodes {
@@ -28,7 +29,7 @@ class WorldModel {
   /// `referee` his latest word: pictures older than odometry correct the past, so that the pose holds now. A robot that
   /// has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite or farther off
   /// than any robot drives, which changes no belief. Where no frame came for longer, the ball is forgotten as if it had
-  /// not been seen.
+  /// not been seen. A referee who counts no possessions (0) leaves it to the robot to count its own.
   msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee);
 
  private:
@@ -38,6 +39,7 @@ class WorldModel {
   config::WorldState settings_;
   PoseFilter pose_;
   BallFilter ball_;
+  GainCount gains_;
   Decay velocity_decay_;
   kicking::Twist twist_{};
   std::int64_t twist_t_ns_ = 0;

@@ -109,10 +109,12 @@ TEST_F(CalibrateVerb, TableOfLobsIsTheRobotsFile) {
   EXPECT_EQ(calibration.date, today());
   EXPECT_THAT(calibration.table->files, ElementsAre("lobs.csv"));
   EXPECT_THAT(calibration.table->trials, ElementsAre(2, 2));
-  EXPECT_THAT(text_of("seven.toml"),
-              AllOf(StartsWith("# Robot seven, written by trivela calibrate table on "),
-                    HasSubstr("# Measured: table (4 kicks), exit angle (4 kicks)."),
-                    HasSubstr("# Not measured, kept as they were: alpha, beta, transfer, delay, sideways scatter, ball, wheels.")));
+  EXPECT_THAT(
+      text_of("seven.toml"),
+      AllOf(StartsWith("# Robot seven, written by trivela calibrate table on "),
+            HasSubstr("# Measured: table (4 kicks), exit angle (4 kicks)."),
+            HasSubstr(
+                "# Not measured, kept as they were: alpha, beta, transfer, delay, sideways scatter, ball, wheels.")));
   EXPECT_THAT(result.out, AllOf(HasSubstr("Written: seven.toml"), HasSubstr("kicker.exit_angle_deg 36.78 -> 36.7522")));
 }
 
@@ -244,10 +246,11 @@ TEST_F(CalibrateVerb, FiguresComeTogetherInOneFile) {
   EXPECT_EQ(calibration.transfer->kicks, 4u);
   EXPECT_TRUE(calibration.transfer->exact_backward_se_ratio);
   EXPECT_EQ(calibration.kicks, 4u + 3u + 3u + 4u + 3u);
-  EXPECT_THAT(text_of("seven.toml"), AllOf(HasSubstr("# Not measured, kept as they were: sideways scatter, ball, wheels."),
-                                           HasSubstr("exit_speeds_mps = [5.98858, 8.24851]\n"),
-                                           HasSubstr("alpha_slope_deg_per_mps = 8.61764\n"),
-                                           HasSubstr("alpha_slope_se_deg_per_mps = 0.339\n")));
+  EXPECT_THAT(
+      text_of("seven.toml"),
+      AllOf(HasSubstr("# Not measured, kept as they were: sideways scatter, ball, wheels."),
+            HasSubstr("exit_speeds_mps = [5.98858, 8.24851]\n"), HasSubstr("alpha_slope_deg_per_mps = 8.61764\n"),
+            HasSubstr("alpha_slope_se_deg_per_mps = 0.339\n")));
 }
 
 TEST_F(CalibrateVerb, FigureGoesIntoNoFileUnlessAsked) {
@@ -291,6 +294,40 @@ TEST_F(CalibrateVerb, ChartsAreWrittenWhereAsked) {
   EXPECT_NEAR(numbers["setpoints"][1]["distance_m"].get<double>(), 6.66, 1e-9);
   EXPECT_NEAR(numbers["setpoints"][1]["height_m"].get<double>(), 1.25, 1e-9);
   EXPECT_THAT(run("plot lobs.csv --out 5.svg --csv").out, StartsWith("power,trials,exit_speed_mps,"));
+}
+
+TEST_F(CalibrateVerb, LengthsInCentimetresAreNamedWithTheirRow) {
+  write("lobs.csv", "power,height_m,distance_m\n15,0.6,3.3\n20,95,505\n");
+  const Result cm = run("table lobs.csv --robot seven");
+  EXPECT_EQ(cm.exit_code, kFailed);
+  EXPECT_THAT(cm.err, HasSubstr("lobs.csv:3: column height_m: '95' is above 15 m: lengths are in metres"));
+  write("far.csv", "power,height_m,distance_m\n15,0.6,330\n");
+  EXPECT_THAT(run("table far.csv --robot seven").err, HasSubstr("far.csv:2: column distance_m: '330' is above 40 m"));
+  write("fast.csv", "power,exit_speed_mps\n15,597\n");
+  EXPECT_THAT(run("table fast.csv --robot seven --exit-angle-deg 37").err, HasSubstr("'597' is above 40 m/s"));
+  write("t1.csv", "vx_mps,d_m,b_m\n0.5,600,50\n1,600,100\n");
+  EXPECT_THAT(run("deflection t1.csv").err, HasSubstr("t1.csv:2: column d_m: '600' is above 40 m"));
+  write("turns.csv", "omega_degps,b_m,d_m\n30,0.5,600\n60,1.0,600\n");
+  EXPECT_THAT(run("rotation turns.csv").err, HasSubstr("turns.csv:2: column d_m: '600' is above 40 m"));
+  EXPECT_FALSE(fs::exists("seven.toml"));
+}
+
+TEST_F(CalibrateVerb, WhatCannotBeWrittenIsSaidBeforeAnythingIsRead) {
+  write("lobs.csv", kLobs);
+  for (const std::string arguments :
+       {"plot nothing.csv --out no/5.svg", "deflection nothing.csv --plot no/8.svg",
+        "rotation nothing.csv --plot no/10.svg", "table nothing.csv --robot seven --out no/seven.toml"}) {
+    const Result refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, kFailed) << arguments;
+    EXPECT_THAT(refused.err,
+                AllOf(HasSubstr("cannot write"), HasSubstr("no/"), HasSubstr("No such file or directory")));
+  }
+  EXPECT_THAT(run("plot nothing.csv --out .").err, HasSubstr("cannot write --out .: it is a folder"));
+  EXPECT_EQ(run("plot nothing.csv --out new.svg").exit_code, kFailed);
+  write("old.svg", "a chart");
+  EXPECT_EQ(run("plot nothing.csv --out old.svg").exit_code, kFailed);
+  EXPECT_EQ(text_of("old.svg"), "a chart") << "what could not be made anew stays";
+  EXPECT_THAT(files(), testing::ElementsAre("lobs.csv", "old.svg"));
 }
 
 TEST(TrialsOfLobs, AreThoseAcceptedWithAPower) {
@@ -383,9 +420,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"ImpossibleFigure", "transfer runs.csv --robot ./other.toml --out other.toml", 1,
                 "cannot write the robot's file other.toml: a figure is impossible:"},
         Mistake{"UnwritableOut", "deflection t1.csv --robot cambada_1 --out no/such/seven.toml", 1,
-                "cannot write the robot's file no/such/seven.toml"},
+                "cannot write --out no/such/seven.toml: No such file or directory"},
         Mistake{"UnwritableChart", "deflection t1.csv --plot no/such/8.svg", 1,
-                "cannot write the chart to no/such/8.svg"},
+                "cannot write --plot no/such/8.svg: No such file or directory"},
         Mistake{"PlotWithoutOut", "plot lobs.csv", 2, "--out is required"}),
     [](const auto& test) { return test.param.name; });
 

@@ -4,12 +4,14 @@
 
 #include "cli/factorial/play.hpp"
 #include "cli/factorial/report.hpp"
+#include "config/scenario.hpp"
 
 namespace trivela::cli {
 namespace {
 
 using kicking::PolicyName;
 using testing::HasSubstr;
+using testing::Not;
 
 /// 20 matches of 40 opportunities, half of them with a kick, so many on target.
 ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
@@ -76,12 +78,13 @@ TEST(Factorial, WhatMatchesHaveInCommonCancels) {
 }
 
 TEST(Factorial, CalibrationsThatDifferWidenTheInterval) {
-  // Six calibrations of the same ten matches; in each the newer arm gains another number of shots.
+  // Ten matches on each of six calibrations; on each the newer arm gains another number of shots.
   ArmTally older, newer;
   for (std::uint32_t k = 0; k < 6; ++k) {
     for (std::int64_t m = 0; m < 10; ++m) {
-      older.push_back({40, 20, 8 + m % 2, k});
-      newer.push_back({40, 20, 10 + m % 2 + static_cast<std::int64_t>(k), k});
+      older.push_back({.opportunities = 40, .kicks = 20, .on_target = 8 + m % 2, .calibration = k});
+      newer.push_back(
+          {.opportunities = 40, .kicks = 20, .on_target = 10 + m % 2 + static_cast<std::int64_t>(k), .calibration = k});
     }
   }
   const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
@@ -121,6 +124,52 @@ TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
   EXPECT_THAT(to_svg(report), testing::AllOf(HasSubstr("simulated: "), HasSubstr(">old<"), HasSubstr(">new<")));
   EXPECT_THAT(to_svg(report), testing::Not(HasSubstr(">-0.2<")));
   EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
+}
+
+TEST(Factorial, BlockedKicksStandApartWhereAsked) {
+  std::vector<PlayedCell> cells = played();
+  for (PlayedCell& played : cells) {
+    for (MatchTally& match : played.matches) match.blocked = played.cell.policy == PolicyName::kMoving ? 5 : 0;
+  }
+  const auto motion = [&](Measure measure) { return effects_of(cells, measure)[1].efficiency.value; };
+  EXPECT_NEAR(motion(Measure::kEfficiency), 0.225, 1e-12);
+  // Of 15, not 20 kicks: by hand (12 + 15) / 2 / 15 - (8 + 10) / 2 / 20.
+  EXPECT_NEAR(motion(Measure::kUnblocked), 0.9 - 0.45, 1e-12);
+  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = cells};
+  EXPECT_THAT(to_text(report), HasSubstr("blocked ones included"));
+  report.efficiency = Measure::kUnblocked;
+  EXPECT_THAT(to_text(report), HasSubstr("of the kicks that nobody blocked"));
+  EXPECT_EQ(to_json(report)["blocked"], "apart");
+}
+
+TEST(Factorial, SaysWhichAssumptionsReachThePapersPair) {
+  ArmTally older = matches_of(10), newer = matches_of(13);
+  for (MatchTally& match : newer) match.blocked = 3;
+  const std::string text = pair_text({{0.1, older, newer}}, Law::kReleased);
+  EXPECT_THAT(text, HasSubstr("outside  50.0"));
+  EXPECT_THAT(text, HasSubstr("65.0"));
+  EXPECT_THAT(text, HasSubstr("76.5"));
+  const auto json = pair_json({{0.1, older, newer}});
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_FALSE(json[0]["both_within_papers"]) << "65 % is below 68";
+  EXPECT_TRUE(json[1]["both_within_papers"]);
+}
+
+TEST(Factorial, CountsWhatBouncedInAndWhatPassedTheKeeper) {
+  std::vector<PlayedCell> cells = played();
+  for (PlayedCell& played : cells) {
+    for (MatchTally& match : played.matches) {
+      match.bounced = match.on_target / 2;
+      match.goals = 4;
+    }
+  }
+  FactorialReport report{.scenario = "keeper.toml", .robots = {"calibrated_1"}, .cells = cells};
+  EXPECT_THAT(to_text(report), Not(HasSubstr("goals/opp.")));
+  report.keeper = true;
+  EXPECT_THAT(to_text(report), HasSubstr("goals/opp. [%]"));
+  EXPECT_THAT(to_text(report), HasSubstr("10.0 (10.0 to 10.0)"));
+  EXPECT_NEAR(share_of(cells[0].matches, Measure::kBounced).value, 0.4375, 0.07);
+  EXPECT_EQ(to_json(report)["cells"][0]["goals"], 80);
 }
 
 TEST(Factorial, AShareStaysWithinItsBounds) {
@@ -189,6 +238,37 @@ TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
       EXPECT_EQ(one[arm][m].on_target, two[arm][m].on_target);
     }
   }
+}
+
+TEST(Factorial, TheShippedWorldsArePlayed) {
+  const std::string config = std::string{TRIVELA_SOURCE_DIR} + "/config/";
+  const config::Settings settings = config::load_settings(config + "default.toml");
+  const std::vector<config::Robot> robots{config::load_robot(config + "robots/calibrated_1.toml")};
+  const PlayPlan plan{.seed = 3, .matches = 4, .possessions = 15};
+  std::vector<nodes::Arm> arms;
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving})
+    arms.push_back(arm_of({"new", policy, Law::kPaper}, settings, robots));
+  const auto played = [&](const std::string& world, const std::string& change = "") {
+    sim::Scenario scenario = config::load_scenario(config + "scenarios/" + world + ".toml");
+    if (!change.empty()) config::override_scenario(scenario, change);
+    std::vector<MatchTally> totals;
+    for (const ArmTally& arm : play_arms(scenario, arms, plan, [](std::size_t, std::size_t) {}))
+      totals.push_back(total_of(arm));
+    return totals;
+  };
+  const auto open = played("default"), kept = played("keeper"), blind = played("keeper", "keeper.sight_sd_mps = 3.0"),
+             log = played("like_2016"), crowded = played("default", "defenders.count = 4");
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    EXPECT_GT(open[i].on_target, 0);
+    EXPECT_EQ(open[i].goals, open[i].on_target) << "nobody is in the goal";
+    EXPECT_EQ(open[i].kicks, kept[i].kicks) << "a keeper changes no kick";
+    EXPECT_LT(kept[i].goals, open[i].goals);
+    EXPECT_GT(blind[i].goals, kept[i].goals);
+    EXPECT_GT(log[i].kicks, open[i].kicks) << "slow opponents leave time";
+    EXPECT_GT(crowded[i].blocked, open[i].blocked);
+  }
+  EXPECT_GT(open[0].bounced, 0) << "the paper's law lets the ball land on the line";
+  EXPECT_LT(open[0].bounced, open[0].on_target);
 }
 
 }  // namespace

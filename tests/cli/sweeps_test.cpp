@@ -7,6 +7,7 @@
 
 #include "cli/frontier/report.hpp"
 #include "cli/sensitivity/report.hpp"
+#include "cli/tune/space.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::cli {
@@ -27,39 +28,101 @@ ArmTally random_arm(std::mt19937& random, std::size_t matches, double kick, doub
   return arm;
 }
 
-TEST(UncertainInputs, AreNumbersOfTheScenarioWithPlayableEndsOnBothSidesOrAtTheValue) {
-  const sim::Scenario scenario;
+double default_of(const std::string& key) {
+  return is_setting(key) ? value_of(kicking::PolicyConfig{}, key) : value_of(sim::Scenario{}, key);
+}
+
+TEST(UncertainInputs, AreNumbersWithPlayableEndsOnBothSidesOrAtTheValue) {
   std::set<std::string> keys;
   for (const UncertainInput& input : uncertain_inputs()) {
     SCOPED_TRACE(input.key);
     EXPECT_TRUE(keys.insert(input.key).second);
-    const double value = value_of(scenario, input.key);
+    const double value = default_of(input.key);
     EXPECT_LT(input.low, input.high);
     EXPECT_LE(input.low, value);
     EXPECT_GE(input.high, value);
     EXPECT_GT(std::string{input.why}.size(), 4U);
     for (const double end : {input.low, input.high}) {
-      EXPECT_NEAR(value_of(with(scenario, input.key, end), input.key), end, 1e-12);
+      const double read = is_setting(input.key) ? value_of(with(kicking::PolicyConfig{}, input.key, end), input.key)
+                                                : value_of(with(sim::Scenario{}, input.key, end), input.key);
+      EXPECT_NEAR(read, end, 1e-12);
     }
   }
   EXPECT_GT(keys.size(), 30U);
 }
 
+TEST(UncertainInputs, HoldEverySettingThatIsTunedAndTheHandTables) {
+  std::set<std::string> keys;
+  for (const UncertainInput& input : uncertain_inputs()) keys.insert(input.key);
+  for (const auto policy :
+       {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving, kicking::PolicyName::kPredictive}) {
+    for (const Coordinate& coordinate : tuned_space(policy))
+      EXPECT_TRUE(keys.contains(coordinate.name)) << coordinate.name;
+  }
+  for (const char* key : {"policy.target_height_m", "hand_table.eye_height_sd_m", "hand_table.day_sd_ratio",
+                          "hand_table.kicks_per_distance", "hand_table.target_height_m"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
+}
+
+TEST(UncertainInputs, NameTheLawsOfThePolicies) {
+  const kicking::PolicyConfig changed = with(kicking::PolicyConfig{}, "policy.height_law", 1.0);
+  EXPECT_EQ(changed.height_law, kicking::HeightLaw::kExtendedRange);
+  EXPECT_EQ(value_text("policy.height_law", 1.0), "extended_range");
+  EXPECT_EQ(value_text("policy.alignment.extension", 1.0), "add");
+  EXPECT_EQ(value_text("policy.settle_s", 0.25), "0.25");
+  EXPECT_NEAR(with(kicking::PolicyConfig{}, "policy.aim_tolerance_deg", 3.0).aim_tolerance_rad, 3.0 * M_PI / 180.0,
+              1e-15);
+  EXPECT_THROW(with(kicking::PolicyConfig{}, "policy.height_law", 3.0), std::invalid_argument);
+  EXPECT_THROW(with(kicking::PolicyConfig{}, "policy.height_law", 0.5), std::invalid_argument);
+  EXPECT_THROW(with(kicking::PolicyConfig{}, "policy.settle_s", -1.0), std::invalid_argument);
+  EXPECT_THROW(value_of(kicking::PolicyConfig{}, "policy.settle"), std::invalid_argument);
+}
+
 TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
-  const sim::Scenario changed = with({}, "kicker.direction_sd_deg", 3.0);
+  const sim::Scenario changed = with(sim::Scenario{}, "kicker.direction_sd_deg", 3.0);
   EXPECT_NEAR(changed.kicker.direction_sd_rad, 3.0 * M_PI / 180.0, 1e-15);
   for (const UncertainInput& input : uncertain_inputs()) {
-    if (std::string{input.key} != "kicker.direction_sd_deg") {
-      EXPECT_EQ(value_of(changed, input.key), value_of({}, input.key)) << input.key;
+    if (std::string{input.key} != "kicker.direction_sd_deg" && !is_setting(input.key)) {
+      EXPECT_EQ(value_of(changed, input.key), default_of(input.key)) << input.key;
     }
   }
 }
 
+TEST(UncertainInputs, OfAKeeperOrDefendersPlayWhereThereAreSome) {
+  const auto in_force_now = [](const sim::Scenario& scenario, const std::string& part) {
+    return std::ranges::count_if(uncertain_inputs(), [&](const UncertainInput& input) {
+      return std::string{input.key}.starts_with(part) && in_force(scenario, input);
+    });
+  };
+  sim::Scenario scenario;
+  EXPECT_EQ(in_force_now(scenario, "keeper."), 0);
+  EXPECT_EQ(in_force_now(scenario, "defenders."), 0);
+  EXPECT_GT(in_force_now(scenario, "kicker."), 5);
+  scenario.keeper.enabled = true;
+  scenario.defenders.count = 1.0;
+  EXPECT_GT(in_force_now(scenario, "keeper."), 5);
+  EXPECT_GT(in_force_now(scenario, "defenders."), 5);
+}
+
+TEST(Sensitivity, ComparesGoalsWhereAsked) {
+  SensitivityReport report{.arms = {"stopped", "moving"}, .base = {}, .inputs = {}, .measure = Measure::kGoals};
+  ArmTally few(4, {10, 10, 8}), many(4, {10, 10, 8});
+  for (std::size_t i = 0; i < 4; ++i) {
+    few[i].goals = 1 + static_cast<std::int64_t>(i % 2);
+    many[i].goals = 5;
+  }
+  report.base = {few, many};
+  EXPECT_NEAR(headline(report.base, 0).value, 0.0, 1e-12);
+  EXPECT_NEAR(headline(report.base, 0, report.measure).value, 0.35, 1e-12);
+  EXPECT_NE(to_text(report).find("Goals past the keeper"), std::string::npos);
+}
+
 TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
-  EXPECT_THROW(value_of({}, "kicker.delay"), std::invalid_argument);
-  EXPECT_THROW(value_of({}, "delay_s"), std::invalid_argument);
-  EXPECT_THROW(value_of({}, "kicker.powers"), std::invalid_argument);
-  EXPECT_THROW(with({}, "opponent.count", 2.5), std::invalid_argument);
+  EXPECT_THROW(value_of(sim::Scenario{}, "kicker.delay"), std::invalid_argument);
+  EXPECT_THROW(value_of(sim::Scenario{}, "delay_s"), std::invalid_argument);
+  EXPECT_THROW(value_of(sim::Scenario{}, "kicker.powers"), std::invalid_argument);
+  EXPECT_THROW(with(sim::Scenario{}, "opponent.count", 2.5), std::invalid_argument);
 }
 
 SensitivityReport hand_case() {

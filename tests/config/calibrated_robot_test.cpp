@@ -6,6 +6,7 @@
 
 #include "config/error.hpp"
 #include "config/robot.hpp"
+#include "kicking/ballistics/crossing.hpp"
 
 namespace trivela::config {
 namespace {
@@ -123,6 +124,27 @@ TEST_F(CalibratedRobot, PlaysWithAHeightTableWhereTheFileHasOne) {
               ThrowsMessage<Error>(HasSubstr("height_table.distances_m has 1 entries, height_table.powers 2")));
   EXPECT_THAT([&] { load_robot(file("[height_table]\ndistances_m = [3.0, 4.0]\npowers = [22.0, 17.0]\n")); },
               ThrowsMessage<Error>(HasSubstr("must be finite and above")));
+}
+
+TEST_F(CalibratedRobot, ReadsAHeightTableByTheLawAndHeightOfThePolicy) {
+  const std::string text =
+      "name = \"hand\"\n[height_table]\ndistances_m = [3.0, 5.0, 7.0]\npowers = [17.0, 22.0, 29.0]\n";
+  const Robot robot = load_robot(file(text));
+  kicking::PolicyConfig policy;
+  EXPECT_EQ(robot_for(robot, policy).model.table.back().speed_mps, robot.model.table.back().speed_mps);
+  policy.height_law = kicking::HeightLaw::kExact;
+  const Robot other = robot_for(robot, policy);
+  const kicking::RobotModel& model = other.model;
+  EXPECT_NE(model.table.back().speed_mps, robot.model.table.back().speed_mps);
+  const auto asked_mps =
+      kicking::crossing_speed({5.0, policy.target_height_m - kicking::Ball{}.radius_m}, model.exit_angle_rad);
+  EXPECT_NEAR(model.table.power_for(*asked_mps).power, 22.0, 1e-9) << "at rest the table's power";
+  EXPECT_EQ(to_toml_text(other), to_toml_text(robot)) << "the file is what it was";
+  policy.height_law = kicking::HeightLaw::kExact;
+  policy.target_height_m = 50.0;
+  EXPECT_THAT([&] { robot_for(robot, policy); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("robot hand"), HasSubstr("no speed reaches the target's height"))));
+  EXPECT_EQ(to_toml_text(robot_for(Robot{}, policy)), to_toml_text(Robot{})) << "no height table";
 }
 
 TEST_F(CalibratedRobot, NamesBrokenProvenance) {

@@ -137,5 +137,32 @@ TEST(RoundTrip, ChangedSettingsReadBackTheSame) {
   EXPECT_EQ(to_toml_text(again), to_toml_text(settings));
 }
 
+TEST(ChangedWorld, ALineSetsOneValue) {
+  sim::Scenario scenario;
+  override_scenario(scenario, "keeper.reaction_s = 0.4");
+  override_scenario(scenario, "keeper.enabled=true");
+  EXPECT_EQ(scenario.keeper.guard.reaction_s, 0.4);
+  EXPECT_TRUE(scenario.keeper.enabled);
+  scenario.keeper = {};
+  EXPECT_EQ(to_toml_text(scenario), to_toml_text(sim::Scenario{}));
+}
+
+TEST(ChangedWorld, ABadLineIsNamedWithItsKeyAndValue) {
+  const auto said = [](const std::string& line) -> std::string {
+    sim::Scenario scenario;
+    try {
+      override_scenario(scenario, line);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(said("keeper.reaction_s = 9"), "--world:1: keeper.reaction_s = 9: must lie in [0, 5]");
+  EXPECT_EQ(said("keeper.reactions = 1"), "--world:1: keeper.reactions: unknown key");
+  EXPECT_NE(said("possession.speed_min_mps = 5").find("the minimum 5 is above the maximum 2"), std::string::npos);
+  EXPECT_NE(said("defenders.count = 1.5").find("no whole number"), std::string::npos);
+  EXPECT_NE(said("keeper.reaction_s").find("--world"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace trivela::config

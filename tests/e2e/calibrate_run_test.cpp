@@ -127,6 +127,14 @@ TEST_F(CalibrateRun, ItsFileIsARobotThatSaysWhereItsFiguresComeFrom) {
   EXPECT_THAT(text_of(record("newcomer.toml")), HasSubstr("trivela calibrate run"));
 }
 
+TEST_F(CalibrateRun, InProcessItIsTheSameRobot) {
+  Program alone{"trivela",
+                {"calibrate", "run", "--in", "simulation", "--robot", "newcomer", "--out-dir", "alone", "--in-process"},
+                folder_->path()};
+  EXPECT_EQ(alone.wait(), 0) << alone.errors();
+  EXPECT_EQ(text_of(*folder_ / "alone" / "newcomer.toml"), text_of(record("newcomer.toml")));
+}
+
 TEST_F(CalibrateRun, DoesNotOverwriteARobotOrARecord) {
   for (const std::string more : {"newcomer", "other"}) {
     Program again{

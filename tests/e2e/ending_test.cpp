@@ -55,6 +55,18 @@ TEST(Ending, SigtermIsAsGood) {
   expect_finalised(match.log());
 }
 
+TEST(Ending, ASimulatorThatIsAskedToStopDoesNotMakeTheMatchWhole) {
+  RunningMatch match;
+  kill(match.node("trivela-simulator").id(), SIGTERM);
+  EXPECT_EQ(match.program().wait(), 1);
+  EXPECT_THAT(match.program().errors(),
+              AllOf(HasSubstr("simulator was stopped before the end"), HasSubstr("match.db")));
+  expect_finalised(match.log());
+  Program report{"trivela", {"report", "match.db"}, match.folder().path()};
+  EXPECT_EQ(report.wait(), 3);
+  EXPECT_THAT(report.output(), HasSubstr("CUT SHORT"));
+}
+
 TEST(Ending, CtrlCBeforeTheFirstCycleLeavesNoProcess) {
   const Folder folder;
   Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};

@@ -82,6 +82,9 @@ TEST_F(RealTime, NodesThatAreStartedOneByOneRecordAMatchAndStopOnSigterm) {
   EXPECT_EQ(simulator.wait(), 0) << simulator.errors();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
   EXPECT_GE(took.count(), 6.0) << "that is not real time";
+  const std::string said = nodes_[3].errors();
+  EXPECT_EQ(said.substr(0, said.find(" fired with power")).find("silent"), said.npos)
+      << "nobody spoke before: " << said;
   stop();
 
   EXPECT_THAT(loose_ends_of(folder_ / "match.db"), IsEmpty());

@@ -1,6 +1,8 @@
 // A recorded match goes through the nodes again, and a disk that does not keep up costs no row.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
@@ -42,6 +44,14 @@ TEST(Replay, GivesTheDecisionsOfTheMatchAgainAndOtherOnesWithAnotherPolicy) {
   std::erase(tables, "sqlite_stat1");  // SQLite's own counts of rows, where it makes some
   EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "losses", "sessions", "digests"));
   EXPECT_EQ(number_of(Reader{folder / "moving.db"}, "SELECT count(*) FROM kick_decisions WHERE policy = 'stopped'"), 0);
+
+  EXPECT_EQ(replayed.sessions()[0].replays_uuid, original.sessions()[0].uuid);
+  Program both{"trivela", {"compare", "match.db", "same.db", "--json"}, folder.path()};
+  EXPECT_EQ(both.wait(), 0) << both.errors();
+  Program alone{"trivela", {"compare", "match.db", "--json"}, folder.path()};
+  EXPECT_EQ(alone.wait(), 0) << alone.errors();
+  EXPECT_THAT(both.output(), HasSubstr("same.db: 1 of its sessions replays another one and is left out"));
+  EXPECT_EQ(nlohmann::json::parse(both.output()).at("groups"), nlohmann::json::parse(alone.output()).at("groups"));
 
   Program report{"trivela", {"report", "same.db"}, folder.path()};
   EXPECT_EQ(report.wait(), 0) << report.errors();

@@ -41,8 +41,11 @@ TEST(SimulateArms, ARefusedCommandDoesNotBlockTheCorrectedOne) {
   const Folder folder;
   EXPECT_THAT(refusal(folder, {"--arms", "stopped", "--set", "run.cycle_s=0.01"}, 1),
               HasSubstr("arm stopped: run.cycle_s = 0.01 differs from the scenario's"));
-  EXPECT_THAT(refusal(folder, {"--arms", "moving@old", "--set", "policy.target_height_m=2.0"}, 1),
-              HasSubstr("arm moving@old: height table"));
+  EXPECT_THAT(
+      refusal(folder,
+              {"--arms", "moving@old", "--set", "policy.target_height_m=2.0", "--set", "policy.height_law=\"exact\""},
+              1),
+      HasSubstr("arm moving@old: height table"));
 }
 
 TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
@@ -125,9 +128,16 @@ random_probabilities = [0.25, 0.75]
                       "SELECT count(DISTINCT policy) FROM assignments JOIN sessions USING (session_id) WHERE arm "
                       "= 'drawn'"),
             2);
-  EXPECT_EQ(rows_of(log, "SELECT DISTINCT arm, half, policy FROM session_policies JOIN sessions USING (session_id)"),
+  EXPECT_EQ(rows_of(log,
+                    "SELECT DISTINCT arm, half, policy FROM session_policies AS p JOIN sessions USING (session_id) "
+                    "WHERE p.robot_id = 0"),
             (std::vector<Row>{{"by half", std::int64_t{1}, "stopped"}}))
       << "the halves of the others have no one policy";
+  EXPECT_EQ(
+      rows_of(log,
+              "SELECT DISTINCT p.robot_id, policy FROM session_policies AS p JOIN sessions USING (session_id) "
+              "WHERE arm = 'by robot' AND p.robot_id <= 3 ORDER BY 1"),
+      (std::vector<Row>{{std::int64_t{1}, "stopped"}, {std::int64_t{2}, "predictive"}, {std::int64_t{3}, "moving"}}));
 }
 
 TEST(SimulateArms, SaysWhereATeamSharesARobotFile) {

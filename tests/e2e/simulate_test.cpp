@@ -165,6 +165,28 @@ TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
   }
 }
 
+TEST(Simulate, ReadsAHeightTableByTheSettingsLikeTheNodesOnTheBus) {
+  const Folder folder;
+  std::ofstream{folder / "hand.toml"} << "[height_table]\ndistances_m = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0]\n"
+                                         "powers = [17.0, 19.0, 22.0, 25.0, 29.0, 33.0]\n";
+  const std::vector<std::string> settings{"--set", "policy.height_law='paper'", "--set", "policy.motion_law='paper'",
+                                          "--set", "policy.target_height_m=0.5"};
+  std::vector<std::string> in_process{"simulate",      "--arms", "stopped", "--matches", "1",
+                                      "--possessions", "8",      "--robot", "hand.toml", "--shadows",
+                                      "--every-cycle", "--out",  "in.db"};
+  in_process.insert(in_process.end(), settings.begin(), settings.end());
+  run(folder, in_process);
+  std::vector<std::string> on_the_bus{"--half", "stopped", "--set", "run.robot='hand.toml'"};
+  on_the_bus.insert(on_the_bus.end(), settings.begin(), settings.end());
+  EXPECT_THAT(differing_on_the_bus(folder, on_the_bus), IsEmpty());
+  const Reader log{folder / "in.db"};
+  // At rest the powers are those of the table, whatever law and height: ball-to-line distances from 3 to 8 m.
+  EXPECT_EQ(number_of(log,
+                      "SELECT count(*) FROM kick_decisions WHERE fire = 1 AND distance_m BETWEEN 3 AND 8 AND "
+                      "power NOT BETWEEN 17 AND 33"),
+            0);
+}
+
 TEST(Simulate, PlaysARobotsOwnPolicyLikeTheNodesOnTheBus) {
   const Folder folder;
   const std::string own = "kick_decision.policy_by_robot=['stopped']";

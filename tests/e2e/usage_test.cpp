@@ -32,6 +32,7 @@ TEST_P(Usage, IsRefusedInOneSentenceAndLeavesNothing) {
   Program match{"trivela", arguments, folder.path()};
   EXPECT_EQ(match.wait(), mistake.exit_code);
   EXPECT_THAT(match.errors(), HasSubstr(mistake.says));
+  EXPECT_LT(match.errors().size(), 350u) << "nobody reads more";
   EXPECT_EQ(match.output(), "");
   EXPECT_THAT(folder.files(""), testing::UnorderedElementsAre("trivela.0.out", "trivela.0.err"));
 }
@@ -44,7 +45,24 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoMinutes", {"--half", "moving", "--minutes", "0"}, 2, "--minutes: 0 is not"},
         Mistake{"NanMinutes", {"--half", "moving", "--minutes", "nan"}, 2, "--minutes: nan is not"},
         Mistake{"WordMinutes", {"--half", "moving", "--minutes", "five"}, 2, "--minutes: five is not"},
-        Mistake{"NegativeSeed", {"--half", "moving", "--seed", "-3"}, 2, "-3"},
+        Mistake{"NegativeSeed", {"--half", "moving", "--seed", "-3"}, 2, "--seed: Value -3 not in range"},
+        Mistake{
+            "SeedTooLarge", {"--half", "moving", "--seed", "9000000000000001"}, 2, "--seed: Value 9000000000000001"},
+        Mistake{"ConfigIsAFolder",
+                {"--half", "moving", "--config", "."},
+                1,
+                ".: cannot read the configuration: it is a folder"},
+        Mistake{"ConfigNamesWhereItLooked", {"--half", "moving", "--config", "nope.toml"}, 1, "(in /"},
+        Mistake{
+            "LearnedWithoutAModel", {"--half", "learned"}, 1, "policy \"learned\" needs kick_decision.learned_model"},
+        Mistake{"NoSuchModel",
+                {"--half", "learned", "--set", "kick_decision.learned_model='none.toml'"},
+                1,
+                "none.toml: cannot read the configuration: No such file or directory (in /"},
+        Mistake{"ChancesWithoutPolicies",
+                {"--random", "stopped,moving", "--set", "kick_decision.random_probabilities=[0.5]"},
+                1,
+                "kick_decision.random_probabilities has 1 entries, kick_decision.random 2"},
         Mistake{"DomainTooHigh", {"--half", "moving", "--domain", "101"}, 2, "101"},
         Mistake{"UnknownLogLevel", {"--half", "moving", "--log-level", "loud"}, 2, "loud"},
         Mistake{"UnknownFlag", {"--half", "moving", "--halves", "2"}, 2, "--halves"},
@@ -66,6 +84,16 @@ TEST(Usage, ARecordedMatchIsNeverOverwritten) {
   EXPECT_EQ(text_of(folder / "match.db"), "a match");
 }
 
+TEST(Usage, ALearnedModelIsFoundFromTheWorkingFolder) {
+  const Folder folder;
+  std::filesystem::copy_file(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/learned.toml", folder / "mine.toml");
+  Program match{"trivela",
+                {"match", "--half", "learned", "--minutes", "0.02", "--set", "kick_decision.learned_model='mine.toml'"},
+                folder.path()};
+  EXPECT_EQ(match.wait(), 0) << match.errors();
+  EXPECT_EQ(match.errors(), "");
+}
+
 struct BadNumber {
   std::vector<std::string> arguments;
   std::string says;
@@ -81,11 +109,94 @@ TEST(Usage, NumbersThatAreNoneAreRefusedWithFlagAndValue) {
            {{"factorial", "--seed", "-1"}, "--seed: Value -1 not in range"},
            {{"frontier", "--seed", "-1"}, "--seed: Value -1 not in range"},
            {{"sensitivity", "--input", "kicker.delay_s,kicker.delay_s"}, "\"kicker.delay_s\" stands twice"},
-           {{"sensitivity", "--seed", "-1"}, "--seed: Value -1 not in range"}}) {
+           {{"sensitivity", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"simulate", "--arms", "moving", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"scan", "--synthesize", "x.db", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"scan", "--record", "x.db", "--seconds", "-1"}, "--seconds: -1 is not above 0"},
+           {{"scan", "--record", "x.db", "--power", "0"}, "--power: 0 is not above 0"},
+           {{"solve", "--gravity-mps2", "-9.81"}, "--gravity-mps2: -9.81 is not above 0"},
+           {{"calibrate", "deflection", "x.csv", "--v-h-mps", "0"}, "--v-h-mps: 0 is not above 0"},
+           {{"calibrate", "rotation", "x.csv", "--distance-m", "-6"}, "--distance-m: -6 is not above 0"}}) {
     Program trivela{"trivela", arguments, folder.path()};
     EXPECT_EQ(trivela.wait(), 2) << says;
     EXPECT_THAT(trivela.errors(), HasSubstr(says));
+    EXPECT_LT(trivela.errors().size(), 350u) << "nobody reads more";
     EXPECT_EQ(trivela.output(), "");
+  }
+}
+
+TEST(Usage, AVerbThatIsNoneIsNamed) {
+  const Folder folder;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"dance"},
+                                                    {"dance", "--help"},
+                                                    {"calibrate", "dance"},
+                                                    {"calibrate", "dance", "--json"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2);
+    EXPECT_EQ(trivela.errors(), "trivela: there is no verb \"dance\"; trivela --help names them all\n");
+  }
+  Program none{"trivela", {}, folder.path()};
+  EXPECT_EQ(none.wait(), 2);
+  EXPECT_THAT(none.errors(), HasSubstr("A subcommand is required"));
+}
+
+TEST(Usage, EveryProgramSaysItsVersion) {
+  const Folder folder;
+  for (const std::string name : {"trivela", "trivela-recorder", "trivela-kicker_driver", "trivela-simulator"}) {
+    Program program{name, {"--version"}, folder.path()};
+    EXPECT_EQ(program.wait(), 0) << program.errors();
+    EXPECT_THAT(program.output(), testing::MatchesRegex(name + " [0-9]+\\.[0-9]+\\.[0-9]+.*\n"));
+  }
+}
+
+TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
+  const Folder folder;
+  std::ofstream{folder / "match.db"} << "nothing that anybody could learn from";
+  for (const auto& [arguments, says] : std::vector<BadNumber>{
+           {{"factorial", "--matches", "1000000", "--csv", "no/f.csv"}, "cannot write --csv no/f.csv: No such file"},
+           {{"factorial", "--matches", "1000000", "--svg", "."}, "cannot write --svg .: it is a folder"},
+           {{"frontier", "--matches", "1000000", "--svg", "no/f.svg"}, "cannot write --svg no/f.svg: No such file"},
+           {{"sensitivity", "--matches", "1000000", "--csv", "no/s.csv"}, "cannot write --csv no/s.csv: No such file"},
+           {{"learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: No such file"},
+           {{"scan", "--synthesize", "s.db", "--truth", "no/t.csv"}, "cannot write --truth no/t.csv: No such file"},
+           {{"simulate", "--arms", "moving", "--matches", "1000000", "--out", "no/ab.db"}, "no/ab.db"},
+           {{"calibrate", "run", "--in", "simulation", "--out", "no/r.toml"}, "no/r.toml: No such file"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 1) << says;
+    EXPECT_THAT(trivela.errors(), HasSubstr(says));
+    EXPECT_EQ(trivela.output(), "");
+  }
+  Program twice{"trivela", {"frontier", "--matches", "1000000", "--csv", "f", "--svg", "f"}, folder.path()};
+  EXPECT_EQ(twice.wait(), 2);
+  EXPECT_THAT(twice.errors(), HasSubstr("--csv and --svg are the same file: f"));
+  EXPECT_FALSE(exists(folder / "s.db"));
+  EXPECT_FALSE(exists(folder / "f"));
+}
+
+TEST(Usage, FoldersInPlaceOfFilesAreSaidSo) {
+  const Folder folder;
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"simulate", "--arms", "moving", "--config", "."},
+                                             {"simulate", "--arms", "moving", "--scenario", "."},
+                                             {"simulate", "--arms", "moving", "--robot", "."},
+                                             {"solve", "--csv", "."},
+                                             {"compare", "--csv", "."},
+                                             {"lob", "--points", ".", "--laser-x-m", "4", "--laser-z-m", "0"},
+                                             {"calibrate", "table", ".", "--robot", "seven"},
+                                             {"calibrate", "deflection", "."},
+                                             {"report", "."},
+                                             {"compare", "."},
+                                             {"migrate", ".", "--out", "new.db"},
+                                             {"replay", "."},
+                                             {"scan", "--info", "."},
+                                             {"scan", "--emulate", "."},
+                                             {"lob", "--replay", "."}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_GE(trivela.wait(), 1) << arguments.front();
+    EXPECT_THAT(trivela.errors(), testing::Not(HasSubstr("basic_")));
+    EXPECT_THAT(trivela.errors(), testing::Not(HasSubstr("Success")));
+    EXPECT_THAT(trivela.errors(), HasSubstr("."));
+    EXPECT_LT(trivela.errors().size(), 350u);
   }
 }
 

@@ -77,15 +77,21 @@ class DriveLog : public LogTest {
     kick(policy, pose, twist, crossing.x_m, crossing.z_m);
   }
 
-  /// What a flight camera sees of the latest kick: the vertical motion of kPower's flight, on the way to the goal.
-  void see_free_fall() {
-    const kicking::RobotModel model;
-    const double v_z = model.table.speed_for(kPower) * std::sin(model.exit_angle_rad);
-    for (int i = 0; i < 20; ++i) {
-      const double t_s = 0.05 + 0.04 * i;  // after the release
-      const Int t_ns = kicks_ * 1'000'000'000 + std::llround((kDelay_s + t_s) * 1e9);
-      const double z = model.ball.radius_m + v_z * t_s - 0.5 * kicking::kGravity_mps2 * t_s * t_s;
-      writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, 0.1, 3.3 + 6.0 * t_s, z});
+  /// What a flight camera sees of the latest kick: a flight with drag that leaves (0.1, 3.27) of F straight ahead of a
+  /// robot that points 0.02 rad to the left, with `along_mps` + `of_robot_mps`.
+  void see_flight(double along_mps, double up_mps, double of_robot_mps) {
+    constexpr double kStep_s = 1e-4;
+    const kicking::Ball ball;
+    const double k = kicking::drag_per_m(ball, {}), all_mps = along_mps + of_robot_mps;
+    Eigen::Vector3d place(0.1, 3.27, ball.radius_m);
+    Eigen::Vector3d velocity(-std::sin(0.02) * all_mps, std::cos(0.02) * all_mps, up_mps);
+    for (int i = 0; i < 9000; ++i) {
+      if (i % 200 == 0) {
+        const Int t_ns = kicks_ * 1'000'000'000 + std::llround((kDelay_s + i * kStep_s) * 1e9);
+        writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, place.x(), place.y(), place.z()});
+      }
+      velocity += kStep_s * (Eigen::Vector3d(0, 0, -kicking::kGravity_mps2) - k * velocity.norm() * velocity);
+      place += kStep_s * velocity;
     }
   }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "evaluator/calibration/launch_track.hpp"
 #include "evaluator/calibration/release_track.hpp"
 #include "kicking/calibration/delay_fit.hpp"
 #include "tests/evaluator/drive_log.hpp"
@@ -25,7 +26,7 @@ TEST_F(DriveLog, LateralKicksGiveTheTransferThatMadeThem) {
       kick("lateral_drive", {0.4, 2.5, heading}, {vx, 0.0, 0.0}, {1, 1, 0.8});
   }
   kick("moving", {0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}, {});
-  const auto kicks = lateral_kicks(read(), {});
+  const auto kicks = lateral_kicks(recorded_drives(read()), {});
   ASSERT_EQ(kicks.rows.size(), 15u);
   EXPECT_THAT(kicks.left_out, IsEmpty());
   const auto fit = kicking::fit_deflection(kicks.rows, kDelay_s);
@@ -40,7 +41,7 @@ TEST_F(DriveLog, TurnKicksGiveTheDelayThatMadeThem) {
   for (const double omega : {-2.0, -1.0, 0.5, 1.0, 2.0}) {
     kick("turn_drive", {0.0, 3.0, 0.1 * omega}, {0.0, 0.0, omega}, {1, 1, 1});
   }
-  const auto kicks = turn_kicks(read(), {}, 0.02);
+  const auto kicks = turn_kicks(recorded_drives(read()), {}, 0.02);
   ASSERT_EQ(kicks.rows.size(), 5u);
   for (const auto& row : kicks.rows) EXPECT_GT(row.allowed_error_m, 0.0) << row.omega_radps;
   const auto fit = kicking::fit_rotation(kicks.rows, kicking::RotationLever{0.27, 0.02});
@@ -50,30 +51,30 @@ TEST_F(DriveLog, TurnKicksGiveTheDelayThatMadeThem) {
 }
 
 TEST_F(DriveLog, StraightKicksGiveTheTransferThatMadeThem) {
-  for (const double vy : {-1.0, -0.5, 0.5, 1.0}) {
-    kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, vy, 0.0}, {0.9, 0.6, 1});
-    see_free_fall();
+  const kicking::RobotModel model;
+  for (const double vy : {0.0, 0.0, -1.0, -0.5, 0.5, 1.0}) {
+    kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, vy, 0.0}, std::nullopt, std::nullopt);  // crossings play no part
+    see_flight(6.6, 5.0, (vy > 0.0 ? 0.9 : 0.6) * vy);
   }
   kick("straight_drive", {0.1, 3.0, 0.02}, {0.0, 1.0, 0.0}, {0.2, 0.2, 1});  // nobody sees it fly
-  kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, 0.1, 0.11);
-  kick("straight_drive", {0.0, 3.0, 0.0}, {0.0, -1.0, 0.0}, 0.0, 0.4);  // after a bounce
-  const std::vector<std::pair<double, double>> bounce{{4.0, 0.8}, {6.0, 0.9}, {8.3, 0.12}, {9.5, 0.5}};  // y, z
-  for (std::size_t i = 0; i < bounce.size(); ++i) {
-    const Int t_ns = kicks_ * 1'000'000'000 + 300'000'000 * static_cast<Int>(i + 1);
-    writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, 0.0, bounce[i].first, bounce[i].second});
+  const auto kicks = transfer_kicks(recorded_drives(read()), model);
+  EXPECT_THAT(kicks.left_out, ElementsAre("1 kick left out: the flight camera saw too little of the flight"));
+  ASSERT_EQ(kicks.rows.size(), 6u);
+  for (const auto& row : kicks.rows) {
+    EXPECT_NEAR(row.track->up_mps, 5.0, 0.002) << row.vy_mps;
+    EXPECT_NEAR(row.distance_m, 6.0 / std::cos(0.02) - 0.27, 0.01);
   }
-  const auto kicks = straight_kicks(read(), {});
-  EXPECT_THAT(kicks.left_out, ElementsAre(HasSubstr("3 kicks left out: the ball touched the floor")));
   const auto fit = kicking::fit_transfer(kicks.rows, kDelay_s);
-  EXPECT_NEAR(fit.forward->exact.value, 0.9, 2e-3);
-  EXPECT_NEAR(fit.backward->exact.value, 0.6, 2e-3);
+  const double effective = model.table.speed_for(kPower) * std::cos(model.exit_angle_rad) / 6.6;
+  EXPECT_NEAR(fit.forward->exact.value, 0.9 * effective, 2e-3);
+  EXPECT_NEAR(fit.backward->exact.value, 0.6 * effective, 2e-3);
 }
 
 TEST_F(DriveLog, KicksWithoutACrossingOrRefusedAreLeftOut) {
   kick("lateral_drive", {0, 3, 0}, {1, 0, 0}, std::nullopt, std::nullopt);
   kick("lateral_drive", {0, 3, 0}, {1, 0, 0}, 0.5, 0.5, false);
   kick("lateral_drive", {0, 3, 3.1}, {1, 0, 0}, 0.5, 0.5);
-  const auto kicks = lateral_kicks(read(), {});
+  const auto kicks = lateral_kicks(recorded_drives(read()), {});
   EXPECT_THAT(kicks.rows, IsEmpty());
   EXPECT_THAT(kicks.left_out, ElementsAre("1 kick left out: not seen to cross the goal line",
                                           "1 kick left out: the robot pointed away from the goal line"));
@@ -104,6 +105,17 @@ std::vector<BallSighting> seen_release(Int order_t_ns, double delay_s, double vx
     ball += kStep_s * velocity;
   }
   return sightings;
+}
+
+TEST(LaunchTrack, IsTheFlightsOwnWhereverTheReleaseIsThoughtToBe) {
+  const auto sightings = seen_release(0, 0.06, 0.0, 0.5);
+  for (const std::int64_t release_t_ns : {30'000'000, 60'000'000, 90'000'000}) {
+    const auto track = launch_track(sightings, release_t_ns, 9.0, {});
+    ASSERT_TRUE(track);
+    EXPECT_NEAR(track->velocity_mps.y(), 7.1, 0.01);
+    EXPECT_NEAR(track->velocity_mps.z(), 4.9, 0.02);
+  }
+  EXPECT_FALSE(launch_track({}, 0, 9.0, {}));
 }
 
 TEST(ReleaseTrack, FindsTheInstantAtWhichTheTracksMeet) {
@@ -140,7 +152,7 @@ TEST_F(DriveLog, DelaysComeFromTheFlightCameraOfKicksThatDoNotTurn) {
   }
   kick("turn_drive", {0, 3, 0}, {0, 0, 1.0}, 0.0, 0.7);
   kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);  // no frames
-  const auto found = release_delays(read());
+  const auto found = release_delays(recorded_drives(read()));
   ASSERT_EQ(found.rows.size(), 3u);
   for (std::size_t i = 0; i < delays.size(); ++i) EXPECT_NEAR(found.rows[i], delays[i], 0.0005);
   EXPECT_THAT(found.left_out, ElementsAre("1 kick left out: the robot turned",
@@ -156,7 +168,7 @@ TEST_F(DriveLog, DirectionsAreThoseOfTheBallAndEndWhereItIsCarriedBack) {
     }
   }
   kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);  // no frames
-  const auto found = launch_directions(read(), {});
+  const auto found = launch_directions(recorded_drives(read()), {});
   ASSERT_EQ(found.rows.size(), 3u);
   EXPECT_THAT(found.left_out, ElementsAre(HasSubstr("1 kick left out")));
   const std::vector<double> slopes{-0.4 / 6.6, 0.0, 0.7 / 6.6};

@@ -16,6 +16,8 @@ struct LoggedKick {
   std::string observed = "on_target";  ///< empty: no outcome came
   std::string truth = "on_target";
   double distance_m = 4.0;
+  bool saved = false;    ///< by the simulator's truth
+  bool bounced = false;  ///< by the simulator's truth
 };
 
 /// Writes an experiment: many sessions in one file, with possessions, who was in charge of them, and their kicks.
@@ -42,16 +44,18 @@ class TestExperiment {
                              {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
         truths_(log_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
                                            "release_t_ns", "release_x_m", "release_y_m", "release_vx_mps",
-                                           "release_vy_mps", "release_vz_mps", "saved"})),
+                                           "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
         possessions_(log_.table("possession_truths", {"robot_id", "seq", "t_ns", "half", "possession_id", "ending",
                                                       "start_t_ns", "start_x_m", "start_y_m", "start_heading_rad"})),
         assignments_(log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})),
         referee_(log_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
 
   std::string table = "new";         ///< of the next sessions
-  std::optional<Int> calibration{};  ///< evening of the next session
   std::string config = "a = 1\n";    ///< of the next sessions
   std::string run = "test";          ///< sessions of another run have other keys
+  std::optional<Int> calibration{};  ///< evening of the next sessions
+  bool paired_halves = false;        ///< of the next sessions
+  Int robot_id = 1;                  ///< of the next rows
 
   void begin() { log_.begin(); }
   void commit() {
@@ -75,17 +79,18 @@ class TestExperiment {
     session.kicker_table = table;
     if (numbered) session.match_id = match_id;
     session.calibration_id = calibration;
+    session.paired_halves = paired_halves;
     session_id_ = log_.add_session(session, 600'000'000'000);
   }
 
-  /// One opportunity of robot 1. `probability` 1: the policy of the half.
+  /// One opportunity of a robot. `probability` 1: the policy of the half.
   void possession(Int half, Int id, const std::string& policy, double probability,
                   const std::optional<LoggedKick>& kick, double start_y_m = 4.0) {
     const Int t_ns = ++seq_ * 20'000'000;
-    row(possessions_, {Int{1}, seq_, t_ns, half, id, kick ? "kicked" : "disputed", t_ns}, {0.5, start_y_m, 0.0});
+    row(possessions_, {robot_id, seq_, t_ns, half, id, kick ? "kicked" : "disputed", t_ns}, {0.5, start_y_m, 0.0});
     if (probability < 1.0) {
       auto& assigned = log_.row(assignments_, session_id_);
-      assigned.integer(1);
+      assigned.integer(robot_id);
       assigned.integer(half);
       assigned.integer(id);
       assigned.text(policy.c_str());
@@ -95,16 +100,17 @@ class TestExperiment {
     if (!kick) return;
     const Int kick_id = seq_;
     decision(half, id, policy, probability, kick->distance_m, kick_id);
-    row(receipts_, {Int{1}, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
+    row(receipts_, {robot_id, seq_, t_ns, kick_id, Int{1}, "none", t_ns, t_ns, t_ns, Int{0}, Int{0}}, {20.0});
     if (!kick->observed.empty()) {
-      row(outcomes_, {Int{1}, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
+      row(outcomes_, {robot_id, seq_, t_ns, kick_id, kick->observed, Int{kick->observed == "on_target"}, Int{9}}, {});
     }
     auto& t = log_.row(truths_, session_id_);
-    for (const Int value : {Int{1}, seq_, t_ns, kick_id, half, id}) t.integer(value);
+    for (const Int value : {robot_id, seq_, t_ns, kick_id, half, id}) t.integer(value);
     t.text(kick->truth.c_str());
     t.integer(t_ns);
     for (const double value : {0.0, 4.0, 0.0, 8.0, 3.0}) t.number(value);
-    t.integer(0);
+    t.integer(kick->saved ? 1 : 0);
+    t.integer(kick->bounced ? 1 : 0);
     log_.end_row();
   }
 
@@ -112,6 +118,12 @@ class TestExperiment {
   void held(Int half, Int id, const std::string& policy, double probability, double distance_m) {
     ++seq_;
     decision(half, id, policy, probability, distance_m, 0);
+  }
+
+  /// The referee lets a possession of the half run from an instant for so long.
+  void played_possession(Int half, Int id, double from_s, double minutes) {
+    row(referee_, {Int{1}, ++seq_, static_cast<Int>(from_s * 1e9), half, Int{1}, id}, {});
+    row(referee_, {Int{1}, ++seq_, static_cast<Int>((from_s + minutes * 60.0) * 1e9), half, Int{0}, id}, {});
   }
 
   /// The referee lets a half run for so long.
@@ -131,7 +143,7 @@ class TestExperiment {
 
   void decision(Int half, Int id, const std::string& policy, double probability, double distance_m, Int kick_id) {
     auto& d = log_.row(decisions_, session_id_);
-    for (const Int value : {Int{1}, seq_, seq_ * 20'000'000, kick_id, half, id}) d.integer(value);
+    for (const Int value : {robot_id, seq_, seq_ * 20'000'000, kick_id, half, id}) d.integer(value);
     d.text(policy.c_str());
     d.integer(kick_id != 0 ? 1 : 0);
     d.text(kick_id != 0 ? "fire" : "waiting");

@@ -45,6 +45,8 @@ TEST(Annotate, ALobHasThePowerOfTheLastSetPointAtOrBeforeItsLaunch) {
   EXPECT_EQ(power_of(1000, set_points), 25.0);
   EXPECT_EQ(power_of(1000, {set_points[2], set_points[0]}), 25.0) << "by time, not by order";
   EXPECT_EQ(power_of(15, {set_points[0], {.t_ns = 10, .power = 17.0, .kick_id = 0}}), 17.0) << "corrected at once";
+  EXPECT_EQ(power_of(35, {set_points[1], {.t_ns = 30, .power = std::nullopt, .kick_id = 0}}), std::nullopt)
+      << "the plan was done";
 }
 
 TEST(Annotate, ARejectedLobIsRefusedByTheOperatorInItsWords) {

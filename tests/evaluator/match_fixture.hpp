@@ -30,9 +30,10 @@ class MatchLog {
                               "release_t_ns", "power", "received_steady_ns", "fired_steady_ns"})),
         outcomes_(writer_.table("kick_outcomes",
                                 {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations"})),
-        truths_(writer_.table("kick_truths", {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome",
-                                              "x_cross_m", "release_t_ns", "release_x_m", "release_y_m",
-                                              "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved"})),
+        truths_(writer_.table(
+            "kick_truths",
+            {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome", "x_cross_m", "release_t_ns",
+             "release_x_m", "release_y_m", "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
         referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})),
         statuses_(
             writer_.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault",
@@ -63,9 +64,9 @@ class MatchLog {
     writer_.push(outcomes_, {robot_id, ++seq_, t_ns(), kick_id, label, Int{label == "on_target"}, Int{9}});
   }
 
-  void truth(Int kick_id, const std::string& label) {
+  void truth(Int kick_id, const std::string& label, bool bounced = false) {
     writer_.push(truths_, {robot_id, ++seq_, t_ns(), kick_id, Int{1}, kick_id, label, 0.5, t_ns(), 0.0, 4.0, 0.0, 8.0,
-                           3.0, Int{0}});
+                           3.0, Int{0}, Int{bounced}});
   }
 
   /// A kick from decision to outcome.

@@ -84,7 +84,7 @@ TEST_P(OlderLog, IsReportedOn) {
 TEST_P(OlderLog, IsComparedAndCalibratedFrom) {
   std::string by;
   EXPECT_EQ(read_log_kicks({log_path}, {}, by).opportunities.size(), 2u);
-  EXPECT_NO_THROW(release_delays(Reader(log_path)));
+  EXPECT_NO_THROW(release_delays(recorded_drives(Reader(log_path))));
 }
 
 TEST_P(OlderLog, AConfigurationThatIsNotTheNamedOneIsDamage) {

@@ -58,6 +58,75 @@ class PolicyComparisonTest : public LogTest {
   }
 };
 
+// Six matches of ten opportunities, on target in all of them. `low` bounces in and is saved in eight, `high` in three.
+void write_saves(const std::filesystem::path& path) {
+  const LoggedKick saved{"on_target", "on_target", 4.0, true, true}, goal = kIn;
+  TestExperiment experiment(path, 6);
+  for (std::uint32_t match = 0; match < 6; ++match) {
+    experiment.begin();
+    for (const std::uint32_t arm : {0U, 1U}) {
+      experiment.session(match, arm, arm == 0 ? "low" : "high", {{1, "moving"}});
+      for (std::int64_t i = 1; i <= 10; ++i)
+        experiment.possession(1, i, "moving", 1.0, i <= (arm == 0 ? 7 + match % 3 : 3) ? saved : goal);
+    }
+    experiment.commit();
+  }
+  experiment.finish();
+}
+
+TEST_F(PolicyComparisonTest, GoalsAreCountedPastTheKeeperBesideWhatIsInside) {
+  write_saves(path());
+  const auto result = compared();
+  EXPECT_EQ(result.groups[0].inside, 60);
+  EXPECT_EQ(result.groups[0].goals, 12);
+  EXPECT_EQ(result.groups[1].goals, 42);
+  const PairResult& pair = result.pairs[0];
+  EXPECT_NEAR(pair.headline->difference, 0.0, 1e-12) << "Table 2 sees no keeper";
+  ASSERT_TRUE(pair.goals);
+  EXPECT_NEAR(pair.goals->difference, 0.5, 1e-12);
+  ASSERT_TRUE(pair.goals->clustered);
+  EXPECT_GT(pair.goals->clustered->ci.lo, 0.3);
+  const std::string text = to_text(result);
+  EXPECT_THAT(text, HasSubstr("Goals: past the keeper, by the simulator's truth"));
+  EXPECT_THAT(text, HasSubstr("by the simulator's truth: low 48 of 60, high 18 of 60"));
+  EXPECT_THAT(text, Not(HasSubstr("as observed: low"))) << "no observer said it";
+  EXPECT_THAT(to_json(result), HasSubstr("\"goals_per_opportunity\""));
+}
+
+TEST_F(PolicyComparisonTest, WithoutAKeeperThereIsOneHeadline) {
+  write_paired(10);
+  const auto result = compared();
+  EXPECT_FALSE(result.pairs[0].goals);
+  EXPECT_THAT(to_text(result), Not(HasSubstr("Goals:")));
+}
+
+TEST_F(PolicyComparisonTest, BlockedKicksAreOutsideUnlessTheyStandApart) {
+  const LoggedKick blocked{"blocked", "blocked", 4.0};
+  TestExperiment experiment(path(), 6);
+  for (std::uint32_t match = 0; match < 6; ++match) {
+    experiment.begin();
+    for (const std::uint32_t arm : {0U, 1U}) {
+      experiment.session(match, arm, arm == 0 ? "a" : "b", {{1, "moving"}});
+      for (std::int64_t i = 1; i <= 10; ++i)
+        experiment.possession(1, i, "moving", 1.0, i <= 5 ? kIn : i <= (arm == 0 ? 9 : 6) ? blocked : kOut);
+    }
+    experiment.commit();
+  }
+  experiment.finish();
+  const auto outside = compared();
+  EXPECT_EQ(outside.groups[0].outside, 30);
+  EXPECT_EQ(outside.groups[0].kicks(), 60);
+  EXPECT_NEAR(outside.pairs[0].efficiency->difference, 0.0, 1e-12);
+  EXPECT_THAT(to_text(outside), Not(HasSubstr("stand apart")));
+  const auto apart = compared({.blocked_apart = true});
+  EXPECT_EQ(apart.groups[0].blocked, 24);
+  EXPECT_EQ(apart.groups[0].outside, 6);
+  EXPECT_EQ(apart.groups[0].kicks(), 60);
+  EXPECT_NEAR(apart.pairs[0].efficiency->difference, 30.0 / 54.0 - 30.0 / 36.0, 1e-12);
+  EXPECT_NEAR(apart.pairs[0].per_opportunity->difference, 0.0, 1e-12) << "an opportunity stays one";
+  EXPECT_THAT(to_text(apart), HasSubstr("blocked kicks stand apart"));
+}
+
 TEST_F(PolicyComparisonTest, ArmsOnTheSameOpportunitiesArePaired) {
   write_paired(10);
   const auto result = compared();
@@ -227,6 +296,10 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
   EXPECT_THAT(to_text(result), HasSubstr("moving differs from stopped"));
   EXPECT_THAT(to_text(result), Not(HasSubstr("SIMULATED")));
   EXPECT_THAT(message_of({.truth = true}), HasSubstr("none of these matches was simulated"));
+  for (const std::string by : {"table", "arm"}) {
+    EXPECT_EQ(message_of({.by = by}),
+              "--by " + by + ": no session of these logs names its " + by + "; those of trivela simulate do");
+  }
 }
 
 TEST_F(PolicyComparisonTest, TheSameLogTwiceCountsOnce) {

@@ -22,6 +22,8 @@ class PredictedKicksTest : public LogTest {
   std::filesystem::path experiment(const std::string& name, std::uint32_t arm, std::uint32_t matches) {
     {
       TestExperiment log{path(name), matches};
+      log.config = "arm = " + std::to_string(arm) + "\n";  // with the same one it would be the same kicks again
+      log.robot_id = 1 + arm;
       for (std::uint32_t match = 0; match < matches; ++match) {
         log.begin();
         log.session(match, arm, "predictive", {{1, "predictive"}});

@@ -1,6 +1,5 @@
 #include "evaluator/report/table2.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +7,7 @@
 
 #include "evaluator/report/render.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/merged_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -25,21 +25,6 @@ PolicyRow row_of(const Report& report, const std::string& policy) {
     if (row.policy == policy) return row;
   }
   return {};
-}
-
-// As the match logs of several robots are merged: keys do not collide, and a second merge changes nothing.
-void merge(const std::filesystem::path& from, const std::filesystem::path& into) {
-  SQLite::Database database(into.string(), SQLite::OPEN_READWRITE);
-  database.exec("ATTACH '" + from.string() + "' AS other");
-  std::vector<std::string> tables;
-  SQLite::Statement names(database, "SELECT name FROM sqlite_schema WHERE type = 'table'");
-  while (names.executeStep()) tables.push_back(names.getColumn(0).getString());
-  for (const std::string& table : tables) {
-    for (int twice = 0; twice < 2; ++twice) {
-      database.exec("INSERT INTO main." + table + " SELECT * FROM other." + table +
-                    " WHERE true ON CONFLICT DO NOTHING");
-    }
-  }
 }
 
 TEST_F(ReportOfALog, ThePapersKicksGiveThePapersTable) {
@@ -110,6 +95,41 @@ TEST_F(ReportOfALog, TheLatestOutcomeOfAKickHolds) {
   const auto row = row_of(make_report(log::Reader(path())), "stopped");
   EXPECT_EQ(row.kicks(), 1);
   EXPECT_EQ(row.inside(), 1);
+}
+
+TEST_F(ReportOfALog, BallsThatBouncedInAreCountedApart) {
+  MatchLog match(path(), session(), options());
+  for (int i = 0; i < 5; ++i) match.truth(match.kick(1, "on_target"), "on_target", i < 2);
+  match.truth(match.kick(1, "over"), "over", true);  // not inside: nobody asks
+  match.kick(2, "on_target");                        // nobody said
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  EXPECT_EQ(row_of(report, "stopped").inside(), 5);
+  EXPECT_EQ(row_of(report, "stopped").bounces.truth, 5);
+  EXPECT_EQ(row_of(report, "stopped").bounces.truth_bounced, 2);
+  EXPECT_EQ(row_of(report, "stopped").bounces.observed, 0);
+  EXPECT_THAT(to_text(report),
+              HasSubstr("bounced before the line, of those inside, by the simulator's truth: stopped 2 of 5\n"));
+  EXPECT_THAT(to_text(report), Not(HasSubstr("as observed")));
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["policies"][0]["bounced"]["truth"]["bounced"], 2);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(report))["policies"][0]["bounced"]["observed"].is_null());
+}
+
+TEST_F(ReportOfALog, BlockedKicksStandApartWhereAsked) {
+  MatchLog match(path(), session(), options());
+  match.kicks(2, "on_target", 6);
+  match.kicks(2, "blocked", 3);
+  match.kicks(2, "over", 2);
+  match.close();
+  const log::Reader reader(path());
+  EXPECT_EQ(row_of(make_report(reader), "moving").outside(), 5);
+  const Report apart = make_report(reader, true);
+  const PolicyRow row = row_of(apart, "moving");
+  EXPECT_EQ(row.outside(), 2);
+  EXPECT_EQ(row.kicks(), 11);
+  EXPECT_EQ(row.counts().n, 8);
+  EXPECT_EQ(row.efficiency_bounds().lo, 0.75);
+  EXPECT_THAT(to_text(apart), HasSubstr("blocked kicks stand apart"));
 }
 
 TEST_F(ReportOfALog, UnknownOutcomesBoundTheEfficiency) {
@@ -236,7 +256,9 @@ TEST_F(ReportOfALog, TheTruthIsComparedWhereBothAreKnown) {
 
 TEST_F(ReportOfALog, SessionsOfAMergedFileArePooled) {
   for (const char* const name : {"match.db", "other.db"}) {
-    MatchLog match(path(name), session(), options());
+    auto of_its_own = session();
+    of_its_own.seed = *name;  // with the same one it would be the same match
+    MatchLog match(path(name), of_its_own, options());
     write_table2(match);
     match.close();
   }

@@ -6,6 +6,7 @@
 
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/label_doubt.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/robustness.hpp"
 #include "evaluator/stats/sample_ratio.hpp"
@@ -104,10 +105,30 @@ TEST(Fragility, OfTheTable2IsTheNumberOfFlips) {
 }
 
 TEST(DifferenceBounds, TakeEveryUnknownKickEitherWay) {
-  const auto bounds = difference_bounds({5, 8}, 2, {6, 9}, 1);
+  const auto bounds = difference_bounds({{5, 8}, 2}, {{6, 9}, 1});
   EXPECT_NEAR(bounds.lo, 0.6 - 0.7, 1e-15);
   EXPECT_NEAR(bounds.hi, 0.7 - 0.5, 1e-15);
-  EXPECT_EQ(difference_bounds({0, 0}, 0, {6, 9}, 1).lo, -1.0);
+  EXPECT_EQ(difference_bounds({{0, 0}, 0}, {{6, 9}, 1}).lo, -1.0);
+}
+
+TEST(MostWrong, IsTheUpperQuantileOfPoisson) {
+  EXPECT_EQ(most_wrong(0.0), 0);
+  EXPECT_EQ(most_wrong(0.02), 0) << "R: qpois(0.975, 0.02)";
+  EXPECT_EQ(most_wrong(0.03), 1);
+  EXPECT_EQ(most_wrong(1.0), 3);
+  EXPECT_EQ(most_wrong(4.0), 8);
+  EXPECT_EQ(most_wrong(30.0), 41);
+  EXPECT_NEAR(static_cast<double>(most_wrong(500.1)), 545.0, 1.0);
+}
+
+TEST(EfficiencyBounds, CountLabelsThatMayBeWrongAgainstTheGroupAndForIt) {
+  const auto bounds = efficiency_bounds({{50, 90}, 10, {1.0, 4.0}});
+  EXPECT_NEAR(bounds.lo, 0.47, 1e-15) << "3 of the labels of inside are wrong";
+  EXPECT_NEAR(bounds.hi, 0.68, 1e-15) << "10 unknown and 8 of the labels of outside are inside";
+  EXPECT_NEAR(efficiency_bounds({{1, 1}, 0, {1.0, 4.0}}).lo, 0.0, 1e-15) << "not more than there are";
+  EXPECT_NEAR(efficiency_bounds({{1, 1}, 0, {1.0, 4.0}}).hi, 1.0, 1e-15);
+  EXPECT_EQ(efficiency_bounds({}).lo, 0.0);
+  EXPECT_EQ(efficiency_bounds({}).hi, 1.0);
 }
 
 TEST(EValue, OfTheTable2IsThePublishedFormulas) {

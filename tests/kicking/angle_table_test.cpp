@@ -50,9 +50,11 @@ PolicyInput at(double distance_m, const Twist& twist = {}) {
 
 TEST(ShotWithAngles, PassesTheTargetHeightWithThePowersOwnAngle) {
   const RobotModel robot = with_angles();
+  PolicyConfig config;
+  config.height_law = HeightLaw::kExact;
   int solved = 0;
   for (double d = 3.0; d <= 8.0; d += 0.1) {
-    const Shot shot = stopped_shot({}, robot, {}, at(d));
+    const Shot shot = stopped_shot(config, robot, {}, at(d));
     ASSERT_TRUE(shot.power) << d;
     if (!shot.reachable || *shot.power <= 15.0) continue;
     ++solved;

@@ -9,6 +9,8 @@ namespace {
 
 using tests::ready_at;
 
+const PolicyConfig kStrict = tests::strict_config();
+
 class EveryPolicy : public testing::TestWithParam<PolicyName> {
  protected:
   /// Cycles until the settling time of the stopped policy is over as well.
@@ -17,12 +19,12 @@ class EveryPolicy : public testing::TestWithParam<PolicyName> {
       PolicyInput waiting = input;
       waiting.kicker_ready = false;
       waiting.t_ns += i * 20'000'000;
-      judge(GetParam(), {}, {}, {}, waiting, memory_);
+      judge(GetParam(), kStrict, {}, {}, waiting, memory_);
     }
     input.t_ns += 14 * 20'000'000;
-    return judge(GetParam(), {}, {}, {}, input, memory_);
+    return judge(GetParam(), kStrict, {}, {}, input, memory_);
   }
-  Judgement now(const PolicyInput& input) { return judge(GetParam(), {}, {}, {}, input, memory_); }
+  Judgement now(const PolicyInput& input) { return judge(GetParam(), kStrict, {}, {}, input, memory_); }
   PolicyMemory memory_;
 };
 
@@ -92,7 +94,7 @@ TEST_P(EveryPolicy, GivesTheSameAnswerToTheSameQuestion) {
   const PolicyInput input = ready_at({1, 4, 0.1}, {0.2, 1.0, -0.3});
   PolicyMemory other;
   const Judgement a = now(input);
-  const Judgement b = judge(GetParam(), {}, {}, {}, input, other);
+  const Judgement b = judge(GetParam(), kStrict, {}, {}, input, other);
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.v_kick_mps, b.v_kick_mps);
   EXPECT_EQ(a.drive.omega_radps, b.drive.omega_radps);

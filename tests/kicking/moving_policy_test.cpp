@@ -10,8 +10,9 @@ namespace {
 
 using tests::play;
 using tests::ready_at;
+using tests::strict_config;
 
-Judgement once(const PolicyInput& input, const PolicyConfig& config = {}) {
+Judgement once(const PolicyInput& input, const PolicyConfig& config = strict_config()) {
   PolicyMemory memory;
   return judge(PolicyName::kMoving, config, {}, {}, input, memory);
 }
@@ -33,7 +34,7 @@ TEST(MovingPolicy, FiresOnEnteringTheExtendedSegmentAndNotInItsMiddle) {
     return input;
   };
   const auto reason = [&](const PolicyInput& input) {
-    return judge(PolicyName::kMoving, {}, {}, {}, input, memory).reason;
+    return judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason;
   };
   EXPECT_EQ(reason(turning_at(-8.0, 0.00)), Reason::kNotAligned);
   PolicyInput charging = turning_at(-6.5, 0.02);
@@ -48,14 +49,14 @@ TEST(MovingPolicy, FiresLateWhereTheSegmentIsNotExtended) {
   PolicyMemory memory;
   PolicyInput input = ready_at({0, 3, 0});
   input.kicker_ready = false;
-  EXPECT_EQ(judge(PolicyName::kMoving, {}, {}, {}, input, memory).reason, Reason::kKickerNotReady);
+  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kKickerNotReady);
   input.kicker_ready = true;
-  EXPECT_EQ(judge(PolicyName::kMoving, {}, {}, {}, input, memory).reason, Reason::kFire);
+  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kFire);
 }
 
 TEST(MovingPolicy, TakesTheRobotsSpeedOffTheKick) {
   for (const MotionLaw law : {MotionLaw::kPaper, MotionLaw::kExact}) {
-    PolicyConfig config;
+    PolicyConfig config = strict_config();
     config.motion_law = law;
     const Judgement still = once(ready_at({0, 3, 0}), config);
     const Judgement forward = once(ready_at({0, 3, 0}, {0, 1, 0}), config);
@@ -64,7 +65,7 @@ TEST(MovingPolicy, TakesTheRobotsSpeedOffTheKick) {
     EXPECT_LT(*forward.v_kick_mps, *still.v_kick_mps - 0.4);
     EXPECT_GT(*backward.v_kick_mps, *still.v_kick_mps + 0.2);
   }
-  PolicyConfig paper;
+  PolicyConfig paper = strict_config();
   paper.motion_law = MotionLaw::kPaper;
   const Judgement forward = once(ready_at({0, 3, 0}, {0, 1, 0}), paper);
   EXPECT_NEAR(*forward.v_kick_mps, *forward.v0_mps - 0.70 * std::cos(radians(36.78)), 1e-12);
@@ -73,7 +74,7 @@ TEST(MovingPolicy, TakesTheRobotsSpeedOffTheKick) {
 }
 
 TEST(MovingPolicy, HeightLawsDifferAsDerived) {
-  PolicyConfig config;
+  PolicyConfig config = strict_config();
   const auto height = [&](HeightLaw law) {
     config.height_law = law;
     return once(ready_at({0, 3, 0}), config).predicted->z_m;
@@ -90,7 +91,8 @@ TEST(MovingPolicy, NeverKicksBeyondItsRangeNorOverTheBarFromClose) {
   RobotModel strong;
   strong.table = EffectiveTable{{1, 8.0}, {2, 12.0}};
   PolicyMemory memory;
-  EXPECT_EQ(judge(PolicyName::kMoving, {}, strong, {}, ready_at({0, 6, 0}), memory).reason, Reason::kOutOfRange);
+  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), strong, {}, ready_at({0, 6, 0}), memory).reason,
+            Reason::kOutOfRange);
 }
 
 TEST(MovingPolicy, KeepsDrivingToTheGoalWhileItTurns) {
@@ -104,7 +106,7 @@ TEST(MovingPolicy, MirrorsLeftAndRight) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const AlphaLaw law : {AlphaLaw::kPaperLine, AlphaLaw::kPhysical}) {
-    PolicyConfig config;
+    PolicyConfig config = strict_config();
     config.alpha_law = law;
     for (int i = 0; i < 200; ++i) {
       const Pose pose{3 * unit(random), 3 + 2 * unit(random), unit(random)};
@@ -130,7 +132,7 @@ struct Laws {
 class MovingLaws : public testing::TestWithParam<Laws> {};
 
 TEST_P(MovingLaws, ScoreInMotionInAWorldWithoutNoise) {
-  PolicyConfig config;
+  PolicyConfig config = strict_config();
   config.motion_law = GetParam().motion;
   config.alpha_law = GetParam().alpha;
   std::mt19937 random(8);

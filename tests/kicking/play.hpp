@@ -20,6 +20,18 @@ inline PolicyInput ready_at(const Pose& pose, const Twist& twist = {}) {
   return input;
 }
 
+/// Settings by which geometry is told most easily: a height to aim at, the paper's w, a stopped policy that settles on
+/// a degree.
+inline PolicyConfig strict_config() {
+  PolicyConfig config;
+  config.height_law = HeightLaw::kExact;
+  config.alignment.half_width_m = 0.1;
+  config.aim_tolerance_rad = radians(1.0);
+  config.settle_s = 0.25;
+  config.rest_speed_mps = config.rest_turn_rate_radps = 0.15;
+  return config;
+}
+
 /// What became of a possession.
 struct Played {
   std::optional<Judgement> fired;

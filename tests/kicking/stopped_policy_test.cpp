@@ -11,11 +11,13 @@ namespace {
 using tests::play;
 using tests::ready_at;
 
+const PolicyConfig kStrict = tests::strict_config();
+
 /// Judges the same input over and over, 20 ms apart; the reason of the last cycle.
 Reason after(PolicyInput input, double seconds, PolicyMemory& memory) {
   Reason reason = Reason::kFire;
   for (int i = 0; i <= std::lround(seconds / 0.02); ++i) {
-    reason = judge(PolicyName::kStopped, {}, {}, {}, input, memory).reason;
+    reason = judge(PolicyName::kStopped, kStrict, {}, {}, input, memory).reason;
     input.t_ns += 20'000'000;
   }
   return reason;
@@ -23,7 +25,7 @@ Reason after(PolicyInput input, double seconds, PolicyMemory& memory) {
 
 TEST(StoppedPolicy, BrakesBeforeItTurns) {
   PolicyMemory memory;
-  const Judgement judgement = judge(PolicyName::kStopped, {}, {}, {}, ready_at({0, 4, 0.5}, {0, 1, 0}), memory);
+  const Judgement judgement = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}, {0, 1, 0}), memory);
   EXPECT_EQ(judgement.reason, Reason::kApproaching);
   EXPECT_EQ(judgement.drive.vy_mps, 0.0);
   EXPECT_EQ(judgement.drive.omega_radps, 0.0);
@@ -31,7 +33,7 @@ TEST(StoppedPolicy, BrakesBeforeItTurns) {
 
 TEST(StoppedPolicy, TurnsOnTheSpotTowardsTheTarget) {
   PolicyMemory memory;
-  const Judgement judgement = judge(PolicyName::kStopped, {}, {}, {}, ready_at({0, 4, 0.5}), memory);
+  const Judgement judgement = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}), memory);
   EXPECT_EQ(judgement.reason, Reason::kTurning);
   EXPECT_EQ(judgement.drive.vy_mps, 0.0);
   EXPECT_LT(judgement.drive.omega_radps, 0.0);
@@ -66,12 +68,12 @@ TEST(StoppedPolicy, DoesNotFireOutsideTheToleranceHoweverLongItSettles) {
 
 TEST(StoppedPolicy, DrivesTowardsATargetOutOfRangeAndGivesUpWhereItMayNotGo) {
   PolicyMemory memory;
-  const Judgement far = judge(PolicyName::kStopped, {}, {}, {}, ready_at({0, -5, 0}), memory);
+  const Judgement far = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, -5, 0}), memory);
   EXPECT_EQ(far.reason, Reason::kApproaching);
   EXPECT_GT(far.drive.vy_mps, 0.5);
   RobotModel weak;
   weak.table = EffectiveTable{{1, 1.0}, {2, 2.0}};
-  const Judgement hopeless = judge(PolicyName::kStopped, {}, weak, {}, ready_at({0, 7, 0}), memory);
+  const Judgement hopeless = judge(PolicyName::kStopped, kStrict, weak, {}, ready_at({0, 7, 0}), memory);
   EXPECT_EQ(hopeless.reason, Reason::kOutOfRange);
   EXPECT_EQ(hopeless.drive.vy_mps, 0.0);
 }
@@ -82,7 +84,8 @@ TEST(StoppedPolicy, ScoresFromAnywhereInAWorldWithoutNoise) {
   for (int i = 0; i < 30; ++i) {
     const Pose start{3 * unit(random), 3 + 3 * unit(random) - (i % 5 ? 0 : 5), 3 * unit(random)};
     SCOPED_TRACE(testing::Message() << start.x_m << ' ' << start.y_m << ' ' << start.heading_rad);
-    const auto played = play(PolicyName::kStopped, {}, {}, ready_at(start, {unit(random), unit(random), unit(random)}));
+    const auto played =
+        play(PolicyName::kStopped, kStrict, {}, ready_at(start, {unit(random), unit(random), unit(random)}));
     ASSERT_TRUE(played.fired);
     const auto& crossing = played.fired->predicted;
     ASSERT_TRUE(crossing);
@@ -90,6 +93,19 @@ TEST(StoppedPolicy, ScoresFromAnywhereInAWorldWithoutNoise) {
     EXPECT_EQ(classify(crossing->x_m, crossing->z_m, {}), Outcome::kOnTarget);
     EXPECT_LE(std::hypot(played.at.twist.vx_mps, played.at.twist.vy_mps), 0.3);
   }
+}
+
+TEST(StoppedPolicy, WithItsDefaultsFiresAtRestWithinItsToleranceWithoutWaiting) {
+  PolicyMemory memory;
+  const auto reason = [&](double heading_deg, const Twist& twist) {
+    memory = {};
+    return judge(PolicyName::kStopped, {}, {}, {}, ready_at({0, 4, radians(heading_deg)}, twist), memory).reason;
+  };
+  EXPECT_EQ(reason(4.9, {}), Reason::kFire);
+  EXPECT_EQ(reason(-4.9, {0, 0.29, 0.49}), Reason::kFire);
+  EXPECT_EQ(reason(5.1, {}), Reason::kTurning);
+  EXPECT_EQ(reason(0.0, {0, 0.31, 0}), Reason::kApproaching) << "it still stops";
+  EXPECT_EQ(reason(0.0, {0, 0, 0.51}), Reason::kTurning);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ void expect_passes(PolicyName policy, const std::vector<double>& velocities, aut
       EXPECT_NEAR(played.at.twist.omega_radps, 0.0, 0.05);
       expect(velocity, played);
       // The power is that of a standing robot.
-      const Shot standing = stopped_shot(config, {}, kGoal, played.at);
+      const Shot standing = drive_shot(config, {}, kGoal, played.at);
       EXPECT_EQ(played.fired->power, standing.power);
       EXPECT_EQ(played.fired->reason, Reason::kFire);
     }
@@ -133,6 +133,25 @@ TEST(StraightDrive, PassesItsPlaceAtEachVelocityForwardsAndBackwards) {
                   EXPECT_GE(passed_m, 0.0);
                   EXPECT_LE(passed_m, 0.02 * std::abs(velocity) + 1e-9);
                 });
+}
+
+TEST(PassDrive, AimsAtAHeightAndSettlesWhateverThePlayingPoliciesDo) {
+  PolicyConfig hasty;
+  hasty.height_law = HeightLaw::kPaper;
+  hasty.settle_s = 0.0;
+  hasty.aim_tolerance_rad = radians(20.0);
+  hasty.rest_speed_mps = hasty.rest_turn_rate_radps = 1.0;
+  PolicyConfig strict = tests::strict_config();
+  for (const PolicyName drive :
+       {PolicyName::kStandingDrive, PolicyName::kLateralDrive, PolicyName::kTurnDrive, PolicyName::kStraightDrive}) {
+    const Played a = Drill{drive, hasty}.possession({0.5, 2.0, 0.3}, 20.0);
+    const Played b = Drill{drive, strict}.possession({0.5, 2.0, 0.3}, 20.0);
+    ASSERT_TRUE(a.fired && b.fired) << name(drive);
+    EXPECT_EQ(a.seconds, b.seconds) << name(drive);
+    EXPECT_EQ(a.fired->power, b.fired->power) << name(drive);
+  }
+  const Played straight = Drill{PolicyName::kStraightDrive, hasty}.possession({0.0, 4.0, 0.0}, 20.0);
+  EXPECT_NEAR(straight.fired->predicted->z_m, hasty.target_height_m, 1e-6);
 }
 
 TEST(PassDrive, StartsOverWhenTheKickerWasNotReadyAtThePlaceOfTheKick) {

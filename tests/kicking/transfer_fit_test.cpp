@@ -37,7 +37,7 @@ TEST(TransferFit, FindsBothConstantsOfTheExactLaw) {
         const TransferFit fit = fit_transfer(rows, delay_s);
         EXPECT_NEAR(fit.forward->exact.value, forward, 1e-6);
         EXPECT_NEAR(fit.backward->exact.value, backward, 1e-6);
-        EXPECT_LT(fit.forward->rms_m, 1e-6);
+        EXPECT_LT(fit.forward->rms, 1e-6);
         EXPECT_EQ(fit.forward->kicks, 6);
         EXPECT_THAT(fit.backward->rows, testing::ElementsAre(6, 7, 8, 9, 10, 11));
       }
@@ -63,7 +63,7 @@ TEST(TransferFit, HasAStandardErrorThatScattersAsItSays) {
   const TransferFit fit = fit_transfer(rows, 0.0);
   EXPECT_NEAR(fit.forward->exact.value, 1.0, 1e-3);
   EXPECT_NEAR(fit.forward->exact.se, 0.01 / std::abs(slope_m), 1e-3);
-  EXPECT_NEAR(fit.forward->rms_m, 0.01, 1e-6);
+  EXPECT_NEAR(fit.forward->rms, 0.01, 1e-6);
 }
 
 TEST(TransferFit, TakesAnErrorOfTheTableFromTheKicksAtRest) {

@@ -161,6 +161,7 @@ TEST_F(KickDecisionNodeTest, WithoutAnyStatusOfTheKickerItHolds) {
 
 TEST_F(KickDecisionNodeTest, ThePolicyOfTheHalfDecidesAndTheOtherRidesAlong) {
   context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
+  context.settings.policy.settle_s = 0.25;
   start();
   auto second_half = world();
   second_half.half = 2;
@@ -207,8 +208,9 @@ TEST_F(KickDecisionNodeTest, ShadowsCanBeSwitchedOff) {
   EXPECT_EQ(decision.nth(1).shadow_count, 0);
 }
 
-// The stopped policy settles for a quarter of a second; what it had settled is void once the ball was lost.
+// A stopped policy that settles for a quarter of a second: what it had settled is void once the ball was lost.
 TEST_F(KickDecisionNodeTest, AShadowSeesTheCyclesWithoutTheBallToo) {
+  context.settings.policy.settle_s = 0.25;
   start();
   auto without_ball = world();
   without_ball.possession = false;

@@ -103,6 +103,21 @@ TEST(PlayMatch, TheOldTableIsAnotherOneInEachMatch) {
   EXPECT_NE(by_hand.orders[0].power, calibrated.orders[0].power);
 }
 
+TEST(PlayMatch, OnlyWhoAimsByALawReadsTheOldTableByIt) {
+  const auto speed_of = [](PolicyName policy, kicking::HeightLaw law) {
+    Arm old = arm(policy);
+    old.table = kOldTable;
+    old.settings.policy.height_law = law;
+    return robot_of({}, old, 1, 0, 1).model.table.back().speed_mps;
+  };
+  const auto paper = kicking::HeightLaw::kPaper, exact = kicking::HeightLaw::kExact;
+  for (const PolicyName by_law : {PolicyName::kStopped, PolicyName::kMoving})
+    EXPECT_LT(speed_of(by_law, paper), speed_of(by_law, exact) - 0.1) << "the same powers in play";
+  EXPECT_EQ(speed_of(PolicyName::kPredictive, paper), speed_of(PolicyName::kPredictive, exact));
+  EXPECT_EQ(speed_of(PolicyName::kPredictive, paper), speed_of(PolicyName::kMoving, exact))
+      << "as high as the balls were";
+}
+
 TEST(PlayMatch, EachRobotOfATeamHasItsOwnModel) {
   sim::Scenario scenario;
   scenario.team.robots = 3;

@@ -124,6 +124,15 @@ TEST_F(RecorderNodeTest, CountsWhatNeverArrived) {
   EXPECT_EQ(loss(reader, "referee").missing(), 3);
 }
 
+TEST_F(RecorderNodeTest, SaysBetweenWhichInstantsEventsNeverArrived) {
+  start();
+  say<msg::KickReceipt>(participant, {numbered<msg::KickReceipt>(1), numbered<msg::KickReceipt>(4)});
+  const auto reader = read();
+  EXPECT_EQ(loss(reader, "kick_receipts").gaps, 2);
+  EXPECT_EQ(count(reader, "losses WHERE stream = 'kick_receipts' AND robot_id = 1 AND from_t_ns = 20 AND to_t_ns = 80"),
+            1);
+}
+
 TEST_F(RecorderNodeTest, ANodeThatStartsAgainIsRecordedOn) {
   start();
   const std::vector<msg::Referee> words{numbered<msg::Referee>(1), numbered<msg::Referee>(2)};

@@ -97,6 +97,49 @@ TEST(SequenceWatch, ALongSilenceMayHideMany) {
   EXPECT_EQ(later.gap, 500);
 }
 
+TEST(SequenceWatch, AWriterThatComesBackAfterAnOutageHasItsNumbersMissing) {
+  SequenceWatch watch;
+  double now_s = 100.0;
+  for (std::uint64_t seq = 1; seq <= 50; ++seq) watch.see(1, seq, 7, now_s += 0.02);
+  const auto back = watch.see(1, 751, 7, now_s += 14.0);
+  EXPECT_TRUE(back.believed);
+  EXPECT_EQ(back.gap, 700);
+  EXPECT_EQ(back.seq, 751);
+}
+
+TEST(SequenceWatch, ANodeThatIsStartedAnewDuringAnOutageIsNoGap) {
+  SequenceWatch watch;
+  double now_s = 100.0;
+  for (std::uint64_t seq = 1; seq <= 50; ++seq) watch.see(1, seq, 7, now_s += 0.02);
+  const auto anew = watch.see(1, 3, 8, now_s += 14.0);
+  EXPECT_EQ(anew.gap, 0);
+  EXPECT_EQ(anew.seq, 53);
+}
+
+TEST(SequenceWatch, WhatComesLateFillsItsGapAndWhatComesAgainDoesNot) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7);
+  EXPECT_EQ(watch.see(1, 6, 7).gap, 4);
+  for (const std::uint64_t late : {3u, 2u, 5u}) {
+    const auto finding = watch.see(1, late, 7);
+    EXPECT_TRUE(finding.filled && finding.out_of_order && !finding.repeated) << late;
+    EXPECT_EQ(finding.seq, static_cast<std::int64_t>(late));
+  }
+  for (const std::uint64_t again : {3u, 1u, 6u}) {
+    const auto finding = watch.see(1, again, 7);
+    EXPECT_TRUE(finding.repeated && finding.out_of_order && !finding.filled) << again;
+  }
+  EXPECT_TRUE(watch.see(1, 4, 7).filled);
+}
+
+TEST(SequenceWatch, WhatWasWrittenBeforeTheFirstThatWasHeardIsNoRepetition) {
+  SequenceWatch watch;
+  watch.see(1, 5, 7);
+  const auto earlier = watch.see(1, 4, 7);
+  EXPECT_TRUE(earlier.out_of_order);
+  EXPECT_FALSE(earlier.repeated || earlier.filled);
+}
+
 TEST(SequenceWatch, NoRobotHasTheNumber0) {
   SequenceWatch watch;
   EXPECT_FALSE(watch.see(0, 1, 8).believed);

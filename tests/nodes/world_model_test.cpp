@@ -100,6 +100,46 @@ TEST(WorldModel, PassesTheRefereesWordOnAndStandsWithoutOne) {
   EXPECT_EQ(world.half, 0);
 }
 
+TEST(WorldModel, CountsItsOwnGainsOfTheBallWhereTheRefereeCountsNone) {
+  Play play;
+  play.referee->possession_id = 0;
+  const auto first = play.cycle(20);
+  ASSERT_TRUE(first.possession);
+  EXPECT_NE(first.possession_id, 0u);
+  EXPECT_EQ(play.cycle(100).possession_id, first.possession_id) << "as long as it has the ball";
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, 3.0};
+  play.cycle(50);
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
+  const auto second = play.cycle(20);
+  ASSERT_TRUE(second.possession);
+  EXPECT_GT(second.possession_id, first.possession_id);
+  play.referee->possession_id = 7;
+  EXPECT_EQ(play.cycle().possession_id, 7u) << "the referee's count goes before";
+}
+
+TEST(GainCount, ABallThatBouncesInTheHandlerIsOnePossession) {
+  GainCount gains;
+  const std::uint32_t number = gains.see(kCycle_ns, 1, true, true);
+  EXPECT_EQ(gains.see(2 * kCycle_ns, 1, true, false), number);
+  EXPECT_EQ(gains.see(20 * kCycle_ns, 1, true, true), number);
+  EXPECT_GT(gains.see(60 * kCycle_ns, 1, true, true), number);
+}
+
+TEST(GainCount, PlayThatBeginsAndAnotherHalfAreOtherPossessions) {
+  GainCount gains;
+  const std::uint32_t stopped = gains.see(50 * kCycle_ns, 1, false, true);
+  const std::uint32_t begun = gains.see(60 * kCycle_ns, 1, true, true);
+  EXPECT_GT(begun, stopped);
+  EXPECT_EQ(gains.see(61 * kCycle_ns, 2, true, false), 0u) << "not gained yet in this half";
+  EXPECT_GT(gains.see(80 * kCycle_ns, 2, true, true), begun);
+}
+
+TEST(GainCount, ANodeThatIsStartedAnewDoesNotNumberLikeTheOneBefore) {
+  GainCount before, after;
+  const std::uint32_t number = before.see(3'600'000'000'000, 1, true, true);
+  EXPECT_NE(after.see(3'601'000'000'000, 1, true, true), number);
+}
+
 TEST(WorldModel, AHeldBallMovesWithTheRobot) {
   Play play;
   play.twist = {0.3, 1.5, 1.0};

@@ -76,6 +76,47 @@ TEST(HandTable, AKickerThatWasFasterOnItsDayIsTooWeakInTheMatch) {
   EXPECT_GT(strong, 60);
 }
 
+TEST(HandTable, ACommonErrorOfTheEyeMovesAllHeightsOfATable) {
+  Scenario scenario = careful_hand();
+  scenario.hand_table.eye_bias_sd_m = 0.15;
+  double sum = 0.0, squares = 0.0, within = 0.0;
+  constexpr int kTables = 300;
+  for (std::uint32_t match = 0; match < kTables; ++match) {
+    const auto table = draw_hand_table(scenario, scenario.kicker, 4, match, 1);
+    // Of the distances in the middle, where whole numbers are fine.
+    const double near = height_m(scenario, table.points[2]), far = height_m(scenario, table.points[3]);
+    const double error = 0.5 * (near + far) - 0.59;
+    sum += error;
+    squares += error * error;
+    within += (near - far) * (near - far);
+  }
+  EXPECT_NEAR(sum / kTables, 0.0, 0.05);
+  EXPECT_NEAR(std::sqrt(squares / kTables), 0.15, 0.04);
+  EXPECT_LT(std::sqrt(within / kTables), 0.15) << "a table's heights err alike";
+}
+
+TEST(HandTable, ACommonErrorChangesNoOtherDraw) {
+  Scenario scenario;
+  const auto before = draw_hand_table(scenario, scenario.kicker, 4, 7, 1);
+  scenario.hand_table.eye_bias_sd_m = 1e-12;
+  const auto after = draw_hand_table(scenario, scenario.kicker, 4, 7, 1);
+  ASSERT_EQ(before.points.size(), after.points.size());
+  for (std::size_t i = 0; i < before.points.size(); ++i)
+    EXPECT_NEAR(before.points[i].power, after.points[i].power, 1e-9);
+}
+
+TEST(HandTable, ATableThatNobodyCouldPlayByIsMadeAgain) {
+  Scenario scenario;
+  scenario.hand_table.day_sd_ratio = 0.08;  // with this one of the first 400 matches drew a table of one distance
+  for (std::uint32_t match = 0; match < 3000; ++match) {
+    const auto table = draw_hand_table(scenario, scenario.kicker, 1, match, 1);
+    EXPECT_GE(table.points.size(), 2u);
+  }
+  scenario.hand_table.day_sd_ratio = 0.15;
+  for (std::uint32_t match = 0; match < 3000; ++match)
+    EXPECT_GE(draw_hand_table(scenario, scenario.kicker, 1, match, 1).points.size(), 2u);
+}
+
 TEST(HandTable, SaysWhenTheKickerReachesNoDistance) {
   Scenario scenario = careful_hand();
   scenario.hand_table.distances_m = {18.0, 20.0};

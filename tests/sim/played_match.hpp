@@ -16,8 +16,9 @@ struct Record {
   std::vector<PossessionTruth> possessions;
 };
 
-inline Record play(const Scenario& scenario, std::uint64_t seed, int halves, double minutes, const Policy& policy) {
-  Match match{scenario, seed, halves, minutes};
+inline Record play(const Scenario& scenario, std::uint64_t seed, int halves, double minutes, const Policy& policy,
+                   bool paired_halves = false) {
+  Match match{scenario, seed, halves, minutes, 0, paired_halves};
   Record record;
   while (!match.done()) {
     record.sensors.push_back(match.sense());

@@ -132,8 +132,12 @@ TEST(Shot, AKeeperHasWhatItReachesInTime) {
   Scenario scenario = airless();
   EXPECT_FALSE(fly(scenario, 0.0, 0.5).result()->saved);  // none
   scenario.keeper.enabled = true;
-  scenario.keeper.reaction_s = 0.8;
-  scenario.keeper.speed_mps = 1.0;  // 0.2 m in the second that the shot takes, plus 0.26 m and the ball's 0.11 m
+  scenario.keeper.side_extension_m = scenario.keeper.up_extension_m = 0.0;
+  Guard& guard = scenario.keeper.guard;
+  guard.sight_sd_mps = guard.overlap_m = 0.0;
+  guard.reaction_s = 0.8;
+  guard.acceleration_mps2 = 200.0;
+  guard.speed_mps = 1.0;  // 0.2 m in the second that the shot takes, plus 0.26 m and the ball's 0.11 m
   for (const double side : {-1.0, 1.0}) {
     const Shot saved = fly(scenario, side * 0.56, 0.5);
     EXPECT_EQ(saved.result()->outcome, Outcome::kOnTarget);  // Table 2 counts it
@@ -142,9 +146,65 @@ TEST(Shot, AKeeperHasWhatItReachesInTime) {
     EXPECT_FALSE(fly(scenario, side * 0.58, 0.5).result()->saved);
     EXPECT_FALSE(fly(scenario, side * 1.1, 0.5).result()->saved);  // post
   }
-  scenario.keeper.height_m = 0.4;
+  guard.height_m = 0.4;
   EXPECT_FALSE(fly(scenario, 0.0, 0.52).result()->saved);
   EXPECT_TRUE(fly(scenario, 0.0, 0.5).result()->saved);
+}
+
+TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
+  Scenario scenario = airless();
+  scenario.keeper.enabled = true;
+  scenario.keeper.guard.sight_sd_mps = 1.5;
+  const auto saved = [&](std::uint32_t opportunity) {
+    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.8, 6.0, 5.3}}, 0, Draws{1, opportunity}};
+    for (std::int64_t t = 1; t <= 60; ++t) shot.advance_to(t * 20'000'000, at(kNobody));
+    return shot.result()->saved;
+  };
+  int n = 0;
+  for (std::uint32_t i = 1; i <= 200; ++i) {
+    EXPECT_EQ(saved(i), saved(i));
+    n += saved(i);
+  }
+  EXPECT_GT(n, 10);
+  EXPECT_LT(n, 190);
+}
+
+TEST(Shot, SaysWhetherItTouchedTheFloorBeforeTheLine) {
+  const Scenario scenario;
+  EXPECT_FALSE(fly(scenario, 0.0, 0.7).result()->bounced);
+  Shot low{scenario, {{0.0, 3.0, 0.11}, {0.0, 7.0, 3.0}}, 0};  // down after 0.6 s
+  for (std::int64_t t = 1; t <= 150; ++t) low.advance_to(t * 20'000'000, at(kNobody));
+  ASSERT_TRUE(low.result()->crossing);
+  EXPECT_TRUE(low.result()->bounced);
+  Shot rolling{scenario, {{0.0, 8.0, 0.11}, {0.0, 5.0, 0.0}, true}, 0};
+  for (std::int64_t t = 1; t <= 150; ++t) rolling.advance_to(t * 20'000'000, at(kNobody));
+  EXPECT_TRUE(rolling.result()->bounced);
+}
+
+/// Whether a defender stops a ball that crosses their line, 1 m before the goal's, at that height on its way to z.
+TEST(Shot, DefendersStopWhatComesLow) {
+  Scenario scenario = airless();
+  scenario.defenders.count = 1.0;
+  scenario.defenders.spread_sd_m = 0.0;
+  scenario.defenders.guard.sight_sd_mps = 0.0;
+  const auto outcome = [&](double vy_mps, double vz_mps, double vx_mps = 0.0) {
+    Shot shot{scenario, {{0.0, 3.0, 0.11}, {vx_mps, vy_mps, vz_mps}}, 0};
+    for (std::int64_t t = 1; t <= 200; ++t) shot.advance_to(t * 20'000'000, at(kNobody));
+    return *shot.result();
+  };
+  const ShotResult lob = outcome(6.0, 5.4);  // a lob of a second: 1.21 m over the floor there, 0.6 m at the line
+  EXPECT_EQ(lob.outcome, Outcome::kOnTarget);
+  EXPECT_FALSE(lob.bounced);
+  const ShotResult low = outcome(7.0, 2.0);
+  EXPECT_EQ(low.outcome, Outcome::kBlocked);
+  EXPECT_TRUE(low.bounced);
+  EXPECT_FALSE(low.crossing);
+  scenario.defenders.guard.reaction_s = 2.0;  // it never moves
+  EXPECT_EQ(outcome(7.0, 2.0, 0.9).outcome, Outcome::kOnTarget) << "past its side: 0.64 m away";
+  scenario.defenders.guard.reaction_s = 0.25;
+  EXPECT_EQ(outcome(7.0, 2.0, 0.9).outcome, Outcome::kBlocked);
+  scenario.defenders.count = 0.0;
+  EXPECT_EQ(outcome(7.0, 2.0).outcome, Outcome::kOnTarget);
 }
 
 TEST(Shot, FromBehindTheLineIsJudgedWhereItStarts) {

@@ -18,6 +18,8 @@ using testing::HasSubstr;
 /// A page on an emulated scanner, through the real client: the scans of a synthetic record in real time.
 class LivePage : public testing::Test {
  protected:
+  explicit LivePage(CalibrationPlan plan = {.powers = {15, 20}, .trials = 2}) : plan_(std::move(plan)) {}
+
   hal::scip::EmulatorConfig config() const {
     hal::scip::EmulatorConfig config;
     config.port = hal::scip::EmulatedPort::kTcp;
@@ -35,12 +37,13 @@ class LivePage : public testing::Test {
     options.device = emulator_.address();
     options.record = record_.path("live.db");
     options.mount = record_.session().mount;
-    options.plan = {.powers = {15, 20}, .trials = 2};
+    options.plan = plan_;
     return options;
   }
 
   json state() const { return json::parse(get(server_.port(), "/api/state")); }
 
+  CalibrationPlan plan_;
   RecordedLobs record_{{{15, 5.97}, {15, 6.05}, {20, 7.33}}};
   std::atomic<std::size_t> next_ = 0;  // also of the emulator's thread
   hal::scip::Emulator emulator_{config(), [this] { return next_scan(); }};
@@ -71,7 +74,7 @@ TEST_F(LivePage, FollowsThePlanAndRecordsAllThatItShows) {
   ASSERT_GT(recorded.size(), all["lobs"][2]["end"].get<std::size_t>());
   EXPECT_EQ(recorded.scan(7).range_mm, record_.scans()[7].range_mm);
   std::vector<double> powers;
-  for (const auto& tested : recorded.set_points()) powers.push_back(tested.power);
+  for (const auto& tested : recorded.set_points()) powers.push_back(tested.power.value_or(0.0));
   EXPECT_THAT(powers, testing::ElementsAre(15.0, 20.0, 17.5));
   const auto lobs = evaluator::lobs_of_scans(recorded);
   ASSERT_EQ(lobs.size(), 3u);
@@ -79,6 +82,30 @@ TEST_F(LivePage, FollowsThePlanAndRecordsAllThatItShows) {
   EXPECT_EQ(lobs[0].why, "rejected by the operator: a foot");
   EXPECT_EQ(lobs[1].power, 15.0);
   EXPECT_EQ(lobs[2].power, 20.0);
+}
+
+/// A plan that is done before the last of the three lobs.
+class LivePageAtThePlansEnd : public LivePage {
+ protected:
+  LivePageAtThePlansEnd() : LivePage({.powers = {15}, .trials = 2}) {}
+};
+
+TEST_F(LivePageAtThePlansEnd, WhatIsKickedAfterwardsIsNoTrialOfTheLastPower) {
+  ASSERT_TRUE(viewer_.wait([&] { return !viewer_.lobs.is_null() && viewer_.lobs["lobs"].size() == 3; }));
+  json all = state();
+  EXPECT_EQ(all["status"]["power"], nullptr);
+  EXPECT_EQ(all["lobs"][2]["power"], nullptr);
+  EXPECT_EQ(all["lobs"][2]["accepted"], true) << "it was a lob";
+  ASSERT_EQ(all["table"].size(), 1u);
+  EXPECT_EQ(all["table"][0]["trials"], 2) << "of another power, it would be 1.3 m/s off";
+  EXPECT_EQ(post(server_.port(), "verdict", {{"lob", 0}, {"accepted", false}}), 200);
+  EXPECT_EQ(state()["status"]["power"], 15.0) << "the plan lacks a kick again";
+  scene_.finish();
+
+  const auto lobs = evaluator::lobs_of_scans(evaluator::log::ScanReader(record_.path("live.db")));
+  ASSERT_EQ(lobs.size(), 3u);
+  EXPECT_EQ(lobs[1].power, 15.0);
+  EXPECT_EQ(lobs[2].power, std::nullopt) << "the record says so, too";
 }
 
 TEST_F(LivePage, LooksBackOverTheRecordWhileItGoesOn) {

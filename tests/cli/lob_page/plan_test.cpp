@@ -61,7 +61,8 @@ TEST(Plan, GoesOnWhenAPowerHasItsKicksAndComesBackForThoseThatLack) {
   EXPECT_EQ(next_power(plan, {2, 0, 0}, 15), 20);
   EXPECT_EQ(next_power(plan, {2, 2, 1}, 20), 25);
   EXPECT_EQ(next_power(plan, {1, 2, 2}, 25), 15) << "one was rejected";
-  EXPECT_EQ(next_power(plan, {2, 2, 2}, 25), 25) << "all done";
+  EXPECT_EQ(next_power(plan, {2, 2, 2}, 25), std::nullopt) << "all done: a further kick is nobody's trial";
+  EXPECT_EQ(next_power(plan, {2, 2, 3}, 25), 25) << "named by hand when all was done";
   EXPECT_EQ(next_power(plan, {2, 0, 0}, 99), 20) << "a power outside the plan";
   EXPECT_EQ(next_power({}, {}, 30), 30) << "no plan";
 }

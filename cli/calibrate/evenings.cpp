@@ -1,0 +1,139 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <thread>
+
+#include "cli/calibrate/evening_study.hpp"
+#include "cli/calibrate/run.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+#include "evaluator/report/json_values.hpp"
+#include "kicking/calibration/least_squares.hpp"
+
+namespace trivela::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct EveningsFlags {
+  std::uint32_t count = 50;
+  std::int64_t seed = 1;
+  std::string world = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  std::string out_dir;
+  std::uint32_t matches = 100;
+  std::int64_t matches_seed = 1;
+  std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
+  CalibrationEffort effort;
+  bool json = false;
+};
+
+void write_robots(const std::vector<Evening>& evenings, const std::string& folder) {
+  fs::create_directories(folder);
+  for (const Evening& evening : evenings) {
+    const fs::path file = fs::path{folder} / (evening.robot.robot().name + ".toml");
+    if (fs::exists(file)) throw UsageError{fmt::format("{} exists already; choose another --out-dir", file.string())};
+    evening.robot.write(file);
+  }
+}
+
+std::size_t kicks_of(const Evening& evening) {
+  std::size_t kicks = 0;
+  for (const DriveSummary& drive : evening.drives) {
+    if (drive.played_s > 0.0) kicks += drive.kicks;  // the others look at the same kicks again
+  }
+  return kicks;
+}
+
+int evenings_study(const EveningsFlags& flags) {
+  const sim::Scenario world = config::load_scenario(flags.world);
+  EveningOptions options = default_evening();
+  options.scenario = evening_scenario(options.scenario, world);
+  options.name = "evening";
+  options.seed = flags.seed;
+  options.effort = flags.effort;
+  const std::vector<Evening> evenings = play_evenings(options, flags.count, flags.jobs);
+  if (!flags.out_dir.empty()) write_robots(evenings, flags.out_dir);
+
+  std::vector<double> kicks;
+  for (const Evening& evening : evenings) kicks.push_back(static_cast<double>(kicks_of(evening)));
+  const auto figures = study_figures(evenings, options);
+  std::vector<double> rates;
+  if (flags.matches > 0) {
+    rates = study_policy(evenings, world, options.settings, kicking::PolicyName::kMoving, flags.matches,
+                         static_cast<std::uint64_t>(flags.matches_seed), flags.jobs);
+  }
+  const double mean_kicks = std::accumulate(kicks.begin(), kicks.end(), 0.0) / static_cast<double>(kicks.size());
+  const double most_kicks = *std::max_element(kicks.begin(), kicks.end());
+  Json json{{"simulated", true}, {"evenings", flags.count}, {"seed", flags.seed}, {"figures", Json::array()}};
+  json["kicks"] = {{"mean", mean_kicks}, {"most", most_kicks}};
+  for (const StudiedFigure& figure : figures) {
+    json["figures"].push_back({{"key", figure.key},
+                               {"evenings", figure.evenings},
+                               {"world", figure.world},
+                               {"mean", figure.mean},
+                               {"rms_error", figure.rms},
+                               {"standard_error", figure.mean_se},
+                               {"covered", figure.covered}});
+  }
+  if (!rates.empty()) json["moving_on_target"] = rates;
+  if (flags.json) {
+    fmt::print("{}", evaluator::json_text(json));
+    return kDone;
+  }
+  fmt::print("SIMULATED: {} evenings, seeds {} to {}, {:.0f} kicks each on average, {:.0f} at most\n\n", flags.count,
+             flags.seed, flags.seed + flags.count - 1, mean_kicks, most_kicks);
+  fmt::print("{:<26}{:>10}{:>10}{:>11}{:>11}{:>9}\n", "", "world", "mean", "rms error", "std error", "covered");
+  for (const StudiedFigure& figure : figures) {
+    fmt::print("{:<26}{:>10.4f}{:>10.4f}{:>11.4f}{:>11.4f}{:>8.0f}%\n", figure.key, figure.world, figure.mean,
+               figure.rms, figure.mean_se, 100.0 * figure.covered);
+  }
+  if (!rates.empty()) {
+    const kicking::Spread spread = kicking::spread_of(rates);
+    fmt::print(
+        "\nmoving, {} matches of 20 possessions with each robot: on target per opportunity {:.1f} to {:.1f} %, mean "
+        "{:.1f} %, sd between evenings {:.2f} points\n",
+        flags.matches, 100.0 * *std::min_element(rates.begin(), rates.end()),
+        100.0 * *std::max_element(rates.begin(), rates.end()), 100.0 * spread.mean, 100.0 * spread.sd);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_calibrate_evenings(CLI::App& calibrate_verb, int& exit_code) {
+  auto* verb =
+      calibrate_verb.add_subcommand("evenings", "how sure one evening is: many of them, beside the world's truth");
+  auto flags = std::make_shared<EveningsFlags>();
+  verb->footer(
+      "Plays evenings of `trivela calibrate run --in simulation` in process, one a seed, and compares their figures "
+      "with\n"
+      "the simulated world's: error, standard error, share of the 95 % intervals that contain the truth; and how much "
+      "the\n"
+      "policy moving differs between the robots. No fit sees the world's truth.");
+  verb->add_option("--count", flags->count, "evenings")->check(CLI::Range(2, 10000))->capture_default_str();
+  verb->add_option("--seed", flags->seed, "of the first; the next ones follow")
+      ->check(CLI::Range(0, 900000))
+      ->capture_default_str();
+  verb->add_option("--scenario", flags->world, "the world of the matches")->capture_default_str();
+  verb->add_option("--out-dir", flags->out_dir, "writes the robots there");
+  verb->add_option("--matches", flags->matches, "of 20 possessions with each robot; 0: none")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  verb->add_option("--matches-seed", flags->matches_seed, "of the matches")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  verb->add_option("--jobs", flags->jobs, "threads")->check(CLI::Range(1, 256))->capture_default_str();
+  verb->add_option("--drive-kicks", flags->effort.drive_kicks, "lateral and straight kicks with each velocity")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  verb->add_flag("--json", flags->json, "as JSON");
+  verb->callback([flags, &exit_code] { exit_code = evenings_study(*flags); });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/study.hpp"
+#include "cli/tune/report.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct TuneFlags {
+  std::string policy;
+  std::vector<std::string> settings;
+  int rounds = 4;
+  std::string out;
+  std::optional<std::uint64_t> held_out_seed;
+  Study study;
+  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+};
+
+/// Somebody asked to stop.
+struct Interrupted {};
+
+std::vector<Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName policy) {
+  const std::vector<Coordinate> all = tuned_space(policy);
+  if (flags.settings.empty()) return all;
+  std::vector<Coordinate> named;
+  for (const std::string& text : flags.settings) {
+    named.push_back(coordinate_of(text, all));
+    if (std::ranges::count(named, named.back().name, &Coordinate::name) > 1)
+      throw UsageError{fmt::format("--setting {}: stands twice", named.back().name)};
+  }
+  return named;
+}
+
+/// The command that does the same again, for the file.
+std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
+  const Study& study = flags.study;
+  const PlayPlan& plan = study.plan;
+  std::string text = fmt::format(
+      "trivela tune {} --matches {} --possessions {} --calibrations {} --seed {} --held-out-seed {} --rounds {}",
+      flags.policy, plan.matches, plan.possessions, study.calibrations, plan.seed, held_out_seed, flags.rounds);
+  const TuneFlags defaults;
+  const auto name = [](const std::string& path) { return std::filesystem::path{path}.filename().string(); };
+  if (study.world.file != defaults.study.world.file) text += " --scenario " + name(study.world.file);
+  for (const std::string& line : study.world.changes) text += " --world '" + line + '\'';
+  if (flags.base.config != defaults.base.config) text += " --config " + name(flags.base.config);
+  for (const std::string& robot : flags.base.robots) text += " --robot " + name(robot);
+  for (const std::string& line : flags.base.overrides) text += " --set '" + line + '\'';
+  for (const std::string& setting : flags.settings) text += " --setting '" + setting + '\'';
+  return text;
+}
+
+/// Plays arms that differ in their settings alone, until somebody asks to stop.
+class Player {
+ public:
+  Player(const sim::Scenario& scenario, nodes::Arm arm) : scenario_(scenario), arm_(std::move(arm)) {}
+
+  std::vector<ArmTally> play(const std::vector<config::Settings>& settings, const PlayPlan& plan) {
+    std::vector<nodes::Arm> arms(settings.size(), arm_);
+    for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
+    return play_arms(scenario_, arms, plan, [&](std::size_t done, std::size_t all) {
+      bar_.show(static_cast<double>(done), static_cast<double>(all), what);
+      if (signals_.stop_requested()) throw Interrupted{};
+    });
+  }
+
+  std::string what;  ///< stands behind the bar
+
+ private:
+  SignalInbox signals_;  // before the threads, which must not be interrupted
+  ProgressBar bar_;
+  const sim::Scenario& scenario_;
+  nodes::Arm arm_;
+};
+
+TuneMatches matches_of(const Study& study) {
+  return {study.plan.seed, study.plan.matches, study.plan.possessions, study.plan.evenings.size()};
+}
+
+/// Searches, and plays what was found, and what it began with, on other matches and evenings.
+void search(TuneReport& report, Player& player, const Study& study, const Study& other, int rounds) {
+  TuneState& state = report.state;
+  const config::Settings start = state.settings;
+  coordinate_search(
+      report.space, rounds,
+      [&](const std::vector<config::Settings>& settings) {
+        player.what = fmt::format("{} settings tried, {} changed", state.tried, state.steps.size());
+        return player.play(settings, study.plan);
+      },
+      state);
+  player.what = "held out";
+  auto played = player.play({start, state.settings}, other.plan);
+  report.held_out_start = std::move(played[0]);
+  report.held_out_best = std::move(played[1]);
+}
+
+int tune(const TuneFlags& flags) {
+  require_writable("--out", flags.out);
+  const sim::Scenario scenario = flags.study.world.load();
+  nodes::Arm arm = arms_of(flags.policy, flags.base).front();
+  nodes::check_playable(scenario, arm, flags.study.plan.possessions);
+  Study study = flags.study, other = flags.study;
+  other.plan.seed = flags.held_out_seed.value_or(study.plan.seed + 1);
+  if (other.plan.seed == study.plan.seed) throw UsageError{"--held-out-seed: the same as --seed, nothing is held out"};
+  TuneReport report{.policy = flags.policy,
+                    .command = command_of(flags, other.plan.seed),
+                    .scenario = study.scenario_name(),
+                    .space = space_of(flags, *arm.policy),
+                    .state = {.settings = arm.settings}};
+  study.draw_evenings(scenario, flags.base);
+  other.draw_evenings(scenario, flags.base);
+  report.tuning = matches_of(study);
+  report.held_out = matches_of(other);
+  bool interrupted = false;
+  {
+    Player player{scenario, std::move(arm)};
+    try {
+      search(report, player, study, other, flags.rounds);
+    } catch (const Interrupted&) {
+      interrupted = true;
+    }
+  }
+  if (report.state.tried == 0) throw std::runtime_error{"interrupted before anything was played"};
+  write_file(flags.out, to_settings_file(report, flags.out));
+  say(to_text(report) + flags.out + "\n");
+  if (interrupted) warn(fmt::format("interrupted; {} has the best so far", flags.out));
+  return interrupted ? kFailed : kDone;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app, int& exit_code) {
+  auto* const verb = app.add_subcommand("tune", "Find a policy's best settings in a simulated world");
+  const auto flags = std::make_shared<TuneFlags>();
+  flags->study.plan.seed = 1001;  // other matches than those of the studies
+  flags->study.plan.possessions = 20;
+  flags->study.calibrations = 20;
+  verb->add_option("policy", flags->policy, "Whose settings")
+      ->required()
+      ->check(CLI::IsMember({"stopped", "moving", "predictive"}));
+  verb->add_option("--out", flags->out, "Settings file to write, for --config and for arms")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--setting", flags->settings,
+                   "Only these, in this order: KEY as in config/default.toml, or KEY=V1|V2 with other values");
+  verb->add_option("--rounds", flags->rounds, "Times at most that each setting is looked at")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  verb->add_option("--held-out-seed", flags->held_out_seed, "Matches and evenings for the last word; default the next")
+      ->check(seeds());
+  add_play_options(*verb, flags->study);
+  add_arm_options(*verb, flags->base);
+  verb->footer(
+      "Coordinate search: one setting after the other is set to the value with the most shots on target per\n"
+      "opportunity, on the same matches and evenings for all; then those that were found are played on matches and\n"
+      "evenings that no choice was made by. cli/tune/space.cpp says which values are tried. Ctrl-C keeps the best so\n"
+      "far (exit code 1).");
+  verb->callback([flags, &exit_code] { exit_code = tune(*flags); });
+}
+
+}  // namespace trivela::cli

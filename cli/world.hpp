@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+#include "sim/scenario.hpp"
+
+namespace trivela::cli {
+
+/// A scenario file and values on top of it.
+struct World {
+  std::string file = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  std::vector<std::string> changes;  ///< lines of TOML, e.g. "keeper.reaction_s = 0.15"
+
+  /// @throws config::Error naming file or line, key and value.
+  sim::Scenario load() const;
+
+  /// `base`, which is the file's name with or without its ending, and the changes.
+  std::string named(const std::string& base) const;
+};
+
+/// --scenario, --world.
+void add_world_options(CLI::App& verb, World& world);
+
+}  // namespace trivela::cli

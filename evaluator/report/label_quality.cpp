@@ -1,0 +1,159 @@
+#include "evaluator/report/label_quality.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "evaluator/log/value.hpp"
+#include "evaluator/metrics/kicked_tracks.sql.hpp"
+#include "evaluator/metrics/label_doubt.sql.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using Cells = std::span<const log::Value>;
+using log::integer, log::number_if_any, log::text_if_any;
+
+constexpr std::int64_t kManyTurns = 4;
+constexpr std::int64_t kManySightings = 10;  // by which a block would have been seen
+constexpr double kNearGoal_m = 0.3;
+constexpr double kFlight_s = 3.0;
+constexpr double kCameBack_m = 0.4;
+constexpr double kJump_m = 1.3, kFastest_mps = 15.0;  // farther apart: another ball than the one kicked
+
+constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
+    {{0, "none"}, {4, "1 to 4"}, {9, "5 to 9"}, {19, "10 to 19"}, {INT64_MAX, "20 or more"}}};
+
+void read_labels(const log::Reader& reader, LabelQuality& quality) {
+  for (const auto& [most, name] : kRows) quality.rows.push_back({.sightings = name});
+  reader.query(kLabelDoubtSql, [&](Cells row) {
+    const std::string label = text_if_any(row[1]);
+    const std::int64_t sightings = integer(row[2]);
+    const auto place = std::ranges::find_if(kRows, [&](const auto& r) { return sightings <= r.first; });
+    SightingsRow& of = quality.rows[static_cast<std::size_t>(place - kRows.begin())];
+    const auto p_inside = number_if_any(row[3]), p_label = number_if_any(row[4]), p_any = number_if_any(row[5]);
+    const bool unknown = label == "unknown";
+    ++quality.kicks;
+    ++of.kicks;
+    of.unknown += unknown ? 1 : 0;
+    quality.has_probabilities = quality.has_probabilities || p_any.has_value();
+    if (unknown) {
+      quality.stopped_free += p_any && 1.0 - *p_any > 0.3 && sightings >= kManySightings ? 1 : 0;
+      return;
+    }
+    of.expected_wrong += 1.0 - p_label.value_or(1.0);
+    stats::LabelDoubt& doubt = quality.doubts[text_if_any(row[0])];
+    if (label == "on_target") {
+      doubt.inside += 1.0 - p_inside.value_or(1.0);
+    } else {
+      doubt.outside += p_inside.value_or(0.0);
+    }
+  });
+}
+
+/// Follows the ball after each release and notes how far forward it came where it came back.
+class Turns {
+ public:
+  void release(std::int64_t session_id, std::int64_t t_ns) {
+    end();
+    session_id_ = session_id;
+    release_t_ns_ = last_t_ns_ = t_ns;
+    followed_ = true;
+  }
+  void seen(std::int64_t session_id, std::int64_t t_ns, double x_m, double y_m) {
+    if (!followed_) return;
+    const double apart_s = 1e-9 * static_cast<double>(t_ns - last_t_ns_);
+    const bool other_ball =
+        sightings_ > 0 && std::hypot(x_m - last_x_m_, y_m - last_y_m_) > std::max(kJump_m, kFastest_mps * apart_s);
+    if (session_id != session_id_ || other_ball || 1e-9 * static_cast<double>(t_ns - release_t_ns_) > kFlight_s)
+      return end();
+    if (sightings_++ == 0) first_y_m_ = y_m;
+    farthest_y_m_ = std::max(farthest_y_m_, y_m);
+    last_t_ns_ = t_ns;
+    last_x_m_ = x_m;
+    last_y_m_ = y_m;
+  }
+  std::vector<double> all() {
+    end();
+    return std::move(turns_y_m_);
+  }
+
+ private:
+  void end() {
+    const bool went = farthest_y_m_ - first_y_m_ > kCameBack_m, came_back = farthest_y_m_ - last_y_m_ > kCameBack_m;
+    if (followed_ && sightings_ > 0 && went && came_back) turns_y_m_.push_back(farthest_y_m_);
+    followed_ = false;
+    sightings_ = 0;
+    farthest_y_m_ = -HUGE_VAL;
+  }
+
+  std::vector<double> turns_y_m_;
+  bool followed_ = false;
+  std::int64_t session_id_ = 0, release_t_ns_ = 0, last_t_ns_ = 0, sightings_ = 0;
+  double first_y_m_ = 0.0, last_x_m_ = 0.0, last_y_m_ = 0.0, farthest_y_m_ = -HUGE_VAL;
+};
+
+void read_turns(const log::Reader& reader, LabelQuality& quality) {
+  reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
+               [&](Cells row) { quality.goal_y_m = number_if_any(row[0]); });
+  if (!quality.goal_y_m) return;
+  Turns turns;
+  reader.query(kKickedTracksSql, [&](Cells row) {
+    const auto x_m = number_if_any(row[2]), y_m = number_if_any(row[3]);
+    if (!x_m || !y_m) {
+      turns.release(integer(row[0]), integer(row[1]));
+    } else {
+      turns.seen(integer(row[0]), integer(row[1]), *x_m, *y_m);
+    }
+  });
+  auto away = turns.all();
+  const auto at_goal = std::erase_if(away, [&](double y_m) { return std::abs(y_m - *quality.goal_y_m) < kNearGoal_m; });
+  quality.turns_at_goal = static_cast<std::int64_t>(at_goal);
+  quality.elsewhere = densest(std::move(away));
+}
+
+}  // namespace
+
+std::optional<TurnCluster> densest(std::vector<double> turns_y_m) {
+  std::ranges::sort(turns_y_m);
+  std::optional<TurnCluster> best;
+  for (std::size_t first = 0, last = 0; last < turns_y_m.size(); ++last) {
+    while (turns_y_m[last] - turns_y_m[first] > 2.0 * kTurnReach_m) ++first;
+    const auto n = static_cast<std::int64_t>(last - first + 1);
+    if (n >= kManyTurns && (!best || n > best->turns)) best = TurnCluster{turns_y_m[first + (last - first) / 2], n};
+  }
+  return best;
+}
+
+double LabelQuality::expected_wrong() const {
+  return std::accumulate(rows.begin(), rows.end(), 0.0,
+                         [](double sum, const SightingsRow& row) { return sum + row.expected_wrong; });
+}
+
+std::vector<std::string> LabelQuality::goal_warnings() const {
+  std::vector<std::string> warnings;
+  if (goal_y_m && elsewhere && elsewhere->turns > turns_at_goal) {
+    warnings.push_back(
+        fmt::format("{} balls came back from y = {:.2f} m within {:.2f} m of each other, {} from the goal line at "
+                    "goal.y_m = {:.2f} m: is the goal where the settings have it?",
+                    elsewhere->turns, elsewhere->y_m, kTurnReach_m, turns_at_goal, *goal_y_m));
+  }
+  if (stopped_free >= 3 && 10 * stopped_free >= kicks) {
+    warnings.push_back(
+        fmt::format("{} of {} kicks were seen flying freely until the game was stopped, before they reached the goal "
+                    "line{}: is the goal where the settings have it?",
+                    stopped_free, kicks, goal_y_m ? fmt::format(" at goal.y_m = {:.2f} m", *goal_y_m) : ""));
+  }
+  return warnings;
+}
+
+LabelQuality label_quality_of(const log::Reader& reader) {
+  LabelQuality quality;
+  read_labels(reader, quality);
+  read_turns(reader, quality);
+  return quality;
+}
+
+}  // namespace trivela::evaluator

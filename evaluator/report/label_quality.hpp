@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluator/log/reader.hpp"
+#include "evaluator/stats/label_doubt.hpp"
+
+namespace trivela::evaluator {
+
+/// Kicks that were judged by about as many sightings.
+struct SightingsRow {
+  std::string sightings;
+  std::int64_t kicks = 0;
+  std::int64_t unknown = 0;
+  double expected_wrong = 0.0;  ///< sum of 1 - p of the labels given
+};
+
+/// Where balls came back from.
+struct TurnCluster {
+  double y_m = 0.0;        ///< middle, in F
+  std::int64_t turns = 0;  ///< within kTurnReach_m of it
+};
+inline constexpr double kTurnReach_m = 0.12;
+
+/// How far the observed outcomes can be trusted.
+struct LabelQuality {
+  std::vector<SightingsRow> rows;                   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
+  std::map<std::string, stats::LabelDoubt> doubts;  ///< by policy
+  bool has_probabilities = false;                   ///< false: an older log, whose labels are taken at their word
+  std::int64_t stopped_free = 0;  ///< kicks seen flying freely until the game was stopped, before the goal line
+  std::int64_t kicks = 0;
+  std::optional<double> goal_y_m;        ///< of the robots' settings; none: no kick says it
+  std::int64_t turns_at_goal = 0;        ///< balls that came back within 0.3 m of it
+  std::optional<TurnCluster> elsewhere;  ///< where most of the others did, if they were four or more
+
+  double expected_wrong() const;
+  /// Sentences on tracks that contradict the goal's place; none: they do not.
+  std::vector<std::string> goal_warnings() const;
+};
+
+/// Where most of `turns_y_m` lie within kTurnReach_m; none: fewer than four.
+std::optional<TurnCluster> densest(std::vector<double> turns_y_m);
+
+LabelQuality label_quality_of(const log::Reader& reader);
+
+}  // namespace trivela::evaluator

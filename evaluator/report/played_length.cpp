@@ -1,0 +1,65 @@
+#include "evaluator/report/played_length.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "evaluator/log/value.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using LengthCells = std::span<const log::Value>;
+using Stretch = std::pair<std::int64_t, std::int64_t>;  // from, to [ns]
+
+double covered_s(std::vector<Stretch> stretches) {
+  std::ranges::sort(stretches);
+  std::int64_t covered_ns = 0, end_ns = 0;
+  for (const auto& [from_ns, to_ns] : stretches) {
+    const std::int64_t begin_ns = covered_ns == 0 ? from_ns : std::max(from_ns, end_ns);
+    covered_ns += std::max<std::int64_t>(to_ns - begin_ns, 0);
+    end_ns = std::max(to_ns, end_ns);
+  }
+  return 1e-9 * static_cast<double>(covered_ns);
+}
+
+}  // namespace
+
+std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::vector<ComparedSession>& sessions) {
+  std::map<std::int64_t, std::uint32_t> play_of;
+  for (const ComparedSession& session : sessions) play_of[session.session_id] = session.play;
+  std::map<std::uint32_t, std::size_t> places;  // of the plays
+  std::vector<PlayedLength> lengths;
+  std::vector<std::vector<Stretch>> heard;
+  reader.query(
+      "SELECT s.session_id, planned_s, min(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
+      "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END FROM sessions AS s "
+      "LEFT JOIN referee AS r ON r.session_id = s.session_id WHERE planned_s IS NOT NULL GROUP BY s.session_id "
+      "ORDER BY s.started_t_ns, s.session_id",
+      [&](LengthCells row) {
+        const auto [place, first] = places.try_emplace(play_of.at(log::integer(row[0])), lengths.size());
+        if (first) {
+          lengths.push_back({.session_id = log::integer(row[0])});
+          heard.emplace_back();
+        }
+        PlayedLength& length = lengths[place->second];
+        length.planned_s = std::max(length.planned_s, log::number_if_any(row[1]).value_or(0.0));
+        const auto from_ns = log::integer_if_any(row[2]), to_ns = log::integer_if_any(row[3]);
+        if (from_ns && to_ns) heard[place->second].emplace_back(*from_ns, *to_ns);
+      });
+  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].recorded_s = covered_s(std::move(heard[i]));
+  return lengths;
+}
+
+std::vector<std::string> cut_short_lines(const std::vector<PlayedLength>& lengths) {
+  std::vector<std::string> lines;
+  for (const PlayedLength& length : lengths) {
+    if (length.cut_short())
+      lines.push_back(fmt::format("cut short: {:.1f} s of {:.1f} s are recorded", length.recorded_s, length.planned_s));
+  }
+  return lines;
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,47 @@
+// How right the shot observer's labels are, by the goal camera: noise, frames a second, dropouts. Simulated.
+//     build/release/tests/label_sweep [--matches 40] [--possessions 60] [--seed 1] [--confused]
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "tests/nodes/label_sweep.hpp"
+
+int main(int argc, char** argv) {
+  using namespace trivela;
+  std::uint32_t matches = 40, possessions = 60;
+  std::uint64_t seed = 1;
+  bool confused = false;
+  double only_sd_m = 0.0, only_frames_per_s = 0.0;
+  CLI::App app{"Labels of the shot observer beside the simulator's truth, by the goal camera"};
+  app.add_option("--matches", matches, "of each camera")->check(CLI::Range(1, 100000));
+  app.add_option("--possessions", possessions, "of a match")->check(CLI::Range(1, 100000));
+  app.add_option("--seed", seed, "of all matches");
+  app.add_option("--sd", only_sd_m, "only this noise, m");
+  app.add_option("--frames", only_frames_per_s, "only so many a second");
+  app.add_flag("--confused", confused, "say which labels were wrong");
+  CLI11_PARSE(app, argc, argv);
+
+  fmt::print("SIMULATED: {} matches of {} possessions a camera, seed {}; the observer is told 3 cm\n", matches,
+             possessions, seed);
+  fmt::print("noise  frames/s  dropouts   kicks  unknown  right of given  expected  too good  too bad  bounds hold\n");
+  for (const double sd_m : {0.02, 0.03, 0.05, 0.10, 0.15}) {
+    if (only_sd_m > 0.0 && sd_m != only_sd_m) continue;
+    for (const double frames_per_s : {10.0, 30.0, 50.0, 60.0}) {
+      if (only_frames_per_s > 0.0 && frames_per_s != only_frames_per_s) continue;
+      for (const double dropout_ratio : {0.0, 0.2, 0.4}) {
+        nodes::LabelCounts counts;
+        for (std::uint32_t match = 0; match < matches; ++match)
+          nodes::add_match({sd_m, frames_per_s, dropout_ratio}, seed, match, possessions, counts);
+        const auto percent = [](double part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; };
+        fmt::print("{:3.0f} cm  {:8.0f}  {:6.0f} %  {:6d}  {:5.1f} %  {:12.2f} %  {:6.2f} %  {:8d} {:8d}  {:9.1f} %\n",
+                   100.0 * sd_m, frames_per_s, 100.0 * dropout_ratio, counts.kicks,
+                   percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given),
+                   100.0 - percent(counts.doubt, counts.given), counts.too_good, counts.too_bad,
+                   percent(counts.covered, counts.matches));
+        if (!confused) continue;
+        for (const auto& [what, n] : counts.confused)
+          fmt::print("      {} called {}: {}\n", kicking::name(what.first), kicking::name(what.second), n);
+      }
+    }
+  }
+}

@@ -1,0 +1,72 @@
+// What the recorder writes down of a match before it begins.
+#include <gmock/gmock.h>
+
+#include "config/settings.hpp"
+#include "evaluator/log/reader.hpp"
+#include "nodes/recorder/recorder_node.hpp"
+#include "tests/nodes/node_fixture.hpp"
+#include "tests/nodes/temporary_folder.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using kicking::PolicyName;
+
+class SessionOf : public NodeTest {
+ protected:
+  SessionOf() {
+    context.settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
+    context.settings.run.lockstep = true;
+    context.settings.simulator.halves = 2;
+    context.settings.simulator.half_minutes = 2.5;
+  }
+};
+
+TEST_F(SessionOf, SaysHowLongASimulatedMatchIsToLast) {
+  EXPECT_EQ(session_of(context).planned_s, 300.0);
+  context.settings.run.lockstep = false;
+  EXPECT_EQ(session_of(context).planned_s, 300.0) << "in real time, too";
+  context.settings.simulator.max_possessions = 10;
+  EXPECT_FALSE(session_of(context).planned_s) << "a half may end with its possessions";
+}
+
+TEST_F(SessionOf, SaysWhetherTheHalvesArePaired) {
+  EXPECT_FALSE(session_of(context).paired_halves);
+  context.settings.simulator.paired_halves = true;
+  EXPECT_TRUE(session_of(context).paired_halves);
+}
+
+TEST_F(SessionOf, NamesThePoliciesOfRobotsThatHaveTheirOwn) {
+  context.settings.kick_decision.policy_by_half = {PolicyName::kStopped, PolicyName::kMoving};
+  context.settings.kick_decision.policy_by_robot = {PolicyName::kPredictive};
+  std::vector<std::string> policies;
+  for (const auto& half : session_of(context).policies)
+    policies.push_back(std::to_string(half.robot_id) + " " + std::to_string(half.half) + " " + half.policy);
+  EXPECT_THAT(policies, testing::ElementsAre("0 1 stopped", "0 2 moving", "1 1 predictive", "1 2 predictive"));
+  context.settings.kick_decision.policy_by_robot.clear();
+  context.settings.kick_decision.random = {PolicyName::kStopped, PolicyName::kMoving};
+  EXPECT_THAT(session_of(context).policies, testing::IsEmpty());
+}
+
+TEST_F(SessionOf, NamesTheSessionThatItReplays) {
+  const TemporaryFolder folder;
+  const auto log = folder / "match.db";
+  evaluator::log::Session recorded = session_of(context);
+  recorded.paired_halves = true;
+  {
+    evaluator::log::Writer writer{log, recorded};
+    const auto referee = writer.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"});
+    for (const std::int64_t seq : {1, 2, 3})
+      writer.push(referee, {std::int64_t{1}, seq, seq * 10'000'000'000, std::int64_t{1}, std::int64_t{1}, seq});
+  }
+  context.settings.hal.wheels = context.settings.hal.kicker = "replay";
+  context.settings.hal.replay_log = log.string();
+  const auto session = session_of(context);
+  EXPECT_EQ(session.replays_uuid, evaluator::log::Reader{log}.sessions()[0].uuid);
+  EXPECT_EQ(session.planned_s, 20.0);
+  EXPECT_TRUE(session.paired_halves);
+  EXPECT_FALSE(session.seed);
+}
+
+}  // namespace
+}  // namespace trivela::nodes
