@@ -70,6 +70,7 @@ TEST(ShotWithAngles, PassesTheTargetHeightWithThePowersOwnAngle) {
 TEST(ShotWithAngles, OfAMovingRobotPassesItToo) {
   const RobotModel robot = with_angles();
   PolicyConfig config;
+  config.height_law = HeightLaw::kExact;
   int solved = 0;
   for (const double vy : {-1.0, 0.5, 1.5}) {
     for (double d = 4.0; d <= 7.0; d += 0.25) {
@@ -109,7 +110,9 @@ TEST(ShotWithAngles, FlatterThanTheHeightAtEveryPowerHasNoShot) {
   RobotModel robot;
   const std::vector<AnglePoint> flat{{15, radians(6)}, {50, radians(5)}};
   robot.exit_angles.emplace(flat);
-  const Shot shot = stopped_shot({}, robot, {}, at(4.0));  // 4 m * tan(6 degrees) = 0.42 m
+  PolicyConfig config;
+  config.height_law = HeightLaw::kExact;
+  const Shot shot = stopped_shot(config, robot, {}, at(4.0));  // 4 m * tan(6 degrees) = 0.42 m
   EXPECT_FALSE(shot.v_kick_mps);
   EXPECT_FALSE(shot.power);
   EXPECT_FALSE(shot.reachable);
