@@ -43,7 +43,8 @@ TEST(Compare, NamesTheGroupsAndClaimsNoCause) {
   EXPECT_THAT(text, HasSubstr("P(right > left)       0.999473"));
   EXPECT_THAT(text, HasSubstr("right differs from left, the more for right"));
   EXPECT_THAT(text, Not(HasSubstr("better")));
-  EXPECT_THAT(output_of("compare --counts a=1/1000 b=999/1000"), HasSubstr("below 1e-12 percentage points by choosing b"));
+  EXPECT_THAT(output_of("compare --counts a=1/1000 b=999/1000"),
+              HasSubstr("below 1e-12 percentage points by choosing b"));
 }
 
 TEST(Compare, SaysWhatIsWrongWithACount) {

@@ -176,7 +176,8 @@ TEST(Sensitivity, WithoutShotsOnTargetItHasNoIntervals) {
   const std::string outputs = to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump();
   EXPECT_EQ(outputs.find("nan"), std::string::npos) << outputs;
   EXPECT_NE(to_text(report).find("moving - stopped: +0.0 (-)"), std::string::npos) << to_text(report);
-  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,,1\n"), std::string::npos) << to_csv(report);
+  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,,1\n"), std::string::npos)
+      << to_csv(report);
 }
 
 FrontierReport frontier_case() {
