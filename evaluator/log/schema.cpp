@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "evaluator/log/before_version_4.sql.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
 #include "evaluator/log/scan_schema_version_1.sql.hpp"
 #include "evaluator/log/schema.sql.hpp"
@@ -66,10 +67,12 @@ std::string_view schema_of(const LogKind& kind, int version) {
 }
 
 void create_reading_views(SQLite::Database& database, int version) {
-  database.exec(own_kicks(schema_of(kMatchLog, version), version < kMatchLog.version ? "kicks_of_the_file" : "kicks"));
+  const char* const kicks = version == 1 ? "kicks_of_version_1" : version < 4 ? "kicks_of_version_3" : "kicks";
+  database.exec(own_kicks(schema_of(kMatchLog, version), kicks));
   if (version == 1) database.exec(kVersion1Sql);
   if (version == 2) database.exec(kVersion2Sql);
   if (version == 3) database.exec(kVersion3Sql);
+  if (version < 4) database.exec(kBeforeVersion4Sql);
   database.exec(kCountedKicks);
 }
 

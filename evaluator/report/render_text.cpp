@@ -174,7 +174,7 @@ std::string quality(const Report& report) {
     text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}", printable(row.policy),
                         percent(bounds.lo), percent(bounds.hi));
     if (row.doubt.sum() > 0.0) {
-      text += fmt::format("; with {} labels of inside and {} of outside wrong", stats::most_wrong(row.doubt.inside),
+      text += fmt::format("; with {} inside and {} outside mistaken", stats::most_wrong(row.doubt.inside),
                           stats::most_wrong(row.doubt.outside));
     }
     text += "\n";

@@ -14,7 +14,7 @@ namespace {
 using kicking::Outcome;
 using kicking::OutcomeProbabilities;
 
-constexpr std::size_t kFewest = 5;     // sightings that a verdict needs
+constexpr std::size_t kFewest = 5;     // sightings that tell of more than a turn
 constexpr std::size_t kWindow = 7;     // sightings that the exit is taken from
 constexpr double kNearFloor_m = 0.25;  // a minimum of z below it is a bounce
 // What happens how often, before anything is seen.
@@ -120,7 +120,6 @@ Weights weigh(const FlightStories& stories, const ShotTrack& track, const kickin
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
   describe_exit(in_the_air(track.sightings), verdict);
-  if (track.sightings.size() < kFewest) return verdict;
   const auto stories = flight_stories(track, goal.y_m);
   if (!stories) return verdict;
   verdict.residual_sd_m = stories->residual_sd_m;
@@ -132,6 +131,8 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
   if (!(sum > 0.0)) return verdict;
   for (double& p : weights.outcome) p /= sum;
   const auto likeliest = std::max_element(weights.outcome.begin(), weights.outcome.end());
+  const bool turned = *likeliest == of(weights.outcome, Outcome::kBlocked) && *likeliest >= settings.label_probability;
+  if (track.sightings.size() < kFewest && !turned) return {};
   if (*likeliest >= settings.label_probability)
     verdict.outcome = static_cast<Outcome>(likeliest - weights.outcome.begin());
   const double not_there =

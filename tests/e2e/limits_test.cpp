@@ -119,8 +119,7 @@ TEST_F(Limits, OtherVerbsEndWithASentence) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take all addresses there are
 TEST_F(Limits, ANodeWithoutMemoryForThreadsSaysSo) {
-  // 2000: each thread may reserve 64 MB of addresses for what it allocates.
-  for (const rlim_t megabytes : {40, 60, 80, 2000}) {
+  for (const rlim_t megabytes : {40, 60, 80, 400}) {
     SCOPED_TRACE(fmt::format("{} MB", megabytes));
     std::string said;
     const int code = exit_code("world_state", said, [&] { limit(RLIMIT_AS, megabytes << 20); });
@@ -131,7 +130,7 @@ TEST_F(Limits, ANodeWithoutMemoryForThreadsSaysSo) {
 
 TEST_F(Limits, AnExperimentWithoutMemoryForThreadsSaysSo) {
   int refused = 0;
-  for (const rlim_t megabytes : {36, 42, 50, 60, 80, 2000}) {
+  for (const rlim_t megabytes : {36, 42, 50, 60, 80, 400}) {
     SCOPED_TRACE(fmt::format("{} MB", megabytes));
     forget("arms.db");
     Program simulate{
