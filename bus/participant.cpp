@@ -54,9 +54,7 @@ Participant::Participant(const DomainConfig& config, RealTime real_time)
     : Participant(config, std::make_unique<Hearing>(std::move(real_time))) {}
 
 Participant::Participant(const DomainConfig& config, std::unique_ptr<Hearing> hearing) {
-  // Who joins anew has just given back what the first participant took.
-  static std::once_flag checked_once;
-  std::call_once(checked_once, require_resources);
+  require_resources();
   auto domain = join(config);
   const auto handle = checked(dds_create_participant(config.domain_id, nullptr, nullptr), "dds_create_participant",
                               fmt::format("domain {}", config.domain_id));

@@ -11,7 +11,8 @@ inline constexpr std::size_t kDescriptors = 16;
 inline constexpr std::size_t kThreads = 10;
 
 /// Throws Error naming the limit where this process could not open kDescriptors more file descriptors or start kThreads
-/// more threads: Cyclone 0.10 crashes where it runs out of either.
+/// more threads: Cyclone 0.10 crashes where it runs out of either. Looks until it once has not
+/// thrown.
 void require_resources();
 
 }  // namespace trivela::bus

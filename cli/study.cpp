@@ -11,8 +11,8 @@ namespace trivela::cli {
 
 std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
-void Study::draw_evenings(const sim::Scenario& world, const ArmBase& base) {
-  plan.evenings = teams_of_evenings(world, base, {calibrations, plan.matches, plan.seed, plan.jobs});
+void Study::draw_evenings(const sim::Scenario& scenario, const ArmBase& base) {
+  plan.evenings = teams_of_evenings(scenario, base, {calibrations, plan.matches, plan.seed, plan.jobs});
 }
 
 void add_play_options(CLI::App& verb, Study& study) {

@@ -31,7 +31,7 @@ struct Study {
   std::string scenario_name() const;
 
   /// Plays the evenings of calibration of the plan's seed into the plan, before its matches.
-  void draw_evenings(const sim::Scenario& world, const ArmBase& base);
+  void draw_evenings(const sim::Scenario& scenario, const ArmBase& base);
 };
 
 /// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -49,11 +48,10 @@ std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
       "trivela tune {} --matches {} --possessions {} --calibrations {} --seed {} --held-out-seed {} --rounds {}",
       flags.policy, plan.matches, plan.possessions, study.calibrations, plan.seed, held_out_seed, flags.rounds);
   const TuneFlags defaults;
-  const auto name = [](const std::string& path) { return std::filesystem::path{path}.filename().string(); };
-  if (study.world.file != defaults.study.world.file) text += " --scenario " + name(study.world.file);
+  if (study.world.file != defaults.study.world.file) text += " --scenario " + study.world.file;
   for (const std::string& line : study.world.changes) text += " --world '" + line + '\'';
-  if (flags.base.config != defaults.base.config) text += " --config " + name(flags.base.config);
-  for (const std::string& robot : flags.base.robots) text += " --robot " + name(robot);
+  if (flags.base.config != defaults.base.config) text += " --config " + flags.base.config;
+  for (const std::string& robot : flags.base.robots) text += " --robot " + robot;
   for (const std::string& line : flags.base.overrides) text += " --set '" + line + '\'';
   for (const std::string& setting : flags.settings) text += " --setting '" + setting + '\'';
   return text;
@@ -116,6 +114,7 @@ int tune(const TuneFlags& flags) {
                     .scenario = study.scenario_name(),
                     .space = space_of(flags, *arm.policy),
                     .state = {.settings = arm.settings}};
+  report.state.settings.run.scenario = study.world.file;  // whose best settings they are
   study.draw_evenings(scenario, flags.base);
   other.draw_evenings(scenario, flags.base);
   report.tuning = matches_of(study);

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <stdexcept>
+#include <system_error>
 
 namespace trivela::evaluator::log {
 namespace {
@@ -29,7 +30,10 @@ bool claim(const fs::path& path, const LogKind& kind) {
   if (there) return false;
   std::FILE* const file = std::fopen(path.c_str(), "wx");
   if (file == nullptr && errno == EEXIST) return false;  // who is quicker makes the tables
-  if (file == nullptr) throw std::runtime_error(fmt::format("cannot create the {} {}", kind.name, path.string()));
+  if (file == nullptr) {
+    throw std::runtime_error(
+        fmt::format("cannot create the {} {}: {}", kind.name, path.string(), std::generic_category().message(errno)));
+  }
   std::fclose(file);
   return true;
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 
+#include "config/settings.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/simulate_runs.hpp"
 
@@ -120,6 +121,10 @@ TEST(Tune, WritesSettingsThatOtherVerbsTakeAndSaysNothingInAPipe) {
                  out, "--out", policy + ".db"});
   }
   run(folder, tune("predictive", "predictive.toml", {"--setting", "policy.predictive.threshold"}));
+  const std::string world = TRIVELA_SOURCE_DIR "/config/scenarios/like_2016.toml";
+  run(folder, tune("moving", "like.toml", {"--setting", "policy.dribble_mps=0.0|2.0", "--scenario", world}));
+  EXPECT_THAT(text_of(folder / "like.toml"), HasSubstr(" --scenario " + world));
+  EXPECT_TRUE(std::filesystem::equivalent(config::load_settings(folder / "like.toml").run.scenario, world));
   Program nowhere{"trivela", tune("moving", "nowhere/moving.toml"), folder.path()};
   EXPECT_EQ(nowhere.wait(), 1);
   EXPECT_THAT(nowhere.errors(), HasSubstr("cannot write --out nowhere/moving.toml"));

@@ -91,7 +91,8 @@ TEST_F(ScanLog, AFolderThatIsNotThereIsNamed) {
     const ScanWriter writer(path("no/scans.db"), scan_session(), options());
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cannot create the scan record " + path("no/scans.db").string()));
+    EXPECT_THAT(error.what(), HasSubstr("cannot create the scan record " + path("no/scans.db").string() +
+                                        ": No such file or directory"));
   }
 }
 
