@@ -60,7 +60,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   config::override_settings(settings, lines);
   refuse_oracle(settings.kick_decision);
   config::load_scenario(settings.run.scenario);
-  config::robot_for(config::load_robot(settings.run.robot), settings.policy);
+  config::robot_for(config::load_robot(settings.run.robot), settings);
   return settings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "config/robot_fields.hpp"
@@ -52,9 +53,9 @@ kicking::DistanceTable height_table_of(const DistanceColumns& columns, const std
   return table;
 }
 
-Robot with_height_table(Robot robot, const kicking::PolicyConfig& policy, const std::string& whose) try {
-  robot.model =
-      kicking::with_distance_table(robot.model, *robot.height_table, policy.height_law, policy.target_height_m);
+Robot with_height_table(Robot robot, const Settings& settings, const std::string& whose) try {
+  robot.model = kicking::with_distance_table(robot.model, *robot.height_table, height_table_law(settings),
+                                             settings.policy.target_height_m);
   return robot;
 } catch (const std::invalid_argument& error) {
   throw Error{fmt::format("{}: height_table: {}", whose, error.what())};
@@ -103,11 +104,21 @@ Robot load_robot(const std::filesystem::path& path) {
   return robot;
 }
 
-Robot robot_for(Robot robot, const kicking::PolicyConfig& policy) {
+kicking::HeightLaw height_table_law(const Settings& settings) {
+  using kicking::PolicyName;
+  const auto by_law = [](PolicyName policy) { return policy == PolicyName::kStopped || policy == PolicyName::kMoving; };
+  const KickDecision& decision = settings.kick_decision;
+  const bool some = decision.random.empty() ? std::ranges::any_of(decision.policy_by_half, by_law) ||
+                                                  std::ranges::any_of(decision.policy_by_robot, by_law)
+                                            : std::ranges::any_of(decision.random, by_law);
+  return some ? settings.policy.height_law : kicking::HeightLaw::kExact;
+}
+
+Robot robot_for(Robot robot, const Settings& settings) {
   if (!robot.height_table) return robot;
   const std::string whose =
-      fmt::format("robot {} with policy.target_height_m = {}", robot.name, policy.target_height_m);
-  return with_height_table(std::move(robot), policy, whose);
+      fmt::format("robot {} with policy.target_height_m = {}", robot.name, settings.policy.target_height_m);
+  return with_height_table(std::move(robot), settings, whose);
 }
 
 std::string to_toml_text(const Robot& robot) {

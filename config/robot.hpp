@@ -7,8 +7,8 @@
 
 #include "config/calibration.hpp"
 #include "config/field_types.hpp"
+#include "config/settings.hpp"
 #include "kicking/calibration/distance_table.hpp"
-#include "kicking/policy/policy_config.hpp"
 #include "kicking/robot_model.hpp"
 
 namespace trivela::config {
@@ -35,16 +35,20 @@ struct Robot {
 
 /// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be
 /// whole: kind, powers and exit speeds, and may have an exit angle for each power. In place of [table] a file may have
-/// [height_table], powers over distances: model.table is then kicking::effective_table() by the default policy's law
+/// [height_table], powers over distances: model.table is then kicking::effective_table() by the default settings' law
 /// and target height; robot_for() makes it anew for others. Throws Error: also for a table of kind "true", which the
 /// drag-free laws of the policies must not be given, and for set-points that do not rise.
 Robot load_robot(const std::filesystem::path& path);
 
-/// The robot as it plays with these settings: a height table is read by the height law and for the target height that
-/// the policy decides by, so that a robot at rest kicks with exactly the table's power; any other robot is what it was.
-/// Everything that plays, on the bus and in process, takes its robot from here. Throws Error naming the robot where the
-/// table does not go with the settings.
-Robot robot_for(Robot robot, const kicking::PolicyConfig& policy);
+/// The law by which a height table tells exit speeds: policy.height_law where somebody in charge aims by it (stopped,
+/// moving), so that a robot at rest kicks with exactly the table's power; else the exact law, which balls that passed
+/// at a height follow.
+kicking::HeightLaw height_table_law(const Settings& settings);
+
+/// The robot as it plays with these settings: a height table is read by height_table_law() for policy.target_height_m;
+/// any other robot is what it was. Everything that plays, on the bus and in process, takes its robot from here. Throws
+/// Error naming the robot where the table does not go with the settings.
+Robot robot_for(Robot robot, const Settings& settings);
 
 /// The same as load_robot() for the tools that calibrate: a table of kind "true" comes back as true_table.
 Robot load_robot_of_any_table(const std::filesystem::path& path);

@@ -31,18 +31,12 @@ config::Settings settings_of(const Arm& arm, const PlayOptions& options) {
 
 config::Robot robot_of(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint8_t robot_id) {
-  const kicking::PolicyConfig& policy = arm.settings.policy;
-  config::Robot robot = config::robot_for(arm.robots[std::min<std::size_t>(robot_id, arm.robots.size()) - 1], policy);
-  if (arm.table != kOldTable) return robot;
+  const config::Settings settings = settings_of(arm, {});
+  config::Robot robot = arm.robots[std::min<std::size_t>(robot_id, arm.robots.size()) - 1];
+  if (arm.table != kOldTable) return config::robot_for(std::move(robot), settings);
   const std::uint32_t whose = scenario.hand_table.one_for_all ? 1 : robot_id;
-  const auto table = sim::draw_hand_table(scenario, sim::team_kicker(scenario, whose), seed, match_id, whose);
-  // Who aims by a law kicks with the table's powers; who weighs a crossing needs what the table says of the balls.
-  const auto only = only_policy(scenario, arm);
-  const bool by_law = !only || *only == kicking::PolicyName::kStopped || *only == kicking::PolicyName::kMoving;
-  robot.model = by_law ? kicking::with_distance_table(robot.model, table, policy.height_law, policy.target_height_m)
-                       : kicking::with_distance_table(robot.model, table, kicking::HeightLaw::kExact,
-                                                      scenario.hand_table.target_height_m);
-  return robot;
+  robot.height_table = sim::draw_hand_table(scenario, sim::team_kicker(scenario, whose), seed, match_id, whose);
+  return config::robot_for(std::move(robot), settings);
 }
 
 std::optional<kicking::PolicyName> only_policy(const sim::Scenario& scenario, const Arm& arm) {

@@ -44,8 +44,8 @@ config::Settings settings_of(const Arm& arm, const PlayOptions& options);
 /// How many of our robots play.
 std::uint8_t team_size(const sim::Scenario& scenario);
 
-/// What a robot, counted from 1, knows of itself in a match of this arm. Throws std::invalid_argument where the old
-/// table that is drawn for it cannot be used: no ball reaches the target's height from one of its distances.
+/// What a robot, counted from 1, knows of itself in a match of this arm. Throws config::Error where the old table that
+/// is drawn for it cannot be used: no ball reaches the target's height from one of its distances.
 config::Robot robot_of(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
                        std::uint8_t robot_id);
 

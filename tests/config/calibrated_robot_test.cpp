@@ -130,21 +130,34 @@ TEST_F(CalibratedRobot, ReadsAHeightTableByTheLawAndHeightOfThePolicy) {
   const std::string text =
       "name = \"hand\"\n[height_table]\ndistances_m = [3.0, 5.0, 7.0]\npowers = [17.0, 22.0, 29.0]\n";
   const Robot robot = load_robot(file(text));
-  kicking::PolicyConfig policy;
-  EXPECT_EQ(robot_for(robot, policy).model.table.back().speed_mps, robot.model.table.back().speed_mps);
+  Settings settings;
+  kicking::PolicyConfig& policy = settings.policy;
+  EXPECT_EQ(robot_for(robot, settings).model.table.back().speed_mps, robot.model.table.back().speed_mps);
   policy.height_law = kicking::HeightLaw::kExact;
-  const Robot other = robot_for(robot, policy);
+  const Robot other = robot_for(robot, settings);
   const kicking::RobotModel& model = other.model;
   EXPECT_NE(model.table.back().speed_mps, robot.model.table.back().speed_mps);
   const auto asked_mps =
       kicking::crossing_speed({5.0, policy.target_height_m - kicking::Ball{}.radius_m}, model.exit_angle_rad);
   EXPECT_NEAR(model.table.power_for(*asked_mps).power, 22.0, 1e-9) << "at rest the table's power";
   EXPECT_EQ(to_toml_text(other), to_toml_text(robot)) << "the file is what it was";
-  policy.height_law = kicking::HeightLaw::kExact;
   policy.target_height_m = 50.0;
-  EXPECT_THAT([&] { robot_for(robot, policy); },
+  EXPECT_THAT([&] { robot_for(robot, settings); },
               ThrowsMessage<Error>(AllOf(HasSubstr("robot hand"), HasSubstr("no speed reaches the target's height"))));
-  EXPECT_EQ(to_toml_text(robot_for(Robot{}, policy)), to_toml_text(Robot{})) << "no height table";
+  EXPECT_EQ(to_toml_text(robot_for(Robot{}, settings)), to_toml_text(Robot{})) << "no height table";
+}
+
+TEST(HeightTableLaw, IsThePlayingOneWhereSomebodyInChargeAimsByIt) {
+  using enum kicking::PolicyName;
+  Settings settings;
+  settings.policy.height_law = kicking::HeightLaw::kPaper;
+  EXPECT_EQ(height_table_law(settings), kicking::HeightLaw::kPaper) << "moving";
+  settings.kick_decision.policy_by_half = {kPredictive, kOracle};
+  EXPECT_EQ(height_table_law(settings), kicking::HeightLaw::kExact);
+  settings.kick_decision.policy_by_robot = {kPredictive, kStopped};
+  EXPECT_EQ(height_table_law(settings), kicking::HeightLaw::kPaper);
+  settings.kick_decision.random = {kPredictive, kLearned};
+  EXPECT_EQ(height_table_law(settings), kicking::HeightLaw::kExact) << "who is drawn is in charge";
 }
 
 TEST_F(CalibratedRobot, NamesBrokenProvenance) {
