@@ -44,9 +44,12 @@ TrialsByPower by_power(const std::vector<Trial>& trials) {
 }
 
 /// Figure 5: a colour a power, a pattern a trial.
-evaluator::Chart chart_of(const TrialsByPower& powers) {
-  evaluator::Chart chart{
-      "Parabolas by kick power and trial", "distance from the launch [m]", "height over the launch [m]", {}};
+evaluator::Chart chart_of(const TrialsByPower& powers, bool simulated) {
+  evaluator::Chart chart{.title = "Parabolas by kick power and trial",
+                         .x_label = "distance from the launch [m]",
+                         .y_label = "height over the launch [m]",
+                         .series = {},
+                         .simulated = simulated};
   int colour = 0;
   for (const auto& [power, trials] : powers) {
     for (std::size_t trial = 0; trial < trials.size(); ++trial) {
@@ -134,7 +137,7 @@ void plot(const PlotFlags& flags) {
   require_writable("--out", flags.out);
   const Trials trials = read_trials(flags.inputs, {.columns = flags.columns});
   const TrialsByPower powers = by_power(trials.trials);
-  write_chart(chart_of(powers), flags.out);
+  write_chart(chart_of(powers, trials.simulated), flags.out);
   const std::vector<Repeatability> rows = repeatability(powers);
   if (flags.json) return print_json(rows, flags, trials.warnings);
   if (flags.csv) {

@@ -77,7 +77,10 @@ Trials trials_of_numbers(const std::string& file, const TrialFlags& flags) {
 Trials trials_of_scans(const std::string& file, const TrialFlags& flags) {
   if (flags.exit_angle_rad) throw UsageError(fmt::format("--exit-angle-deg: the lobs of {} give the angle", file));
   const evaluator::log::ScanReader scans(file);
-  return trials_of_lobs(evaluator::lobs_of_scans(scans, {}, evaluator::verdicts_beside(file)), flags.kind, file);
+  Trials trials =
+      trials_of_lobs(evaluator::lobs_of_scans(scans, {}, evaluator::verdicts_beside(file)), flags.kind, file);
+  trials.simulated = scans.session().simulated;
+  return trials;
 }
 
 }  // namespace
@@ -115,6 +118,7 @@ Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flag
     Trials trials = kind == InputKind::kScanRecord ? trials_of_scans(file, flags) : trials_of_numbers(file, flags);
     std::ranges::move(trials.trials, std::back_inserter(all.trials));
     std::ranges::move(trials.warnings, std::back_inserter(all.warnings));
+    all.simulated = all.simulated || trials.simulated;
   }
   if (all.trials.empty()) {
     throw std::runtime_error(fmt::format("no lob in {} can be used{}{}", fmt::join(files, ", "),

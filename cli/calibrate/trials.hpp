@@ -19,6 +19,7 @@ struct TrialFlags {
 struct Trials {
   std::vector<kicking::Trial> trials;
   std::vector<std::string> warnings;
+  bool simulated = false;  ///< some are of synthetic scans
 };
 
 /// Trials of scan records (accepted lobs with a known power; effective or true values by `kind`) and of tables with the

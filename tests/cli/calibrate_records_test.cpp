@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 
 json run(const std::string& arguments, int expected = kDone) {
@@ -26,6 +29,7 @@ json run(const std::string& arguments, int expected = kDone) {
   add_calibrate_rotation(app, exit_code);
   add_calibrate_transfer(app, exit_code);
   add_calibrate_delay(app, exit_code);
+  add_calibrate_plot(app, exit_code);
   testing::internal::CaptureStdout();
   try {
     app.parse(arguments + " --json");
@@ -54,6 +58,20 @@ TEST(CalibrateRecords, TrueTableOfASyntheticRecordIsWhatWasKicked) {
   EXPECT_LT(effective["setpoints"][2]["exit_speed_mps"].get<double>(), 0.97 * 10.8);
   EXPECT_GT(effective["exit_angle_deg"].get<double>(), 36.9);
   EXPECT_NO_THROW(config::load_robot(out));
+}
+
+TEST(CalibrateRecords, AFigureOfSyntheticLobsSaysSo) {
+  const lob_page::RecordedLobs lobs({{15, 6.1}, {25, 8.7}});
+  const auto figure_of = [&](const std::string& input) {
+    const std::string out = lobs.path("5.svg").string();
+    run("plot " + input + " --out " + out);
+    std::ifstream file{out};
+    return std::string{std::istreambuf_iterator<char>{file}, {}};
+  };
+  EXPECT_THAT(figure_of(lobs.path().string()), HasSubstr(">simulated: "));
+  const std::string measured = lobs.path("lobs.csv").string();
+  std::ofstream{measured} << "power,height_m,distance_m\n15,0.6,3.3\n25,1.3,7\n";
+  EXPECT_THAT(figure_of(measured), Not(HasSubstr("simulated")));
 }
 
 class CalibrateDrives : public evaluator::DriveLog {};

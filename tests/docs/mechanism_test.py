@@ -91,6 +91,13 @@ class Mechanism(unittest.TestCase):
         speed = "    $ echo 'played 602 s in 18.1 s: 33.3 times real time'\n    played 602 s in 9.0 s: 66.9 times real time\n"
         self.assertEqual(self.play(speed, update=True)[1], speed)
 
+    def test_what_is_written_once_stays(self):
+        text = ("<!-- run: name='c' -->\n\n    $ printf 'a\\n  b 1\\n    c\\n'\n\n".replace("'c'", '"c"') +
+                '<!-- output: of="c" from="b" until="c" -->\n\n      b 0\n        c\n\nEnd.\n')
+        updated = self.play(text, update=True)[1]
+        self.assertEqual(updated, text.replace("b 0", "b 1"))
+        self.assertEqual(self.play(updated, full=True, update=True), ([], updated))
+
     def test_programs_at_once_and_programs_that_go_on(self):
         text = ('<!-- run: together="yes" -->\n\n'
                 '    $ sh -c "trap \'exit 0\' TERM; touch ready; while :; do :; done"\n'

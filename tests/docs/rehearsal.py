@@ -161,10 +161,14 @@ class Rehearsal:
         printed = self.printed.get(block.keys["of"])
         if printed is None:
             return self._wrong(block.line, f"no command named {block.keys['of']} stands above")
-        self._compare(printed, block.keys, block.line, block.lines, (block.begin, block.end, block.indent), block.keys["of"])
+        place = (block.begin, block.end, block.indent)
+        self._compare(printed, block.keys, block.line, block.lines, place, block.keys["of"], outdented=True)
 
-    def _compare(self, printed, keys, line, shown, place, text):
+    def _compare(self, printed, keys, line, shown, place, text, outdented=False):
         part = part_of(printed.lines, keys)
+        if outdented and part:  # the block's own indent stands for that of the first line
+            margin = len(part[0]) - len(part[0].lstrip())
+            part = [text[margin:] if text[:margin].isspace() else text for text in part]
         if not part:
             return self._wrong(line, f"{text}: prints nothing from {keys.get('from')} on", printed.lines)
         same = masked if printed.whole else shape

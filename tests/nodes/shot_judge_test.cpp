@@ -123,6 +123,15 @@ TEST(ShotJudge, AHandfulOfSightingsTellNothing) {
   }
 }
 
+TEST(ShotJudge, FourSightingsTellOfATurnAndOfNothingElse) {
+  auto seen = towards(0.0, 0.5, 0.02);  // two on their way, two of a ball that an opponent sent back
+  const Eigen::Vector3d hit_m = seen.back().ball_m;
+  for (int i = 1; i <= 2; ++i)
+    seen.push_back({seen.back().t_ns + 20'000'000, hit_m + Eigen::Vector3d{0.04 * i, -0.08 * i, 0.0}});
+  EXPECT_EQ(judged(seen, FlightEnd::kTakenAway), Outcome::kBlocked);
+  EXPECT_EQ(judged(towards(0.0, 0.5, 0.06), FlightEnd::kTakenAway), Outcome::kUnknown) << "as many, straight on";
+}
+
 TEST(ShotJudge, AGoalOfAnotherSizeIsJudgedByItsSize) {
   kicking::Goal wide = kGoal;
   wide.half_width_m = 1.2;
