@@ -1,17 +1,31 @@
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
 #include "config/settings.hpp"
+#include "nodes/simulator/simulator_node.hpp"
 
 namespace trivela::cli {
 namespace {
+
+/// That decide on the robots' knowledge alone.
+constexpr std::array<std::string_view, 4> kPolicies{"stopped", "moving", "predictive", "learned"};
+
+/// The oracle is refused by a sentence of its own.
+std::vector<std::string> half_policies() {
+  std::vector<std::string> names(kPolicies.begin(), kPolicies.end());
+  for (const char* other : {"oracle", "standing_drive", "lateral_drive", "turn_drive", "straight_drive"})
+    names.emplace_back(other);
+  return names;
+}
 
 struct MatchFlags {
   std::vector<std::string> halves;
@@ -41,6 +55,35 @@ void refuse_oracle(const config::KickDecision& decision) {
   }
 }
 
+/// A flag and --set that say two things of one setting would leave it to chance which one somebody meant.
+void refuse_settings_of_flags(const std::vector<std::string>& overrides) {
+  static const std::pair<std::string, const char*> kFlags[] = {
+      {"kick_decision.policy_by_half", "--half"},
+      {"kick_decision.random", "--random"},
+      {"simulator.halves", "--half"},
+      {"simulator.half_minutes", "--minutes"},
+      {"simulator.paired_halves", "--paired-halves"},
+      {"simulator.seed", "--seed"},
+      {"run.log_level", "--log-level"},
+  };
+  for (const std::string& line : overrides) {
+    const std::string key = line.substr(0, line.find_first_of(" ="));
+    for (const auto& [setting, flag] : kFlags) {
+      if (key == setting) throw UsageError{fmt::format("--set {}: {} says it", line, flag)};
+    }
+  }
+}
+
+std::vector<std::string> drawn_policies(const std::string& random) {
+  std::vector<std::string> policies = CLI::detail::split(random, ',');
+  const std::vector<std::string> known = half_policies();
+  for (const std::string& policy : policies) {
+    if (std::ranges::find(known, policy) == known.end())
+      throw UsageError{fmt::format("--random: '{}' is no policy; there are {}", policy, fmt::join(kPolicies, ", "))};
+  }
+  return policies;
+}
+
 /// Lines such as `kick_decision.policy_by_half = ["stopped", "moving"]`: the checks of the configuration are the flags'
 /// too.
 config::Settings settings_of(const MatchFlags& flags) {
@@ -48,7 +91,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   std::vector<std::string> lines;
   if (!flags.halves.empty()) lines.push_back(fmt::format("kick_decision.policy_by_half = {}", list(flags.halves)));
   if (!flags.random.empty())
-    lines.push_back(fmt::format("kick_decision.random = {}", list(CLI::detail::split(flags.random, ','))));
+    lines.push_back(fmt::format("kick_decision.random = {}", list(drawn_policies(flags.random))));
   if (flags.paired_halves) lines.emplace_back("simulator.paired_halves = true");
   for (std::string line :
        {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
@@ -56,10 +99,11 @@ config::Settings settings_of(const MatchFlags& flags) {
         fmt::format("simulator.half_minutes = {:.17e}", flags.minutes), fmt::format("simulator.seed = {}", flags.seed),
         fmt::format("run.log_level = \"{}\"", flags.log_level)})
     lines.push_back(std::move(line));
+  refuse_settings_of_flags(flags.overrides);
   for (const std::string& line : flags.overrides) lines.push_back(line);
   config::override_settings(settings, lines);
   refuse_oracle(settings.kick_decision);
-  config::load_scenario(settings.run.scenario);
+  nodes::scenario_of(settings);
   config::robot_for(config::load_robot(settings.run.robot), settings);
   return settings;
 }
@@ -71,8 +115,7 @@ void add_match(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<MatchFlags>();
   auto* half = verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
                    ->expected(1)
-                   ->check(CLI::IsMember({"stopped", "moving", "predictive", "learned", "oracle", "standing_drive",
-                                          "lateral_drive", "turn_drive", "straight_drive"}))
+                   ->check(CLI::IsMember(half_policies()))
                    ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--random", flags->random,
                    "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")

@@ -8,6 +8,7 @@
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 #include "evaluator/log/reader.hpp"
+#include "hal/replay/replay_log.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -34,6 +35,7 @@ int replay(const ReplayFlags& flags) {
   if (sessions.size() != 1) {
     throw std::runtime_error{fmt::format("{} holds {} sessions; a replay needs one", flags.log, sessions.size())};
   }
+  hal::require_lockstep(sessions.front(), flags.log);
   const std::string config = reader.whole(sessions.front()).config_toml;
   const ConfigFile settings_file{section(config, "settings", flags.log)};
   const ConfigFile robot_file{section(config, "robot", flags.log)};

@@ -144,8 +144,11 @@ int calibrate(const RunFlags& flags) {
       .seed = flags.seed,
       .effort = flags.effort,
       .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number)};
+  robot_target(flags.robot, flags.out);  // refuses what is no name
   const fs::path file = robot_file(flags);
-  fs::create_directories(flags.out_dir);
+  std::error_code failed;
+  fs::create_directories(flags.out_dir, failed);
+  if (failed) throw std::runtime_error{fmt::format("cannot make --out-dir {}: {}", flags.out_dir, failed.message())};
   require_writable("the robot's file", file);
   fs::path part = file;
   part += ".part";  // until every figure is in it

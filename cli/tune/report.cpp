@@ -85,8 +85,8 @@ std::string to_text(const TuneReport& report) {
 std::string to_settings_file(const TuneReport& report, const fs::path& out) {
   std::string text = fmt::format(
       "# Settings of {} for the world {}, simulated, found by\n#   {}\n# Objective: observed shots on target per "
-      "opportunity [%], 95 % intervals by match and evening.\n",
-      report.policy, report.scenario, report.command);
+      "opportunity [%], 95 % intervals by match{}.\n",
+      report.policy, report.scenario, report.command, report.tuning.evenings > 0 ? " and evening" : "");
   std::istringstream lines{outcome(report)};
   for (std::string line; std::getline(lines, line);) text += "# " + line + '\n';
   const fs::path folder = fs::absolute(out).parent_path();

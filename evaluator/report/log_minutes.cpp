@@ -91,7 +91,8 @@ std::vector<PlayedSpan> played_spans(const HeardPlay& heard, const LoggedOpportu
   std::map<std::pair<Possession, int>, std::vector<const HeardSpan*>> spans;  // and by robot that counts its own
   for (const HeardSpan& span : heard.spans) {
     const ComparedSession& session = logged.sessions[span.session];
-    if (session.counts) spans[{{session.play, span.half, span.possession_id}, span.of_robot}].push_back(&span);
+    if (session.counts && !session.halves_left_out.contains(span.half))
+      spans[{{session.play, span.half, span.possession_id}, span.of_robot}].push_back(&span);
   }
   std::vector<PlayedSpan> played;
   for (const auto& [key, recorded] : spans) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "evaluator/metrics/opportunities.sql.hpp"
 #include "evaluator/report/log_minutes.hpp"
 #include "evaluator/report/log_sessions.hpp"
+#include "evaluator/report/played_length.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -136,7 +138,7 @@ Places add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedO
   Places places;
   for (LoggedOpportunity& o : opportunities) {
     const ComparedSession& session = logged.sessions[o.session];
-    if (!session.counts) continue;
+    if (!session.counts || session.halves_left_out.contains(o.half)) continue;
     const auto [place, added] =
         places.try_emplace({session.play, o.robot_id, o.half, o.possession_id}, logged.rows.size());
     if (added) {
@@ -202,6 +204,7 @@ class OpportunityReading {
     for (const log::Loss& loss : reader.losses()) missing += loss.missing();
     if (missing > 0)
       losses_.push_back(fmt::format("{}: {} rows are missing (trivela report says which)", name, missing));
+    note_lengths(reader, name, fresh);
     return fresh;
   }
 
@@ -218,16 +221,42 @@ class OpportunityReading {
     const Places places = add_opportunities(std::move(seen_.opportunities), logged_);
     add_kicks(seen_.kicks, book_, places, truth_, logged_);
     logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
+    remark_lengths();
     logged_.spans = played_spans(seen_.play, logged_);
     return std::move(logged_);
   }
 
  private:
+  // Each recording by itself: which ones are of one play is known when all are read.
+  void note_lengths(const log::Reader& reader, const std::string& name, const SessionPlaces& fresh) {
+    std::vector<ComparedSession> alone;
+    for (const ComparedSession& session : book_.sessions()) {
+      alone.push_back(session);
+      alone.back().play = static_cast<std::uint32_t>(alone.size());
+    }
+    for (const PlayedLength& length : played_lengths(reader, alone)) {
+      const auto session = fresh.find(length.session_id);
+      if (session == fresh.end()) continue;
+      for (const std::string& line : cut_short_lines({length}))
+        cut_short_.emplace_back(session->second, fmt::format("{}: {}", name, line));
+    }
+  }
+
+  // Of a play with several recordings one may have what another lacks.
+  void remark_lengths() {
+    for (const auto& [place, line] : cut_short_) {
+      const ComparedSession& session = logged_.sessions[place];
+      if (session.counts && std::ranges::count(logged_.sessions, session.play, &ComparedSession::play) == 1)
+        logged_.remarks.push_back(line);
+    }
+  }
+
   bool truth_;
   SessionBook book_;
   SeenRows seen_;
   LoggedOpportunities logged_;
   std::vector<std::string> losses_;
+  std::vector<std::pair<std::uint32_t, std::string>> cut_short_;  // by place of the session
 };
 
 }  // namespace

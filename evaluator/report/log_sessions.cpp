@@ -64,11 +64,19 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
     sessions_.push_back(std::move(session));
     names_.push_back(name);
   });
+  reader.query("SELECT session_id, half, robot_id, policy FROM session_policies ORDER BY 1, 2, 3",
+               [&](SessionCells row) {
+                 const auto session = fresh.find(log::integer(row[0]));
+                 if (session == fresh.end()) return;
+                 sessions_[session->second].in_charge[static_cast<int>(log::integer(row[1]))] +=
+                     fmt::format("{}:{} ", log::integer(row[2]), log::text_if_any(row[3]));
+               });
   reader.query(kKickWordsSql, [&](SessionCells row) {
     const auto session = fresh.find(log::integer(row[0]));
     if (session == fresh.end()) return;
     kicks_.push_back({session->second, static_cast<int>(log::integer(row[1])), log::integer(row[2]),
-                      log::integer(row[3]), log::integer(row[4]), static_cast<int>(log::integer(row[5]))});
+                      log::integer(row[3]), log::integer(row[4]), static_cast<int>(log::integer(row[5])),
+                      static_cast<int>(log::integer(row[6]))});
   });
   note_log(reader, name, again, open);
   return fresh;
@@ -90,19 +98,23 @@ void SessionBook::note_log(const log::Reader& reader, const std::string& name, s
 
 void SessionBook::settle() {
   find_plays(sessions_, kicks_);
-  for (const std::size_t i : evaluator::kicks_left_out(sessions_, kicks_))
-    left_out_[{kicks_[i].session, kicks_[i].robot_id, kicks_[i].kick_id}] = sessions_[kicks_[i].session].counts;
+  for (const std::size_t i : evaluator::kicks_left_out(sessions_, kicks_)) {
+    const ComparedSession& session = sessions_[kicks_[i].session];
+    left_out_[{kicks_[i].session, kicks_[i].robot_id, kicks_[i].kick_id}] =
+        session.counts && !session.halves_left_out.contains(kicks_[i].half);
+  }
   note_left_out();
   number_matches();
 }
 
 void SessionBook::note_left_out() {
-  std::map<std::string, std::int64_t> replays, repetitions, twice;  // by log
+  std::map<std::string, std::int64_t> replays, repetitions, halves, twice;  // by log
   for (std::size_t i = 0; i < sessions_.size(); ++i) {
     if (!sessions_[i].counts) ++(sessions_[i].is_replay ? replays : repetitions)[names_[i]];
+    halves[names_[i]] += static_cast<std::int64_t>(sessions_[i].halves_left_out.size());
   }
-  for (const auto& [kick, of_a_session_that_counts] : left_out_)
-    twice[names_[std::get<0>(kick)]] += of_a_session_that_counts ? 1 : 0;
+  for (const auto& [kick, of_another_recording] : left_out_)
+    twice[names_[std::get<0>(kick)]] += of_another_recording ? 1 : 0;
   const auto remark = [&](const std::map<std::string, std::int64_t>& counts, const char* one, const char* many) {
     for (const auto& [name, n] : counts) {
       if (n > 0) not_counted_.push_back(fmt::format("{}: {} {}", name, n, n == 1 ? one : many));
@@ -110,6 +122,8 @@ void SessionBook::note_left_out() {
   };
   remark(repetitions, "of its matches was played before with the same seed, arm and configuration, and counts once",
          "of its matches were played before with the same seed, arm and configuration, and count once");
+  remark(halves, "of its halves was played before with the same seed, settings and policy, and counts once",
+         "of its halves were played before with the same seed, settings and policy, and count once");
   remark(replays, "of its sessions replays another one and is left out: its kicks were never made",
          "of its sessions replay others and are left out: their kicks were never made");
   remark(twice, "of its kicks stands in another recording of the same match, too, and counts once",

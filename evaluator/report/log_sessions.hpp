@@ -55,7 +55,7 @@ class SessionBook {
   std::vector<ComparedSession> sessions_;
   std::vector<std::string> names_;  // of the logs, by session
   std::vector<KickWord> kicks_;
-  std::map<KickKey, bool> left_out_;
+  std::map<KickKey, bool> left_out_;  // whether another recording of the match has it
   std::uint32_t matches_ = 0;
   std::vector<std::string> remarks_;
   std::vector<std::string> not_counted_;

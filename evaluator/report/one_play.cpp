@@ -80,18 +80,38 @@ void join_by_time(const std::vector<ComparedSession>& sessions, const std::vecto
 
 /// Of matches in lockstep with the same rows one counts.
 void leave_out_repetitions(std::vector<ComparedSession>& sessions) {
-  using Key = std::tuple<bool, std::int64_t, std::string, std::string, std::string, std::optional<std::int64_t>>;
-  std::map<Key, Place> best;
+  using SameRows = std::tuple<bool, std::int64_t, std::string, std::string, std::string, std::optional<std::int64_t>>;
+  std::map<SameRows, Place> best;
   for (Place i = 0; i < sessions.size(); ++i) {
     ComparedSession& session = sessions[i];
     if (!session.lockstep || !session.seed || session.is_replay) continue;
-    const Key key{session.match_id.has_value(), *session.seed, session.arm,
-                  session.config_sha256,        session.table, session.calibration_id};
+    const SameRows key{session.match_id.has_value(), *session.seed, session.arm,
+                       session.config_sha256,        session.table, session.calibration_id};
     const auto [place, first] = best.try_emplace(key, i);
     if (first || sessions[place->second].play == session.play) continue;
     const bool better = more_complete(session, sessions[place->second]);
     (better ? sessions[place->second] : session).counts = false;
     if (better) place->second = i;
+  }
+}
+
+/// Nor does a half count twice that two matches in lockstep have alike: the possessions of a half are drawn from the
+/// seed and the number of the half.
+void leave_out_repeated_halves(std::vector<ComparedSession>& sessions) {
+  using SameHalf = std::tuple<std::int64_t, std::uint32_t, std::uint32_t, int, std::string>;
+  std::map<SameHalf, Place> best;
+  for (Place i = 0; i < sessions.size(); ++i) {
+    ComparedSession& session = sessions[i];
+    if (!session.lockstep || !session.seed || session.match_id || session.is_replay || !session.counts) continue;
+    for (const auto& [half, policies] : session.in_charge) {
+      const auto [place, first] =
+          best.try_emplace({*session.seed, session.setup.world, session.setup.settings, half, policies}, i);
+      ComparedSession& other = sessions[place->second];
+      if (first || other.play == session.play) continue;
+      const bool better = more_complete(session, other);
+      (better ? other : session).halves_left_out.insert(half);
+      if (better) place->second = i;
+    }
   }
 }
 
@@ -113,6 +133,7 @@ void find_plays(std::vector<ComparedSession>& sessions, const std::vector<KickWo
   join_by_time(sessions, kicks, joined);
   for (Place i = 0; i < sessions.size(); ++i) sessions[i].play = joined.of(i);
   leave_out_repetitions(sessions);
+  leave_out_repeated_halves(sessions);
   leave_out_replays(sessions);
 }
 
@@ -122,7 +143,7 @@ std::vector<std::size_t> kicks_left_out(const std::vector<ComparedSession>& sess
   std::vector<std::size_t> left_out;
   for (std::size_t i = 0; i < kicks.size(); ++i) {
     const ComparedSession& session = sessions[kicks[i].session];
-    if (!session.counts) {
+    if (!session.counts || session.halves_left_out.contains(kicks[i].half)) {
       left_out.push_back(i);
       continue;
     }

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -25,7 +27,7 @@ struct ComparedSession {
   std::string continues_uuid;  ///< empty: none
   bool is_replay = false;      ///< of another session: what its kicks would have become nobody knows
   bool paired_halves = false;  ///< each half has the possessions of the first
-  std::int64_t row_count = 0;  ///< that its recorder wrote; 0 of an experiment
+  std::int64_t row_count = 0;  ///< that its recorder wrote; of an experiment its possessions
   std::string arm;             ///< empty: none
   std::string table;           ///< empty: none
   std::optional<std::int64_t> match_id;
@@ -35,6 +37,8 @@ struct ComparedSession {
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
   std::uint32_t play = 0;   ///< recordings of one play have the same number: what they have alike is one thing
   bool counts = true;       ///< false: a replay, or a match that another session has, played again
+  std::map<int, std::string> in_charge;  ///< the policies of each half, where the session says them
+  std::set<int> halves_left_out;         ///< that another session has, played again
 };
 
 /// A kick as one recording has it.
@@ -45,6 +49,7 @@ struct KickWord {
   std::int64_t t_ns = 0;    ///< of the decision, in the clock of whoever decided
   std::int64_t utc_ns = 0;  ///< the same by the recorder's clock
   int words = 0;  ///< 0: decided; 1: with a receipt; 2: refused, or with an outcome; 3: with one that is known
+  int half = 0;
 
   /// The same kick, whoever recorded it.
   auto kick() const { return std::tuple(robot_id, kick_id, t_ns); }
@@ -58,7 +63,8 @@ bool more_complete(const ComparedSession& a, const ComparedSession& b);
 /// - so did a session and the one that it goes on from, and sessions of robots that overlap in time, unless both have
 ///   kicks of one robot from the time that they share and none of them is the same;
 /// - matches of the same seed, arm, table and configuration played twice in lockstep have the same rows: the more
-///   complete one counts;
+///   complete one counts; so does a half of one, where its seed, world, settings and policies are those of a half of
+///   another match and something else differs: its length, or who was in charge of the other half;
 /// - a replay does not count, except where there is nothing else.
 /// An experiment's sessions (match_id) are nobody else's recordings.
 void find_plays(std::vector<ComparedSession>& sessions, const std::vector<KickWord>& kicks);

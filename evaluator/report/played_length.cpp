@@ -50,6 +50,28 @@ std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::v
         if (from_ns && to_ns) heard[place->second].emplace_back(*from_ns, *to_ns);
       });
   for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].recorded_s = covered_s(std::move(heard[i]));
+  // The halves that a session says who was in charge of are those that were planned; a replay's are as long as they
+  // were.
+  std::map<std::pair<std::size_t, int>, std::vector<Stretch>> halves;  // by place of the length
+  reader.query(
+      "SELECT p.session_id, p.half, min(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
+      "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END "
+      "FROM (SELECT DISTINCT session_id, half FROM session_policies) AS p JOIN sessions AS s USING (session_id) "
+      "LEFT JOIN referee AS r ON r.session_id = p.session_id AND r.half = p.half "
+      "WHERE planned_s IS NOT NULL AND replays_uuid IS NULL GROUP BY p.session_id, p.half",
+      [&](LengthCells row) {
+        const std::size_t place = places.at(play_of.at(log::integer(row[0])));
+        std::vector<Stretch>& half = halves[{place, static_cast<int>(log::integer(row[1]))}];
+        const auto from_ns = log::integer_if_any(row[2]), to_ns = log::integer_if_any(row[3]);
+        if (from_ns && to_ns) half.emplace_back(*from_ns, *to_ns);
+      });
+  std::map<std::size_t, double> planned_halves;
+  for (const auto& [key, stretches] : halves) planned_halves[key.first] += 1.0;
+  for (auto& [key, stretches] : halves) {
+    PlayedLength& length = lengths[key.first];
+    const double half_s = length.planned_s / planned_halves.at(key.first);
+    if (covered_s(std::move(stretches)) < half_s - 0.5) length.half_missing = true;
+  }
   return lengths;
 }
 

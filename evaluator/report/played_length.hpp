@@ -15,9 +15,11 @@ struct PlayedLength {
   std::int64_t session_id = 0;  ///< of the first recording
   double planned_s = 0.0;
   double recorded_s = 0.0;  ///< between words of the referee, stops included
+  bool half_missing = false;  ///< one of the planned halves, all as long, is not there or ends early
 
-  /// Less than was planned; the last cycle may end half a second early.
-  bool cut_short() const { return recorded_s < planned_s - 0.5; }
+  /// Less than was planned, all of it or of a half: a half that lasts until its last possession has ended makes up for
+  /// none of the next. The last cycle may end half a second early.
+  bool cut_short() const { return half_missing || recorded_s < planned_s - 0.5; }
 };
 
 /// Of every match whose length was planned (sessions.planned_s), in the order of `sessions`.

@@ -203,6 +203,15 @@ PairResult pair_result(const KickBook& book, const GroupResult& older, const Gro
   return pair;
 }
 
+/// An interval clear of 0 is not enough where the p of the test, for as many comparisons as were made, is not small.
+void say_holm(Headline& headline, double p_holm) {
+  using stats::Verdict;
+  headline.p_holm = p_holm;
+  const bool differs = headline.verdict == Verdict::kBetter || headline.verdict == Verdict::kBetterMaybeTooSmall ||
+                       headline.verdict == Verdict::kWorse;
+  if (differs && p_holm > 1.0 - stats::kConfidence) headline.verdict = Verdict::kNotEnoughData;
+}
+
 }  // namespace
 
 PolicyComparison compare_policies(KickBook book, const std::string& by, double smallest_effect) {
@@ -233,7 +242,7 @@ PolicyComparison compare_policies(KickBook book, const std::string& by, double s
   const auto adjusted = stats::holm(p_values);
   std::size_t next = 0;
   for (PairResult& pair : result.pairs) {
-    if (pair.headline) pair.headline->p_holm = adjusted[next++];
+    if (pair.headline) say_holm(*pair.headline, adjusted[next++]);
   }
   if (book.planned_shares.size() == book.groups.size()) {
     std::vector<std::int64_t> counts(book.groups.size());

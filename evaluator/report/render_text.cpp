@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "evaluator/report/render.hpp"
 #include "evaluator/report/text_table.hpp"
@@ -51,7 +52,9 @@ std::string heading(const Report& report) {
                           report.sessions.size());
     }
   }
-  for (const auto& session : report.sessions) {
+  constexpr std::size_t kMostSessions = 8;  // an experiment has thousands
+  const std::size_t shown = report.sessions.size() > kMostSessions ? kMostSessions / 2 : report.sessions.size();
+  for (const auto& session : std::span{report.sessions}.first(shown)) {
     text += fmt::format("Session {}: {} '{}'", printable(session.uuid), session.simulated ? "scenario" : "match",
                         printable(session.scenario));
     if (session.seed) text += fmt::format(", seed {}", *session.seed);
@@ -64,6 +67,8 @@ std::string heading(const Report& report) {
     if (!session.continues_uuid.empty())
       text += fmt::format("  it continues session {}\n", printable(session.continues_uuid));
   }
+  if (shown < report.sessions.size())
+    text += fmt::format("and {} more sessions, in --json each\n", report.sessions.size() - shown);
   for (const PlayedLength& length : report.lengths)
     text += fmt::format("Planned {:.0f} s, recorded {:.1f} s{}\n", length.planned_s, length.recorded_s,
                         length.cut_short() ? ": CUT SHORT" : "");
@@ -171,11 +176,11 @@ std::string quality(const Report& report) {
   for (const PolicyRow& row : report.policies) {
     if (row.unknown() == 0 && row.doubt.sum() <= 0.0) continue;
     const auto bounds = row.efficiency_bounds();
-    text += fmt::format("  efficiency of {} if every unknown kick was outside {}, inside {}", printable(row.policy),
-                        percent(bounds.lo), percent(bounds.hi));
+    text += fmt::format("  efficiency of {}: {} to {}", printable(row.policy), percent(bounds.lo), percent(bounds.hi));
+    if (row.unknown() > 0) text += ", whatever the unknown kicks were";
     if (row.doubt.sum() > 0.0) {
-      text += fmt::format("; with {} inside and {} outside mistaken", stats::most_wrong(row.doubt.inside),
-                          stats::most_wrong(row.doubt.outside));
+      text += fmt::format(", with up to {} labels of inside and {} of outside wrong",
+                          stats::most_wrong(row.doubt.inside), stats::most_wrong(row.doubt.outside));
     }
     text += "\n";
   }
@@ -187,8 +192,10 @@ std::string quality(const Report& report) {
 }
 
 std::string hint(const Report& report) {
-  if (report.policies.size() != 2) return "";
-  std::string text = "\nHow sure is the difference: trivela compare --counts";
+  const bool replays = std::ranges::any_of(
+      report.sessions, [](const log::RecordedSession& session) { return !session.replays_uuid.empty(); });
+  if (report.policies.size() != 2 || replays) return "";
+  std::string text = "\nHow sure is the difference: trivela compare LOG; by these counts alone: trivela compare --counts";
   for (const PolicyRow& row : report.policies) {
     if (row.counts().n == 0) return "";
     text += fmt::format(" {}={}/{}", printable(row.policy), row.counts().inside, row.counts().n);

@@ -9,8 +9,9 @@ namespace trivela::evaluator {
 namespace {
 
 constexpr std::string_view kScenario = "\n### scenario\n";
-constexpr std::array<std::string_view, 6> kInCharge{"policy_by_half = ",       "policy_by_robot = ", "random = ",
-                                                    "random_probabilities = ", "assignment_seed = ", "shadows = "};
+constexpr std::array<std::string_view, 7> kInCharge{
+    "policy_by_half = ",  "policy_by_robot = ", "random = ",      "random_probabilities = ",
+    "assignment_seed = ", "shadows = ",         "half_minutes = "};
 
 std::string without_who_is_in_charge(const std::string& settings) {
   std::istringstream lines{settings};

@@ -9,7 +9,7 @@ namespace trivela::evaluator {
 /// Numbers of what sessions were played with: the same number, the same text.
 struct SessionSetup {
   std::uint32_t world = 0;     ///< the scenario, whatever its file is called
-  std::uint32_t settings = 0;  ///< settings and robots, but for who is in charge of the kicks
+  std::uint32_t settings = 0;  ///< settings and robots, but for who is in charge of the kicks, and how long
 };
 
 /// Tells the configurations of a comparison's sessions apart.

@@ -1,7 +1,10 @@
 #include "evaluator/report/table2.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 #include "evaluator/metrics/bounces_by_policy.sql.hpp"
@@ -36,6 +39,23 @@ void forget_absent_robots(std::vector<log::RecordedSession>& sessions, const Log
     std::erase_if(session.policies, [&](const log::HalfPolicy& half) {
       return half.robot_id == 0 ? !others : !recorded.contains(half.robot_id);
     });
+  }
+}
+
+// Arms of an experiment meet the same opportunities: under one policy's name they would count several times.
+void refuse_arms_of_one_policy(const std::vector<log::RecordedSession>& sessions) {
+  std::map<std::string, std::set<std::string>> arms;  // by policy
+  for (const log::RecordedSession& session : sessions) {
+    for (const log::HalfPolicy& half : session.policies) {
+      if (session.arm) arms[half.policy].insert(*session.arm);
+    }
+  }
+  for (const auto& [policy, names] : arms) {
+    if (names.size() < 2) continue;
+    throw std::runtime_error(
+        fmt::format("'{}' is the policy of several arms ({}), which meet the same opportunities: a table by policy would "
+                    "count them more than once; trivela compare --by arm has a row for each",
+                    policy, fmt::join(names, ", ")));
   }
 }
 
@@ -154,6 +174,7 @@ bool Report::data_lost() const {
 Report make_report(const log::Reader& reader, bool blocked_apart) {
   const LoggedOpportunities logged = read_opportunities(reader, "this log", false);
   std::vector<log::RecordedSession> sessions = reader.sessions();
+  refuse_arms_of_one_policy(sessions);
   forget_absent_robots(sessions, logged);
   Report report{.sessions = sessions,
                 .policies = policy_rows(reader, sessions, logged, blocked_apart),

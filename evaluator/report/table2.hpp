@@ -101,7 +101,8 @@ struct Report {
 };
 
 /// Counts what is in the log. `blocked_apart`: blocked kicks stand apart, efficiency is of the others; otherwise they
-/// are outside, as in the paper's Table 2. Throws std::runtime_error where it cannot be read.
+/// are outside, as in the paper's Table 2. Throws std::runtime_error where it cannot be read, and where several
+/// arms of an experiment have the same policy.
 Report make_report(const log::Reader& reader, bool blocked_apart = false);
 
 }  // namespace trivela::evaluator

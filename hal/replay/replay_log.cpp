@@ -7,6 +7,14 @@
 
 namespace trivela::hal {
 
+void require_lockstep(const evaluator::log::Session& session, const std::filesystem::path& file) {
+  if (session.simulated_clock) return;
+  throw std::runtime_error{fmt::format(
+      "{}: recorded in real time, where every stream has instants of its own; only a log of a lockstep match "
+      "can be replayed through the nodes",
+      file.string())};
+}
+
 ReplayLog ReplayLog::open(const std::filesystem::path& file, int robot_id, std::optional<std::int64_t> session_id) {
   auto reader = std::make_shared<const evaluator::log::Reader>(file);
   const auto sessions = reader->sessions();

@@ -9,6 +9,9 @@
 
 namespace trivela::hal {
 
+/// Throws std::runtime_error naming the file where the session was not recorded in lockstep.
+void require_lockstep(const evaluator::log::Session& session, const std::filesystem::path& file);
+
 /// One robot's part of one session in a match log.
 struct ReplayLog {
   std::shared_ptr<const evaluator::log::Reader> reader;

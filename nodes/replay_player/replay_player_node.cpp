@@ -20,17 +20,6 @@ std::int64_t last_t_ns(const hal::ReplayLog& log) {
   return last;
 }
 
-void refuse_other_clocks(const hal::ReplayLog& log, const std::string& file) {
-  for (const auto& session : log.reader->sessions()) {
-    if (session.session_id == log.session_id && !session.simulated_clock) {
-      throw std::runtime_error{
-          fmt::format("{}: recorded in real time, where every stream has instants of its own; only a "
-                      "log of a lockstep match can be replayed through the nodes",
-                      file)};
-    }
-  }
-}
-
 }  // namespace
 
 ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
@@ -41,7 +30,8 @@ ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
       flight_(context.participant),
       referee_(context.participant),
       barrier_(context.participant, context.robot_id()) {
-  refuse_other_clocks(log_, context.settings.hal.replay_log);
+  for (const auto& session : log_.reader->sessions())
+    if (session.session_id == log_.session_id) hal::require_lockstep(session, context.settings.hal.replay_log);
 }
 
 void ReplayPlayerNode::run() {

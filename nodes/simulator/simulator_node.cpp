@@ -16,6 +16,17 @@
 namespace trivela::nodes {
 namespace {
 
+sim::Match match_of(const sim::Scenario& scenario, const config::Simulator& settings) {
+  return sim::Match{scenario,
+                    static_cast<std::uint64_t>(settings.seed),
+                    static_cast<int>(settings.halves),
+                    settings.half_minutes,
+                    settings.max_possessions,
+                    settings.paired_halves};
+}
+
+}  // namespace
+
 sim::Scenario scenario_of(const config::Settings& settings) {
   sim::Scenario scenario = config::load_scenario(settings.run.scenario);
   if (scenario.cycle_s != settings.run.cycle_s) {
@@ -34,17 +45,6 @@ sim::Scenario scenario_of(const config::Settings& settings) {
   }
   return scenario;
 }
-
-sim::Match match_of(const sim::Scenario& scenario, const config::Simulator& settings) {
-  return sim::Match{scenario,
-                    static_cast<std::uint64_t>(settings.seed),
-                    static_cast<int>(settings.halves),
-                    settings.half_minutes,
-                    settings.max_possessions,
-                    settings.paired_halves};
-}
-
-}  // namespace
 
 SimulatorNode::SimulatorNode(NodeContext& context)
     : context_(context),

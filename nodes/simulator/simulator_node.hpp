@@ -9,6 +9,10 @@
 
 namespace trivela::nodes {
 
+/// The world of run.scenario. Throws std::runtime_error naming file, key and values where these settings cannot be played
+/// in it.
+sim::Scenario scenario_of(const config::Settings& settings);
+
 /// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer, otherwise in
 /// real time. The world's time begins at 0. In lockstep it is every t_ns on the bus; in real time those are of the
 /// steady clock, so that a simulator that is started anew goes on where the nodes are. A fire that reaches the

@@ -12,11 +12,13 @@
 namespace trivela::evaluator {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
+using testing::ThrowsMessage;
 
 using ReportOfALog = LogTest;
 
@@ -147,7 +149,22 @@ TEST_F(ReportOfALog, UnknownOutcomesBoundTheEfficiency) {
   EXPECT_EQ(row.counts().n, 8);
   EXPECT_NEAR(row.efficiency_bounds().lo, 0.6, 1e-15);
   EXPECT_NEAR(row.efficiency_bounds().hi, 0.8, 1e-15);
-  EXPECT_THAT(to_text(report), HasSubstr("if every unknown kick was outside 60.0 %, inside 80.0 %"));
+  EXPECT_THAT(to_text(report), HasSubstr("efficiency of moving: 60.0 % to 80.0 %, whatever the unknown kicks were\n"));
+}
+
+TEST_F(ReportOfALog, ArmsOfOnePolicyAreNotAddedUp) {
+  auto arm = session();
+  arm.policies = {{1, "moving"}};
+  arm.match_id = 1;
+  arm.arm = "moving paper";
+  MatchLog(path(), arm, options()).close();
+  arm.uuid = "44444444-4444-4444-8444-444444444444";
+  arm.arm = "moving";
+  MatchLog(path("moving.db"), arm, options()).close();
+  merge(path("moving.db"), path());
+  EXPECT_THAT([&] { make_report(log::Reader(path())); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("'moving' is the policy of several arms"), HasSubstr("compare --by arm"))));
 }
 
 TEST_F(ReportOfALog, KicksThatMissAPartAreListed) {

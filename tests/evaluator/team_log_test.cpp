@@ -98,12 +98,18 @@ TEST_F(TeamLog, ComparedByRobotEachHasItsMinutes) {
 
 class LengthOfALog : public LogTest {
  protected:
-  Report report(double planned_s, double recorded_s) {
+  Report report(double planned_s, double recorded_s, std::optional<double> second_half_from_s = {}) {
     auto planned = session();
     planned.planned_s = planned_s;
+    planned.policies = {{1, "stopped"}};
+    if (second_half_from_s) planned.policies.push_back({2, "moving"});
     MatchLog match(path(), planned, options());
     match.referee(0.0, 1, true);
-    match.referee(recorded_s, 1, true);
+    if (second_half_from_s) {
+      match.referee(*second_half_from_s - 0.02, 1, true);
+      match.referee(*second_half_from_s, 2, true);
+    }
+    match.referee(recorded_s, second_half_from_s ? 2 : 1, true);
     match.close();
     return make_report(log::Reader(path()));
   }
@@ -121,6 +127,20 @@ TEST_F(LengthOfALog, AWholeOneIsNot) {
   const Report whole = report(300.0, 301.0);
   EXPECT_FALSE(whole.data_lost());
   EXPECT_THAT(to_text(whole), HasSubstr("Planned 300 s, recorded 301.0 s\n"));
+}
+
+TEST_F(LengthOfALog, HalvesThatOverranAreWhole) { EXPECT_FALSE(report(60.0, 66.0, 33.0).data_lost()); }
+
+TEST_F(LengthOfALog, AHalfThatOverranMakesUpForNoneOfTheNext) {
+  const Report cut = report(60.0, 61.0, 36.0);
+  EXPECT_TRUE(cut.data_lost());
+  EXPECT_THAT(to_text(cut), HasSubstr("Planned 60 s, recorded 61.0 s: CUT SHORT"));
+}
+
+TEST_F(LengthOfALog, AComparisonSaysThatAMatchWasCutShort) {
+  report(300.0, 27.0);
+  EXPECT_THAT(read_opportunities({path()}, false).remarks,
+              testing::Contains(HasSubstr("match.db: cut short: 27.0 s of 300.0 s are recorded")));
 }
 
 TEST_F(LengthOfALog, WhereNobodyPlannedOneNothingIsSaid) {
