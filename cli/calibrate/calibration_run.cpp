@@ -154,7 +154,13 @@ DriveSummary CalibrationRun::standing() {
         "(--kicks, now {})",
         power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, effort_.kicks)};
   }
-  for (const auto& [why, lobs] : refused) summary.left_out.push_back(fmt::format("{} flights: {}", lobs, why));
+  std::size_t seen = lobs.size();
+  for (const auto& [why, flights] : refused) {
+    summary.left_out.push_back(fmt::format("{} flights: {}", flights, why));
+    seen += flights;
+  }
+  if (seen < summary.kicks)
+    summary.left_out.push_back(fmt::format("{} kicks: no flight in the scans", summary.kicks - seen));
   summary.used = lobs.size();
   const kicking::TrackedTrials tracked = kicking::tracked_trials(followed(lobs));
   kicking::TableFit fit = kicking::fit_table(tracked.trials);
