@@ -184,7 +184,8 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, cons
     o.goal = kick.goal;
   }
   if (alone > 0 && !places.empty()) {
-    logged.remarks.push_back(fmt::format("{} kicks belong to no possession that the log knows", alone));
+    logged.remarks.push_back(
+        fmt::format("{} {} to no possession that the log knows", alone, alone == 1 ? "kick belongs" : "kicks belong"));
   }
 }
 

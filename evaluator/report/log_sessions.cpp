@@ -83,13 +83,15 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
 }
 
 void SessionBook::note_log(const log::Reader& reader, const std::string& name, std::int64_t again, std::int64_t open) {
-  const auto remark = [&](std::int64_t n, const char* what) {
-    if (n > 0) remarks_.push_back(fmt::format("{}: {} {}", name, n, what));
+  const auto remark = [&](std::int64_t n, const char* one, const char* many) {
+    if (n > 0) remarks_.push_back(fmt::format("{}: {} {}", name, n, n == 1 ? one : many));
   };
-  remark(again, "of its sessions stand in an earlier log, too, and count once");
+  remark(again, "of its sessions stands in an earlier log, too, and counts once",
+         "of its sessions stand in an earlier log, too, and count once");
   if (const auto doubt = reader.doubt(); doubt && !reader.verification().compared && reader.verification().rows > 0)
     remarks_.push_back(fmt::format("{}: {}", name, *doubt));
-  remark(open, "sessions were not closed, their last kicks may be missing");
+  remark(open, "session was not closed, its last kicks may be missing",
+         "sessions were not closed, their last kicks may be missing");
   reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches", [&](SessionCells row) {
     remarks_.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
                                    log::integer(row[0]), log::integer(row[1])));

@@ -196,9 +196,11 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
                                   ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
                                   : std::string();
     text +=
-        bullet(fmt::format("{} outcomes are unknown{}. If all of that went against {}, the crude difference would be "
+        bullet(fmt::format("{} unknown{}. If all of that went against {}, the crude difference {} would be "
                            "{:+.1f} points, if all for it {:+.1f}.",
-                           pair.unknown, wrong, pair.newer, 100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
+                           pair.unknown == 1 ? "1 outcome is" : fmt::format("{} outcomes are", pair.unknown), wrong,
+                           pair.newer, pair.headline->of_opportunities ? "an opportunity" : "in efficiency",
+                           100.0 * pair.bounds.lo, 100.0 * pair.bounds.hi));
   }
   if (const auto& clustered = (pair.headline->of_opportunities ? pair.per_opportunity : pair.efficiency)->clustered;
       clustered && clustered->calibrations > 1 && !clustered->by_calibration) {

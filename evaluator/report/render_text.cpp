@@ -195,7 +195,8 @@ std::string hint(const Report& report) {
   const bool replays = std::ranges::any_of(
       report.sessions, [](const log::RecordedSession& session) { return !session.replays_uuid.empty(); });
   if (report.policies.size() != 2 || replays) return "";
-  std::string text = "\nHow sure is the difference: trivela compare LOG; by these counts alone: trivela compare --counts";
+  std::string text =
+      "\nHow sure is the difference: trivela compare LOG; by these counts alone: trivela compare --counts";
   for (const PolicyRow& row : report.policies) {
     if (row.counts().n == 0) return "";
     text += fmt::format(" {}={}/{}", printable(row.policy), row.counts().inside, row.counts().n);

@@ -52,10 +52,10 @@ void refuse_arms_of_one_policy(const std::vector<log::RecordedSession>& sessions
   }
   for (const auto& [policy, names] : arms) {
     if (names.size() < 2) continue;
-    throw std::runtime_error(
-        fmt::format("'{}' is the policy of several arms ({}), which meet the same opportunities: a table by policy would "
-                    "count them more than once; trivela compare --by arm has a row for each",
-                    policy, fmt::join(names, ", ")));
+    throw std::runtime_error(fmt::format(
+        "'{}' is the policy of several arms ({}), which meet the same opportunities: a table by policy would "
+        "count them more than once; trivela compare --by arm has a row for each",
+        policy, fmt::join(names, ", ")));
   }
 }
 

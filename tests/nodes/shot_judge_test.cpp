@@ -124,12 +124,24 @@ TEST(ShotJudge, AHandfulOfSightingsTellNothing) {
 }
 
 TEST(ShotJudge, FourSightingsTellOfATurnAndOfNothingElse) {
-  auto seen = towards(0.0, 0.5, 0.02);  // two on their way, two of a ball that an opponent sent back
-  const Eigen::Vector3d hit_m = seen.back().ball_m;
-  for (int i = 1; i <= 2; ++i)
-    seen.push_back({seen.back().t_ns + 20'000'000, hit_m + Eigen::Vector3d{0.04 * i, -0.08 * i, 0.0}});
-  EXPECT_EQ(judged(seen, FlightEnd::kTakenAway), Outcome::kBlocked);
-  EXPECT_EQ(judged(towards(0.0, 0.5, 0.06), FlightEnd::kTakenAway), Outcome::kUnknown) << "as many, straight on";
+  const auto outcome_of = [](const std::vector<Sighting>& seen) {
+    const ShotTrack track{.sightings = seen,
+                          .end = FlightEnd::kTakenAway,
+                          .release_t_ns = 0,
+                          .end_t_ns = 120'000'000,
+                          .expected_speed_mps = 8.0,
+                          .expected_climb_mps = std::nullopt,
+                          .ball_sd_m = 0.01};
+    return judge_shot(track, kGoal, kSettings).outcome;
+  };
+  auto straight = towards(0.0, 0.5, 0.1);
+  straight.erase(straight.begin(), straight.begin() + 2);  // the dropouts' part
+  auto turned = straight;
+  for (int i = 2; i < 4; ++i)  // an opponent sent it back
+    turned[i].ball_m = turned[1].ball_m + (i - 1) * Eigen::Vector3d{0.04, -0.08, 0.0};
+  ASSERT_EQ(turned.size(), 4u);
+  EXPECT_EQ(outcome_of(turned), Outcome::kBlocked);
+  EXPECT_EQ(outcome_of(straight), Outcome::kUnknown);
 }
 
 TEST(ShotJudge, AGoalOfAnotherSizeIsJudgedByItsSize) {
