@@ -156,11 +156,11 @@ DriveSummary CalibrationRun::standing() {
   }
   std::size_t seen = lobs.size();
   for (const auto& [why, flights] : refused) {
-    summary.left_out.push_back(fmt::format("{} flights: {}", flights, why));
+    summary.left_out.push_back(fmt::format("{} flight{}: {}", flights, flights == 1 ? "" : "s", why));
     seen += flights;
   }
-  if (seen < summary.kicks)
-    summary.left_out.push_back(fmt::format("{} kicks: no flight in the scans", summary.kicks - seen));
+  if (const std::size_t unseen = summary.kicks - std::min(seen, summary.kicks); unseen > 0)
+    summary.left_out.push_back(fmt::format("{} kick{}: no flight in the scans", unseen, unseen == 1 ? "" : "s"));
   summary.used = lobs.size();
   const kicking::TrackedTrials tracked = kicking::tracked_trials(followed(lobs));
   kicking::TableFit fit = kicking::fit_table(tracked.trials);

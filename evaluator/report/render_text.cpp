@@ -179,8 +179,8 @@ std::string quality(const Report& report) {
     text += fmt::format("  efficiency of {}: {} to {}", printable(row.policy), percent(bounds.lo), percent(bounds.hi));
     if (row.unknown() > 0) text += ", whatever the unknown kicks were";
     if (row.doubt.sum() > 0.0) {
-      text += fmt::format(", with up to {} labels of inside and {} of outside wrong",
-                          stats::most_wrong(row.doubt.inside), stats::most_wrong(row.doubt.outside));
+      text += fmt::format("; mislabelled at most: {} inside, {} outside", stats::most_wrong(row.doubt.inside),
+                          stats::most_wrong(row.doubt.outside));
     }
     text += "\n";
   }

@@ -53,9 +53,9 @@ struct ShotTrack {
 ///
 /// Where the crossing may lie is a normal distribution over the regions of classify(); what followed the crossing
 /// decides between the regions that let a ball pass and those that throw it back. The likeliest outcome is given where
-/// its probability is at least `label_probability`, otherwise, and with fewer than five sightings, kUnknown. A ball
-/// that flew freely up to the referee's stop before the line is kUnknown, too: nothing was seen that stopped it. What
-/// is left of 1 of the probabilities is just that.
+/// its probability is at least `label_probability`, otherwise kUnknown; fewer than five sightings tell of kBlocked and
+/// of nothing else. A ball that flew freely up to the referee's stop before the line is kUnknown, too: nothing was seen
+/// that stopped it. What is left of 1 of the probabilities is just that.
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings);
 
 }  // namespace trivela::nodes
