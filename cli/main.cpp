@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include "cli/finite_numbers.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
+#include "config/software_version.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace cli = trivela::cli;
@@ -34,7 +37,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "trivela " TRIVELA_VERSION);
+  app.set_version_flag("--version", fmt::format("trivela {}", trivela::config::software_version()));
   app.footer("Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");
   int exit_code = cli::kDone;
   cli::add_match(app, exit_code);

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "cli/verbs.hpp"
+#include "config/software_version.hpp"
 
 namespace trivela::cli {
 
@@ -22,7 +23,7 @@ evaluator::log::ScanSession scanner_session(const hal::RangeFinder& finder, cons
           .realtime_offset_ns = since(std::chrono::system_clock::now()) - steady_ns,
           .simulated = identity.vendor == "Trivela" || identity.vendor == "synthetic",
           .source = device,
-          .software_version = TRIVELA_VERSION};
+          .software_version = config::software_version()};
 }
 
 void refuse_existing(const std::filesystem::path& record) {

@@ -7,6 +7,7 @@
 #include "cli/verbs.hpp"
 #include "cli/write_file.hpp"
 #include "config/robot.hpp"
+#include "config/software_version.hpp"
 #include "sim/random.hpp"
 
 namespace trivela::cli {
@@ -79,7 +80,7 @@ SyntheticScans synthesize(const SyntheticFlags& flags, const MountFlags& mount) 
                   .mount = made.record.mount,
                   .simulated = true,
                   .source = fmt::format("synthetic, seed {}", flags.seed),
-                  .software_version = TRIVELA_VERSION};
+                  .software_version = config::software_version()};
   return made;
 }
 

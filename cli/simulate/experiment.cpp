@@ -14,6 +14,7 @@
 #include "cli/simulate/match_queue.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
+#include "config/software_version.hpp"
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
@@ -75,7 +76,7 @@ Session session_of(const ExperimentPlan& plan, const nodes::Arm& arm) {
   if (arm.robots.size() == 1 && nodes::team_size(plan.scenario) == 1) session.robot_id = 1;
   session.simulated = session.simulated_clock = true;
   session.config_toml = nodes::session_config(nodes::settings_of(arm, plan.options), arm.robots, &plan.scenario);
-  session.software_version = nodes::software_version();
+  session.software_version = config::software_version();
   session.scenario = plan.scenario_name;
   session.idl = nodes::idl_text();
   session.policies = policies_of(plan, arm);
@@ -207,7 +208,7 @@ void print_arms(const ExperimentPlan& plan, const std::string& out, const std::v
 
 std::string ExperimentPlan::arguments() const {
   std::string text = fmt::format("program = {}\nseed = {}\npossessions = {}\nshadows = {}\nevery_cycle = {}\n",
-                                 nodes::software_version(), seed, possessions, options.shadows, options.every_cycle);
+                                 config::software_version(), seed, possessions, options.shadows, options.every_cycle);
   text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
   for (const nodes::Arm& arm : arms) text += "\n### arm\n" + describe(arm);
   for (std::size_t k = 0; k < evenings.size(); ++k) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "config/scenario.hpp"
+#include "config/software_version.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/value.hpp"
 #include "nodes/kick_decision/assignment.hpp"
@@ -70,7 +71,7 @@ Session session_of(const NodeContext& context) {
     scenario = config::load_scenario(settings.run.scenario);
   }
   session.config_toml = session_config(settings, {context.robot}, scenario ? &*scenario : nullptr);
-  session.software_version = software_version();
+  session.software_version = config::software_version();
   session.idl = idl_text();
   const std::size_t by_half = settings.kick_decision.policy_by_half.size();
   session.policies =

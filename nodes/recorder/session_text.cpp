@@ -35,6 +35,4 @@ std::string session_config(const config::Settings& settings, const std::vector<c
 
 const char* idl_text() { return kIdlText; }
 
-const char* software_version() { return TRIVELA_VERSION; }
-
 }  // namespace trivela::nodes

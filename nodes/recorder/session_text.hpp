@@ -18,7 +18,4 @@ std::string session_config(const config::Settings& settings, const std::vector<c
 /// The definition of the messages.
 const char* idl_text();
 
-/// Of the program, with the commit that it was built from.
-const char* software_version();
-
 }  // namespace trivela::nodes

@@ -19,6 +19,7 @@
 #include "bus/library_log.hpp"
 #include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
+#include "config/software_version.hpp"
 #include "kicking/text/printable.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
@@ -81,7 +82,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   secure_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
   CLI::App app{fmt::format("Trivela's {} node", name)};
-  app.set_version_flag("--version", fmt::format("trivela-{} {}", name, TRIVELA_VERSION));
+  app.set_version_flag("--version", fmt::format("trivela-{} {}", name, config::software_version()));
   std::string config_file;
   std::vector<std::string> overrides;
   int realtime_priority = 0;

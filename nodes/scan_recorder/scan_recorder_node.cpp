@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "config/software_version.hpp"
 #include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -27,7 +28,7 @@ evaluator::log::ScanSession session_of_scans(const NodeContext& context, const h
   session.source = session.simulated
                        ? "synthetic: scenario " + std::filesystem::path{context.settings.run.scenario}.stem().string()
                        : settings.device;
-  session.software_version = TRIVELA_VERSION;
+  session.software_version = config::software_version();
   return session;
 }
 
