@@ -9,6 +9,7 @@
 namespace trivela::e2e {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -45,7 +46,8 @@ TEST(SimulateArms, ARefusedCommandDoesNotBlockTheCorrectedOne) {
       refusal(folder,
               {"--arms", "moving@old", "--set", "policy.target_height_m=2.0", "--set", "policy.height_law=\"exact\""},
               1),
-      HasSubstr("arm moving@old: height table"));
+      AllOf(HasSubstr("arm moving@old: robot calibrated_1 with policy.target_height_m = 2: height_table: "),
+            HasSubstr("distances_m[1] = ")));
 }
 
 TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
