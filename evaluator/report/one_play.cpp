@@ -82,6 +82,7 @@ void join_by_time(const std::vector<ComparedSession>& sessions, const std::vecto
 void leave_out_repetitions(std::vector<ComparedSession>& sessions) {
   using SameRows = std::tuple<bool, std::int64_t, std::string, std::string, std::string, std::optional<std::int64_t>>;
   std::map<SameRows, Place> best;
+  std::set<std::uint32_t> again;  // plays, all of whose recordings are left out
   for (Place i = 0; i < sessions.size(); ++i) {
     ComparedSession& session = sessions[i];
     if (!session.lockstep || !session.seed || session.is_replay) continue;
@@ -90,9 +91,10 @@ void leave_out_repetitions(std::vector<ComparedSession>& sessions) {
     const auto [place, first] = best.try_emplace(key, i);
     if (first || sessions[place->second].play == session.play) continue;
     const bool better = more_complete(session, sessions[place->second]);
-    (better ? sessions[place->second] : session).counts = false;
+    again.insert((better ? sessions[place->second] : session).play);
     if (better) place->second = i;
   }
+  for (ComparedSession& session : sessions) session.counts = session.counts && !again.contains(session.play);
 }
 
 /// Nor does a half count twice that two matches in lockstep have alike: the possessions of a half are drawn from the
@@ -100,18 +102,23 @@ void leave_out_repetitions(std::vector<ComparedSession>& sessions) {
 void leave_out_repeated_halves(std::vector<ComparedSession>& sessions) {
   using SameHalf = std::tuple<std::int64_t, std::uint32_t, std::uint32_t, int, std::string>;
   std::map<SameHalf, Place> best;
+  std::set<std::pair<std::uint32_t, int>> again;  // play and half
   for (Place i = 0; i < sessions.size(); ++i) {
-    ComparedSession& session = sessions[i];
+    const ComparedSession& session = sessions[i];
     if (!session.lockstep || !session.seed || session.match_id || session.is_replay || !session.counts) continue;
     for (const auto& [half, policies] : session.in_charge) {
       const auto [place, first] =
           best.try_emplace({*session.seed, session.setup.world, session.setup.settings, half, policies}, i);
-      ComparedSession& other = sessions[place->second];
+      const ComparedSession& other = sessions[place->second];
       if (first || other.play == session.play) continue;
       const bool better = more_complete(session, other);
-      (better ? other : session).halves_left_out.insert(half);
+      again.emplace((better ? other : session).play, half);
       if (better) place->second = i;
     }
+  }
+  for (const auto& [play, half] : again) {
+    for (ComparedSession& session : sessions)
+      if (session.play == play) session.halves_left_out.insert(half);
   }
 }
 

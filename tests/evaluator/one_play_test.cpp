@@ -184,6 +184,8 @@ TEST_F(OnePlay, AHalfThatTwoMatchesHaveAlikeCountsOnce) {
   });
   EXPECT_EQ(read({"match.db", "longer.db"}).rows.size(), 11u) << "the longer one holds the other";
   EXPECT_EQ(read({"longer.db", "match.db"}).rows.size(), 11u);
+  write("second_recorder.db", of(5, "moving"), rows);
+  EXPECT_EQ(read({"match.db", "second_recorder.db", "longer.db"}).rows.size(), 11u) << "nor does another recording";
   const auto both = read({"match.db", "other.db"});
   EXPECT_EQ(both.rows.size(), 13u) << "the first half is the same, the second of another policy";
   EXPECT_THAT(both.remarks, Contains(HasSubstr("1 of its halves was played before with the same seed")));
