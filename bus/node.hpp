@@ -12,10 +12,10 @@
 #include "bus/graph.hpp"
 #include "bus/last_heard.hpp"
 #include "bus/mailbox.hpp"
-#include "bus/messages.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::bus {
 

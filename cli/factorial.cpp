@@ -4,20 +4,21 @@
 #include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/factorial/report.hpp"
 #include "cli/open_file.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
+#include "experiment/factorial/report.hpp"
 
 namespace trivela::cli {
 namespace {
 
 struct FactorialFlags {
   Study study;
-  std::string config = TRIVELA_CONFIG_DIR "/default.toml";
+  std::string config = config::shipped("default.toml").string();
   std::vector<std::string> robots{"calibrated_1"};
   std::vector<double> opponent_medians_m{0.75, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0};
-  Law law = Law::kReleased;
+  experiment::Law law = experiment::Law::kReleased;
   std::vector<double> eye_biases_m{0.0, 0.1, 0.15};
   bool no_sweep = false;
   std::string blocked = "outside";
@@ -27,16 +28,17 @@ void factorial(FactorialFlags flags) {
   require_writable(flags.study);
   const sim::Scenario scenario = flags.study.world.load();
   const config::Settings settings = config::load_settings(flags.config);
-  FactorialReport report{.scenario = flags.study.scenario_name(),
-                         .seed = flags.study.plan.seed,
-                         .matches = flags.study.plan.matches,
-                         .possessions = flags.study.plan.possessions,
-                         .hand_eye_sd_m = scenario.hand_table.eye_height_sd_m,
-                         .hand_day_sd_ratio = scenario.hand_table.day_sd_ratio,
-                         .opponent_median_m = scenario.opponent.distance_median_m,
-                         .sweep_law = flags.law,
-                         .efficiency = flags.blocked == "apart" ? Measure::kUnblocked : Measure::kEfficiency,
-                         .keeper = scenario.keeper.enabled};
+  experiment::FactorialReport report{
+      .scenario = flags.study.scenario_name(),
+      .seed = flags.study.plan.seed,
+      .matches = flags.study.plan.matches,
+      .possessions = flags.study.plan.possessions,
+      .hand_eye_sd_m = scenario.hand_table.eye_height_sd_m,
+      .hand_day_sd_ratio = scenario.hand_table.day_sd_ratio,
+      .opponent_median_m = scenario.opponent.distance_median_m,
+      .sweep_law = flags.law,
+      .efficiency = flags.blocked == "apart" ? experiment::Measure::kUnblocked : experiment::Measure::kEfficiency,
+      .keeper = scenario.keeper.enabled};
   std::vector<config::Robot> robots;
   for (const std::string& robot : flags.robots) {
     robots.push_back(config::load_robot(find_robot(robot)));
@@ -45,17 +47,18 @@ void factorial(FactorialFlags flags) {
   flags.study.draw_evenings(scenario, {flags.config, {}, {}});
   const std::size_t evenings = flags.study.plan.evenings.size();
   if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
-  std::vector<nodes::Arm> arms;
-  for (const Cell& cell : factorial_cells()) {
+  std::vector<experiment::Arm> arms;
+  for (const experiment::Cell& cell : experiment::factorial_cells()) {
     report.cells.push_back({cell, {}});
-    arms.push_back(arm_of(cell, settings, robots));
+    arms.push_back(experiment::arm_of(cell, settings, robots));
   }
-  if (evenings == 0) warn_of_shared_robots(scenario, arms);
+  if (evenings == 0) experiment::warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 
-  const std::vector<nodes::Arm> pair{arm_of({"old", kicking::PolicyName::kStopped, flags.law}, settings, robots),
-                                     arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
+  const std::vector<experiment::Arm> pair{
+      experiment::arm_of({"old", kicking::PolicyName::kStopped, flags.law}, settings, robots),
+      experiment::arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
   const auto points_of = [&](std::vector<double> values) {
     if (flags.no_sweep) values.clear();
     std::ranges::sort(values);
@@ -103,8 +106,10 @@ void add_factorial(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"outside", "apart"}))
       ->capture_default_str();
   verb->add_option("--law", flags->law, "Law of both sides of the sweeps")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Law>{{"paper", Law::kPaper}, {"released", Law::kReleased}, {"exact", Law::kExact}}))
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, experiment::Law>{{"paper", experiment::Law::kPaper},
+                                                                         {"released", experiment::Law::kReleased},
+                                                                         {"exact", experiment::Law::kExact}}))
       ->default_str("released");
   verb->add_flag("--no-sweep", flags->no_sweep, "The factorial alone");
   verb->footer(

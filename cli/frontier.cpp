@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/frontier/report.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
+#include "experiment/frontier/report.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -11,9 +12,9 @@ namespace {
 struct FrontierFlags {
   std::string policy = "predictive";
   std::vector<double> thresholds{0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95};
-  std::string beside = TRIVELA_CONFIG_DIR "/arms/baselines.toml";
+  std::string beside = config::shipped("arms/baselines.toml").string();
   Study study;
-  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
 };
 
 void frontier(const FrontierFlags& flags) {
@@ -22,32 +23,32 @@ void frontier(const FrontierFlags& flags) {
   std::vector<double> thresholds = flags.thresholds;
   std::ranges::sort(thresholds);
   thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
-  std::vector<nodes::Arm> arms;
+  std::vector<experiment::Arm> arms;
   for (const double threshold : thresholds) {
-    nodes::Arm arm = arms_of(flags.policy, flags.base).front();
+    experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
     arm.settings.policy.predictive.threshold = threshold;
     arms.push_back(std::move(arm));
   }
   for (const std::string& text : {flags.beside, std::string{"oracle"}}) {
-    for (nodes::Arm& arm : arms_of(text, flags.base)) arms.push_back(std::move(arm));
+    for (experiment::Arm& arm : experiment::arms_of(text, flags.base)) arms.push_back(std::move(arm));
   }
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
-  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
+  if (study.plan.evenings.empty()) experiment::warn_of_shared_robots(scenario, arms);
   auto played = play_with_bar(scenario, arms, study.plan, "the frontier");
-  FrontierReport report{.policy = flags.policy,
-                        .scenario = flags.study.scenario_name(),
-                        .seed = flags.study.plan.seed,
-                        .matches = flags.study.plan.matches,
-                        .possessions = flags.study.plan.possessions,
-                        .points = {},
-                        .fixed = {},
-                        .oracle = {},
-                        .evenings = study.plan.evenings.size()};
+  experiment::FrontierReport report{.policy = flags.policy,
+                                    .scenario = flags.study.scenario_name(),
+                                    .seed = flags.study.plan.seed,
+                                    .matches = flags.study.plan.matches,
+                                    .possessions = flags.study.plan.possessions,
+                                    .points = {},
+                                    .fixed = {},
+                                    .oracle = {},
+                                    .evenings = study.plan.evenings.size()};
   const std::size_t n = thresholds.size();
   for (std::size_t i = 0; i < n; ++i) report.points.push_back({thresholds[i], std::move(played[i])});
   for (std::size_t i = n; i + 1 < arms.size(); ++i) report.fixed.push_back({arms[i].name, std::move(played[i])});
-  report.oracle = FixedPoint{arms.back().name, std::move(played.back())};
+  report.oracle = experiment::FixedPoint{arms.back().name, std::move(played.back())};
   give(study, report);
 }
 

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "cli/lob_page/page_verb.hpp"
+#include "cli/lob/page_verb.hpp"
 #include "cli/lob_points.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"

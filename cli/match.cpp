@@ -9,6 +9,7 @@
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 #include "nodes/simulator/simulator_node.hpp"
@@ -35,7 +36,7 @@ struct MatchFlags {
   std::int64_t seed = 1;
   int domain = -1;
   std::string out = "match.db";
-  std::string config = TRIVELA_CONFIG_DIR "/default.toml";
+  std::string config = config::shipped("default.toml").string();
   std::vector<std::string> overrides;
   std::string log_level = "warn";
 };

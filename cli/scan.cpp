@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "calibration/scanner_session.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/scan/scanner_session.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 
@@ -65,7 +65,7 @@ void add_synthetic_flags(CLI::App& verb, SyntheticFlags& flags) {
 int run(ScanFlags& flags) {
   if (!flags.info.empty()) return show_scan_info(flags.info, flags.json);
   if (!flags.synthesize.empty()) {
-    refuse_existing(flags.synthesize);
+    calibration::refuse_existing(flags.synthesize);
     return write_synthetic(synthesize(flags.synthetic, flags.mount), flags.synthesize, flags.truth);
   }
   if (!flags.record.empty()) {

@@ -6,9 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cli/sensitivity/report.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
+#include "experiment/sensitivity/report.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -16,23 +17,24 @@ namespace {
 struct SensitivityFlags {
   std::string arms = "stopped@old,stopped,moving,predictive";
   Study study;
-  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   std::vector<std::string> inputs;
   bool goals = false;
 };
 
-std::vector<UncertainInput> chosen(const std::vector<std::string>& keys, const sim::Scenario& scenario) {
-  const auto all = uncertain_inputs();
-  std::vector<UncertainInput> some;
+std::vector<experiment::UncertainInput> chosen(const std::vector<std::string>& keys, const sim::Scenario& scenario) {
+  const auto all = experiment::uncertain_inputs();
+  std::vector<experiment::UncertainInput> some;
   if (keys.empty()) {
-    std::ranges::copy_if(all, std::back_inserter(some), [&](const auto& input) { return in_force(scenario, input); });
+    std::ranges::copy_if(all, std::back_inserter(some),
+                         [&](const auto& input) { return experiment::in_force(scenario, input); });
     return some;
   }
   for (const std::string& key : keys) {
-    const auto found = std::ranges::find(all, key, &UncertainInput::key);
+    const auto found = std::ranges::find(all, key, &experiment::UncertainInput::key);
     if (found == all.end()) throw UsageError{fmt::format("--input: \"{}\" is none of the uncertain inputs", key)};
     if (std::ranges::count(keys, key) > 1) throw UsageError{fmt::format("--input: \"{}\" stands twice", key)};
-    if (!in_force(scenario, *found)) {
+    if (!experiment::in_force(scenario, *found)) {
       throw UsageError{
           fmt::format("--input: \"{}\" is off in this scenario: it has no {}", key, key.substr(0, key.find('.')))};
     }
@@ -44,7 +46,7 @@ std::vector<UncertainInput> chosen(const std::vector<std::string>& keys, const s
 /// None, and a remark, where the scenario's other values leave no room for this one.
 std::optional<sim::Scenario> playable_with(const sim::Scenario& scenario, const std::string& key, double value) {
   try {
-    return cli::with(scenario, key, value);
+    return experiment::with(scenario, key, value);
   } catch (const std::invalid_argument& error) {
     warn(fmt::format("left out: {}", error.what()));
     return std::nullopt;
@@ -52,40 +54,43 @@ std::optional<sim::Scenario> playable_with(const sim::Scenario& scenario, const 
 }
 
 /// The arms with another value of a setting.
-std::vector<nodes::Arm> with(std::vector<nodes::Arm> arms, const std::string& key, double value) {
-  for (nodes::Arm& arm : arms) arm.settings.policy = cli::with(arm.settings.policy, key, value);
+std::vector<experiment::Arm> with(std::vector<experiment::Arm> arms, const std::string& key, double value) {
+  for (experiment::Arm& arm : arms) arm.settings.policy = experiment::with(arm.settings.policy, key, value);
   return arms;
 }
 
 void sensitivity(const SensitivityFlags& flags) {
   require_writable(flags.study);
   const sim::Scenario scenario = flags.study.world.load();
-  const std::vector<nodes::Arm> arms = arms_of(flags.arms, flags.base);
-  const std::vector<UncertainInput> inputs = chosen(flags.inputs, scenario);
+  const std::vector<experiment::Arm> arms = experiment::arms_of(flags.arms, flags.base);
+  const std::vector<experiment::UncertainInput> inputs = chosen(flags.inputs, scenario);
   if (arms.size() < 2) throw UsageError{"--arms: two or more, each is compared with the one before it"};
   if (flags.goals && !scenario.keeper.enabled)
     throw UsageError{"--goals: this scenario has no keeper; see config/scenarios/keeper.toml"};
-  SensitivityReport report{.scenario = flags.study.scenario_name(),
-                           .seed = flags.study.plan.seed,
-                           .matches = flags.study.plan.matches,
-                           .possessions = flags.study.plan.possessions,
-                           .arms = {},
-                           .base = {},
-                           .inputs = {},
-                           .measure = flags.goals ? Measure::kGoals : Measure::kPerOpportunity,
-                           .evenings = flags.study.calibrations};
-  for (const nodes::Arm& arm : arms) report.arms.push_back(arm.name);
+  experiment::SensitivityReport report{
+      .scenario = flags.study.scenario_name(),
+      .seed = flags.study.plan.seed,
+      .matches = flags.study.plan.matches,
+      .possessions = flags.study.plan.possessions,
+      .arms = {},
+      .base = {},
+      .inputs = {},
+      .measure = flags.goals ? experiment::Measure::kGoals : experiment::Measure::kPerOpportunity,
+      .evenings = flags.study.calibrations};
+  for (const experiment::Arm& arm : arms) report.arms.push_back(arm.name);
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
-  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
+  if (study.plan.evenings.empty()) experiment::warn_of_shared_robots(scenario, arms);
   report.base = play_with_bar(scenario, arms, study.plan, "the scenario");
-  for (const UncertainInput& input : inputs) {
-    const bool setting = is_setting(input.key);
-    PlayedInput played{
-        input, setting ? value_of(arms.front().settings.policy, input.key) : value_of(scenario, input.key), {}};
+  for (const experiment::UncertainInput& input : inputs) {
+    const bool setting = experiment::is_setting(input.key);
+    experiment::PlayedInput played{input,
+                                   setting ? experiment::value_of(arms.front().settings.policy, input.key)
+                                           : experiment::value_of(scenario, input.key),
+                                   {}};
     for (const double value : {input.low, input.high}) {
       if (value == played.value) continue;
-      const std::string what = fmt::format("{} = {}", input.key, value_text(input.key, value));
+      const std::string what = fmt::format("{} = {}", input.key, experiment::value_text(input.key, value));
       if (setting) {
         played.ends.push_back({value, play_with_bar(scenario, with(arms, input.key, value), study.plan, what)});
       } else if (const auto world = playable_with(scenario, input.key, value)) {
@@ -94,7 +99,7 @@ void sensitivity(const SensitivityFlags& flags) {
     }
     report.inputs.push_back(std::move(played));
   }
-  sort_by_change(report);
+  experiment::sort_by_change(report);
   give(study, report);
 }
 
@@ -111,7 +116,8 @@ void add_sensitivity(CLI::App& app, int& exit_code) {
   verb->add_flag("--goals", flags->goals, "Goals past the keeper instead of shots on target");
   verb->footer(
       "Each uncertain input of the scenario and each setting of the policies is set to a low and a high value\n"
-      "(cli/sensitivity/inputs.cpp says which and why), one at a time, and the same opportunities are played. Robots\n"
+      "(experiment/sensitivity/inputs.cpp says which and why), one at a time, and the same opportunities are played. "
+      "Robots\n"
       "are not calibrated anew. Inputs of the hand table matter to arms with it (@old) alone.");
   verb->callback([flags, &exit_code] {
     sensitivity(*flags);

@@ -6,11 +6,12 @@
 #include <thread>
 
 #include "cli/number_checks.hpp"
-#include "cli/simulate/arms.hpp"
-#include "cli/simulate/experiment.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "cli/world.hpp"
+#include "config/place.hpp"
+#include "experiment/run/arms.hpp"
+#include "experiment/run/experiment.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -24,24 +25,24 @@ struct SimulateFlags {
   unsigned jobs = 1;
   std::string out = "ab.db";
   World world;
-  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   bool shadows = false;
   bool every_cycle = false;
 };
 
 int simulate(const SimulateFlags& flags) {
-  ExperimentPlan plan;
+  experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();
   plan.scenario_name = flags.world.named(std::filesystem::path{flags.world.file}.stem().string());
-  plan.arms = arms_of(flags.arms, flags.base);
+  plan.arms = experiment::arms_of(flags.arms, flags.base);
   plan.seed = flags.seed;
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
-  plan.evenings =
-      teams_of_evenings(plan.scenario, flags.base, {flags.calibrations, flags.matches, flags.seed, flags.jobs});
-  if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
-  return run_experiment(plan, flags.jobs, flags.out);
+  plan.evenings = experiment::teams_of_evenings(plan.scenario, flags.base,
+                                                {flags.calibrations, flags.matches, flags.seed, flags.jobs});
+  if (plan.evenings.empty()) experiment::warn_of_shared_robots(plan.scenario, plan.arms);
+  return experiment::run_experiment(plan, flags.jobs, flags.out);
 }
 
 }  // namespace

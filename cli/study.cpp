@@ -11,12 +11,12 @@ namespace trivela::cli {
 
 std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
-void Study::draw_evenings(const sim::Scenario& scenario, const ArmBase& base) {
-  plan.evenings = teams_of_evenings(scenario, base, {calibrations, plan.matches, plan.seed, plan.jobs});
+void Study::draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base) {
+  plan.evenings = experiment::teams_of_evenings(scenario, base, {calibrations, plan.matches, plan.seed, plan.jobs});
 }
 
 void add_play_options(CLI::App& verb, Study& study) {
-  PlayPlan& plan = study.plan;
+  experiment::PlayPlan& plan = study.plan;
   verb.add_option("--matches", plan.matches, "Matches of each arm")
       ->check(CLI::Range(2, 1000000))
       ->capture_default_str();
@@ -45,7 +45,7 @@ void add_study_options(CLI::App& verb, Study& study) {
   verb.add_flag("--json", study.json, "JSON instead of text");
 }
 
-void add_arm_options(CLI::App& verb, ArmBase& base) {
+void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
   verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones");
   verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
   verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");
@@ -58,10 +58,10 @@ void require_writable(const Study& study) {
   require_writable("--svg", study.svg);
 }
 
-std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,
-                                    const PlayPlan& plan, const std::string& what) {
+std::vector<experiment::ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                                                const experiment::PlayPlan& plan, const std::string& what) {
   ProgressBar bar;
-  return play_arms(scenario, arms, plan, [&](std::size_t done, std::size_t all) {
+  return experiment::play_arms(scenario, arms, plan, [&](std::size_t done, std::size_t all) {
     bar.show(static_cast<double>(done), static_cast<double>(all), what);
   });
 }

@@ -9,19 +9,19 @@
 #include <thread>
 #include <vector>
 
-#include "cli/factorial/play.hpp"
 #include "cli/say.hpp"
-#include "cli/simulate/arms.hpp"
-#include "cli/simulate/evenings.hpp"
 #include "cli/world.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "experiment/factorial/play.hpp"
+#include "experiment/run/arms.hpp"
+#include "experiment/run/evenings.hpp"
 
 namespace trivela::cli {
 
 /// What the verbs have in common that play many matches of several arms and report on them.
 struct Study {
-  PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
+  experiment::PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
   World world;
   std::uint32_t calibrations = 0;  ///< evenings; 0: the robot files as they are
   std::string csv, svg;
@@ -31,7 +31,7 @@ struct Study {
   std::string scenario_name() const;
 
   /// Plays the evenings of calibration of the plan's seed into the plan, before its matches.
-  void draw_evenings(const sim::Scenario& scenario, const ArmBase& base);
+  void draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base);
 };
 
 /// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.
@@ -44,14 +44,14 @@ void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
 void add_study_options(CLI::App& verb, Study& study);
 
 /// --robot, --config, --set.
-void add_arm_options(CLI::App& verb, ArmBase& base);
+void add_arm_options(CLI::App& verb, experiment::ArmBase& base);
 
 /// Throws, before anything is played, where --csv or --svg cannot be written or are the same file.
 void require_writable(const Study& study);
 
 /// Plays the arms with a progress bar that says what they are played for.
-std::vector<ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<nodes::Arm>& arms,
-                                    const PlayPlan& plan, const std::string& what);
+std::vector<experiment::ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                                                const experiment::PlayPlan& plan, const std::string& what);
 
 /// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
 /// than the file.

@@ -8,9 +8,10 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/study.hpp"
-#include "cli/tune/report.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
 #include "config/scenario.hpp"
+#include "experiment/tune/report.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -22,19 +23,19 @@ struct TuneFlags {
   std::string out;
   std::optional<std::uint64_t> held_out_seed;
   Study study;
-  ArmBase base{TRIVELA_CONFIG_DIR "/default.toml", {}, {}};
+  experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
 };
 
 /// Somebody asked to stop.
 struct Interrupted {};
 
-std::vector<Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName policy) {
-  const std::vector<Coordinate> all = tuned_space(policy);
+std::vector<experiment::Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName policy) {
+  const std::vector<experiment::Coordinate> all = experiment::tuned_space(policy);
   if (flags.settings.empty()) return all;
-  std::vector<Coordinate> named;
+  std::vector<experiment::Coordinate> named;
   for (const std::string& text : flags.settings) {
-    named.push_back(coordinate_of(text, all));
-    if (std::ranges::count(named, named.back().name, &Coordinate::name) > 1)
+    named.push_back(experiment::coordinate_of(text, all));
+    if (std::ranges::count(named, named.back().name, &experiment::Coordinate::name) > 1)
       throw UsageError{fmt::format("--setting {}: stands twice", named.back().name)};
   }
   return named;
@@ -43,7 +44,7 @@ std::vector<Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName pol
 /// The command that does the same again, for the file.
 std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
   const Study& study = flags.study;
-  const PlayPlan& plan = study.plan;
+  const experiment::PlayPlan& plan = study.plan;
   std::string text = fmt::format(
       "trivela tune {} --matches {} --possessions {} --calibrations {} --seed {} --held-out-seed {} --rounds {}",
       flags.policy, plan.matches, plan.possessions, study.calibrations, plan.seed, held_out_seed, flags.rounds);
@@ -60,12 +61,13 @@ std::string command_of(const TuneFlags& flags, std::uint64_t held_out_seed) {
 /// Plays arms that differ in their settings alone, until somebody asks to stop.
 class Player {
  public:
-  Player(const sim::Scenario& scenario, nodes::Arm arm) : scenario_(scenario), arm_(std::move(arm)) {}
+  Player(const sim::Scenario& scenario, experiment::Arm arm) : scenario_(scenario), arm_(std::move(arm)) {}
 
-  std::vector<ArmTally> play(const std::vector<config::Settings>& settings, const PlayPlan& plan) {
-    std::vector<nodes::Arm> arms(settings.size(), arm_);
+  std::vector<experiment::ArmTally> play(const std::vector<config::Settings>& settings,
+                                         const experiment::PlayPlan& plan) {
+    std::vector<experiment::Arm> arms(settings.size(), arm_);
     for (std::size_t i = 0; i < settings.size(); ++i) arms[i].settings = settings[i];
-    return play_arms(scenario_, arms, plan, [&](std::size_t done, std::size_t all) {
+    return experiment::play_arms(scenario_, arms, plan, [&](std::size_t done, std::size_t all) {
       bar_.show(static_cast<double>(done), static_cast<double>(all), what);
       if (signals_.stop_requested()) throw Interrupted{};
     });
@@ -77,18 +79,18 @@ class Player {
   SignalInbox signals_;  // before the threads, which must not be interrupted
   ProgressBar bar_;
   const sim::Scenario& scenario_;
-  nodes::Arm arm_;
+  experiment::Arm arm_;
 };
 
-TuneMatches matches_of(const Study& study) {
+experiment::TuneMatches matches_of(const Study& study) {
   return {study.plan.seed, study.plan.matches, study.plan.possessions, study.plan.evenings.size()};
 }
 
 /// Searches, and plays what was found, and what it began with, on other matches and evenings.
-void search(TuneReport& report, Player& player, const Study& study, const Study& other, int rounds) {
-  TuneState& state = report.state;
+void search(experiment::TuneReport& report, Player& player, const Study& study, const Study& other, int rounds) {
+  experiment::TuneState& state = report.state;
   const config::Settings start = state.settings;
-  coordinate_search(
+  experiment::coordinate_search(
       report.space, rounds,
       [&](const std::vector<config::Settings>& settings) {
         player.what = fmt::format("{} settings tried, {} changed", state.tried, state.steps.size());
@@ -104,16 +106,16 @@ void search(TuneReport& report, Player& player, const Study& study, const Study&
 int tune(const TuneFlags& flags) {
   require_writable("--out", flags.out);
   const sim::Scenario scenario = flags.study.world.load();
-  nodes::Arm arm = arms_of(flags.policy, flags.base).front();
-  nodes::check_playable(scenario, arm, flags.study.plan.possessions);
+  experiment::Arm arm = experiment::arms_of(flags.policy, flags.base).front();
+  experiment::check_playable(scenario, arm, flags.study.plan.possessions);
   Study study = flags.study, other = flags.study;
   other.plan.seed = flags.held_out_seed.value_or(study.plan.seed + 1);
   if (other.plan.seed == study.plan.seed) throw UsageError{"--held-out-seed: the same as --seed, nothing is held out"};
-  TuneReport report{.policy = flags.policy,
-                    .command = command_of(flags, other.plan.seed),
-                    .scenario = study.scenario_name(),
-                    .space = space_of(flags, *arm.policy),
-                    .state = {.settings = arm.settings}};
+  experiment::TuneReport report{.policy = flags.policy,
+                                .command = command_of(flags, other.plan.seed),
+                                .scenario = study.scenario_name(),
+                                .space = space_of(flags, *arm.policy),
+                                .state = {.settings = arm.settings}};
   report.state.settings.run.scenario = study.world.file;  // whose best settings they are
   study.draw_evenings(scenario, flags.base);
   other.draw_evenings(scenario, flags.base);
@@ -129,7 +131,7 @@ int tune(const TuneFlags& flags) {
     }
   }
   if (report.state.tried == 0) throw std::runtime_error{"interrupted before anything was played"};
-  write_file(flags.out, to_settings_file(report, flags.out));
+  write_file(flags.out, experiment::to_settings_file(report, flags.out));
   say(to_text(report) + flags.out + "\n");
   if (interrupted) warn(fmt::format("interrupted; {} has the best so far", flags.out));
   return interrupted ? kFailed : kDone;
@@ -161,7 +163,8 @@ void add_tune(CLI::App& app, int& exit_code) {
   verb->footer(
       "Coordinate search: one setting after the other is set to the value with the most shots on target per\n"
       "opportunity, on the same matches and evenings for all; then those that were found are played on matches and\n"
-      "evenings that no choice was made by. cli/tune/space.cpp says which values are tried. Ctrl-C keeps the best so\n"
+      "evenings that no choice was made by. experiment/tune/space.cpp says which values are tried. Ctrl-C keeps the "
+      "best so\n"
       "far (exit code 1).");
   verb->callback([flags, &exit_code] { exit_code = tune(*flags); });
 }

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "config/place.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::cli {
 
 /// A scenario file and values on top of it.
 struct World {
-  std::string file = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  std::string file = config::shipped("scenarios/default.toml").string();
   std::vector<std::string> changes;  ///< lines of TOML, e.g. "keeper.reaction_s = 0.15"
 
   /// @throws config::Error naming file or line, key and value.

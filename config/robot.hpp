@@ -8,7 +8,7 @@
 #include "config/calibration.hpp"
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
-#include "kicking/calibration/distance_table.hpp"
+#include "kicking/fit/distance_table.hpp"
 #include "kicking/robot_model.hpp"
 
 namespace trivela::config {

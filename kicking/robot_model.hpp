@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "kicking/ballistics/transfer.hpp"
-#include "kicking/calibration/angle_table.hpp"
-#include "kicking/calibration/power_table.hpp"
 #include "kicking/constants.hpp"
+#include "kicking/fit/angle_table.hpp"
+#include "kicking/fit/power_table.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {

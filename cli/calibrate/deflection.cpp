@@ -24,15 +24,16 @@ struct DeflectionFlags : FitFlags {
   std::string plot;
 };
 
-using DeflectionRows = evaluator::DriveKicks<kicking::DeflectionRow>;
+using DeflectionRows = calibration::DriveKicks<kicking::DeflectionRow>;
 
 DeflectionRows rows_of_numbers(const DeflectionFlags& flags) {
-  const NumberTable table = NumberTable::read(flags.input, flags.columns);
+  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
   for (const char* column : {"vx_mps", "d_m", "b_m"}) table.require_one_of({column});
   DeflectionRows rows;
   table.for_each([&](const Row& row) {
-    rows.rows.push_back(
-        {.vx_mps = row.number("vx_mps"), .distance_m = row.length_m("d_m", kFieldLength_m), .b_m = row.number("b_m")});
+    rows.rows.push_back({.vx_mps = row.number("vx_mps"),
+                         .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
+                         .b_m = row.number("b_m")});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
     if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
@@ -121,7 +122,7 @@ void calibrate_deflection(const DeflectionFlags& flags) {
   const auto robot = robot_of(flags);
   const DeflectionRows kicks =
       is_match_log(flags)
-          ? evaluator::lateral_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
+          ? calibration::lateral_kicks(calibration::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
           : rows_of_numbers(flags);
   std::optional<double> delay_s = flags.delay_s;
   if (!delay_s && robot) delay_s = robot->model.delay_s;
@@ -129,7 +130,7 @@ void calibrate_deflection(const DeflectionFlags& flags) {
   if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, is_simulated(flags)), flags.plot);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate deflection", robot, report_of(kicks, fit),
-             [&](RobotUpdate& update) { update.set_deflection(fit, {file}); });
+             [&](calibration::RobotUpdate& update) { update.set_deflection(fit, {file}); });
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace trivela::cli {
 namespace {
 
-using Delays = evaluator::DriveKicks<double>;
+using Delays = calibration::DriveKicks<double>;
 
 Delays delays_of_numbers(const FitFlags& flags) {
-  const NumberTable table = NumberTable::read(flags.input, flags.columns);
+  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
   const bool differences = !table.has("delay_s");
   if (differences) {
     for (const char* column : {"order_t_s", "release_t_s"}) table.require_one_of({"delay_s", column});
@@ -58,13 +58,14 @@ FitReport report_of(const Delays& delays, const kicking::DelayFit& fit) {
 
 void calibrate_delay(const FitFlags& flags) {
   const auto robot = flags.robot.empty() && flags.out.empty() ? std::nullopt : robot_of(flags);
-  const Delays delays = is_match_log(flags)
-                            ? evaluator::release_delays(evaluator::recorded_drives(evaluator::log::Reader(flags.input)))
-                            : delays_of_numbers(flags);
+  const Delays delays =
+      is_match_log(flags)
+          ? calibration::release_delays(calibration::recorded_drives(evaluator::log::Reader(flags.input)))
+          : delays_of_numbers(flags);
   const kicking::DelayFit fit = kicking::fit_delay(delays.rows);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate delay", robot, report_of(delays, fit),
-             [&](RobotUpdate& update) { update.set_delay(fit, {file}); });
+             [&](calibration::RobotUpdate& update) { update.set_delay(fit, {file}); });
 }
 
 }  // namespace

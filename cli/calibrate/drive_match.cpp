@@ -4,13 +4,13 @@
 
 #include <utility>
 
+#include "calibration/rows/lobs_of_scans.hpp"
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/write_file.hpp"
 #include "config/scenario.hpp"
-#include "evaluator/calibration/lobs_of_scans.hpp"
 #include "evaluator/log/scan_log.hpp"
 
 namespace trivela::cli {
@@ -29,8 +29,8 @@ DriveMatches::DriveMatches(config::Settings settings, fs::path folder, fs::path 
       robot_file_(std::move(robot_file)),
       signals_(signals) {}
 
-DriveRecord DriveMatches::play(const DrivePlan& plan, const RobotUpdate& robot) {
-  DriveRecord record;
+calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
+  calibration::DriveRecord record;
   record.log = (folder_ / (plan.name + ".db")).string();
   if (plan.scenario.laser.enabled) record.scans = (folder_ / (plan.name + ".scans.db")).string();
   const fs::path scenario_file = folder_ / (plan.name + ".scenario.toml");
@@ -70,13 +70,13 @@ DriveRecord DriveMatches::play(const DrivePlan& plan, const RobotUpdate& robot) 
   if (lost_rows(record.log) > 0) throw std::runtime_error{plan.name + ": rows were lost"};
   const evaluator::log::Reader reader{record.log};
   record.kicks = reader.kicks();
-  record.drives = evaluator::recorded_drives(reader);
+  record.drives = calibration::recorded_drives(reader);
   if (record.scans.empty()) return record;
   const evaluator::log::ScanReader scans{record.scans};
   for (const auto& tested : scans.set_points()) {
     if (tested.power) record.kicked_powers.push_back(*tested.power);
   }
-  record.lobs = evaluator::lobs_of_scans(scans);
+  record.lobs = calibration::lobs_of_scans(scans);
   return record;
 }
 

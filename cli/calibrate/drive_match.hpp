@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "cli/calibrate/drive_source.hpp"
+#include "calibration/drive_source.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "config/settings.hpp"
 
@@ -10,7 +10,7 @@ namespace trivela::cli {
 
 /// Plays matches in lockstep through the real nodes, one after another; each leaves NAME.db, with a laser
 /// NAME.scans.db, and the scenario that it played, NAME.scenario.toml, in one folder.
-class DriveMatches : public DriveSource {
+class DriveMatches : public calibration::DriveSource {
  public:
   /// `settings`: what all matches have in common. `robot_file`: where the nodes find the robot, written before each
   /// match. `signals` outlives it.
@@ -19,7 +19,7 @@ class DriveMatches : public DriveSource {
 
   /// Throws UsageError where a file of that name exists, std::runtime_error where somebody asked to stop, a node died
   /// or rows were lost, with what is left on the disk.
-  DriveRecord play(const DrivePlan& plan, const RobotUpdate& robot) override;
+  calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
 
  private:
   config::Settings settings_;

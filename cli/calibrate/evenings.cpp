@@ -8,12 +8,13 @@
 #include <numeric>
 #include <thread>
 
-#include "cli/calibrate/evening_study.hpp"
 #include "cli/calibrate/run.hpp"
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
-#include "kicking/calibration/least_squares.hpp"
+#include "experiment/evening/evening_study.hpp"
+#include "kicking/fit/least_squares.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -24,27 +25,27 @@ using Json = nlohmann::ordered_json;
 struct EveningsFlags {
   std::uint32_t count = 50;
   std::int64_t seed = 1;
-  std::string world = TRIVELA_CONFIG_DIR "/scenarios/default.toml";
+  std::string world = config::shipped("scenarios/default.toml").string();
   std::string out_dir;
   std::uint32_t matches = 100;
   std::int64_t matches_seed = 1;
   std::size_t jobs = std::max(1u, std::thread::hardware_concurrency());
-  CalibrationEffort effort;
+  calibration::CalibrationEffort effort;
   bool json = false;
 };
 
-void write_robots(const std::vector<Evening>& evenings, const std::string& folder) {
+void write_robots(const std::vector<experiment::Evening>& evenings, const std::string& folder) {
   fs::create_directories(folder);
-  for (const Evening& evening : evenings) {
+  for (const experiment::Evening& evening : evenings) {
     const fs::path file = fs::path{folder} / (evening.robot.robot().name + ".toml");
     if (fs::exists(file)) throw UsageError{fmt::format("{} exists already; choose another --out-dir", file.string())};
     evening.robot.write(file);
   }
 }
 
-std::size_t kicks_of(const Evening& evening) {
+std::size_t kicks_of(const experiment::Evening& evening) {
   std::size_t kicks = 0;
-  for (const DriveSummary& drive : evening.drives) {
+  for (const calibration::DriveSummary& drive : evening.drives) {
     if (drive.played_s > 0.0) kicks += drive.kicks;  // the others look at the same kicks again
   }
   return kicks;
@@ -52,27 +53,27 @@ std::size_t kicks_of(const Evening& evening) {
 
 int evenings_study(const EveningsFlags& flags) {
   const sim::Scenario world = config::load_scenario(flags.world);
-  EveningOptions options = default_evening();
-  options.scenario = evening_scenario(options.scenario, world);
+  experiment::EveningOptions options = experiment::default_evening();
+  options.scenario = experiment::evening_scenario(options.scenario, world);
   options.name = "evening";
   options.seed = flags.seed;
   options.effort = flags.effort;
-  const std::vector<Evening> evenings = play_evenings(options, flags.count, flags.jobs);
+  const std::vector<experiment::Evening> evenings = experiment::play_evenings(options, flags.count, flags.jobs);
   if (!flags.out_dir.empty()) write_robots(evenings, flags.out_dir);
 
   std::vector<double> kicks;
-  for (const Evening& evening : evenings) kicks.push_back(static_cast<double>(kicks_of(evening)));
-  const auto figures = study_figures(evenings, options);
+  for (const experiment::Evening& evening : evenings) kicks.push_back(static_cast<double>(kicks_of(evening)));
+  const auto figures = experiment::study_figures(evenings, options);
   std::vector<double> rates;
   if (flags.matches > 0) {
-    rates = study_policy(evenings, world, options.settings, kicking::PolicyName::kMoving, flags.matches,
-                         static_cast<std::uint64_t>(flags.matches_seed), flags.jobs);
+    rates = experiment::study_policy(evenings, world, options.settings, kicking::PolicyName::kMoving, flags.matches,
+                                     static_cast<std::uint64_t>(flags.matches_seed), flags.jobs);
   }
   const double mean_kicks = std::accumulate(kicks.begin(), kicks.end(), 0.0) / static_cast<double>(kicks.size());
   const double most_kicks = *std::max_element(kicks.begin(), kicks.end());
   Json json{{"simulated", true}, {"evenings", flags.count}, {"seed", flags.seed}, {"figures", Json::array()}};
   json["kicks"] = {{"mean", mean_kicks}, {"most", most_kicks}};
-  for (const StudiedFigure& figure : figures) {
+  for (const experiment::StudiedFigure& figure : figures) {
     json["figures"].push_back({{"key", figure.key},
                                {"evenings", figure.evenings},
                                {"world", figure.world},
@@ -89,7 +90,7 @@ int evenings_study(const EveningsFlags& flags) {
   fmt::print("SIMULATED: {} evenings, seeds {} to {}, {:.0f} kicks each on average, {:.0f} at most\n\n", flags.count,
              flags.seed, flags.seed + flags.count - 1, mean_kicks, most_kicks);
   fmt::print("{:<26}{:>10}{:>10}{:>11}{:>11}{:>9}\n", "", "world", "mean", "rms error", "std error", "covered");
-  for (const StudiedFigure& figure : figures) {
+  for (const experiment::StudiedFigure& figure : figures) {
     fmt::print("{:<26}{:>10.4f}{:>10.4f}{:>11.4f}{:>11.4f}{:>8.0f}%\n", figure.key, figure.world, figure.mean,
                figure.rms, figure.mean_se, 100.0 * figure.covered);
   }

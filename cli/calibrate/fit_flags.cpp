@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/calibrate/input_kind.hpp"
+#include "calibration/rows/input_kind.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/say.hpp"
 #include "cli/write_file.hpp"
@@ -26,11 +26,11 @@ void add_fit_flags(CLI::App& verb, FitFlags& flags) {
 }
 
 bool is_match_log(const FitFlags& flags) {
-  const InputKind kind = input_kind(flags.input);
-  if (kind == InputKind::kScanRecord) {
+  const calibration::InputKind kind = calibration::input_kind(flags.input);
+  if (kind == calibration::InputKind::kScanRecord) {
     throw std::runtime_error(flags.input + " is a scan record; this needs a match log or a table of numbers");
   }
-  return kind == InputKind::kMatchLog;
+  return kind == calibration::InputKind::kMatchLog;
 }
 
 bool is_simulated(const FitFlags& flags) {
@@ -52,14 +52,14 @@ std::optional<config::Robot> robot_of(const FitFlags& flags) {
 }
 
 void finish_fit(const FitFlags& flags, const char* verb, const std::optional<config::Robot>& robot, FitReport report,
-                const std::function<void(RobotUpdate&)>& update) {
+                const std::function<void(calibration::RobotUpdate&)>& update) {
   namespace fs = std::filesystem;
   if (!flags.out.empty()) {
     std::error_code ignored;
     if (fs::exists(flags.out) && !fs::equivalent(flags.out, find_robot(flags.robot), ignored)) {
       throw UsageError(fmt::format("--out {} exists already and is not the file of --robot", flags.out));
     }
-    RobotUpdate file(*robot, verb, today());
+    calibration::RobotUpdate file(*robot, verb, calibration::today());
     update(file);
     file.write(flags.out);
     report.json["file"] = flags.out;

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/calibrate/number_table.hpp"
-#include "cli/calibrate/robot_update.hpp"
+#include "calibration/robot_update.hpp"
+#include "calibration/rows/drive_rows.hpp"
+#include "calibration/rows/number_table.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
-#include "evaluator/calibration/drive_rows.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/svg_chart.hpp"
-#include "kicking/calibration/least_squares.hpp"
+#include "kicking/fit/least_squares.hpp"
 
 namespace trivela::cli {
 
@@ -51,7 +51,7 @@ struct FitReport {
 /// Writes the figure into --out, if given, and prints the report.
 /// @throws UsageError for --out without --robot, std::runtime_error where it cannot be written.
 void finish_fit(const FitFlags& flags, const char* verb, const std::optional<config::Robot>& robot, FitReport report,
-                const std::function<void(RobotUpdate&)>& update);
+                const std::function<void(calibration::RobotUpdate&)>& update);
 
 /// {"value": ..., "se": ...}, both times `unit`.
 Json json_of(const kicking::Estimate& estimate, double unit = 1.0);

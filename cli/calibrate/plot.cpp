@@ -4,9 +4,9 @@
 #include <map>
 #include <memory>
 
+#include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/calibrate/trials.hpp"
 #include "cli/say.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
@@ -135,7 +135,7 @@ std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>&
 
 void plot(const PlotFlags& flags) {
   require_writable("--out", flags.out);
-  const Trials trials = read_trials(flags.inputs, {.columns = flags.columns});
+  const calibration::Trials trials = calibration::read_trials(flags.inputs, {.columns = flags.columns});
   const TrialsByPower powers = by_power(trials.trials);
   write_chart(chart_of(powers, trials.simulated), flags.out);
   const std::vector<Repeatability> rows = repeatability(powers);

@@ -5,13 +5,12 @@
 #include <algorithm>
 
 #include "cli/verbs.hpp"
+#include "config/place.hpp"
 
 namespace trivela::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path kShipped = fs::path(TRIVELA_CONFIG_DIR) / "robots";
 
 bool plain(const std::string& name) {
   const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
@@ -23,11 +22,11 @@ bool plain(const std::string& name) {
 fs::path find_robot(const std::string& name_or_file) {
   if (name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml")) return name_or_file;
   const std::string file = name_or_file + ".toml";
-  for (const fs::path& path : {fs::path("config/robots") / file, fs::path(file), kShipped / file}) {
+  for (const fs::path& path : {fs::path("config/robots") / file, fs::path(file), config::shipped("robots") / file}) {
     if (fs::is_regular_file(path)) return path;
   }
   throw std::runtime_error(fmt::format("no robot {}: neither config/robots/{} nor {} nor {}", name_or_file, file, file,
-                                       (kShipped / file).string()));
+                                       (config::shipped("robots") / file).string()));
 }
 
 fs::path robot_target(const std::string& name, const std::string& out) {
@@ -50,7 +49,7 @@ config::Robot robot_to_calibrate(const std::string& name, const fs::path& target
     }
     return robot;
   }
-  const fs::path from = start.empty() ? kShipped / "cambada_1.toml" : find_robot(start);
+  const fs::path from = start.empty() ? config::shipped("robots/cambada_1.toml") : find_robot(start);
   config::Robot robot = config::load_robot_of_any_table(from);
   robot.source = fmt::format("calibrated; what [calibration] does not name comes from: {}", robot.source);
   robot.name = name;

@@ -26,10 +26,10 @@ struct RotationFlags : FitFlags {
   std::string plot;
 };
 
-using RotationRows = evaluator::DriveKicks<kicking::RotationRow>;
+using RotationRows = calibration::DriveKicks<kicking::RotationRow>;
 
 RotationRows rows_of_numbers(const RotationFlags& flags) {
-  const NumberTable table = NumberTable::read(flags.input, flags.columns);
+  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
   table.require_one_of({"omega_radps", "omega_degps"});
   table.require_one_of({"b_m", "allowed_error_m"});
   const bool in_degrees = !table.has("omega_radps");
@@ -39,7 +39,7 @@ RotationRows rows_of_numbers(const RotationFlags& flags) {
     rows.rows.push_back(
         {.omega_radps = in_degrees ? kicking::radians(row.number("omega_degps")) : row.number("omega_radps"),
          .allowed_error_m = row.number(error),
-         .distance_m = row.word("d_m") ? row.length_m("d_m", kFieldLength_m) : flags.distance_m});
+         .distance_m = row.word("d_m") ? row.length_m("d_m", calibration::kFieldLength_m) : flags.distance_m});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
     if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
@@ -126,8 +126,8 @@ void calibrate_rotation(const RotationFlags& flags) {
   require_writable("--plot", flags.plot);
   const auto robot = robot_of(flags);
   const RotationRows kicks =
-      is_match_log(flags) ? evaluator::turn_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)),
-                                                  robot->model, flags.cycle_s)
+      is_match_log(flags) ? calibration::turn_kicks(calibration::recorded_drives(evaluator::log::Reader(flags.input)),
+                                                    robot->model, flags.cycle_s)
                           : rows_of_numbers(flags);
   const double shipped_offset_m = robot ? robot->model.ball_offset_m : kicking::RobotModel{}.ball_offset_m;
   const kicking::RotationLever lever{flags.ball_offset_m.value_or(shipped_offset_m), flags.cycle_s};
@@ -135,7 +135,7 @@ void calibrate_rotation(const RotationFlags& flags) {
   if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, lever, is_simulated(flags)), flags.plot);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate rotation", robot, report_of(kicks, fit, lever),
-             [&](RobotUpdate& update) { update.set_rotation(fit, {file}); });
+             [&](calibration::RobotUpdate& update) { update.set_rotation(fit, {file}); });
 }
 
 }  // namespace

@@ -7,16 +7,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/calibrate/calibration_check.hpp"
-#include "cli/calibrate/drive_in_process.hpp"
 #include "cli/calibrate/drive_match.hpp"
-#include "cli/calibrate/evening.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/open_file.hpp"
 #include "cli/verbs.hpp"
 #include "cli/write_file.hpp"
+#include "config/place.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "experiment/evening/calibration_check.hpp"
+#include "experiment/evening/drive_in_process.hpp"
+#include "experiment/evening/evening.hpp"
 #include "sim/team.hpp"
 
 namespace trivela::cli {
@@ -32,17 +33,17 @@ constexpr double kSidewaysGate_m = 0.15;
 struct RunFlags {
   std::string in;
   std::string robot = "simulated";
-  std::string start = TRIVELA_CONFIG_DIR "/robots/uncalibrated.toml";
-  std::string scenario = TRIVELA_CONFIG_DIR "/scenarios/calibration.toml";
-  std::string check = TRIVELA_CONFIG_DIR "/scenarios/noise_free.toml";
-  std::string config = TRIVELA_CONFIG_DIR "/default.toml";
+  std::string start = config::shipped("robots/uncalibrated.toml").string();
+  std::string scenario = config::shipped("scenarios/calibration.toml").string();
+  std::string check = config::shipped("scenarios/noise_free.toml").string();
+  std::string config = config::shipped("default.toml").string();
   std::string team;          ///< scenario of the matches
   std::uint32_t number = 1;  ///< whose kicker it is
   std::string out_dir = "calibration";
   std::string out;
   std::string log_level = "warn";
   std::int64_t seed = 1;
-  CalibrationEffort effort;
+  calibration::CalibrationEffort effort;
   bool in_process = false;
   bool json = false;
 };
@@ -59,20 +60,20 @@ fs::path robot_file(const RunFlags& flags) {
   return fs::absolute(file);
 }
 
-Json json_of(const DriveSummary& summary) {
+Json json_of_drive(const calibration::DriveSummary& summary) {
   return {{"drive", summary.name},        {"logs", summary.logs},         {"kicks", summary.kicks},
           {"used", summary.used},         {"left_out", summary.left_out}, {"found", summary.found},
           {"played_s", summary.played_s}, {"wall_s", summary.wall_s}};
 }
 
-Json json_of(const AimErrors& errors) {
+Json json_of_aim(const experiment::AimErrors& errors) {
   return {{"kicks", errors.kicks},
           {"without_crossing", errors.without_crossing},
           {"median_height_error_m", errors.median_height_m},
           {"median_sideways_error_m", errors.median_sideways_m}};
 }
 
-std::string text_of(const AimErrors& errors) {
+std::string text_of_aim(const experiment::AimErrors& errors) {
   return fmt::format("{} kicks, {} without a crossing; medians: height {:.3f} m, sideways {:.3f} m", errors.kicks,
                      errors.without_crossing, errors.median_height_m, errors.median_sideways_m);
 }
@@ -82,23 +83,23 @@ class Report {
  public:
   explicit Report(bool json) : json_(json) {}
 
-  void add(const DriveSummary& summary) {
+  void add(const calibration::DriveSummary& summary) {
     std::FILE* const to = json_ ? stderr : stdout;
     fmt::print(to, "{}: {} of {} kicks, {:.0f} s of play in {:.1f} s: {}\n", summary.name, summary.used, summary.kicks,
                summary.played_s, summary.wall_s, summary.found);
     for (const std::string& why : summary.left_out) fmt::print(to, "  left out: {}\n", why);
     std::fflush(to);
-    document_["drives"].push_back(json_of(summary));
+    document_["drives"].push_back(json_of_drive(summary));
   }
 
-  void finish(const RobotUpdate& update, const std::string& file, const AimErrors& observed, const AimErrors& truth,
-              const std::vector<WorldFigure>& world) {
+  void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
+              const experiment::AimErrors& truth, const std::vector<experiment::WorldFigure>& world) {
     document_["file"] = file;
     document_["robot"] = update.robot().name;
     document_["changes"] = update.changes();
-    document_["check"] = json_of(observed);
-    Json simulator{{"check", json_of(truth)}, {"figures", Json::array()}};
-    for (const WorldFigure& figure : world) {
+    document_["check"] = json_of_aim(observed);
+    Json simulator{{"check", json_of_aim(truth)}, {"figures", Json::array()}};
+    for (const experiment::WorldFigure& figure : world) {
       simulator["figures"].push_back({{"key", figure.key},
                                       {"calibrated", figure.calibrated},
                                       {"world", figure.world},
@@ -111,10 +112,10 @@ class Report {
     }
     fmt::print("\n");
     for (const std::string& line : update.changes()) fmt::print("{}\n", line);
-    fmt::print("\ncheck, stopped and without noise, as the robot saw it: {}\n", text_of(observed));
-    fmt::print("\nThe simulator's truth, which no fit has seen\ncheck: {}\n", text_of(truth));
+    fmt::print("\ncheck, stopped and without noise, as the robot saw it: {}\n", text_of_aim(observed));
+    fmt::print("\nThe simulator's truth, which no fit has seen\ncheck: {}\n", text_of_aim(truth));
     fmt::print("{:<26}{:>12}{:>12}{:>12}\n", "", "calibrated", "world", "difference");
-    for (const WorldFigure& figure : world) {
+    for (const experiment::WorldFigure& figure : world) {
       fmt::print("{:<26}{:>12.4f}{:>12.4f}{:>+12.4f}\n", figure.key, figure.calibrated, figure.world,
                  figure.calibrated - figure.world);
     }
@@ -135,8 +136,8 @@ int calibrate(const RunFlags& flags) {
   }
   config::Settings settings = config::load_settings(flags.config);
   settings.run.log_level = flags.log_level;
-  settings = evening_settings(std::move(settings), scenario);
-  const EveningOptions options{
+  settings = experiment::evening_settings(std::move(settings), scenario);
+  const experiment::EveningOptions options{
       .scenario = scenario,
       .settings = settings,
       .start = config::load_robot(flags.start),
@@ -154,28 +155,29 @@ int calibrate(const RunFlags& flags) {
   part += ".part";  // until every figure is in it
 
   SignalInbox signals;
-  std::unique_ptr<DriveSource> source;
+  std::unique_ptr<calibration::DriveSource> source;
   if (flags.in_process) {
-    source = std::make_unique<DrivesInProcess>(settings);
+    source = std::make_unique<experiment::DrivesInProcess>(settings);
   } else {
     source = std::make_unique<DriveMatches>(settings, fs::absolute(flags.out_dir), part, signals);
   }
   Report report{flags.json};
-  const Evening evening = play_evening(options, *source, [&](const DriveSummary& summary) { report.add(summary); });
+  const experiment::Evening evening = experiment::play_evening(
+      options, *source, [&](const calibration::DriveSummary& summary) { report.add(summary); });
   evening.robot.write(file);
 
-  const DrivePlan check{.name = "6_check",
-                        .policy = kicking::PolicyName::kStopped,
-                        .scenario = noise_free,
-                        .possessions = flags.effort.check_kicks,
-                        .seed = flags.seed,
-                        .settings = {}};
-  const DriveRecord played = source->play(check, evening.robot);
+  const calibration::DrivePlan check{.name = "6_check",
+                                     .policy = kicking::PolicyName::kStopped,
+                                     .scenario = noise_free,
+                                     .possessions = flags.effort.check_kicks,
+                                     .seed = flags.seed,
+                                     .settings = {}};
+  const calibration::DriveRecord played = source->play(check, evening.robot);
   std::error_code none;
   fs::remove(part, none);
-  const AimErrors observed = observed_errors(played.kicks, settings);
-  report.finish(evening.robot, file.string(), observed, true_errors(played.kicks, settings),
-                against_world(evening.robot.robot(), scenario, settings));
+  const experiment::AimErrors observed = experiment::observed_errors(played.kicks, settings);
+  report.finish(evening.robot, file.string(), observed, experiment::true_errors(played.kicks, settings),
+                experiment::against_world(evening.robot.robot(), scenario, settings));
   const bool met = observed.median_height_m <= kHeightGate_m && observed.median_sideways_m <= kSidewaysGate_m;
   if (!met) {
     fmt::print(stderr, "trivela: the check missed its gate: {} m in height and {} m sideways\n", kHeightGate_m,

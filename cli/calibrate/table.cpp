@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/calibrate/trials.hpp"
 #include "cli/say.hpp"
 #include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
@@ -94,13 +94,14 @@ std::vector<std::string> not_rising(const kicking::TableFit& fit) {
 ExitCode calibrate_table(const TableFlags& flags) {
   const auto target = robot_target(flags.robot, flags.out);
   require_writable("the robot's file", target);
-  const TableChoice choice{flags.kind == "true" ? kicking::TableKind::kTrue : kicking::TableKind::kEffective,
-                           flags.angle == "per-setpoint"};
-  TrialFlags trial_flags{choice.kind, std::nullopt, flags.columns};
+  const calibration::TableChoice choice{
+      flags.kind == "true" ? kicking::TableKind::kTrue : kicking::TableKind::kEffective, flags.angle == "per-setpoint"};
+  calibration::TrialFlags trial_flags{choice.kind, std::nullopt, flags.columns};
   if (flags.exit_angle_deg) trial_flags.exit_angle_rad = kicking::radians(*flags.exit_angle_deg);
-  RobotUpdate update(robot_to_calibrate(flags.robot, target, flags.start), "trivela calibrate table", today());
+  calibration::RobotUpdate update(robot_to_calibrate(flags.robot, target, flags.start), "trivela calibrate table",
+                                  calibration::today());
 
-  Trials trials = read_trials(flags.inputs, trial_flags);
+  calibration::Trials trials = calibration::read_trials(flags.inputs, trial_flags);
   const kicking::TableFit fit = kicking::fit_table(trials.trials, flags.options);
   std::vector<std::string> warnings = std::move(trials.warnings);
   for (const std::string& warning : fit.warnings) {

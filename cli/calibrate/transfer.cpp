@@ -16,7 +16,7 @@ struct TransferFlags : FitFlags {
   std::optional<double> delay_s;
 };
 
-using TransferRows = evaluator::DriveKicks<kicking::TransferRow>;
+using TransferRows = calibration::DriveKicks<kicking::TransferRow>;
 
 /// Exit angle of a row: its own, else the flag's, else the robot's at its power.
 double exit_angle_rad(const Row& row, const TransferFlags& flags, const std::optional<config::Robot>& robot) {
@@ -27,7 +27,7 @@ double exit_angle_rad(const Row& row, const TransferFlags& flags, const std::opt
 }
 
 TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<config::Robot>& robot) {
-  const NumberTable table = NumberTable::read(flags.input, flags.columns);
+  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
   for (const char* column : {"vy_mps", "d_m", "z_cross_m"}) table.require_one_of({column});
   table.require_one_of({"v0_mps", "power"});
   const bool by_power = !table.has("v0_mps");
@@ -43,7 +43,7 @@ TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<con
         {.vy_mps = row.number("vy_mps"),
          .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power")) : row.positive("v0_mps"),
          .exit_angle_rad = exit_angle_rad(row, flags, robot),
-         .distance_m = row.length_m("d_m", kFieldLength_m),
+         .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
          .z_cross_m = row.number("z_cross_m")});
   });
   return rows;
@@ -111,14 +111,14 @@ void calibrate_transfer(const TransferFlags& flags) {
   const auto robot = robot_of(flags);
   const TransferRows kicks =
       is_match_log(flags)
-          ? evaluator::transfer_kicks(evaluator::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
+          ? calibration::transfer_kicks(calibration::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
           : rows_of_numbers(flags, robot);
   const double delay_s = flags.delay_s.value_or(robot ? robot->model.delay_s : 0.0);
   const double ball_radius_m = (robot ? robot->model : kicking::RobotModel{}).ball.radius_m;
   const kicking::TransferFit fit = kicking::fit_transfer(kicks.rows, delay_s, ball_radius_m);
   const std::string file = std::filesystem::path(flags.input).filename().string();
   finish_fit(flags, "trivela calibrate transfer", robot, report_of(kicks, fit, delay_s),
-             [&](RobotUpdate& update) { update.set_transfer(fit, {file}); });
+             [&](calibration::RobotUpdate& update) { update.set_transfer(fit, {file}); });
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "calibration/rows/lobs_of_scans.hpp"
+#include "calibration/rows/verdicts_file.hpp"
 #include "cli/say.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/calibration/lobs_of_scans.hpp"
-#include "evaluator/calibration/verdicts_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
@@ -67,7 +67,8 @@ ordered_json info_of(const evaluator::log::ScanReader& record, const std::filesy
                     {"set_points", record.set_points().size()},
                     {"lobs", ordered_json::array()},
                     {"warnings", record.warnings()}};
-  for (const kicking::lob::LobRecord& lob : evaluator::lobs_of_scans(record, {}, evaluator::verdicts_beside(path))) {
+  for (const kicking::lob::LobRecord& lob :
+       calibration::lobs_of_scans(record, {}, calibration::verdicts_beside(path))) {
     info["lobs"].push_back(json_of(lob));
   }
   return info;

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstdio>
 
+#include "calibration/scanner_session.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/say.hpp"
-#include "cli/scan/scanner_session.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "hal/open_range_finder.hpp"
@@ -42,7 +42,7 @@ class StatusLine {
 
 int record_scans(const std::filesystem::path& out, const std::string& device, const MountFlags& mount,
                  std::optional<double> seconds, std::optional<double> power) {
-  refuse_existing(out);
+  calibration::refuse_existing(out);
   SignalInbox signals;
   StatusLine line;
   const auto finder = hal::open_range_finder(device);
@@ -51,7 +51,7 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
     line.show("waiting for " + device + ": " + finder->status());
     if (signals.stop_requested()) throw std::runtime_error{fmt::format("nothing was recorded: {}", finder->status())};
   }
-  const evaluator::log::ScanSession session = scanner_session(*finder, mount.mount(), device);
+  const evaluator::log::ScanSession session = calibration::scanner_session(*finder, mount.mount(), device);
   evaluator::log::ScanWriter writer(out, session);
   if (power) writer.set_point({.t_ns = session.started_t_ns, .power = *power});
   const Clock::time_point started = Clock::now();

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/messages.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "hal/kicker.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::hal {
 

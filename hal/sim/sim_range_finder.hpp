@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "bus/messages.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "hal/range_finder.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::hal {
 

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/messages.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "hal/wheels.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::hal {
 

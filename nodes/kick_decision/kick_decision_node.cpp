@@ -3,6 +3,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -10,7 +11,7 @@ namespace {
 
 std::uint32_t session_of_kicks(std::uint32_t given) { return given != 0 ? given : std::random_device{}() % 0x7fff + 1; }
 
-void refuse_oracle(const PolicyAssignment& assignment) {
+void refuse_oracle(const robot::PolicyAssignment& assignment) {
   for (const kicking::PolicyName policy : assignment.candidates()) {
     if (policy != kicking::PolicyName::kOracle) continue;
     throw std::runtime_error{
@@ -49,7 +50,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (!context_.participant.believes(world.t_ns)) return;
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
-  const CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
+  const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
   if (decision.order) {
     order_out_.write(*decision.order);
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,

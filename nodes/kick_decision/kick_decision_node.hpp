@@ -3,8 +3,8 @@
 #include <chrono>
 #include <optional>
 
-#include "nodes/kick_decision/decider.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/decision/decider.hpp"
 
 namespace trivela::nodes {
 
@@ -24,7 +24,7 @@ class KickDecisionNode {
   void stay_alive();
 
   NodeContext& context_;
-  Decider decider_;
+  robot::Decider decider_;
   bus::Node node_;
   bus::Output<msg::KickDecision> decision_out_;
   bus::Output<msg::KickOrder> order_out_;

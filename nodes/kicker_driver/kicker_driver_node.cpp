@@ -29,11 +29,11 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
     referee_of_cycle_ = node_.stores<msg::Referee>();
   } else {
-    words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers); };
+    words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
                            bus::writes<msg::KickReceipt, msg::SimFire>(), words);
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
-      if (loop_.fell_silent(writers, context_.steady_ns()))
+      if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");
     };
   }
@@ -64,8 +64,9 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
 }
 
 /// In lockstep the cycle's word; in real time the last one, for as long as it counts.
-RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
-  if (referee_of_cycle_) return word_of_cycle && word_of_cycle->playing ? RefereeSays::kPlay : RefereeSays::kStop;
+robot::RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
+  if (referee_of_cycle_)
+    return word_of_cycle && word_of_cycle->playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
   const std::int64_t now_ns = now_t_ns();
   if (const auto news = referee_.news(now_ns)) context_.logger->warn(*news);
   return referee_.says(now_ns);
@@ -86,7 +87,7 @@ void KickerDriverNode::on_referee(const msg::Referee& word) {
   const std::lock_guard lock{mutex_};
   referee_.heard(word, now_t_ns());
   if (word.playing) return;
-  desk_.referee(RefereeSays::kStop);
+  desk_.referee(robot::RefereeSays::kStop);
   withdraw();
 }
 

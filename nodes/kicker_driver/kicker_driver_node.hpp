@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "hal/kicker.hpp"
-#include "nodes/kicker_driver/loop_watch.hpp"
-#include "nodes/kicker_driver/order_desk.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/driver/order_desk.hpp"
+#include "robot/watch/loop_watch.hpp"
 
 namespace trivela::nodes {
 
@@ -27,23 +27,23 @@ class KickerDriverNode {
   void on_referee(const msg::Referee& word);
   void withdraw();
   std::int64_t now_t_ns() const;
-  RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
+  robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
   std::mutex mutex_;  // device thread and order reaction
   std::unique_ptr<hal::Kicker> kicker_;
-  OrderDesk desk_;
+  robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
-  LoopWatch loop_;
+  robot::LoopWatch loop_;
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
-  RefereeWatch referee_;                                          // real time
+  robot::RefereeWatch referee_;                                   // real time
   FirstCycle first_;
 };
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kicking/geometry/time.hpp"
-#include "nodes/odometry/odometry_message.hpp"
 #include "nodes/runtime/step_done.hpp"
+#include "robot/odometry/odometry_message.hpp"
 
 namespace trivela::nodes {
 OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels)
@@ -47,7 +47,7 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);
     return;
   }
-  msg::Odometry out = odometry_message(sample, *estimate);
+  msg::Odometry out = robot::odometry_message(sample, *estimate);
   out.robot_id = context_.robot_id();
   out.seq = ++seq_;
   odometry_out_.write(out);

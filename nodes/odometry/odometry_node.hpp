@@ -5,8 +5,8 @@
 #include <semaphore>
 
 #include "hal/wheels.hpp"
-#include "nodes/odometry/wheel_odometry.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::nodes {
 
@@ -25,7 +25,7 @@ class OdometryNode {
 
   NodeContext& context_;
   std::unique_ptr<hal::Wheels> wheels_;
-  WheelOdometry odometry_;
+  robot::WheelOdometry odometry_;
   bus::Node node_;
   bus::Output<msg::Odometry> odometry_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-#include "nodes/recorder/predecessor.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/now_ns.hpp"
+#include "robot/recording/predecessor.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -43,7 +43,7 @@ PlacedLog place_log(const NodeContext& context, const evaluator::log::WriterOpti
   if (context.settings.run.lockstep) return {log, std::make_unique<Writer>(log, session, options)};
   const auto warn = [&](const std::string& line) { context.logger->warn("{}", line); };
   const std::int64_t now_utc_ns = now_ns(std::chrono::system_clock::now());
-  if (const auto before = find_predecessor(log, session, now_utc_ns, warn)) {
+  if (const auto before = robot::find_predecessor(log, session, now_utc_ns, warn)) {
     session.continues_uuid = before->uuid;
     session.continued = before->drivers;
     warn(fmt::format("this session goes on from {} in {}", before->uuid, before->log.string()));

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <utility>
 
-#include "nodes/recorder/message_row.hpp"
 #include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
+#include "robot/recording/message_row.hpp"
 
 namespace trivela::nodes {
 
@@ -48,7 +48,7 @@ template <class T>
 std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableId id, StreamWatch& watch, T sample,
                                                 std::uint64_t writer) {
   if (watch.repeats(sample.robot_id, sample.seq, sample.t_ns)) return std::nullopt;
-  SequenceWatch::Finding finding{.believed = false};
+  robot::SequenceWatch::Finding finding{.believed = false};
   if (context_.settings.run.lockstep) {
     finding = watch.numbers.see(sample.robot_id, sample.seq, writer);
   } else if (context_.participant.believes(sample.t_ns) && watch.instants.believes(writer, sample.t_ns)) {
@@ -70,13 +70,13 @@ std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableI
   }
   if (!finding.out_of_order) watch.latest[sample.robot_id] = {sample.seq, sample.t_ns};
   sample.seq = static_cast<std::uint64_t>(finding.seq);
-  log_.push(id, row_of(sample));
+  log_.push(id, robot::row_of(sample));
   return finding.seq;
 }
 
 template <class T>
 void RecorderNode::record(const std::string& table) {
-  const TableId id = log_.table(table, columns_of<T>());
+  const TableId id = log_.table(table, robot::columns_of<T>());
   bus::ReaderOptions everything;
   everything.keep_all = true;
   // State streams have a sample a cycle.
@@ -106,9 +106,9 @@ void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
 }
 
 void RecorderNode::record_decisions() {
-  const TableId decisions = log_.table("kick_decisions", columns_of<msg::KickDecision>());
+  const TableId decisions = log_.table("kick_decisions", robot::columns_of<msg::KickDecision>());
   std::vector<std::string> shadow_columns{"robot_id", "seq", "shadow_index"};
-  for (const std::string& column : columns_of<msg::ShadowDecision>()) shadow_columns.push_back(column);
+  for (const std::string& column : robot::columns_of<msg::ShadowDecision>()) shadow_columns.push_back(column);
   const TableId shadows = log_.table("shadow_decisions", shadow_columns);
   const TableId assignments = log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"});
   bus::ReaderOptions everything;
@@ -127,7 +127,7 @@ void RecorderNode::record_decisions() {
         const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
         for (std::int64_t i = 0; i < count; ++i) {
           std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, *seq, i};
-          for (auto& value : row_of(decision.shadows[i])) row.push_back(std::move(value));
+          for (auto& value : robot::row_of(decision.shadows[i])) row.push_back(std::move(value));
           log_.push(shadows, std::move(row));
         }
       },

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "evaluator/log/writer.hpp"
-#include "nodes/recorder/cycle_watch.hpp"
 #include "nodes/recorder/recording_state.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/watch/cycle_watch.hpp"
 
 namespace trivela::nodes {
 
@@ -42,7 +42,7 @@ class RecorderNode {
   bus::Node node_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
-  CycleWatch cycles_;
+  robot::CycleWatch cycles_;
   std::shared_ptr<RecordingState> state_;
 };
 

@@ -8,16 +8,16 @@
 #include <tuple>
 #include <utility>
 
-#include "nodes/recorder/instant_watch.hpp"
-#include "nodes/recorder/sequence_watch.hpp"
 #include "nodes/recorder/silence_record.hpp"
+#include "robot/watch/instant_watch.hpp"
+#include "robot/watch/sequence_watch.hpp"
 
 namespace trivela::nodes {
 
 /// What is known of a stream from the samples before.
 struct StreamWatch {
-  SequenceWatch numbers;
-  InstantWatch instants;
+  robot::SequenceWatch numbers;
+  robot::InstantWatch instants;
   std::map<std::uint8_t, std::pair<std::uint64_t, std::int64_t>> latest{};  ///< seq and t_ns of a robot's last sample
   bool events = false;  ///< without a period: what is skipped has no silence of its own
 

@@ -6,10 +6,10 @@
 #include "config/software_version.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/value.hpp"
-#include "nodes/kick_decision/assignment.hpp"
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/recorder/session_text.hpp"
 #include "nodes/runtime/now_ns.hpp"
+#include "robot/decision/assignment.hpp"
+#include "robot/recording/session_text.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -43,7 +43,7 @@ std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& 
   std::vector<evaluator::log::HalfPolicy> policies;
   if (!settings.random.empty()) return policies;
   for (std::size_t robot_id = 0; robot_id <= settings.policy_by_robot.size(); ++robot_id) {
-    const PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};
+    const robot::PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};
     for (std::size_t half = 1; half <= halves; ++half) {
       const auto policy = assignment.in_charge(static_cast<std::uint8_t>(half), 0).policy;
       policies.push_back({static_cast<int>(half), kicking::name(policy), static_cast<int>(robot_id)});
@@ -70,9 +70,10 @@ Session session_of(const NodeContext& context) {
     describe_simulation(settings, session);
     scenario = config::load_scenario(settings.run.scenario);
   }
-  session.config_toml = session_config(settings, {context.robot}, scenario ? &*scenario : nullptr);
+  session.config_toml =
+      robot::session_config(settings, {context.robot}, scenario ? config::to_toml_text(*scenario) : "");
   session.software_version = config::software_version();
-  session.idl = idl_text();
+  session.idl = robot::idl_text();
   const std::size_t by_half = settings.kick_decision.policy_by_half.size();
   session.policies =
       policies_of(settings.kick_decision, simulated ? settings.simulator.halves : std::max<std::size_t>(by_half, 2));

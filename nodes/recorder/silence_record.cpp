@@ -24,14 +24,14 @@ void SilenceRecord::heard(std::size_t stream, std::uint8_t robot_id, std::int64_
 
 void SilenceRecord::look(std::int64_t now_ns) {
   const std::lock_guard lock{mutex_};
-  for (const SilenceEdge& edge : watch_.look(now_ns)) {
+  for (const robot::SilenceEdge& edge : watch_.look(now_ns)) {
     write(edge);
     lines_.note(edge, fmt::format("{} of robot {}", tables_[edge.stream], edge.robot_id));
   }
   for (const std::string& line : lines_.due(now_ns)) logger_->warn("{}", line);
 }
 
-void SilenceRecord::write(const SilenceEdge& edge) {
+void SilenceRecord::write(const robot::SilenceEdge& edge) {
   const evaluator::log::Silence silence{tables_[edge.stream], edge.robot_id, edge.from_ns, edge.to_ns};
   if (edge.was_delay()) {
     log_.withdraw(silence);

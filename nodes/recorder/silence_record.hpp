@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "evaluator/log/writer.hpp"
-#include "nodes/runtime/silence_lines.hpp"
-#include "nodes/runtime/silence_watch.hpp"
+#include "robot/watch/silence_lines.hpp"
+#include "robot/watch/silence_watch.hpp"
 
 namespace trivela::nodes {
 
@@ -33,15 +33,15 @@ class SilenceRecord {
   void look(std::int64_t now_ns);
 
  private:
-  void write(const SilenceEdge& edge);
+  void write(const robot::SilenceEdge& edge);
 
   const std::shared_ptr<spdlog::logger> logger_;
   const double cycle_s_;
   evaluator::log::Writer& log_;
   std::mutex mutex_;  // of what follows
   std::vector<std::string> tables_;
-  SilenceWatch watch_{std::chrono::nanoseconds{kStep}.count()};
-  SilenceLines lines_;
+  robot::SilenceWatch watch_{std::chrono::nanoseconds{kStep}.count()};
+  robot::SilenceLines lines_;
 };
 
 }  // namespace trivela::nodes

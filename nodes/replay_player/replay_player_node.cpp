@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include "hal/sim/sim_messages.hpp"
 #include "nodes/runtime/progress_line.hpp"
-#include "nodes/simulator/sim_messages.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -58,11 +58,11 @@ void ReplayPlayerNode::write(bus::Writer<T>& writer, T message, std::int64_t seq
 
 void ReplayPlayerNode::publish(const hal::ReplayedSample& sample) {
   if (const auto* frame = std::get_if<sim::VisionFrame>(&sample.what)) {
-    write(vision_, vision_message(sample.t_ns, *frame), sample.seq);
+    write(vision_, hal::vision_message(sample.t_ns, *frame), sample.seq);
   } else if (const auto* flight = std::get_if<sim::FlightFrame>(&sample.what)) {
-    write(flight_, flight_message(sample.t_ns, *flight), sample.seq);
+    write(flight_, hal::flight_message(sample.t_ns, *flight), sample.seq);
   } else {
-    write(referee_, referee_message(sample.t_ns, std::get<sim::RefereeWord>(sample.what)), sample.seq);
+    write(referee_, hal::referee_message(sample.t_ns, std::get<sim::RefereeWord>(sample.what)), sample.seq);
   }
 }
 

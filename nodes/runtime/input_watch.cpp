@@ -50,7 +50,7 @@ void InputWatch::look(std::int64_t now_ns) {
     watch_.heard(input.stream, robot_id, heard_ns);
     input.last_ns = heard_ns;
   }
-  for (const SilenceEdge& edge : watch_.look(now_ns)) lines_.note(edge, inputs_[edge.stream].name);
+  for (const robot::SilenceEdge& edge : watch_.look(now_ns)) lines_.note(edge, inputs_[edge.stream].name);
   for (const std::string& line : lines_.due(now_ns)) context_.logger->warn("{}", line);
   look_for_the_unheard(now_ns);
 }

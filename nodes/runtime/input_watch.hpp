@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/runtime/silence_lines.hpp"
-#include "nodes/runtime/silence_watch.hpp"
+#include "robot/watch/silence_lines.hpp"
+#include "robot/watch/silence_watch.hpp"
 
 namespace trivela::nodes {
 
@@ -35,8 +35,8 @@ class InputWatch {
 
   const NodeContext& context_;
   std::vector<Watched> inputs_;
-  SilenceWatch watch_;
-  SilenceLines lines_;
+  robot::SilenceWatch watch_;
+  robot::SilenceLines lines_;
   std::optional<std::int64_t> started_ns_, looked_ns_;
   bool unheard_said_ = false;
 };

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstdint>
 
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "bus/stop.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::nodes {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/shot_observer/observer.hpp"
+#include "robot/observer/observer.hpp"
 
 namespace trivela::nodes {
 
@@ -22,7 +22,7 @@ class ShotObserverNode {
 
   NodeContext& context_;
   std::mutex mutex_;  // the two reactions share the observer
-  Observer observer_;
+  robot::Observer observer_;
   bus::Node node_;
   bus::Output<msg::KickOutcome> outcome_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;

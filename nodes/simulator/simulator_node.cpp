@@ -9,8 +9,8 @@
 
 #include "bus/renewal.hpp"
 #include "config/scenario.hpp"
+#include "hal/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
-#include "nodes/simulator/sim_messages.hpp"
 #include "sim/laser/field_laser.hpp"
 
 namespace trivela::nodes {
@@ -111,18 +111,18 @@ void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) 
 }
 
 void SimulatorNode::publish(const sim::Sensors& sensors) {
-  write(referee_, referee_message(t_ns_, sensors.referee), cycle_);
-  write(kicker_, kicker_message(sensors), cycle_);
-  write(vision_, vision_message(t_ns_, sensors.vision), cycle_);
-  write(flight_, flight_message(t_ns_, sensors.flight), cycle_);
-  write(wheels_, wheels_message(sensors), cycle_);
+  write(referee_, hal::referee_message(t_ns_, sensors.referee), cycle_);
+  write(kicker_, hal::kicker_message(sensors), cycle_);
+  write(vision_, hal::vision_message(t_ns_, sensors.vision), cycle_);
+  write(flight_, hal::flight_message(t_ns_, sensors.flight), cycle_);
+  write(wheels_, hal::wheels_message(sensors), cycle_);
   publish_scans(sensors);
 }
 
 void SimulatorNode::publish_scans(const sim::Sensors& sensors) {
   if (!scan_) return;
   for (const kicking::lob::Scan& scan : sensors.scans) {
-    write(*scan_, scan_message(scan, sim::laser_model(scenario_.laser).geometry), ++scans_);
+    write(*scan_, hal::scan_message(scan, sim::laser_model(scenario_.laser).geometry), ++scans_);
     if (context_.settings.scan_recorder.enabled) barrier_.expect_scan(scan.t_ns);
   }
 }
@@ -189,9 +189,9 @@ std::optional<msg::SimDrive> SimulatorNode::fresh_drive() {
 }
 
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {
-  for (const sim::KickTruth& kick : events.kicks) write(kick_truth_, truth_message(kick), ++kicks_);
+  for (const sim::KickTruth& kick : events.kicks) write(kick_truth_, hal::truth_message(kick), ++kicks_);
   for (const sim::PossessionTruth& end : events.possessions)
-    write(possession_truth_, possession_message(end), ++possessions_);
+    write(possession_truth_, hal::possession_message(end), ++possessions_);
 }
 
 void SimulatorNode::report_progress() {

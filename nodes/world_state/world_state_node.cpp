@@ -12,7 +12,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>(
           {.period = {},
            .keep_all = false,
-           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers); }})),
+           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }})),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");
   node_.on<msg::Odometry>([this](const msg::Odometry& odometry) { on_odometry(odometry); },
@@ -42,7 +42,7 @@ void WorldStateNode::trust_no_silence(std::optional<msg::Referee>& word) {
   if (!heard_ || heard_->seq != word->seq || heard_->t_ns != word->t_ns) referee_watch_.heard(*word, now_ns);
   heard_ = word;
   if (const auto news = referee_watch_.news(now_ns)) context_.logger->warn(*news);
-  word->playing = referee_watch_.says(now_ns) == RefereeSays::kPlay;
+  word->playing = referee_watch_.says(now_ns) == robot::RefereeSays::kPlay;
 }
 
 }  // namespace trivela::nodes

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/runtime/referee_watch.hpp"
-#include "nodes/world_state/world_model.hpp"
+#include "robot/belief/world_model.hpp"
+#include "robot/watch/referee_watch.hpp"
 
 namespace trivela::nodes {
 
@@ -18,11 +18,11 @@ class WorldStateNode {
   void trust_no_silence(std::optional<msg::Referee>& word);
 
   NodeContext& context_;
-  WorldModel model_;
+  robot::WorldModel model_;
   bus::Node node_;
   bus::Output<msg::WorldState> world_out_;
   std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;
-  RefereeWatch referee_watch_;  // real time
+  robot::RefereeWatch referee_watch_;  // real time
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
   std::optional<msg::Referee> heard_;
   FirstCycle first_;

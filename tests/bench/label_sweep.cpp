@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tests/nodes/label_sweep.hpp"
+#include "tests/experiment/label_sweep.hpp"
 
 int main(int argc, char** argv) {
   using namespace trivela;
@@ -29,9 +29,9 @@ int main(int argc, char** argv) {
     for (const double frames_per_s : {10.0, 30.0, 50.0, 60.0}) {
       if (only_frames_per_s > 0.0 && frames_per_s != only_frames_per_s) continue;
       for (const double dropout_ratio : {0.0, 0.2, 0.4}) {
-        nodes::LabelCounts counts;
+        experiment::LabelCounts counts;
         for (std::uint32_t match = 0; match < matches; ++match)
-          nodes::add_match({sd_m, frames_per_s, dropout_ratio}, seed, match, possessions, counts);
+          experiment::add_match({sd_m, frames_per_s, dropout_ratio}, seed, match, possessions, counts);
         const auto percent = [](double part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; };
         fmt::print("{:3.0f} cm  {:8.0f}  {:6.0f} %  {:6d}  {:5.1f} %  {:12.2f} %  {:6.2f} %  {:8d} {:8d}  {:9.1f} %\n",
                    100.0 * sd_m, frames_per_s, 100.0 * dropout_ratio, counts.kicks,

@@ -3,7 +3,7 @@
 #include "config/robot.hpp"
 #include "config/scenario.hpp"
 #include "config/settings.hpp"
-#include "nodes/in_process/play_match.hpp"
+#include "experiment/play/play_match.hpp"
 
 // Matches in process, noise and filters included; items: opportunities.
 namespace {
@@ -14,7 +14,7 @@ constexpr std::uint32_t kPossessions = 60;
 
 void simulate(benchmark::State& state, kicking::PolicyName policy) {
   const sim::Scenario scenario = config::load_scenario(TRIVELA_SOURCE_DIR "/config/scenarios/default.toml");
-  nodes::Arm arm;
+  experiment::Arm arm;
   arm.policy = policy;
   arm.settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
   arm.robots = {config::load_robot(TRIVELA_SOURCE_DIR "/config/robots/cambada_1.toml")};
@@ -22,7 +22,7 @@ void simulate(benchmark::State& state, kicking::PolicyName policy) {
   std::uint64_t cycles = 0;
   std::int64_t kicks = 0;
   for (auto _ : state) {
-    const nodes::PlayedMatch match = nodes::play_match(scenario, arm, 1, match_id++, kPossessions);
+    const experiment::PlayedMatch match = experiment::play_match(scenario, arm, 1, match_id++, kPossessions);
     cycles += match.cycles;
     for (const auto& possession : match.possessions) kicks += possession.kick.has_value();
   }

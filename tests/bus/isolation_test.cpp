@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::bus {

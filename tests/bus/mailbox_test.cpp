@@ -4,8 +4,8 @@
 
 #include <thread>
 
-#include "bus/messages.hpp"
 #include "bus/writer.hpp"
+#include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::bus {

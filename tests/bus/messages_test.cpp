@@ -1,4 +1,4 @@
-#include "bus/messages.hpp"
+#include "idl/messages.hpp"
 
 #include <gmock/gmock.h>
 

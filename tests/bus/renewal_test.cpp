@@ -8,9 +8,9 @@
 
 #include "bus/executor.hpp"
 #include "bus/hearing.hpp"
-#include "bus/messages.hpp"
 #include "bus/node.hpp"
 #include "bus/writer.hpp"
+#include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::bus {

@@ -10,8 +10,8 @@
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
-#include "tests/cli/lob_page/recorded_lobs.hpp"
-#include "tests/evaluator/drive_log.hpp"
+#include "tests/calibration/drive_log.hpp"
+#include "tests/pages/recorded_lobs.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -42,7 +42,7 @@ json run(const std::string& arguments, int expected = kDone) {
 }
 
 TEST(CalibrateRecords, TrueTableOfASyntheticRecordIsWhatWasKicked) {
-  const lob_page::RecordedLobs lobs({{15, 6.1}, {15, 6.1}, {25, 8.7}, {25, 8.7}, {40, 10.8}});
+  const pages::RecordedLobs lobs({{15, 6.1}, {15, 6.1}, {25, 8.7}, {25, 8.7}, {40, 10.8}});
   const std::string out = lobs.path("nine.toml").string();
   const json table = run("table " + lobs.path().string() + " --robot nine --kind true --out " + out);
   ASSERT_EQ(table["setpoints"].size(), 3u);
@@ -61,7 +61,7 @@ TEST(CalibrateRecords, TrueTableOfASyntheticRecordIsWhatWasKicked) {
 }
 
 TEST(CalibrateRecords, AFigureOfSyntheticLobsSaysSo) {
-  const lob_page::RecordedLobs lobs({{15, 6.1}, {25, 8.7}});
+  const pages::RecordedLobs lobs({{15, 6.1}, {25, 8.7}});
   const auto figure_of = [&](const std::string& input) {
     const std::string out = lobs.path("5.svg").string();
     run("plot " + input + " --out " + out);
@@ -74,7 +74,7 @@ TEST(CalibrateRecords, AFigureOfSyntheticLobsSaysSo) {
   EXPECT_THAT(figure_of(measured), Not(HasSubstr("simulated")));
 }
 
-class CalibrateDrives : public evaluator::DriveLog {};
+class CalibrateDrives : public calibration::DriveLog {};
 
 TEST_F(CalibrateDrives, GiveTheWorldThatMadeThem) {
   const kicking::Transfer world{0.9, 0.6, 0.8};
@@ -91,11 +91,11 @@ TEST_F(CalibrateDrives, GiveTheWorldThatMadeThem) {
   const std::string out = " --robot cambada_1 --out " + path("nine.toml").string();
   EXPECT_NEAR(run("deflection " + log + out)["transfer"]["lateral_ratio"].get<double>(), 0.8, 1e-6);
   const std::string same = " --robot " + path("nine.toml").string() + " --out " + path("nine.toml").string();
-  EXPECT_NEAR(run("rotation " + log + same)["physical"]["delay_s"].get<double>(), evaluator::kDelay_s, 0.002);
+  EXPECT_NEAR(run("rotation " + log + same)["physical"]["delay_s"].get<double>(), calibration::kDelay_s, 0.002);
   const json transfer = run("transfer " + log + same);
   // In the speeds of the drag-free law, which are smaller than those over ground.
   const kicking::RobotModel model;
-  const double effective = model.table.speed_for(evaluator::kPower) * std::cos(model.exit_angle_rad) / 6.6;
+  const double effective = model.table.speed_for(calibration::kPower) * std::cos(model.exit_angle_rad) / 6.6;
   EXPECT_NEAR(transfer["forward"]["exact"]["value"].get<double>(), 0.9 * effective, 2e-3);
   EXPECT_NEAR(transfer["backward"]["exact"]["value"].get<double>(), 0.6 * effective, 2e-3);
   const config::Robot robot = config::load_robot(path("nine.toml"));
@@ -113,7 +113,7 @@ TEST_F(CalibrateDrives, NeedARobotAndTheRightKindOfRecord) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("1 row, need at least 2")));
   EXPECT_THAT([&] { run("table " + log + " --robot nine --out " + path("nine.toml").string()); },
               ThrowsMessage<std::runtime_error>(HasSubstr("is a match log; a table needs")));
-  const lob_page::RecordedLobs lobs({{15, 6.1}});
+  const pages::RecordedLobs lobs({{15, 6.1}});
   EXPECT_THAT([&] { run("delay " + lobs.path().string() + " --robot cambada_1"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("is a scan record; this needs")));
 }

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "calibration/robot_update.hpp"
+#include "calibration/rows/trials.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/robot_update.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/calibrate/trials.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -106,7 +106,7 @@ TEST_F(CalibrateVerb, TableOfLobsIsTheRobotsFile) {
   const config::Calibration& calibration = *robot.calibration;
   EXPECT_EQ(calibration.kicks, 4u);
   EXPECT_EQ(calibration.source, "trivela calibrate table");
-  EXPECT_EQ(calibration.date, today());
+  EXPECT_EQ(calibration.date, calibration::today());
   EXPECT_THAT(calibration.table->files, ElementsAre("lobs.csv"));
   EXPECT_THAT(calibration.table->trials, ElementsAre(2, 2));
   EXPECT_THAT(
@@ -341,12 +341,13 @@ TEST(TrialsOfLobs, AreThoseAcceptedWithAPower) {
   rejected.refusal = kicking::lob::Refusal::kOperator;
   LobRecord unknown = good;
   unknown.power.reset();
-  const Trials trials = trials_of_lobs({good, rejected, unknown, good}, kicking::TableKind::kEffective, "a.db");
+  const calibration::Trials trials =
+      calibration::trials_of_lobs({good, rejected, unknown, good}, kicking::TableKind::kEffective, "a.db");
   ASSERT_EQ(trials.trials.size(), 2u);
   EXPECT_EQ(trials.trials[0].exit_speed_mps, 7.0);
   EXPECT_THAT(trials.warnings,
               ElementsAre("a.db: 1 lob left out: no set-point known", "a.db: 1 lob left out: operator"));
-  EXPECT_THAT(trials_of_lobs({good}, kicking::TableKind::kTrue, "a.db").trials, IsEmpty());
+  EXPECT_THAT(calibration::trials_of_lobs({good}, kicking::TableKind::kTrue, "a.db").trials, IsEmpty());
 }
 
 struct Mistake {

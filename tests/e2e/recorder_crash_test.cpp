@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "bus/domain.hpp"
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "config/settings.hpp"
+#include "idl/messages.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/running_match.hpp"
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "bus/domain.hpp"
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "config/settings.hpp"
+#include "idl/messages.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"

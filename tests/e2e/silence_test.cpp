@@ -12,9 +12,9 @@
 #include <set>
 
 #include "bus/domain.hpp"
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "config/settings.hpp"
+#include "idl/messages.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "evaluator/calibration/drive_rows.hpp"
+#include "calibration/rows/drive_rows.hpp"
 #include "evaluator/learning/predicted_kicks.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/scan_log.hpp"
@@ -84,7 +84,7 @@ TEST_P(OlderLog, IsReportedOn) {
 TEST_P(OlderLog, IsComparedAndCalibratedFrom) {
   std::string by;
   EXPECT_EQ(read_log_kicks({log_path}, {}, by).opportunities.size(), 2u);
-  EXPECT_NO_THROW(release_delays(recorded_drives(Reader(log_path))));
+  EXPECT_NO_THROW(calibration::release_delays(calibration::recorded_drives(Reader(log_path))));
 }
 
 TEST_P(OlderLog, AConfigurationThatIsNotTheNamedOneIsDamage) {

@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::faults {
 namespace {

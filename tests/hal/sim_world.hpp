@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::hal {

@@ -1,4 +1,4 @@
-#include "kicking/calibration/delay_fit.hpp"
+#include "kicking/fit/delay_fit.hpp"
 
 #include <gmock/gmock.h>
 

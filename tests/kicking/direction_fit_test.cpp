@@ -1,4 +1,4 @@
-#include "kicking/calibration/direction_fit.hpp"
+#include "kicking/fit/direction_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kicking/calibration/distance_table.hpp"
+#include "kicking/fit/distance_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kicking/calibration/power_table.hpp"
+#include "kicking/fit/power_table.hpp"
 
 #include <gmock/gmock.h>
 

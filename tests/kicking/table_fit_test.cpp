@@ -1,4 +1,4 @@
-#include "kicking/calibration/table_fit.hpp"
+#include "kicking/fit/table_fit.hpp"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "kicking/calibration/isotonic.hpp"
+#include "kicking/fit/isotonic.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/vector_rows.hpp"
 

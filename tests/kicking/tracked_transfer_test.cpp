@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "kicking/calibration/tracked_transfer.hpp"
-#include "kicking/calibration/tracked_trials.hpp"
+#include "kicking/fit/tracked_transfer.hpp"
+#include "kicking/fit/tracked_trials.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {

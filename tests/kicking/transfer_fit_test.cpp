@@ -1,4 +1,4 @@
-#include "kicking/calibration/transfer_fit.hpp"
+#include "kicking/fit/transfer_fit.hpp"
 
 #include <gmock/gmock.h>
 

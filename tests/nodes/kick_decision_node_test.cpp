@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nodes/kick_decision/decision_message.hpp"
+#include "robot/decision/decision_message.hpp"
 #include "tests/nodes/node_fixture.hpp"
 
 namespace trivela::nodes {
@@ -184,14 +184,14 @@ TEST_F(KickDecisionNodeTest, ThePolicyOfAPossessionIsDrawnAndItsProbabilityRecor
   auto& settings = context.settings.kick_decision;
   settings.random = {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving};
   settings.random_probabilities = {0.25, 0.75};
-  const PolicyAssignment assignment{settings, 1};
+  const robot::PolicyAssignment assignment{settings, 1};
   start();
   for (std::uint32_t id = 1; id <= 12; ++id) {
     auto state = world(0.8);
     state.possession_id = id;
     cycle(state);
     const auto chance = assignment.in_charge(1, id);
-    EXPECT_EQ(decision.nth(id).policy, to_wire(chance.policy));
+    EXPECT_EQ(decision.nth(id).policy, robot::to_wire(chance.policy));
     EXPECT_EQ(decision.nth(id).assignment_probability, chance.probability);
   }
 }

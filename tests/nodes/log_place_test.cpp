@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "evaluator/log/reader.hpp"
-#include "nodes/recorder/predecessor.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/now_ns.hpp"
+#include "robot/recording/predecessor.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -91,7 +91,7 @@ TEST_F(LogPlaceTest, ASessionThatSaidNothingHandsOnWhereItBegan) {
 }
 
 TEST_F(LogPlaceTest, AnotherRobotsOrAnOldMatchIsNotContinued) {
-  record(folder / "match.db", 7, 2 * kLongestPause_s);
+  record(folder / "match.db", 7, 2 * robot::kLongestPause_s);
   EXPECT_EQ(Reader{place().path}.sessions().at(0).continues_uuid, "");
   record(folder / "match-r1-20260101T000000Z.db", 7);
   context.settings.run.robot_id = 2;

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <limits>
 
-#include "bus/messages.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "evaluator/log/reader.hpp"
+#include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/nodes/spawned.hpp"
 #include "tests/nodes/temporary_folder.hpp"

@@ -25,7 +25,7 @@ class OdometryNodeTest : public NodeTest {
     return out;
   }
 
-  OmniKinematics kinematics{context.robot.base};
+  robot::OmniKinematics kinematics{context.robot.base};
   std::int64_t t_ns = 0;
 };
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "tests/nodes/flown_shot.hpp"
 #include "tests/nodes/node_fixture.hpp"
+#include "tests/robot/flown_shot.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -25,7 +25,7 @@ class ShotObserverNodeTest : public NodeTest {
     word.playing = playing;
     referee(word);
   }
-  void kicked(std::int64_t kick_id, const FlownShot& shot, bool accepted = true) {
+  void kicked(std::int64_t kick_id, const robot::FlownShot& shot, bool accepted = true) {
     msg::KickReceipt out{};
     out.kick_id = kick_id;
     out.accepted = accepted;
@@ -34,7 +34,7 @@ class ShotObserverNodeTest : public NodeTest {
     out.power = accepted ? 25.0 : 0.0;
     receipt(out);
   }
-  void show(const FlownShot::Frame& seen) {
+  void show(const robot::FlownShot::Frame& seen) {
     msg::FlightFrame out{};
     out.t_exposure_ns = seen.t_ns;
     out.t_ns = seen.t_ns + 40'000'000;
@@ -44,11 +44,11 @@ class ShotObserverNodeTest : public NodeTest {
     out.ball_z_m = seen.ball_m ? seen.ball_m->z() : std::nan("");
     camera(out);
   }
-  void show(const FlownShot& shot) {
+  void show(const robot::FlownShot& shot) {
     for (const auto& frame : shot.frames) show(frame);
   }
 
-  const FlownShot in_goal = fly(aimed(0.3, 0.5), airless());
+  const robot::FlownShot in_goal = robot::fly(robot::aimed(0.3, 0.5), robot::airless());
   Heard<msg::KickOutcome> outcome{participant};
   Says<msg::FlightFrame> camera{participant};
   Says<msg::KickReceipt> receipt{participant};
@@ -84,7 +84,7 @@ TEST_F(ShotObserverNodeTest, SaysWhatBecameOfAKick) {
 
 TEST_F(ShotObserverNodeTest, AMissIsNotOnTarget) {
   start();
-  const auto wide = fly(aimed(-2.0, 0.5), airless());
+  const auto wide = robot::fly(robot::aimed(-2.0, 0.5), robot::airless());
   kicked(12, wide);
   show(wide);
   EXPECT_EQ(outcome.nth(1).outcome, msg::OUTCOME_WIDE_LEFT);

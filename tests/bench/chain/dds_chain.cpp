@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "bus/messages.hpp"
+#include "idl/messages.hpp"
 #include "tests/bench/chain/pacer.hpp"
 
 namespace trivela::bench {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "bus/messages.hpp"
 #include "bus/stop.hpp"
+#include "idl/messages.hpp"
 #include "tests/bench/chain/pacer.hpp"
 
 namespace trivela::bench {

@@ -1,0 +1,287 @@
+#include "calibration/calibration_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "calibration/rows/drive_rows.hpp"
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::calibration {
+namespace {
+
+using kicking::degrees;
+
+constexpr std::int64_t kSameKick_ns = 300'000'000;          // from the order to the launch that the laser saw, at most
+constexpr double kLaserAngle_rad = kicking::radians(0.03);  // what all lobs of a scanner share: docs/calibration.md
+constexpr std::size_t kFewestLobs = 2;                      // of a set-point (paper, section 2.2)
+constexpr std::uint32_t kMostKicks = 40;                    // with a set-point in one more round
+
+std::vector<std::string> names(const std::vector<std::string>& files) {
+  std::vector<std::string> out;
+  out.reserve(files.size());
+  for (const std::string& file : files) out.push_back(std::filesystem::path{file}.filename().string());
+  return out;
+}
+
+/// What the scans of one power came to.
+struct Tally {
+  std::size_t kicks = 0;
+  std::size_t lobs = 0;
+};
+
+/// The powers that still need lobs, and kicks with each that should bring them, going by the kicks so far.
+struct NextRound {
+  std::vector<double> powers;
+  std::uint32_t kicks = 0;
+};
+
+NextRound next_round(const std::map<double, Tally>& tallies, std::size_t wanted) {
+  NextRound next;
+  for (const auto& [power, tally] : tallies) {
+    if (tally.lobs >= wanted) continue;
+    const double share = (static_cast<double>(tally.lobs) + 0.5) / (static_cast<double>(tally.kicks) + 1.0);
+    const double kicks = std::ceil(1.2 * static_cast<double>(wanted - tally.lobs) / share);
+    next.powers.push_back(power);
+    next.kicks = std::max(next.kicks, std::min(kMostKicks, static_cast<std::uint32_t>(kicks)));
+  }
+  return next;
+}
+
+std::string list_of(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  texts.reserve(values.size());
+  for (const double value : values) texts.push_back(fmt::format("{:.17e}", value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+/// "8.62 +- 0.1 deg/(m/s)"
+std::string figure(double value, double se, const char* unit) {
+  return fmt::format("{:.4g} +- {:.2g} {}", value, se, unit);
+}
+
+}  // namespace
+
+CalibrationRun::CalibrationRun(DriveSource& source, const sim::Scenario& scenario, const config::Settings& settings,
+                               const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update)
+    : source_(source),
+      scenario_(scenario),
+      settings_(settings),
+      effort_(effort),
+      seed_(seed),
+      update_(std::move(update)) {}
+
+DriveRecord CalibrationRun::play(DriveSummary& summary, const std::string& name, kicking::PolicyName policy,
+                                 double ball_to_goal_m, bool laser, std::size_t possessions,
+                                 std::vector<std::string> settings) {
+  DrivePlan plan{.name = name,
+                 .policy = policy,
+                 .scenario = scenario_,
+                 .possessions = static_cast<std::uint32_t>(possessions),
+                 .seed = seed_++,
+                 .settings = std::move(settings)};
+  plan.scenario.laser.enabled = laser;
+  plan.scenario.possession.goal_distance_min_m = plan.scenario.possession.goal_distance_max_m = ball_to_goal_m;
+  DriveRecord record = source_.play(plan, update_);
+  summary.logs.push_back(record.log);
+  summary.played_s += record.played_s;
+  summary.wall_s += record.wall_s;
+  return record;
+}
+
+std::vector<kicking::TrackedTrial> CalibrationRun::followed(const std::vector<LobOfKick>& lobs) const {
+  std::vector<double> delays_s;
+  for (const DriveRecord& record : standing_) {
+    const auto rows = release_delays(record.drives).rows;
+    delays_s.insert(delays_s.end(), rows.begin(), rows.end());
+  }
+  kicking::RobotModel model = update_.robot().model;
+  model.delay_s = kicking::fit_delay(delays_s).mean_s.value;
+  std::vector<kicking::TrackedTrial> kicks;
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    for (const TrackedSpeed& kick : standing_kicks(standing_[i].drives, model).rows) {
+      kicks.push_back({.power = kick.power, .up_mps = kick.up_mps, .sideways_rad = kick.sideways_rad});
+      for (const LobOfKick& lob : lobs) {
+        if (lob.record == i && std::abs(lob.launch_t_ns - kick.order_t_ns) < kSameKick_ns) kicks.back().lob = lob.trial;
+      }
+    }
+  }
+  return kicks;
+}
+
+DriveSummary CalibrationRun::standing() {
+  DriveSummary summary;
+  summary.name = "standing";
+  std::map<double, Tally> tallies;
+  for (const double power : settings_.policy.test_drive.powers) tallies[power] = {};
+  std::vector<LobOfKick> lobs;
+  std::vector<std::string> scans;
+  std::map<std::string, std::size_t> refused;
+  const double ball_to_goal_m = scenario_.possession.goal_distance_max_m;
+  NextRound round{settings_.policy.test_drive.powers, effort_.kicks};
+  for (std::uint32_t i = 1; i <= effort_.rounds && !round.powers.empty(); ++i) {
+    standing_.push_back(play(summary, i == 1 ? "1_standing" : fmt::format("1_standing_{}", i),
+                             kicking::PolicyName::kStandingDrive, ball_to_goal_m, true,
+                             round.powers.size() * round.kicks,
+                             {"policy.test_drive.powers = " + list_of(round.powers),
+                              fmt::format("policy.test_drive.kicks_per_level = {}", round.kicks)}));
+    const DriveRecord& record = standing_.back();
+    scans.push_back(record.scans);
+    for (const double power : record.kicked_powers) ++tallies[power].kicks;
+    summary.kicks += record.kicked_powers.size();
+    for (const auto& lob : record.lobs) {
+      if (lob.refusal != kicking::lob::Refusal::kNone) ++refused[kicking::lob::name(lob.refusal)];
+      if (lob.refusal != kicking::lob::Refusal::kNone || !lob.effective || !lob.power) continue;
+      ++tallies[*lob.power].lobs;
+      lobs.push_back({standing_.size() - 1,
+                      lob.launch_t_ns,
+                      {.power = *lob.power,
+                       .exit_angle_rad = lob.effective->exit_angle_rad.value,
+                       .exit_speed_mps = lob.effective->exit_speed_mps.value}});
+    }
+    round = next_round(tallies, effort_.lobs);
+  }
+  for (const auto& [power, tally] : tallies) {
+    if (tally.lobs >= kFewestLobs) continue;
+    throw std::runtime_error{fmt::format(
+        "set-point {}: {} of the {} lobs that it needs, after {} kicks; about {} more kicks with it are needed "
+        "(--kicks, now {})",
+        power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, effort_.kicks)};
+  }
+  std::size_t seen = lobs.size();
+  for (const auto& [why, flights] : refused) {
+    summary.left_out.push_back(fmt::format("{} flight{}: {}", flights, flights == 1 ? "" : "s", why));
+    seen += flights;
+  }
+  if (const std::size_t unseen = summary.kicks - std::min(seen, summary.kicks); unseen > 0)
+    summary.left_out.push_back(fmt::format("{} kick{}: no flight in the scans", unseen, unseen == 1 ? "" : "s"));
+  summary.used = lobs.size();
+  const kicking::TrackedTrials tracked = kicking::tracked_trials(followed(lobs));
+  kicking::TableFit fit = kicking::fit_table(tracked.trials);
+  if (!fit.rises()) {
+    // Strong set-points lie within each other's errors: the speeds are pooled, and the file says so.
+    for (const std::size_t i : fit.not_rising) {
+      summary.left_out.push_back(fmt::format("order of set-point {}: {:.2f} m/s, not faster than a weaker one; pooled",
+                                             fit.set_points[i].power, fit.set_points[i].exit_speed_mps.mean));
+    }
+    fit = kicking::fit_table(tracked.trials, {.least_angle_power = {}, .isotonic = true});
+  }
+  fit.exit_angle_rad = tracked.exit_angle_rad;
+  fit.exit_angle_rad.se = std::hypot(fit.exit_angle_rad.se, kLaserAngle_rad);
+  summary.left_out.insert(summary.left_out.end(), fit.warnings.begin(), fit.warnings.end());
+  update_.set_table(fit, {}, names(scans));
+  summary.found = fmt::format("{} set-points, {:.2f} to {:.2f} m/s, exit angle {}", fit.set_points.size(),
+                              fit.set_points.front().exit_speed_mps.mean, fit.set_points.back().exit_speed_mps.mean,
+                              figure(degrees(fit.exit_angle_rad.value), degrees(fit.exit_angle_rad.se), "degrees"));
+  return summary;
+}
+
+DriveSummary CalibrationRun::delay() {
+  DriveSummary summary;
+  summary.name = "delay";
+  std::vector<double> delays_s;
+  for (const DriveRecord& record : standing_) {
+    summary.logs.push_back(record.log);
+    summary.kicks += record.kicks.size();
+    const auto kicks = release_delays(record.drives);
+    delays_s.insert(delays_s.end(), kicks.rows.begin(), kicks.rows.end());
+    summary.left_out.insert(summary.left_out.end(), kicks.left_out.begin(), kicks.left_out.end());
+  }
+  const kicking::DelayFit fit = kicking::fit_delay(delays_s);
+  summary.used = delays_s.size() - fit.rejected.size();
+  update_.set_delay(fit, names(summary.logs));
+  summary.found = figure(1e3 * fit.mean_s.value, 1e3 * fit.mean_s.se, "ms");
+  return summary;
+}
+
+DriveSummary CalibrationRun::direction() {
+  DriveSummary summary;
+  summary.name = "direction";
+  std::vector<kicking::LaunchDirection> directions;
+  for (const DriveRecord& record : standing_) {
+    summary.logs.push_back(record.log);
+    summary.kicks += record.kicks.size();
+    const auto kicks = launch_directions(record.drives, update_.robot().model);
+    directions.insert(directions.end(), kicks.rows.begin(), kicks.rows.end());
+    summary.left_out.insert(summary.left_out.end(), kicks.left_out.begin(), kicks.left_out.end());
+  }
+  const kicking::DirectionFit fit = kicking::fit_direction(directions);
+  summary.used = directions.size();
+  update_.set_direction(fit, directions.size(), names(summary.logs));
+  summary.found =
+      fmt::format("sd {}; the camera's tracks have {:.2g} degrees",
+                  figure(degrees(fit.sd_rad.value), degrees(fit.sd_rad.se), "degrees"), degrees(fit.observer_sd_rad));
+  return summary;
+}
+
+DriveSummary CalibrationRun::lateral() {
+  DriveSummary summary;
+  summary.name = "lateral";
+  const auto& drive = settings_.policy.test_drive;
+  const DriveRecord record = play(summary, "3_lateral", kicking::PolicyName::kLateralDrive,
+                                  drive.distance_m - update_.robot().model.ball_offset_m, false,
+                                  drive.lateral_mps.size() * effort_.drive_kicks,
+                                  {fmt::format("policy.test_drive.kicks_per_level = {}", effort_.drive_kicks)});
+  summary.kicks = record.kicks.size();
+  const auto kicks = lateral_kicks(record.drives, update_.robot().model);
+  summary.left_out = kicks.left_out;
+  summary.used = kicks.rows.size();
+  const kicking::DeflectionFit fit = kicking::fit_deflection(kicks.rows, update_.robot().model.delay_s);
+  update_.set_deflection(fit, names(summary.logs));
+  lateral_ = transfer_kicks(record.drives, update_.robot().model).rows;
+  summary.found = "alpha " + figure(degrees(fit.line.slope.value), degrees(fit.line.slope.se), "degrees per m/s");
+  return summary;
+}
+
+DriveSummary CalibrationRun::turn() {
+  DriveSummary summary;
+  summary.name = "turn";
+  const auto& drive = settings_.policy.test_drive;
+  const std::size_t kicks_wanted = drive.turn_radps.size() * drive.turn_steps * effort_.turn_kicks;
+  // A kick that was not seen to cross is repeated: some more possessions.
+  const DriveRecord record =
+      play(summary, "4_turn", kicking::PolicyName::kTurnDrive, kTurnDistance_m - update_.robot().model.ball_offset_m,
+           false, kicks_wanted + 2, {fmt::format("policy.test_drive.turn_kicks_per_step = {}", effort_.turn_kicks)});
+  summary.kicks = record.kicks.size();
+  const auto kicks = turn_kicks(record.drives, update_.robot().model, settings_.run.cycle_s);
+  summary.left_out = kicks.left_out;
+  summary.used = kicks.rows.size();
+  const kicking::RotationFit fit = kicking::fit_rotation(
+      kicks.rows, kicking::RotationLever{update_.robot().model.ball_offset_m, settings_.run.cycle_s});
+  update_.set_rotation(fit, names(summary.logs));
+  summary.found = "beta " + figure(fit.line.slope.value, fit.line.slope.se, "s");
+  return summary;
+}
+
+DriveSummary CalibrationRun::straight() {
+  DriveSummary summary;
+  summary.name = "straight";
+  const auto& drive = settings_.policy.test_drive;
+  const DriveRecord record = play(summary, "5_straight", kicking::PolicyName::kStraightDrive,
+                                  drive.straight_distance_m - update_.robot().model.ball_offset_m, false,
+                                  drive.straight_mps.size() * effort_.drive_kicks,
+                                  {fmt::format("policy.test_drive.kicks_per_level = {}", effort_.drive_kicks)});
+  summary.kicks = record.kicks.size();
+  const auto& model = update_.robot().model;
+  std::vector<kicking::TransferRow> rows =
+      lateral_;  // at rest along the pointing line: what the others are held against
+  const auto kicks = transfer_kicks(record.drives, model);
+  rows.insert(rows.end(), kicks.rows.begin(), kicks.rows.end());
+  summary.left_out = kicks.left_out;
+  summary.used = kicks.rows.size();
+  const kicking::TransferFit fit = kicking::fit_transfer(rows, model.delay_s, model.ball.radius_m);
+  update_.set_transfer(fit, names(summary.logs));
+  const auto share = [](const std::optional<kicking::TransferDirection>& direction) {
+    return direction ? figure(direction->exact.value, direction->exact.se, "") : std::string{"not measured"};
+  };
+  summary.found = fmt::format("transfer forward {}, backward {}", share(fit.forward), share(fit.backward));
+  summary.left_out.insert(summary.left_out.end(), fit.failed.begin(), fit.failed.end());
+  return summary;
+}
+
+}  // namespace trivela::calibration

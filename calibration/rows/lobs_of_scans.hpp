@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "evaluator/log/scan_log.hpp"
+#include "kicking/lob/analyzer.hpp"
+#include "kicking/lob/lob_record.hpp"
+
+namespace trivela::calibration {
+
+/// Gives a lob the power of the last set-point at or before its launch, and the last verdict on it: a verdict is on the
+/// lob whose launch is within half a second of its own, since another fit gives another instant. Rejected:
+/// Refusal::kOperator with the human's words. Accepted: the refusal is lifted where there are effective values, and
+/// stays where there are none. Verdicts in the order they were said.
+void annotate(kicking::lob::LobRecord& lob, std::span<const evaluator::log::TestedSetPoint> set_points,
+              std::span<const evaluator::log::Verdict> verdicts);
+
+/// The lobs of a scan record in the order of their flights, refused ones too, each with its power and the verdicts of
+/// the record; `later_verdicts`, said of a finished record and kept beside it, come after those.
+/// @throws std::runtime_error where the record cannot be read, std::invalid_argument where its geometry makes no sense.
+std::vector<kicking::lob::LobRecord> lobs_of_scans(const evaluator::log::ScanReader& scans,
+                                                   const kicking::lob::AnalyzerConfig& config = {},
+                                                   std::span<const evaluator::log::Verdict> later_verdicts = {});
+
+}  // namespace trivela::calibration

@@ -1,0 +1,136 @@
+#include "calibration/rows/number_table.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "cli/open_file.hpp"
+
+namespace trivela::calibration {
+namespace {
+
+std::string text_of(const std::string& file) {
+  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  std::ifstream in = cli::open_file(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+/// Columns apart by blanks; line numbers as in the file.
+std::vector<cli::CsvRecord> read_blanks(const std::string& text) {
+  std::vector<cli::CsvRecord> records;
+  std::istringstream in(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    auto words = words_of(line.substr(0, line.find('#')));
+    if (!words.empty()) records.push_back({number, std::move(words)});
+  }
+  return records;
+}
+
+/// Comments after numbers too; lines keep their numbers.
+std::vector<cli::CsvRecord> read_csv(const std::string& text, const std::string& file) {
+  std::vector<cli::CsvRecord> records;
+  std::istringstream lines(text);
+  std::stringstream in;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find('#'), line.size()));
+    in << (words_of(line).empty() ? "" : line) << '\n';
+  }
+  cli::CsvReader reader(in, file);
+  while (auto record = reader.next()) records.push_back(std::move(*record));
+  return records;
+}
+
+/// Has a line that is no comment a comma?
+bool is_csv(const std::string& text) {
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.substr(0, line.find('#')).find(',') != std::string::npos) return true;
+  }
+  return false;
+}
+
+bool is_number(const std::string& cell) {
+  std::istringstream in(cell);
+  double value = 0.0;
+  return static_cast<bool>(in >> value) && (in >> std::ws).eof();
+}
+
+std::string trimmed(const std::string& text) {
+  const auto words = words_of(text);
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::vector<std::string> named_columns(const std::string& columns) {
+  std::vector<std::string> header;
+  std::istringstream in(columns);
+  for (std::string name; std::getline(in, name, ',');) header.push_back(trimmed(name));
+  for (const std::string& name : header) {
+    if (name.empty()) throw cli::UsageError(fmt::format("--columns {}: a name is empty; '-' skips a column", columns));
+    if (name != "-" && std::ranges::count(header, name) > 1) {
+      throw cli::UsageError(fmt::format("--columns {}: {} stands twice", columns, name));
+    }
+  }
+  return header;
+}
+
+}  // namespace
+
+NumberTable NumberTable::read(const std::string& file, const std::string& columns) {
+  NumberTable table;
+  table.file_ = file == "-" ? "standard input" : file;
+  table.header_ = named_columns(columns);
+  const std::string text = text_of(file);
+  table.records_ = is_csv(text) ? read_csv(text, table.file_) : read_blanks(text);
+  auto& records = table.records_;
+  if (records.empty()) throw std::runtime_error(table.file_ + ": no rows");
+  const bool numbers_first = std::ranges::any_of(records.front().cells, is_number);
+  if (columns.empty()) {
+    if (numbers_first) {
+      throw std::runtime_error(fmt::format("{}:{}: the first line names no columns; name them with --columns",
+                                           table.file_, records.front().line));
+    }
+    for (const std::string& cell : records.front().cells) {
+      table.header_.push_back(trimmed(cell));
+      if (std::ranges::count(table.header_, table.header_.back()) > 1) {
+        throw std::runtime_error(
+            fmt::format("{}: column {} stands twice in the header", table.file_, table.header_.back()));
+      }
+    }
+  }
+  if (!numbers_first) records.erase(records.begin());  // a header that --columns replaces is passed over
+  if (records.empty()) throw std::runtime_error(table.file_ + ": a header and no rows");
+  return table;
+}
+
+bool NumberTable::has(std::string_view column) const { return std::ranges::find(header_, column) != header_.end(); }
+
+void NumberTable::require_one_of(const std::vector<std::string>& columns) const {
+  if (std::ranges::any_of(columns, [this](const std::string& column) { return has(column); })) return;
+  throw std::runtime_error(
+      fmt::format("{}: no column {} (there are: {})", file_, fmt::join(columns, " or "), fmt::join(header_, ", ")));
+}
+
+void NumberTable::for_each(const std::function<void(const cli::Row&)>& fn) const {
+  for (const cli::CsvRecord& record : records_) {
+    if (record.cells.size() != header_.size()) {
+      throw std::runtime_error(
+          fmt::format("{}:{}: {} cells under {} columns", file_, record.line, record.cells.size(), header_.size()));
+    }
+    try {
+      fn(cli::Row(header_, record.cells));
+    } catch (const cli::CellError& error) {
+      throw std::runtime_error(fmt::format("{}:{}: {}", file_, record.line, error.what()));
+    }
+  }
+}
+
+}  // namespace trivela::calibration

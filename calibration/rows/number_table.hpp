@@ -1,0 +1,40 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/csv_rows.hpp"
+
+namespace trivela::calibration {
+
+/// No field is longer: a distance beyond it was not written in metres.
+inline constexpr double kFieldLength_m = 40.0;
+
+/// Rows of a measured table: CSV, or columns apart by blanks. What follows a '#' at the start of a line, in a table
+/// with blanks anywhere, is a comment.
+class NumberTable {
+ public:
+  /// Reads `file`, "-" for standard input. `columns` names them in order, '-' one to skip; empty: the first line does.
+  /// @throws std::runtime_error for a file that cannot be read, is empty, or whose first line names no columns;
+  /// UsageError for `columns` that name one twice or none.
+  static NumberTable read(const std::string& file, const std::string& columns = "");
+
+  bool has(std::string_view column) const;
+
+  /// @throws std::runtime_error naming file and columns unless one of them is there.
+  void require_one_of(const std::vector<std::string>& columns) const;
+
+  /// Calls `fn` for each row. @throws std::runtime_error naming file, line, column and value of the first bad cell.
+  void for_each(const std::function<void(const cli::Row&)>& fn) const;
+
+ private:
+  std::string file_;
+  std::vector<std::string> header_;
+  std::vector<cli::CsvRecord> records_;
+};
+
+}  // namespace trivela::calibration

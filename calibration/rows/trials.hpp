@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kicking/fit/table_fit.hpp"
+
+namespace trivela::calibration {
+
+/// How to read the trials of a kicker.
+struct TrialFlags {
+  kicking::TableKind kind = kicking::TableKind::kEffective;
+  std::optional<double> exit_angle_rad = {};  ///< of speeds that come without an angle
+  std::string columns = {};                   ///< of tables of numbers, see NumberTable
+};
+
+/// Trials, and sentences on what was left out.
+struct Trials {
+  std::vector<kicking::Trial> trials;
+  std::vector<std::string> warnings;
+  bool simulated = false;  ///< some are of synthetic scans
+};
+
+/// Trials of scan records (accepted lobs with a known power; effective or true values by `kind`) and of tables with the
+/// columns power, height_m, distance_m (of the ball's centre relative to the launch; effective) or power,
+/// exit_speed_mps
+/// [, exit_angle_deg].
+/// @throws std::runtime_error, std::invalid_argument naming file and line; UsageError for flags that contradict a file.
+Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flags);
+
+/// The same for lobs: those accepted and with a power.
+Trials trials_of_lobs(const std::vector<kicking::lob::LobRecord>& lobs, kicking::TableKind kind,
+                      const std::string& file);
+
+}  // namespace trivela::calibration

@@ -1,0 +1,52 @@
+#include "calibration/rows/verdicts_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace trivela::calibration {
+
+namespace fs = std::filesystem;
+
+fs::path verdicts_path(const fs::path& record) {
+  fs::path path = record;
+  path += ".verdicts.json";
+  return path;
+}
+
+std::vector<evaluator::log::Verdict> verdicts_beside(const fs::path& record) {
+  const fs::path path = verdicts_path(record);
+  std::vector<evaluator::log::Verdict> verdicts;
+  if (!fs::exists(path)) return verdicts;
+  try {
+    std::ifstream in(path);
+    for (const auto& json : nlohmann::json::parse(in)) {
+      verdicts.push_back({.launch_t_ns = json.at("launch_t_ns").get<std::int64_t>(),
+                          .accepted = json.at("accepted").get<bool>(),
+                          .why = json.at("why").get<std::string>()});
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(fmt::format("{} does not hold verdicts: {}", path.string(), error.what()));
+  }
+  return verdicts;
+}
+
+void write_verdicts(const fs::path& record, std::span<const evaluator::log::Verdict> verdicts) {
+  auto list = nlohmann::ordered_json::array();
+  for (const evaluator::log::Verdict& verdict : verdicts) {
+    list.push_back({{"launch_t_ns", verdict.launch_t_ns}, {"accepted", verdict.accepted}, {"why", verdict.why}});
+  }
+  const fs::path path = verdicts_path(record);
+  fs::path fresh = path;
+  fresh += ".new";
+  std::ofstream out(fresh);
+  out << list.dump(2) << '\n';
+  out.close();
+  std::error_code refused;
+  if (out) fs::rename(fresh, path, refused);
+  if (!out || refused) throw std::runtime_error(fmt::format("cannot write the verdicts {}", path.string()));
+}
+
+}  // namespace trivela::calibration

@@ -1,0 +1,89 @@
+#include "cli/lob/page_verb.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "calibration/scanner_session.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/verbs.hpp"
+#include "config/robot.hpp"
+#include "hal/open_range_finder.hpp"
+#include "pages/lob/live_scene.hpp"
+#include "pages/lob/page_server.hpp"
+#include "pages/lob/replay_scene.hpp"
+
+namespace trivela::cli {
+namespace {
+
+constexpr int kCheck_ms = 200;  // how often the scene is asked whether it still runs
+
+pages::CalibrationPlan plan_of(const PageFlags& flags) {
+  pages::CalibrationPlan plan{.powers = {}, .trials = flags.trials};
+  if (!flags.plan.empty()) plan.powers = pages::parse_powers(flags.plan);
+  if (!flags.robot.empty()) {
+    const config::Robot robot = config::load_robot(flags.robot);
+    for (const kicking::SetPoint& point : robot.model.table.set_points()) plan.powers.push_back(point.power);
+  }
+  return plan;
+}
+
+std::unique_ptr<pages::Scene> open_scene(const PageFlags& flags, const kicking::lob::LaserMount& mount,
+                                         const kicking::lob::AnalyzerConfig& config, pages::Broadcast& broadcast) {
+  const pages::CalibrationPlan plan = plan_of(flags);
+  if (!flags.replay.empty()) return std::make_unique<pages::ReplayScene>(flags.replay, config, plan, broadcast);
+  const std::string record = !flags.record.empty()
+                                 ? flags.record
+                                 : fmt::format("lobs-{:%Y-%m-%d-%H%M%S}.db", fmt::localtime(std::time(nullptr)));
+  calibration::refuse_existing(record);
+  return std::make_unique<pages::LiveScene>(
+      hal::open_range_finder(flags.live),
+      pages::LiveOptions{.device = flags.live, .record = record, .mount = mount, .analyzer = config, .plan = plan},
+      broadcast);
+}
+
+}  // namespace
+
+void add_page_flags(CLI::App& verb, PageFlags& flags) {
+  auto* live = verb.add_option("--live", flags.live, "page: this scanner, /dev/ttyACM0 or tcp://HOST:PORT");
+  auto* replay = verb.add_option("--replay", flags.replay,
+                                 "page: this scan record, which is not changed; verdicts go to FILE.verdicts.json")
+                     ->excludes(live);
+  verb.add_option("--record", flags.record, "page, live: record, must not exist; default: lobs-<date>.db here")
+      ->excludes(replay);
+  verb.add_option("--listen", flags.listen, "page: ADDRESS[:PORT] to serve it on; 0.0.0.0 opens it to the network")
+      ->capture_default_str();
+  verb.add_option("--port", flags.port, "page: port, 0: any free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  auto* plan = verb.add_option("--plan", flags.plan, "page: powers to calibrate, e.g. 15,20,...,50");
+  verb.add_option("--robot", flags.robot, "page: powers of this robot file's table as the plan")->excludes(plan);
+  verb.add_option("--trials", flags.trials, "page: kicks of each power")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
+               const kicking::lob::AnalyzerConfig& config) {
+  const pages::ListenAddress address = pages::parse_listen(flags.listen, flags.port);
+  SignalInbox signals;  // before all threads, which must not take them
+  pages::Broadcast broadcast;
+  const auto scene = open_scene(flags, mount, config, broadcast);
+  {
+    const pages::PageServer server(*scene, broadcast, address);
+    fmt::print("{}\n", server.url());
+    std::fflush(stdout);
+    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+    while (!signals.stop_requested()) {
+      scene->check();
+      poll(&inbox, 1, kCheck_ms);
+    }
+  }  // the server ends first: a verdict that was answered is in the record
+  scene->finish();
+  return kDone;
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,100 @@
+#include "experiment/evening/evening.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
+
+#include "config/place.hpp"
+#include "config/scenario.hpp"
+#include "experiment/evening/drive_in_process.hpp"
+#include "experiment/run/in_threads.hpp"
+#include "sim/team.hpp"
+
+namespace trivela::experiment {
+
+EveningOptions default_evening() {
+  return {.scenario = config::load_scenario(config::shipped("scenarios/calibration.toml")),
+          .settings = config::load_settings(config::shipped("default.toml")),
+          .start = config::load_robot(config::shipped("robots/uncalibrated.toml"))};
+}
+
+sim::Scenario evening_scenario(const sim::Scenario& evening, const sim::Scenario& world, std::uint32_t number) {
+  sim::Scenario scenario = world;
+  scenario.kicker = sim::team_kicker(world, number);
+  scenario.kicker.drift_sd_ratio = 0.0;  // the day begins with it
+  scenario.team = evening.team;
+  scenario.possession = evening.possession;
+  scenario.opponent = evening.opponent;
+  scenario.keeper = evening.keeper;
+  scenario.referee = evening.referee;
+  scenario.laser = evening.laser;
+  return scenario;
+}
+
+config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario) {
+  settings.run.cycle_s = settings.policy.cycle_s = scenario.cycle_s;
+  settings.kick_decision.shadows = false;
+  // The check aims at a height and stands for it, whatever the stopped policy plays by.
+  kicking::PolicyConfig& policy = settings.policy;
+  policy.height_law = kicking::HeightLaw::kExact;
+  policy.aim_tolerance_rad = policy.test_drive.aim_tolerance_rad;
+  policy.settle_s = policy.test_drive.settle_s;
+  policy.rest_speed_mps = policy.test_drive.rest_speed_mps;
+  policy.rest_turn_rate_radps = policy.test_drive.rest_turn_rate_radps;
+  const double ball_y_m = scenario.field.goal_line_y_m - scenario.possession.goal_distance_max_m;
+  settings.scan_recorder.mount_x_m = scenario.laser.y_m - ball_y_m;
+  settings.scan_recorder.mount_z_m = scenario.laser.z_m;
+  settings.scan_recorder.mount_front_elevation_rad = scenario.laser.front_elevation_rad;
+  return settings;
+}
+
+Evening play_evening(const EveningOptions& options, calibration::DriveSource& source,
+                     const std::function<void(const calibration::DriveSummary&)>& said) {
+  config::Robot robot = options.start;
+  robot.name = options.name;
+  robot.source =
+      fmt::format("simulated: trivela calibrate run --in simulation; what [calibration] does not name comes from: {}",
+                  robot.source);
+  robot.calibration.reset();
+  const std::string command = fmt::format("trivela calibrate run --in simulation --robot {} --seed {}{}", options.name,
+                                          options.seed, options.flags);
+  calibration::CalibrationRun run{
+      source,         options.scenario,   evening_settings(options.settings, options.scenario),
+      options.effort, options.seed * 100, calibration::RobotUpdate{robot, command, calibration::today()}};
+  std::vector<calibration::DriveSummary> drives;
+  for (const auto step : {&calibration::CalibrationRun::standing, &calibration::CalibrationRun::delay,
+                          &calibration::CalibrationRun::direction, &calibration::CalibrationRun::lateral,
+                          &calibration::CalibrationRun::turn, &calibration::CalibrationRun::straight}) {
+    drives.push_back((run.*step)());
+    if (said) said(drives.back());
+  }
+  return {run.robot(), std::move(drives)};
+}
+
+Evening play_evening(const EveningOptions& options) {
+  DrivesInProcess source{evening_settings(options.settings, options.scenario)};
+  return play_evening(options, source);
+}
+
+config::Robot evening_robot(const sim::Scenario& world, std::int64_t seed, std::uint32_t number) {
+  EveningOptions options = default_evening();
+  options.scenario = evening_scenario(options.scenario, world, number);
+  options.seed = seed;
+  options.name = fmt::format("evening_{}", seed);
+  return play_evening(options).robot.robot();
+}
+
+std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t count, std::size_t jobs) {
+  std::vector<std::optional<Evening>> evenings(count);
+  in_threads(count, jobs, [&](std::size_t i) {
+    EveningOptions of_one = options;
+    of_one.seed += static_cast<std::int64_t>(i);
+    of_one.name = fmt::format("{}_{}", options.name, of_one.seed);
+    evenings[i] = play_evening(of_one);
+  });
+  std::vector<Evening> played;
+  for (std::optional<Evening>& evening : evenings) played.push_back(std::move(*evening));
+  return played;
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_run.hpp"
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::experiment {
+
+/// An evening of calibration in simulation: which world, which robot, how much.
+struct EveningOptions {
+  sim::Scenario scenario;     ///< world and places of the drives, e.g. evening_scenario()
+  config::Settings settings;  ///< of the nodes
+  config::Robot start;        ///< uncalibrated; what no drive measures is kept
+  std::string name = "simulated";
+  std::int64_t seed = 1;  ///< 0 to 1e6; every draw of the evening depends on it alone
+  calibration::CalibrationEffort effort{};
+  std::string flags{};  ///< of the command that makes this evening again, beside --robot and --seed: " --team ..."
+};
+
+struct Evening {
+  calibration::RobotUpdate robot;  ///< with the figures, and what changed
+  std::vector<calibration::DriveSummary> drives;
+};
+
+/// config/default.toml, config/robots/uncalibrated.toml and config/scenarios/calibration.toml.
+EveningOptions default_evening();
+
+/// The evening before a match in `world`: `evening` (who stands where, an empty field, the laser) with the field, ball,
+/// base, sensors and kicker of `world`; the kicker as fast as that of its robot `number` (from 1), before the day
+/// drifts.
+sim::Scenario evening_scenario(const sim::Scenario& evening, const sim::Scenario& world, std::uint32_t number = 1);
+
+/// The settings that all matches of an evening share. The scanner's place beside the field is measured with a tape: it
+/// is the operator's knowledge.
+config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario);
+
+/// Plays the drives through `source` and fits. `said` gets each drive as it ends. Throws what the source throws, and
+/// std::runtime_error where there are too few kicks for a figure.
+Evening play_evening(const EveningOptions& options, calibration::DriveSource& source,
+                     const std::function<void(const calibration::DriveSummary&)>& said = {});
+
+/// The same in this process, without bus, child process or file; the robot that `trivela calibrate run` makes with this
+/// seed. For any number of threads.
+Evening play_evening(const EveningOptions& options);
+
+/// The robot of an evening of this world for an experiment: seed alone decides.
+config::Robot evening_robot(const sim::Scenario& world, std::int64_t seed, std::uint32_t number = 1);
+
+/// Evenings with the seeds options.seed, options.seed + 1, ..., played by `jobs` threads.
+std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t count, std::size_t jobs);
+
+}  // namespace trivela::experiment

@@ -1,0 +1,257 @@
+#include "experiment/play/play_match.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "experiment/play/oracle.hpp"
+#include "experiment/play/robot_chain.hpp"
+#include "hal/sim/sim_messages.hpp"
+#include "robot/observer/observer.hpp"
+#include "sim/match.hpp"
+#include "sim/random.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+constexpr double kEndless_min = 1e6;  // a half ends by its possessions
+
+config::Settings settings_of_match(const Arm& arm, std::uint64_t seed, const PlayOptions& options) {
+  config::Settings settings = settings_of(arm, options);
+  settings.kick_decision.assignment_seed = seed;
+  return settings;
+}
+
+bool knows_the_truth(const config::KickDecision& settings, std::uint8_t robot_id) {
+  const auto candidates = robot::PolicyAssignment{settings, robot_id}.candidates();
+  return std::find(candidates.begin(), candidates.end(), kicking::PolicyName::kOracle) != candidates.end();
+}
+
+bool somebody_knows_the_truth(const config::KickDecision& settings, const sim::Scenario& scenario) {
+  for (std::uint8_t robot_id = 1; robot_id <= team_size(scenario); ++robot_id) {
+    if (knows_the_truth(settings, robot_id)) return true;
+  }
+  return false;
+}
+
+std::uint8_t robot_of(std::int64_t kick_id) { return static_cast<std::uint8_t>(kick_id >> 40 & 0xff); }
+
+std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>(seed % 0x7fff) + 1; }
+
+/// One match on its way.
+class Game {
+ public:
+  Game(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+       std::uint64_t seed_of_match, std::uint32_t possessions, const PlayOptions& options, MatchRecord* record)
+      : scenario_(scenario),
+        arm_(arm),
+        options_(options),
+        record_(record),
+        seed_(seed),
+        match_id_(match_id),
+        settings_(settings_of_match(arm, seed_of_match, options)),
+        session_(session_of(seed_of_match)),
+        oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
+        match_(scenario, seed_of_match, 1, kEndless_min, possessions),
+        observer_(settings_.shot_observer, settings_.goal) {
+    played_.match_seed = seed_of_match;
+    played_.possessions.reserve(possessions);
+    kick_ids_.reserve(possessions);
+  }
+
+  PlayedMatch play() {
+    while (!match_.done()) cycle();
+    return std::move(played_);
+  }
+
+ private:
+  void cycle() {
+    const bool follows = observer_.follows();
+    const sim::Sensors sensors = match_.sense({.flight = follows || options_.watch});
+    if (options_.watch) options_.watch(sensors);
+    ++played_.cycles;
+    played_.end_t_ns = sensors.t_ns;
+    const msg::Referee referee = hear(sensors);
+    if (follows) observe(sensors, referee);
+    sim::Commands commands;
+    RobotChain& chain = chain_of(robot_id_);
+    std::optional<sim::TrueState> truth;
+    if (oracle_) truth = match_.true_state();
+    if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
+      const kicking::Twist& drive = decision->in_charge.judgement.drive;
+      commands.drive = drive;
+      note_assignment(referee, chain);
+      if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
+        record_->decisions.push_back(chain.record());
+      if (decision->order) commands.fire = send(*decision, chain);
+    }
+    settle(match_.step(commands));
+  }
+
+  /// The referee's word, as everybody hears it; a new possession begins with it.
+  msg::Referee hear(const sim::Sensors& sensors) {
+    msg::Referee word = hal::referee_message(sensors.t_ns, sensors.referee);
+    robot_id_ = sensors.carrier;
+    word.robot_id = 1;  // the whole team hears him
+    word.seq = played_.cycles;
+    const bool anew = played_.possessions.empty() || word.possession_id != played_.possessions.back().possession_id;
+    if (anew) {
+      PlayedPossession next;
+      next.match_id = match_id_;
+      next.possession_id = word.possession_id;
+      next.robot_id = robot_id_;
+      played_.possessions.push_back(next);
+      kick_ids_.push_back(0);
+    }
+    if (word.playing) played_.possessions.back().played_s += scenario_.cycle_s;
+    if (record_ && (anew || word.playing != playing_)) record_->referee.push_back(word);
+    playing_ = word.playing;
+    return word;
+  }
+
+  void observe(const sim::Sensors& sensors, const msg::Referee& referee) {
+    for (const msg::KickOutcome& outcome : observer_.frame(hal::flight_message(sensors.t_ns, sensors.flight), referee))
+      take(outcome);
+  }
+
+  void take(msg::KickOutcome outcome) {
+    outcome.robot_id = robot_of(outcome.kick_id);
+    outcome.seq = ++outcomes_;
+    outcome_ = outcome;
+    if (record_) record_->outcomes.push_back(outcome);
+    if (PlayedPossession* of = possession_of(outcome.kick_id))
+      of->kick->observed = static_cast<kicking::Outcome>(outcome.outcome);
+  }
+
+  /// Gives the order to the driver and, where it accepts, to the device.
+  std::optional<sim::Fire> send(const robot::CycleDecision& decision, const RobotChain& chain) {
+    const msg::KickReceipt& receipt = *chain.receipt();
+    if (record_) {
+      record_->orders.push_back(*decision.order);
+      record_->receipts.push_back(receipt);
+    }
+    if (!receipt.accepted) return std::nullopt;
+    for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
+    const kicking::Judgement& judgement = decision.in_charge.judgement;
+    const msg::WorldState& world = chain.world();
+    PlayedKick kick;
+    kick.distance_m = judgement.distance_m;
+    kick.vx_mps = world.vx_mps;
+    kick.vy_mps = world.vy_mps;
+    kick.omega_radps = world.omega_radps;
+    if (std::isfinite(world.opponent_distance_m)) kick.opponent_distance_m = world.opponent_distance_m;
+    kick.power = receipt.power;
+    kick.v_kick_mps = judgement.v_kick_mps.value_or(0.0);
+    kick.p_on_target = judgement.p_on_target;
+    kick.predicted = judgement.predicted;
+    played_.possessions.back().kick = kick;
+    kick_ids_.back() = receipt.kick_id;
+    return sim::Fire{receipt.fired_t_ns, receipt.kick_id, receipt.power};
+  }
+
+  void note_assignment(const msg::Referee& referee, const RobotChain& chain) {
+    const std::uint32_t possession_id = chain.world().possession_id;
+    if (assigned_ == possession_id || !chain.world().possession) return;
+    assigned_ = possession_id;
+    const robot::PolicyChance chance = chain.decider().assignment().in_charge(referee.half, possession_id);
+    PlayedPossession& current = played_.possessions.back();
+    current.policy = chance.policy;
+    current.assignment_probability = chance.probability;
+    if (record_)
+      record_->assignments.push_back({robot_id_, referee.half, possession_id, chance.policy, chance.probability});
+  }
+
+  void settle(const sim::StepEvents& events) {
+    for (const sim::KickTruth& truth : events.kicks) {
+      if (PlayedPossession* of = possession_of(truth.kick_id)) {
+        of->kick->truth = truth.outcome;
+        of->kick->truth_saved = truth.saved;
+        of->kick->truth_bounced = truth.bounced;
+      }
+      if (!record_) continue;
+      record_->kick_truths.push_back(hal::truth_message(truth));
+      record_->kick_truths.back().robot_id = robot_of(truth.kick_id);
+      record_->kick_truths.back().seq = ++kick_truths_;
+    }
+    for (const sim::PossessionTruth& truth : events.possessions) {
+      PlayedPossession& current = played_.possessions.back();
+      const double offset = scenario_.robot.ball_offset_m;
+      current.ending = truth.ending;
+      current.start_distance_m =
+          std::hypot(truth.start.x_m - offset * std::sin(truth.start.heading_rad),
+                     scenario_.field.goal_line_y_m - truth.start.y_m - offset * std::cos(truth.start.heading_rad));
+      if (!record_) continue;
+      record_->possession_truths.push_back(hal::possession_message(truth));
+      record_->possession_truths.back().robot_id = truth.robot;
+      record_->possession_truths.back().seq = ++possession_truths_;
+    }
+  }
+
+  RobotChain& chain_of(std::uint8_t robot_id) {
+    const std::size_t index = robot_id - 1u;
+    if (chains_.size() <= index) chains_.resize(index + 1);
+    if (!chains_[index]) {
+      chains_[index] = std::make_unique<RobotChain>(settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id),
+                                                    robot_id, session_, seat(robot_id));
+    }
+    return *chains_[index];
+  }
+
+  std::optional<robot::OracleSeat> seat(std::uint8_t robot_id) const {
+    if (!knows_the_truth(settings_.kick_decision, robot_id)) return std::nullopt;
+    return robot::OracleSeat{oracle_config(settings_.policy, scenario_),
+                             oracle_robot(scenario_, match_.true_kicker(robot_id))};
+  }
+
+  /// Whose kick it is: of this possession, or of one before, where it was seen late.
+  PlayedPossession* possession_of(std::int64_t kick_id) {
+    for (std::size_t i = kick_ids_.size(); i-- > 0;) {
+      if (kick_ids_[i] == kick_id) return &played_.possessions[i];
+    }
+    return nullptr;
+  }
+
+  const sim::Scenario& scenario_;
+  const Arm& arm_;
+  PlayOptions options_;
+  MatchRecord* record_;
+  std::uint64_t seed_;
+  std::uint32_t match_id_;
+  config::Settings settings_;
+  std::uint32_t session_;
+  bool oracle_;
+  sim::Match match_;
+  robot::Observer observer_;
+  std::vector<std::unique_ptr<RobotChain>> chains_;  // by robot, made when it first has the ball
+  PlayedMatch played_;
+  std::vector<std::int64_t> kick_ids_;  // by possession; 0: none
+  std::optional<msg::KickOutcome> outcome_;
+  std::uint8_t robot_id_ = 1;
+  bool playing_ = false;
+  std::uint32_t assigned_ = 0;
+  std::uint64_t outcomes_ = 0;
+  std::uint64_t kick_truths_ = 0;
+  std::uint64_t possession_truths_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
+  const auto words = sim::philox4x32({match_id, 0, 0, 0x4d415443},
+                                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  return (std::uint64_t{words[0]} << 32 | words[1]) >> 12;
+}
+
+PlayedMatch play_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed, std::uint32_t match_id,
+                       std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+  check_playable(scenario, arm, possessions);
+  return Game{scenario, arm, seed, match_id, match_seed(seed, match_id), possessions, options, record}.play();
+}
+
+PlayedMatch play_seeded_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed,
+                              std::uint32_t possessions, const PlayOptions& options, MatchRecord* record) {
+  check_playable(scenario, arm, possessions);
+  return Game{scenario, arm, seed, 0, seed, possessions, options, record}.play();
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,52 @@
+#include "experiment/play/robot_chain.hpp"
+
+#include <utility>
+
+#include "experiment/play/oracle.hpp"
+#include "hal/sim/sim_messages.hpp"
+#include "robot/odometry/odometry_message.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+hal::WheelSample wheel_sample(const sim::Sensors& sensors) {
+  return {sensors.t_ns, sensors.wheels.wheel_count, sensors.wheels.wheel_radps, sensors.wheels.gyro_radps};
+}
+
+hal::KickerSample kicker_sample(const sim::Sensors& sensors) {
+  return {sensors.t_ns, sensors.kicker.charge, sensors.kicker.armed, hal::KickerFault::kNone};
+}
+
+}  // namespace
+
+RobotChain::RobotChain(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
+                       std::uint32_t session, std::optional<robot::OracleSeat> oracle)
+    : robot_(robot),
+      robot_id_(robot_id),
+      odometry_(robot.base, settings.odometry),
+      model_(settings.world_state, robot.model.ball_offset_m),
+      decider_(settings, robot_.model, robot_id, session, std::move(oracle)),
+      desk_(settings, robot.model, robot_id) {}
+
+const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
+                                              const std::optional<msg::KickOutcome>& outcome,
+                                              const sim::TrueState* truth) {
+  receipt_.reset();
+  const hal::WheelSample wheels = wheel_sample(sensors);
+  const std::span<const double> speeds{wheels.wheel_radps.data(), static_cast<std::size_t>(wheels.wheel_count)};
+  const auto estimate = odometry_.update(wheels.t_ns, speeds, wheels.gyro_radps);
+  if (!estimate) return nullptr;
+  status_ = desk_.status(kicker_sample(sensors),
+                         referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop, sensors.t_ns);
+  const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
+  world_ = model_.update(robot::odometry_message(wheels, *estimate), &frame, &referee);
+  world_.robot_id = robot_id_;
+  std::optional<kicking::PolicyInput> told;
+  if (truth != nullptr)
+    told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
+  const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
+  if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns);
+  return &decision;
+}
+
+}  // namespace trivela::experiment

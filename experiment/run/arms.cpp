@@ -1,0 +1,158 @@
+#include "experiment/run/arms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "cli/say.hpp"
+#include "cli/verbs.hpp"
+#include "config/arms.hpp"
+#include "config/error.hpp"
+#include "config/place.hpp"
+#include "experiment/play/play_match.hpp"
+#include "experiment/run/arm_settings.hpp"
+#include "robot/recording/session_text.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+config::ArmFields arm_named(const std::string& name) {
+  config::ArmFields arm;
+  arm.name = name;
+  arm.place = "arm " + name;
+  const auto at = name.find('@');
+  const std::string policy = name.substr(0, at);
+  if (at != std::string::npos) arm.table = name.substr(at + 1);
+  bool known = false;
+  for (std::size_t i = 0; i < kicking::kPolicyCount; ++i) {
+    const auto candidate = static_cast<kicking::PolicyName>(i);
+    if (policy != kicking::name(candidate)) continue;
+    arm.policy = candidate;
+    known = true;
+  }
+  if (!known) throw cli::UsageError{fmt::format("--arms: \"{}\" is no policy", policy)};
+  if (arm.table != kNewTable && arm.table != kOldTable)
+    throw cli::UsageError{fmt::format("--arms: \"{}\": a table is new or old", name)};
+  return arm;
+}
+
+std::vector<config::ArmFields> arms_named(const std::string& text) {
+  std::vector<config::ArmFields> arms;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto end = std::min(text.find(',', begin), text.size());
+    arms.push_back(arm_named(text.substr(begin, end - begin)));
+    for (std::size_t i = 0; i + 1 < arms.size(); ++i) {
+      if (arms[i].name == arms.back().name)
+        throw cli::UsageError{fmt::format("--arms: \"{}\" stands there twice", arms[i].name)};
+    }
+    begin = end + 1;
+  }
+  return arms;
+}
+
+std::vector<std::string> default_robots() {
+  std::vector<std::string> files;
+  const fs::path folder = config::shipped("robots");
+  for (int n = 1; n <= 5; ++n) {
+    const fs::path file = folder / fmt::format("calibrated_{}.toml", n);
+    if (fs::exists(file)) files.push_back(file.string());
+  }
+  if (files.empty()) files.push_back((folder / "cambada_1.toml").string());
+  return files;
+}
+
+bool is_drive(kicking::PolicyName policy) {
+  return policy >= kicking::PolicyName::kStandingDrive && policy <= kicking::PolicyName::kStraightDrive;
+}
+
+void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, const config::Settings& settings) {
+  if (is_drive(policy)) {
+    throw cli::UsageError{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
+                                      arm.place, kicking::name(policy))};
+  }
+  if (policy == kicking::PolicyName::kLearned && !settings.policy.learned) {
+    throw cli::UsageError{
+        fmt::format("{}: the policy learned needs a model: --set 'kick_decision.learned_model=\"FILE\"'", arm.place)};
+  }
+}
+
+/// Everybody who may be in charge.
+std::vector<kicking::PolicyName> policies_of(const Arm& arm) {
+  const config::KickDecision decision = settings_of(arm, {}).kick_decision;
+  if (!decision.random.empty()) return decision.random;
+  std::vector<kicking::PolicyName> policies = decision.policy_by_robot;
+  policies.push_back(decision.policy_by_half.front());
+  return policies;
+}
+
+std::vector<config::Robot> load_robots(const config::ArmFields& fields, const ArmBase& base) {
+  std::vector<config::Robot> robots;
+  try {
+    for (const std::string& robot : fields.robots) robots.push_back(config::load_robot(robot));
+  } catch (const config::Error& error) {
+    throw config::Error{fmt::format("{}: robots: {}", fields.place, error.what())};
+  }
+  if (!robots.empty()) return robots;
+  for (const std::string& robot : base.robots.empty() ? default_robots() : base.robots)
+    robots.push_back(config::load_robot(robot));
+  return robots;
+}
+
+Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
+  Arm arm;
+  arm.name = fields.name;
+  arm.policy = fields.policy;
+  arm.table = fields.table;
+  arm.settings = arm_settings(fields, fields.config.empty() ? base.config : fields.config, base.overrides);
+  arm.robots = load_robots(fields, base);
+  arm.own_robots = !fields.robots.empty();
+  for (std::size_t i = 0; i < fields.random.size(); ++i) {
+    const double alike = 1.0 / static_cast<double>(fields.random.size());
+    arm.random.push_back(
+        {fields.random[i], i < fields.random_probabilities.size() ? fields.random_probabilities[i] : alike});
+  }
+  for (const kicking::PolicyName policy : policies_of(arm)) check_policy(fields, policy, arm.settings);
+  return arm;
+}
+
+}  // namespace
+
+std::vector<Arm> arms_of(const std::string& text, const ArmBase& base) {
+  std::vector<Arm> arms;
+  for (const config::ArmFields& fields : text.ends_with(".toml") ? config::load_arms(text) : arms_named(text))
+    arms.push_back(arm_of(fields, base));
+  return arms;
+}
+
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
+  std::vector<std::string> remarks;  // each once
+  for (const Arm& arm : arms) {
+    const std::size_t files = arm.robots.size();
+    if (files >= team_size(scenario)) continue;
+    std::string remark = fmt::format("{} robots play with {} robot file{}: {} is taken for all further ones",
+                                     team_size(scenario), files, files == 1 ? "" : "s", arm.robots.back().name);
+    if (std::ranges::find(remarks, remark) != remarks.end()) continue;
+    cli::warn(remark);
+    remarks.push_back(std::move(remark));
+  }
+}
+
+std::string describe(const Arm& arm) {
+  std::string text = fmt::format("name = {}\n", arm.name);
+  if (arm.policy) text += fmt::format("policy = {}\n", kicking::name(*arm.policy));
+  text += fmt::format("table = {}\n", arm.table);
+  for (const robot::PolicyChance& chance : arm.random)
+    text += fmt::format("random {} {}\n", kicking::name(chance.policy), chance.probability);
+  text += robot::session_config(arm.settings, arm.robots);
+  const std::string& model = arm.settings.kick_decision.learned_model;
+  if (model.empty()) return text;
+  std::ifstream in{model, std::ios::binary};
+  return text + "\n### learned model\n" + std::string{std::istreambuf_iterator<char>{in}, {}};
+}
+
+}  // namespace trivela::experiment

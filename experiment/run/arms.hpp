@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment/play/arm.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::experiment {
+
+/// What the arms of an experiment have in common, unless a file says otherwise.
+struct ArmBase {
+  std::string config;                  ///< settings of the nodes
+  std::vector<std::string> overrides;  ///< settings on top
+  std::vector<std::string> robots;     ///< robot files; empty: the calibrated ones
+};
+
+/// The arms that `text` names: policies such as "stopped,moving,predictive", each "@old" or "@new" where it plays with
+/// that height table, or a file of arms (ending in .toml). Throws UsageError and config::Error with the name that is
+/// none.
+std::vector<Arm> arms_of(const std::string& text, const ArmBase& base);
+
+/// Says on standard error where an arm has fewer robot files than the scenario's team has robots.
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms);
+
+/// An arm as text: all that its rows depend on.
+std::string describe(const Arm& arm);
+
+}  // namespace trivela::experiment

@@ -1,0 +1,294 @@
+#include "experiment/run/experiment.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+#include "config/software_version.hpp"
+#include "evaluator/log/digest.hpp"
+#include "evaluator/log/experiment_log.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/report/simulated.hpp"
+#include "experiment/effects/effects.hpp"
+#include "experiment/run/arms.hpp"
+#include "experiment/run/match_queue.hpp"
+#include "experiment/run/record_match.hpp"
+#include "robot/decision/assignment.hpp"
+#include "robot/recording/session_text.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+using evaluator::log::ExperimentLog;
+using evaluator::log::Session;
+
+constexpr std::uint32_t kTriedMatches = 100;  // whose robots are made before the log is
+
+/// One arm's match, played.
+struct Played {
+  MatchRecord record;
+  std::uint64_t seed = 0;
+  std::int64_t end_t_ns = 0;
+  double processor_s = 0.0;
+};
+
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& evenings, std::uint32_t match_id) {
+  const std::vector<Arm>& arms = evenings.of(match_id);
+  std::vector<Played> played(arms.size());
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const double before_s = processor_s();
+    const PlayedMatch match =
+        play_match(plan.scenario, arms[i], plan.seed, match_id, plan.possessions, plan.options, &played[i].record);
+    played[i].processor_s = processor_s() - before_s;
+    played[i].seed = match.match_seed;
+    played[i].end_t_ns = match.end_t_ns;
+  }
+  return played;
+}
+
+/// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
+std::vector<evaluator::log::HalfPolicy> policies_of(const ExperimentPlan& plan, const Arm& arm) {
+  if (const auto policy = only_policy(plan.scenario, arm)) return {{1, kicking::name(*policy)}};
+  std::vector<evaluator::log::HalfPolicy> policies;
+  const config::KickDecision settings = settings_of(arm, plan.options).kick_decision;
+  for (std::uint8_t robot_id = 1; robot_id <= team_size(plan.scenario); ++robot_id) {
+    const robot::PolicyAssignment assignment{settings, robot_id};
+    if (!assignment.random()) policies.push_back({1, kicking::name(assignment.in_charge(1, 1).policy), robot_id});
+  }
+  return policies;
+}
+
+Session session_of(const ExperimentPlan& plan, const Arm& arm) {
+  Session session;
+  if (arm.robots.size() == 1 && team_size(plan.scenario) == 1) session.robot_id = 1;
+  session.simulated = session.simulated_clock = true;
+  session.config_toml =
+      robot::session_config(settings_of(arm, plan.options), arm.robots, config::to_toml_text(plan.scenario));
+  session.software_version = config::software_version();
+  session.scenario = plan.scenario_name;
+  session.idl = robot::idl_text();
+  session.policies = policies_of(plan, arm);
+  session.arm = arm.name;
+  session.kicker_table = arm.table;
+  return session;
+}
+
+/// Sessions of an experiment's arms; what all matches of an evening share is made once.
+class Sessions {
+ public:
+  Sessions(const ExperimentPlan& plan, const EveningArms& evenings, const std::string& arguments)
+      : arguments_sha256_(evaluator::log::sha256(arguments)), sessions_(evenings.evenings()) {
+    for (std::uint32_t k = 0; k < evenings.evenings(); ++k) {
+      for (const Arm& arm : evenings.of(k)) {
+        sessions_[k].push_back(session_of(plan, arm));
+        if (!plan.evenings.empty()) sessions_[k].back().calibration_id = k;
+      }
+    }
+  }
+
+  const Session& of(std::uint32_t match_id, std::size_t arm, std::uint64_t match_seed) {
+    Session& session = sessions_[match_id % sessions_.size()][arm];
+    session.uuid = evaluator::log::experiment_uuid(arguments_sha256_, match_id, static_cast<std::uint32_t>(arm));
+    session.match_id = match_id;
+    session.seed = static_cast<std::int64_t>(match_seed);
+    return session;
+  }
+
+ private:
+  std::string arguments_sha256_;
+  std::vector<std::vector<Session>> sessions_;  // by evening and arm
+};
+
+/// Threads that play matches, and write them in order, until none is left.
+class Workers {
+ public:
+  /// Throws std::runtime_error where so many threads cannot be started.
+  Workers(const ExperimentPlan& plan, const EveningArms& evenings, MatchQueue<std::vector<Played>>& queue,
+          unsigned jobs, auto write)
+      : queue_(queue) {
+    try {
+      for (unsigned i = 0; i < jobs; ++i) {
+        threads_.emplace_back([&plan, &evenings, &queue, write] {
+          try {
+            while (const auto match_id = queue.next())
+              queue.done(*match_id, play_all(plan, evenings, *match_id), write);
+          } catch (...) {
+            queue.fail(std::current_exception());
+          }
+        });
+      }
+    } catch (const std::system_error& error) {
+      const std::size_t started = threads_.size();
+      end();
+      throw std::runtime_error{fmt::format("{} of {} threads can be started: {}; choose fewer --jobs", started, jobs,
+                                           error.code().message())};
+    }
+  }
+  ~Workers() { end(); }
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+ private:
+  void end() {
+    queue_.close();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
+  MatchQueue<std::vector<Played>>& queue_;
+  std::vector<std::thread> threads_;
+};
+
+/// What the arms did in each match.
+std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std::string& out) {
+  std::map<std::string, ArmTally> arms;
+  const EveningArms evenings{{}, plan.evenings};
+  for (const Arm& arm : plan.arms) {
+    for (std::uint32_t m = 0; m < plan.matches; ++m) arms[arm.name].push_back({.calibration = evenings.evening_of(m)});
+  }
+  const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
+  const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
+    reader.query("SELECT arm, match_id, count(*) FROM sessions JOIN " + rows + " GROUP BY arm, match_id",
+                 [&](auto row) {
+                   const auto match = static_cast<std::size_t>(std::get<std::int64_t>(row[1]));
+                   arms.at(std::get<std::string>(row[0])).at(match).*field = std::get<std::int64_t>(row[2]);
+                 });
+  };
+  count("possession_truths USING (session_id)", &MatchTally::opportunities);
+  count("kick_receipts USING (session_id) WHERE accepted = 1", &MatchTally::kicks);
+  count("kick_outcomes USING (session_id) WHERE on_target = 1", &MatchTally::on_target);
+  count("kick_truths USING (session_id) WHERE outcome = 'on_target' AND saved = 0", &MatchTally::goals);
+  return arms;
+}
+
+void print_arms(const ExperimentPlan& plan, const std::string& out, const std::vector<double>& processor_s,
+                std::int64_t matches) {
+  const auto arms = tallies_of(plan, out);
+  std::size_t width = 3;
+  for (const Arm& arm : plan.arms) width = std::max(width, arm.name.size());
+  const bool keeper = plan.scenario.keeper.enabled;
+  fmt::print("{}", evaluator::kSimulated);
+  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>16}{}  {:>26}\n", "arm", width, "opportunities", "kicks",
+             "on target", "on target/opportunity", "95 %", keeper ? "  goals/opportunity" : "",
+             "opportunities/s and core");
+  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+    const ArmTally& tally = arms.at(plan.arms[i].name);
+    const MatchTally sum = total_of(tally);
+    const Effect share = share_of(tally, Measure::kPerOpportunity);
+    const double played = static_cast<double>(matches) * plan.possessions;
+    const double goals = sum.opportunities > 0 ? share_of(tally, Measure::kGoals).value : 0.0;
+    fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>16}{}  {:>26}\n", plan.arms[i].name, width,
+               sum.opportunities, sum.kicks, sum.on_target, sum.opportunities > 0 ? share.value : 0.0,
+               has_interval(share) ? fmt::format("{:.4f} to {:.4f}", share.ci.lo, share.ci.hi) : "-",
+               keeper ? fmt::format("  {:>17.4f}", goals) : "",
+               processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
+  }
+  if (plan.evenings.empty()) {
+    fmt::print("intervals by match: for these robot files, not for other evenings of calibration (--calibrations)\n");
+  } else {
+    fmt::print("intervals by match and evening: {} evenings of calibration, match m has evening m mod {}\n",
+               plan.evenings.size(), plan.evenings.size());
+  }
+  if (keeper) fmt::print("goals: by the simulator's truth, on target and past its keeper\n");
+}
+
+}  // namespace
+
+std::string ExperimentPlan::arguments() const {
+  std::string text = fmt::format("program = {}\nseed = {}\npossessions = {}\nshadows = {}\nevery_cycle = {}\n",
+                                 config::software_version(), seed, possessions, options.shadows, options.every_cycle);
+  text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
+  for (const Arm& arm : arms) text += "\n### arm\n" + describe(arm);
+  for (std::size_t k = 0; k < evenings.size(); ++k) {
+    text += fmt::format("\n### evening {} of calibration\n", k);
+    for (const config::Robot& robot : evenings[k]) text += config::to_toml_text(robot);
+  }
+  return text;
+}
+
+void check_playable(const ExperimentPlan& plan) {
+  if (plan.arms.size() > evaluator::log::kMostArms)
+    throw cli::UsageError{
+        fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), evaluator::log::kMostArms)};
+  const EveningArms evenings{plan.arms, plan.evenings};
+  for (std::size_t i = 0; i < plan.arms.size(); ++i) {
+    check_playable(plan.scenario, plan.arms[i], plan.possessions);
+    for (std::uint32_t match_id = 0; match_id < std::min(plan.matches, kTriedMatches); ++match_id) {
+      const Arm& arm = evenings.of(match_id)[i];
+      for (std::uint8_t robot_id = 1; robot_id <= team_size(plan.scenario); ++robot_id) {
+        try {
+          robot_of(plan.scenario, arm, plan.seed, match_id, robot_id);
+        } catch (const std::exception& error) {
+          throw std::runtime_error{fmt::format("arm {}: {}", arm.name, error.what())};
+        }
+      }
+    }
+  }
+}
+
+int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out) {
+  check_playable(plan);
+  cli::SignalInbox signals;  // before the threads, which must not be interrupted
+  const std::string arguments = plan.arguments();
+  ExperimentLog log{out, {arguments, plan.matches}};
+  MatchTables tables{log};
+  const EveningArms evenings{plan.arms, plan.evenings};
+  Sessions sessions{plan, evenings, arguments};
+  const auto first = static_cast<std::uint32_t>(log.matches_done());
+  if (first > 0) fmt::print("{} of {} matches are in {} already\n", first, plan.matches, out);
+  std::vector<double> processor_s(plan.arms.size());
+  const auto started = std::chrono::steady_clock::now();
+  bool interrupted = false;
+  const auto write = [&](std::uint32_t match_id, const std::vector<Played>& played) {
+    log.begin();
+    for (std::size_t i = 0; i < played.size(); ++i) {
+      const std::int64_t session_id = log.add_session(sessions.of(match_id, i, played[i].seed), played[i].end_t_ns);
+      tables.write(played[i].record, session_id);
+      processor_s[i] += played[i].processor_s;
+    }
+    log.end_match();
+  };
+  {
+    MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
+    const Workers workers{plan, evenings, queue, jobs, write};
+    cli::ProgressBar bar;
+    std::uint32_t done = first;
+    while (done < plan.matches && !(interrupted = signals.stop_requested())) {
+      done = queue.wait(std::chrono::milliseconds{100});
+      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+      const double opportunities =
+          static_cast<double>(done - first) * plan.possessions * static_cast<double>(plan.arms.size());
+      bar.show(static_cast<double>(done - first), plan.matches - first,
+               fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
+    }
+  }
+  log.commit();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+  const std::int64_t matches = log.matches_done() - first;
+  if (interrupted) {
+    fmt::print(stderr, "trivela: interrupted; {} of {} matches are in {}: the same command goes on from there\n",
+               log.matches_done(), plan.matches, out);
+    return cli::kFailed;
+  }
+  log.finish();
+  print_arms(plan, out, processor_s, matches);
+  const double opportunities = static_cast<double>(matches) * plan.possessions * static_cast<double>(plan.arms.size());
+  fmt::print("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities, wall.count(), jobs,
+             jobs == 1 ? "" : "s", wall.count() > 0.0 ? opportunities / wall.count() : 0.0);
+  return cli::kDone;
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "kicking/fit/least_squares.hpp"
+
+namespace trivela::kicking {
+
+/// Order to release of the ball over repeated kicks.
+struct DelayFit {
+  Estimate mean_s;                    ///< of the readings kept, se = sd / sqrt(n)
+  double sd_s = 0.0;                  ///< from kick to kick, measurement included
+  double median_s = 0.0;              ///< of all readings
+  double mad_s = 0.0;                 ///< median absolute deviation from it
+  std::vector<std::size_t> rejected;  ///< readings left out, from 0
+  std::vector<double> residual_s;     ///< reading - mean, of all readings
+};
+
+/// A reading farther from the median than 3.5 scales is left out; scale = 1.4826 MAD, but no less than `least_scale_s`.
+/// The default, 6 ms, is the standard deviation of a uniform control cycle of 20 ms.
+/// @throws std::invalid_argument for fewer than two readings or one that is not finite.
+DelayFit fit_delay(std::span<const double> delays_s, double least_scale_s = 0.006);
+
+}  // namespace trivela::kicking

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kicking/fit/table_fit.hpp"
+
+namespace trivela::kicking {
+
+/// A kick of a standing robot that a camera followed.
+struct TrackedTrial {
+  double power = 0.0;
+  double up_mps = 0.0;            ///< vertical velocity at the launch, by the camera's track
+  double sideways_rad = 0.0;      ///< direction of the track from the laser's scan plane
+  std::optional<Trial> lob = {};  ///< of the same kick, by the laser
+};
+
+struct TrackedTrials {
+  std::vector<Trial> trials;  ///< of all kicks; the angle is the laser's, NaN where it lost the kick
+  Estimate exit_angle_rad;    ///< in the scan plane
+};
+
+/// Trials of all kicks, those that the laser lost included. Where both saw the ball, V = up (a + b up^2 + c s^2) and
+/// angle = e + f s^2, least squares: drag takes more from a faster ball, and of one that flies at an angle s to its
+/// plane the laser sees a smaller circle, which it takes for another place. Every kick then has V = up (a + b up^2),
+/// every angle is taken to the plane. A set-point's mean rests on all its kicks: where the laser keeps one in four, its
+/// standard error is half as large. @throws std::invalid_argument for fewer than four kicks that both saw.
+TrackedTrials tracked_trials(std::span<const TrackedTrial> kicks);
+
+}  // namespace trivela::kicking

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace trivela::pages {
+
+/// Where the page is served: an IP address or a host's name, and a port; 0: any free one.
+struct ListenAddress {
+  std::string host = "127.0.0.1";
+  int port = 0;
+};
+
+/// "ADDRESS", "ADDRESS:PORT", "[IPV6]:PORT". Throws UsageError naming a port that is none.
+ListenAddress parse_listen(const std::string& text, int default_port);
+
+}  // namespace trivela::pages

@@ -1,0 +1,123 @@
+#include "pages/lob/lob_json.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::pages {
+namespace {
+
+using kicking::lob::Estimate;
+using kicking::lob::LobRecord;
+using nlohmann::json;
+
+json value_json(const Estimate& estimate, double unit = 1.0) {
+  return {{"value", estimate.value * unit}, {"se", estimate.se * unit}};
+}
+
+const double kDegrees = kicking::degrees(1.0);
+
+// With k known, z + k x^2 = (2 k x_a) x + (z_a - k x_a^2) is a line in x.
+json curve_json(const LobRecord& lob) {
+  if (!lob.effective || lob.centres.empty() || lob.effective->distance_m.value <= 0.0) return nullptr;
+  const double k = 4.0 * lob.effective->height_m.value / std::pow(lob.effective->distance_m.value, 2);
+  const auto n = static_cast<double>(lob.centres.size());
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (const auto& centre : lob.centres) {
+    mean_x += centre.x_m / n;
+    mean_y += (centre.z_m + k * centre.x_m * centre.x_m) / n;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const auto& centre : lob.centres) {
+    const double dx = centre.x_m - mean_x;
+    xx += dx * dx;
+    xy += dx * (centre.z_m + k * centre.x_m * centre.x_m - mean_y);
+  }
+  if (!(xx > 0.0) || !(k > 0.0)) return nullptr;
+  const double slope = xy / xx;
+  const double x = slope / (2.0 * k);
+  return {{"x_m", x}, {"z_m", mean_y - slope * mean_x + k * x * x}, {"k_per_m", k}};
+}
+
+struct Spread {
+  int n = 0;
+  double mean = 0.0;
+  double squares = 0.0;  // sum over (value - mean)^2
+
+  void add(double value) {
+    const double before = value - mean;
+    mean += before / ++n;
+    squares += before * (value - mean);
+  }
+  json sd() const { return n < 2 ? json(nullptr) : json(std::sqrt(squares / (n - 1))); }
+};
+
+}  // namespace
+
+json lob_json(const LobRecord& lob, std::int64_t start_t_ns) {
+  json out{{"t_s", static_cast<double>(lob.launch_t_ns - start_t_ns) * 1e-9},
+           {"launch_t_ns", std::to_string(lob.launch_t_ns)},
+           {"accepted", lob.refusal == kicking::lob::Refusal::kNone},
+           {"refusal", kicking::lob::name(lob.refusal)},
+           {"why", lob.why},
+           {"power", nullptr},
+           {"effective", nullptr},
+           {"true", nullptr},
+           {"curve", curve_json(lob)},
+           {"centres", json::array()}};
+  if (lob.power) out["power"] = *lob.power;
+  for (const auto& centre : lob.centres) {
+    out["centres"].push_back({std::round(centre.x_m * 1e4) * 1e-4, std::round(centre.z_m * 1e4) * 1e-4});
+  }
+  if (lob.effective) {
+    out["effective"] = {{"exit_angle_deg", value_json(lob.effective->exit_angle_rad, kDegrees)},
+                        {"exit_speed_mps", value_json(lob.effective->exit_speed_mps)},
+                        {"height_m", value_json(lob.effective->height_m)},
+                        {"distance_m", value_json(lob.effective->distance_m)}};
+  }
+  if (lob.true_values) {
+    out["true"] = {{"exit_angle_deg", value_json(lob.true_values->exit_angle_rad, kDegrees)},
+                   {"exit_speed_mps", value_json(lob.true_values->exit_speed_mps)},
+                   {"Cd", value_json(lob.true_values->drag_coefficient)}};
+  }
+  return out;
+}
+
+json table_json(std::span<const LobRecord> lobs) {
+  struct Row {
+    Spread speed;
+    Spread angle;
+  };
+  std::map<double, Row> rows;
+  for (const LobRecord& lob : lobs) {
+    if (lob.refusal != kicking::lob::Refusal::kNone || !lob.power || !lob.effective) continue;
+    Row& row = rows[*lob.power];
+    row.speed.add(lob.effective->exit_speed_mps.value);
+    row.angle.add(kicking::degrees(lob.effective->exit_angle_rad.value));
+  }
+  json table = json::array();
+  for (const auto& [power, row] : rows) {
+    table.push_back({{"power", power},
+                     {"trials", row.speed.n},
+                     {"exit_speed_mps", row.speed.mean},
+                     {"exit_speed_sd_mps", row.speed.sd()},
+                     {"exit_angle_deg", row.angle.mean},
+                     {"exit_angle_sd_deg", row.angle.sd()}});
+  }
+  return table;
+}
+
+json plan_json(const CalibrationPlan& plan, std::span<const LobRecord> lobs) {
+  if (plan.powers.empty()) return nullptr;
+  const std::vector<int> done = kicks_done(plan, lobs);
+  json powers = json::array();
+  for (std::size_t i = 0; i < plan.powers.size(); ++i) {
+    powers.push_back({{"power", plan.powers[i]}, {"done", done[i]}});
+  }
+  return {{"trials", plan.trials}, {"powers", powers}};
+}
+
+}  // namespace trivela::pages

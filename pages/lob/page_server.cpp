@@ -1,0 +1,204 @@
+#include "pages/lob/page_server.hpp"
+
+#include <fmt/core.h>
+#include <httplib.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <thread>
+
+#include "cli/verbs.hpp"
+#include "pages/lob/page.css.hpp"
+#include "pages/lob/page.html.hpp"
+#include "pages/lob/page.js.hpp"
+#include "pages/lob/same_site.hpp"
+
+namespace trivela::pages {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+constexpr std::size_t kThreads = 128;
+constexpr int kMostViewers = 96;                    // the other threads answer requests
+constexpr int kSendBuffer_bytes = 32 * 1024;        // some scans: a slow viewer skips scans instead of seeing old ones
+constexpr std::chrono::milliseconds kStalled{700};  // a viewer that takes nothing for so long is hung up; it comes back
+constexpr std::chrono::seconds kStillHere{1};
+
+// Not httplib's: with SO_REUSEPORT two servers would share a port unnoticed.
+void set_options(socket_t socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer_bytes, sizeof kSendBuffer_bytes);
+}
+
+std::string own_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+void refuse(Response& response, int status, const std::string& sentence) {
+  response.status = status;
+  response.set_content(json{{"error", sentence}}.dump(-1, ' ', false, json::error_handler_t::replace),
+                       "application/json");
+}
+
+// Counts a viewer while it lives.
+class Seat {
+ public:
+  explicit Seat(std::atomic<int>& viewers) : viewers_(viewers), taken_(++viewers <= kMostViewers) {}
+  Seat(const Seat&) = delete;
+  Seat& operator=(const Seat&) = delete;
+  ~Seat() { --viewers_; }
+  bool taken() const { return taken_; }
+
+ private:
+  std::atomic<int>& viewers_;
+  const bool taken_;
+};
+
+}  // namespace
+
+struct PageServer::Impl {
+  Scene& scene;
+  Broadcast& broadcast;
+  std::string host;
+  int port = 0;
+  std::string name = own_name();
+  std::atomic<int> viewers = 0;
+  httplib::Server server{};
+  std::atomic<bool> ended = false;
+  std::thread thread{};
+
+  void follow(Response& response) {
+    auto seat = std::make_shared<Seat>(viewers);
+    if (!seat->taken()) return refuse(response, 503, fmt::format("{} viewers are here already", kMostViewers));
+    auto seen = std::make_shared<Broadcast::Seen>();
+    response.set_header("Cache-Control", "no-store");
+    response.set_chunked_content_provider(
+        "text/event-stream", [this, seat, seen](std::size_t, httplib::DataSink& sink) {
+          std::string text = *seen == Broadcast::Seen{} ? "retry: 500\n\n" : "";  // ms, where the line broke
+          const auto messages = broadcast.wait(*seen, kStillHere);
+          if (broadcast.closed()) return false;
+          if (messages.empty()) text += ":\n\n";
+          for (const Broadcast::Message& message : messages) text += *message;
+          return sink.write(text.data(), text.size());
+        });
+  }
+
+  void post(const Request& request, Response& response) {
+    if (!same_origin(request.get_header_value("Origin"), request.get_header_value("Host"))) {
+      return refuse(response, 403, "a page of another site may not work this one");
+    }
+    if (!request.get_header_value("Content-Type").starts_with("application/json")) {
+      return refuse(response, 415, "commands are JSON: Content-Type must be application/json");
+    }
+    try {
+      scene.command(request.matches[1], json::parse(request.body));
+      response.set_content(json{{"ok", true}}.dump(), "application/json");
+    } catch (const CommandError& error) {
+      refuse(response, error.status, error.what());
+    } catch (const json::exception& error) {
+      refuse(response, 400, fmt::format("the command makes no sense: {}", error.what()));
+    }
+  }
+
+  void frame(const Request& request, Response& response) {
+    std::size_t i = 0;
+    if (!CLI::detail::lexical_cast(request.get_param_value("i"), i)) return refuse(response, 400, "i must be a number");
+    try {
+      response.set_content(scene.frame(i), "application/json");
+    } catch (const CommandError& error) {
+      refuse(response, error.status, error.what());
+    }
+  }
+
+  void route() {
+    const auto page = [&](const char* path, std::string_view text, const char* type) {
+      server.Get(path, [text, type](const Request&, Response& response) {
+        response.set_content(text.data(), text.size(), type);
+      });
+    };
+    page("/", kPageHtml, "text/html; charset=utf-8");
+    page("/page.js", kPageJs, "text/javascript; charset=utf-8");
+    page("/page.css", kPageCss, "text/css; charset=utf-8");
+    server.Get("/api/state", [this](const Request&, Response& response) {
+      response.set_content(scene.state().dump(), "application/json");
+    });
+    server.Get("/api/table.csv", [this](const Request&, Response& response) {
+      response.set_header("Content-Disposition", "attachment; filename=\"lobs.csv\"");
+      response.set_content(scene.table_csv(), "text/csv; charset=utf-8");
+    });
+    server.Get("/api/frame", [this](const Request& request, Response& response) { frame(request, response); });
+    server.Get("/api/events", [this](const Request&, Response& response) { follow(response); });
+    server.Post(R"(/api/([a-z-]+))", [this](const Request& request, Response& response) { post(request, response); });
+    server.set_pre_routing_handler([this](const Request& request, Response& response) {
+      if (names_this_machine(request.get_header_value("Host"), name))
+        return httplib::Server::HandlerResponse::Unhandled;
+      refuse(response, 403, "the page is asked for by a name that is not this machine's");
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    server.set_exception_handler([](const Request&, Response& response, std::exception_ptr failure) {
+      try {
+        std::rethrow_exception(failure);
+      } catch (const std::exception& error) {
+        refuse(response, 500, error.what());
+      }
+    });
+  }
+
+  void listen(int wanted_port) {
+    server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server.set_socket_options(set_options);
+    server.set_tcp_nodelay(true);
+    server.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
+    server.set_keep_alive_timeout(1);    // and so would one that never says anything
+    server.set_read_timeout(kStalled);
+    server.set_write_timeout(kStalled);
+    server.set_payload_max_length(64 * 1024);
+    server.set_default_headers(
+        {{"Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"},
+         {"X-Content-Type-Options", "nosniff"}});
+    errno = 0;
+    port =
+        wanted_port == 0 ? server.bind_to_any_port(host) : (server.bind_to_port(host, wanted_port) ? wanted_port : -1);
+    if (port <= 0) {
+      const int reason = errno;
+      throw std::runtime_error{fmt::format("cannot listen on {}:{}: {}", host, wanted_port,
+                                           reason != 0 ? std::strerror(reason) : "the address is not this machine's")};
+    }
+    thread = std::thread([this] {
+      server.listen_after_bind();
+      ended = true;
+    });
+  }
+};
+
+PageServer::PageServer(Scene& scene, Broadcast& broadcast, const ListenAddress& address)
+    : impl_(new Impl{.scene = scene, .broadcast = broadcast, .host = address.host}) {
+  impl_->route();
+  impl_->listen(address.port);
+}
+
+PageServer::~PageServer() {
+  impl_->broadcast.close();
+  // stop() is lost on a server that has not begun
+  while (!impl_->server.is_running() && !impl_->ended) std::this_thread::yield();
+  impl_->server.stop();
+  impl_->thread.join();
+}
+
+int PageServer::port() const { return impl_->port; }
+
+std::string PageServer::url() const {
+  const bool everywhere = impl_->host == "0.0.0.0" || impl_->host == "::";
+  const std::string host = everywhere ? impl_->name : impl_->host;
+  return fmt::format("http://{}:{}/", host.find(':') == std::string::npos ? host : "[" + host + "]", impl_->port);
+}
+
+}  // namespace trivela::pages

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+namespace trivela::pages {
+
+/// A command that cannot be done, with the status of the HTTP answer.
+struct CommandError : std::runtime_error {
+  CommandError(int http_status, const std::string& sentence) : std::runtime_error(sentence), status(http_status) {}
+  int status;
+};
+
+/// What the page shows and does: a live scanner or a replayed record. Publishes by itself. Any thread.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+
+  /// Everything but the scans: {"setup", "lobs", "table", "plan", "status"}.
+  virtual nlohmann::json state() const = 0;
+
+  /// Frame of scan i, see frame_json(). Throws CommandError where there is no such scan.
+  virtual std::string frame(std::size_t i) = 0;
+
+  /// Rows power,height_m,distance_m of the lobs shown as accepted.
+  virtual std::string table_csv() const = 0;
+
+  /// Does `name` with its arguments. Throws CommandError; nlohmann::json::exception for arguments of a wrong type.
+  virtual void command(const std::string& name, const nlohmann::json& arguments) = 0;
+
+  /// Throws what ended the scene's own thread, if anything did.
+  virtual void check() const = 0;
+
+  /// Ends the scene's own thread, and a live record. Throws what check() does.
+  virtual void finish() = 0;
+};
+
+}  // namespace trivela::pages

@@ -1,0 +1,114 @@
+#include "robot/belief/world_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "idl/none.hpp"
+#include "kicking/geometry/time.hpp"
+
+namespace trivela::robot {
+
+using kicking::TurnedPose;
+
+namespace {
+
+const TurnedPose kOrigin;
+
+/// Neither NaN nor farther from 0 than any robot comes.
+bool sound(const msg::Odometry& odometry) {
+  constexpr double kFastest = 1e3;   // m/s, rad/s
+  constexpr double kFarthest = 1e6;  // m, rad, and their variances
+  const auto within = [](double limit, std::initializer_list<double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [limit](double x) { return std::abs(x) <= limit; });
+  };
+  return within(kFastest, {odometry.vx_mps, odometry.vy_mps, odometry.omega_radps}) &&
+         within(kFarthest, {odometry.x_m, odometry.y_m, odometry.heading_rad, odometry.var_position_m2,
+                            odometry.var_heading_rad2});
+}
+
+}  // namespace
+
+void WorldModel::vision(const msg::VisionFrame& frame) {
+  if (frame.t_exposure_ns <= last_exposure_ns_) return;
+  last_exposure_ns_ = frame.t_exposure_ns;
+  if (frame.pose_seen) pose_.correct(frame.t_exposure_ns, {frame.x_m, frame.y_m, frame.heading_rad});
+  ball_.observe(frame.t_exposure_ns,
+                frame.ball_seen ? std::optional{Eigen::Vector2d{frame.ball_x_m, frame.ball_y_m}} : std::nullopt);
+  if (frame.opponent_seen) {
+    opponent_m_ = Eigen::Vector2d{frame.opponent_x_m, frame.opponent_y_m};
+    opponent_t_ns_ = frame.t_exposure_ns;
+  } else if (kicking::seconds(frame.t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
+    opponent_m_.reset();
+  }
+}
+
+void WorldModel::filter_velocity(const msg::Odometry& odometry) {
+  const double dt_s = kicking::seconds(odometry.t_ns - twist_t_ns_);
+  const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);
+  twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
+  twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
+  twist_.omega_radps += gain * (odometry.omega_radps - twist_.omega_radps);
+  twist_t_ns_ = odometry.t_ns;
+}
+
+void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out) {
+  out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
+      msg::kNone;
+  out.possession = ball_.possession();
+  const auto& ball = ball_.position_m();
+  out.ball_known = ball.has_value();
+  if (!ball) return;
+  // A held ball moves with the robot; a free one stands where it was seen.
+  const auto then = out.possession ? std::nullopt : pose_.pose_at(ball_.seen_t_ns());
+  const Eigen::Vector2d in_field = (then ? *then : pose).to_field(ball->x(), ball->y());
+  out.ball_x_m = in_field.x();
+  out.ball_y_m = in_field.y();
+  out.ball_age_s = kicking::seconds(t_ns - ball_.seen_t_ns());
+  if (out.possession) {
+    const Eigen::Vector2d velocity =
+        pose.turn(twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x());
+    out.ball_vx_mps = velocity.x();
+    out.ball_vy_mps = velocity.y();
+  }
+  if (opponent_m_) {
+    const auto when_seen = pose_.pose_at(opponent_t_ns_);
+    const Eigen::Vector2d opponent = (when_seen ? *when_seen : pose).to_field(opponent_m_->x(), opponent_m_->y());
+    out.opponent_distance_m = (opponent - in_field).norm();
+  }
+}
+
+msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
+                                   const msg::Referee* referee) {
+  const bool believed = sound(odometry);
+  if (believed) {
+    filter_velocity(odometry);
+    pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
+                  odometry.var_heading_rad2);
+  }
+  if (frame) {
+    vision(*frame);
+    ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
+  }
+  msg::WorldState out{};
+  out.t_ns = odometry.t_ns;
+  out.half = referee ? referee->half : 0;
+  out.possession_id = referee ? referee->possession_id : 0;
+  const TurnedPose* const localised = pose_.pose();
+  out.playing = believed && localised && referee && referee->playing;
+  const TurnedPose& pose = localised ? *localised : kOrigin;
+  out.x_m = pose.x_m;
+  out.y_m = pose.y_m;
+  out.heading_rad = pose.heading_rad;
+  out.vx_mps = twist_.vx_mps;
+  out.vy_mps = twist_.vy_mps;
+  out.omega_radps = twist_.omega_radps;
+  out.sd_position_m = pose_.sd_position_m();
+  out.sd_heading_rad = pose_.sd_heading_rad();
+  describe_ball(pose, odometry.t_ns, out);
+  const std::uint32_t own = gains_.see(out.t_ns, out.half, out.playing, out.possession);
+  if (referee && out.possession_id == 0) out.possession_id = own;
+  return out;
+}
+
+}  // namespace trivela::robot

@@ -1,0 +1,127 @@
+#include "robot/decision/decider.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "robot/decision/decision_message.hpp"
+
+namespace trivela::robot {
+namespace {
+
+using kicking::PolicyName;
+
+/// Policies that ride along: those that a robot may be given in play.
+constexpr std::array kShadows{PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive};
+
+/// session (15 bit) | robot (8 bit) | counter (40 bit).
+std::int64_t kick_id_base(std::uint32_t session, std::uint8_t robot_id) {
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(session & 0x7fff) << 48) |
+                                   (static_cast<std::uint64_t>(robot_id) << 40));
+}
+
+/// An instant that no gate accepts where the policy's is not one.
+std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
+  if (!std::isfinite(fire_after_s) || std::abs(fire_after_s) > 1.0) return t_ns - 1;
+  return t_ns + std::llround(fire_after_s * 1e9);
+}
+
+}  // namespace
+
+Decider::Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
+                 std::uint32_t session, std::optional<OracleSeat> oracle)
+    : model_(model),
+      policy_(settings.policy),
+      goal_(settings.goal),
+      oracle_(std::move(oracle)),
+      assignment_(settings.kick_decision, robot_id),
+      validity_ns_(static_cast<std::int64_t>(settings.kick_decision.order_validity_s * 1e9)),
+      robot_id_(robot_id),
+      kick_id_base_(kick_id_base(session, robot_id)) {
+  if (!settings.kick_decision.shadows) return;
+  shadows_.assign(kShadows.begin(), kShadows.end());
+  if (settings.policy.learned) shadows_.push_back(PolicyName::kLearned);
+}
+
+kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput& input,
+                                  const kicking::PolicyInput* truth) {
+  kicking::PolicyMemory& memory = memory_[static_cast<std::size_t>(policy)];
+  if (policy != PolicyName::kOracle) return kicking::judge(policy, policy_, model_, goal_, input, memory);
+  assert(oracle_ && truth != nullptr);
+  return kicking::judge(policy, oracle_->policy, oracle_->model, goal_, *truth, memory);
+}
+
+/// Possessions are numbered anew in each half; a policy that was not asked in between must not take one for another.
+void Decider::begin_half(std::uint8_t half) {
+  if (half_ == half) return;
+  half_ = half;
+  for (kicking::PolicyMemory& memory : memory_) memory.possession_id.reset();
+}
+
+const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
+                                     const std::optional<msg::KickOutcome>& outcome, const kicking::PolicyInput* truth,
+                                     double world_age_s) {
+  begin_half(world.half);
+  kicking::PolicyInput input = policy_input(world, kicker);
+  input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
+  if (const auto seen = last_kick(outcome)) input.last_kick = seen;
+  const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
+  // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.
+  new (&decision_.in_charge) Judged{chosen.policy, judge(chosen.policy, input, truth)};
+  decision_.assignment_probability = chosen.probability;
+  decision_.shadow_count = 0;
+  for (const PolicyName policy : shadows_) {
+    if (policy == chosen.policy) continue;
+    new (&decision_.shadows[decision_.shadow_count++]) Judged{policy, judge(policy, input, truth)};
+  }
+  decision_.order.reset();
+  const bool fire = decision_.in_charge.judgement.fire;
+  if (!world.possession && !fire) return decision_;  // the oracle alone may fire where the robot sees no ball
+  ++decisions_;
+  if (fire) decision_.order = order(world, decision_.in_charge.judgement);
+  return decision_;
+}
+
+msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
+  msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.in_charge.judgement);
+  out.robot_id = robot_id_;
+  out.seq = decisions_;
+  out.kick_id = decision_.order ? decision_.order->kick_id : 0;
+  out.assignment_probability = decision_.assignment_probability;
+  for (std::size_t i = 0; i < decision_.shadow_count; ++i)
+    out.shadows[i] = shadow_message(decision_.shadows[i].policy, decision_.shadows[i].judgement);
+  out.shadow_count = static_cast<std::uint8_t>(decision_.shadow_count);
+  return out;
+}
+
+bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
+  return orders_ > 0 && assignment_.in_charge(world.half, world.possession_id).policy == PolicyName::kTurnDrive &&
+         world.playing && world.possession_id != last_order_possession_id_ && kicker != nullptr &&
+         kicker->last_kick_id == last_order_.kick_id && kicker->last_accepted;
+}
+
+/// What was seen of the last order's kick, once the observer has said it.
+std::optional<kicking::SeenKick> Decider::last_kick(const std::optional<msg::KickOutcome>& outcome) const {
+  if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return std::nullopt;
+  kicking::SeenKick seen{outcome->kick_id, last_order_possession_id_, std::nullopt};
+  if (std::isfinite(outcome->x_cross_m)) seen.x_cross_m = outcome->x_cross_m;
+  return seen;
+}
+
+msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judgement& judgement) {
+  msg::KickOrder out{};
+  out.robot_id = robot_id_;
+  out.seq = ++orders_;
+  out.t_ns = world.t_ns;
+  out.kick_id = kick_id_base_ + orders_;
+  out.power = *judgement.power;
+  out.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
+  out.valid_until_t_ns = world.t_ns + validity_ns_;
+  last_order_ = out;
+  last_order_possession_id_ = world.possession_id;
+  return out;
+}
+
+}  // namespace trivela::robot

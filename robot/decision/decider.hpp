@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "config/settings.hpp"
+#include "idl/messages.hpp"
+#include "kicking/policy/policy.hpp"
+#include "robot/decision/assignment.hpp"
+
+namespace trivela::robot {
+
+/// What one policy says of a cycle.
+struct Judged {
+  kicking::PolicyName policy{};
+  kicking::Judgement judgement;
+};
+
+/// What the oracle decides by in place of the robot's settings and model.
+struct OracleSeat {
+  kicking::PolicyConfig policy;
+  kicking::RobotModel model;
+};
+
+/// What was decided in a cycle.
+struct CycleDecision {
+  Judged in_charge;
+  double assignment_probability = 1.0;
+  std::array<Judged, 4> shadows{};  ///< as many as the wire carries
+  std::size_t shadow_count = 0;
+  std::optional<msg::KickOrder> order;
+};
+
+/// One robot's decisions, without a bus: who is in charge, the memories of all policies, the shadows, and the order
+/// that a fire becomes. Nothing allocates after the constructor.
+class Decider {
+ public:
+  /// `session`: upper 15 bits of every kick_id. `model` must outlive the decider. Throws config::Error where the
+  /// policies in charge make no sense together. `oracle`: only where that policy may be in charge.
+  Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
+          std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
+
+  /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
+  /// was seen, if any. `truth`: what the oracle is told where it may be in charge. `world_age_s`: how long ago `world`
+  /// held, in real time. The reference holds until the next call.
+  const CycleDecision& decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
+                              const std::optional<msg::KickOutcome>& outcome,
+                              const kicking::PolicyInput* truth = nullptr, double world_age_s = 0.0);
+
+  /// The record of the last decide(), which was given these. Its seq counts the cycles with the ball.
+  msg::KickDecision record(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
+
+  /// Whether the turn drive, before it goes on, has to hear what became of the kick ordered at last_order_t_ns().
+  bool awaits_outcome(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
+  std::int64_t last_order_t_ns() const { return last_order_.t_ns; }
+
+  std::uint32_t orders() const { return orders_; }
+  const PolicyAssignment& assignment() const { return assignment_; }
+
+ private:
+  kicking::Judgement judge(kicking::PolicyName policy, const kicking::PolicyInput& input,
+                           const kicking::PolicyInput* truth);
+  void begin_half(std::uint8_t half);
+  std::optional<kicking::SeenKick> last_kick(const std::optional<msg::KickOutcome>& outcome) const;
+  msg::KickOrder order(const msg::WorldState& world, const kicking::Judgement& judgement);
+
+  const kicking::RobotModel& model_;
+  kicking::PolicyConfig policy_;
+  kicking::Goal goal_;
+  std::optional<OracleSeat> oracle_;
+  PolicyAssignment assignment_;
+  std::vector<kicking::PolicyName> shadows_;
+  std::int64_t validity_ns_;
+  std::uint8_t robot_id_;
+  std::int64_t kick_id_base_;
+  CycleDecision decision_;
+  std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
+  std::optional<std::uint8_t> half_;
+  msg::KickOrder last_order_{};
+  std::uint32_t last_order_possession_id_ = 0;
+  std::uint32_t orders_ = 0;
+  std::uint64_t decisions_ = 0;
+};
+
+}  // namespace trivela::robot

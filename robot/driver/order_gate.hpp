@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "config/settings.hpp"
+#include "hal/kicker.hpp"
+#include "idl/messages.hpp"
+#include "robot/watch/referee_watch.hpp"
+
+namespace trivela::robot {
+
+/// The set-points that a robot's kicker accepts.
+struct PowerRange {
+  double min;
+  double max;
+};
+
+/// The last word on every order: the one place that decides whether the coil may be energised.
+///
+/// An order passes when, in this order, the device is sound (no fault, samples neither older than link_timeout_s nor
+/// from more than future_tolerance_s ahead), the power is finite and inside the set-points and the kick_id above 0, the
+/// kicker is armed (switch on, referee heard and playing), the order was judged at most max_order_age_s ago and is not
+/// older than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be
+/// fired before it was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and
+/// the last kick is at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that
+/// fails is the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a
+/// double.
+class OrderGate {
+ public:
+  /// How many accepted orders, and how many refused ones, are known again.
+  static constexpr std::size_t kRemembered = 64;
+
+  OrderGate(const config::KickerDriver& settings, PowerRange power, double cycle_s)
+      : settings_(settings), power_(power), cycle_s_(cycle_s) {}
+
+  void device(const hal::KickerSample& sample) { sample_ = sample; }
+  void referee(RefereeSays says) { referee_ = says; }
+
+  /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
+  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns);
+
+  /// An accepted order that must not be fired after all.
+  struct Withdrawal {
+    std::int64_t kick_id;
+    std::int64_t order_t_ns;
+    msg::Refusal reason;
+  };
+
+  /// The accepted order whose instant lies ahead of `now_t_ns`, where by now the device is not sound or not armed. It
+  /// counts as refused from then on, and the next order as if it had not been.
+  std::optional<Withdrawal> withdraw(std::int64_t now_t_ns);
+
+  /// Switch on, device heard of, game playing.
+  bool armed() const { return sample_ && sample_->armed && referee_ == RefereeSays::kPlay; }
+
+  /// An order within range that came at `now_t_ns` would be accepted.
+  bool ready(std::int64_t now_t_ns) const;
+
+  std::int64_t last_kick_id() const { return last_kick_id_; }
+  bool last_accepted() const { return last_accepted_; }
+  std::uint32_t handled() const { return handled_; }
+  std::uint32_t refused() const { return refused_; }
+
+ private:
+  bool sound(std::int64_t now_t_ns) const;
+  bool rested(std::int64_t now_t_ns) const;
+  bool known(const msg::KickOrder& order) const;
+  void remember(const msg::KickOrder& order, bool accepted);
+  msg::Refusal disarmed() const;
+  /// A charge above the whole is a device's that cannot be believed.
+  bool charged() const {
+    constexpr double kMost = 1.05;
+    return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMost;
+  }
+  msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
+
+  config::KickerDriver settings_;
+  PowerRange power_;
+  double cycle_s_;
+  std::optional<hal::KickerSample> sample_;
+  RefereeSays referee_ = RefereeSays::kNothing;
+  std::optional<std::int64_t> last_fire_t_ns_;
+  struct Accepted {
+    std::int64_t kick_id;
+    std::int64_t order_t_ns;
+    std::int64_t fire_t_ns;
+    std::optional<std::int64_t> fire_before_t_ns;  // last_fire_t_ns_ before it
+  };
+  std::optional<Accepted> accepted_;  // the last one
+  // Two rings, so that refused orders push no accepted one out.
+  std::array<std::int64_t, kRemembered> accepted_ids_{};  // 0, which is no kick's, where none yet
+  std::size_t oldest_accepted_ = 0;
+  std::array<msg::KickOrder, kRemembered> refused_orders_{};  // kick_id 0 where none yet
+  std::size_t oldest_refused_ = 0;
+  std::int64_t last_kick_id_ = 0;
+  bool last_accepted_ = false;
+  std::uint32_t handled_ = 0;
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace trivela::robot

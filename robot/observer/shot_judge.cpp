@@ -1,0 +1,149 @@
+#include "robot/observer/shot_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "kicking/constants.hpp"
+#include "kicking/outcome/p_inside.hpp"
+#include "robot/observer/flight_stories.hpp"
+
+namespace trivela::robot {
+namespace {
+
+using kicking::Outcome;
+using kicking::OutcomeProbabilities;
+
+constexpr std::size_t kFewest = 5;     // sightings that tell of more than a turn
+constexpr std::size_t kWindow = 7;     // sightings that the exit is taken from
+constexpr double kNearFloor_m = 0.25;  // a minimum of z below it is a bounce
+// What happens how often, before anything is seen.
+constexpr double kBlocked = 0.05;         // an opponent turns a kick on its way
+constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
+constexpr double kSaved = 0.005;          // a ball between posts and bar comes back
+constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
+constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
+constexpr double kSystematic_m = 0.01;    // of the crossing: goal, camera and ball are not known better
+constexpr double kRestDoubt_mps = 0.15;
+
+/// The sightings of the flight up to the first bounce: the release is only expected, so that the first ones may show
+/// the ball in the handler still.
+std::span<const Sighting> in_the_air(std::span<const Sighting> sightings) {
+  std::size_t launch = 0;
+  while (launch + 1 < sightings.size() &&
+         std::min(sightings[launch].ball_m.z(), sightings[launch + 1].ball_m.z()) < kNearFloor_m) {
+    ++launch;
+  }
+  sightings = sightings.subspan(launch);
+  for (std::size_t i = kFewest; i < sightings.size(); ++i) {
+    const double low = sightings[i - 1].ball_m.z();
+    if (low < kNearFloor_m && low <= sightings[i - 2].ball_m.z() && low < sightings[i].ball_m.z())
+      return sightings.first(i);
+  }
+  return sightings;
+}
+
+void describe_exit(std::span<const Sighting> airborne, ShotVerdict& verdict) {
+  const auto piece = fit_flight(airborne.first(std::min(airborne.size(), kWindow)), kicking::kGravity_mps2);
+  if (!piece || airborne.size() < kWindow) return;
+  verdict.exit_speed_mps = piece->velocity_mps.norm();
+  verdict.exit_elevation_rad = std::atan2(piece->velocity_mps.z(), piece->velocity_mps.head<2>().norm());
+}
+
+double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }
+
+/// Shares of the stories, their sum not yet 1; `nothing` is that of none of the outcomes.
+struct Weights {
+  OutcomeProbabilities outcome{};
+  double nothing = 0.0;
+};
+
+/// The ball crossed the line: clean, or it met the frame.
+void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log_back, double share,
+                    const kicking::Goal& goal, Weights& weights) {
+  const double sd_x_m = std::hypot(crossing.sd_x_m, kSystematic_m), sd_z_m = std::hypot(crossing.sd_z_m, kSystematic_m);
+  OutcomeProbabilities p = kicking::crossing_probabilities(crossing.x_m, sd_x_m, crossing.z_m, sd_z_m, goal);
+  const double passed = share * std::exp(log_passed), back = share * std::exp(log_back);
+  for (const Outcome outcome : {Outcome::kWideLeft, Outcome::kWideRight, Outcome::kOver})
+    of(weights.outcome, outcome) = passed * of(p, outcome);
+  for (const Outcome outcome : {Outcome::kPost, Outcome::kBar}) of(weights.outcome, outcome) = back * of(p, outcome);
+  of(weights.outcome, Outcome::kOnTarget) = (passed + kSaved * back) * of(p, Outcome::kOnTarget);
+}
+
+/// Probability that the ball had come to the line when the sightings ended.
+double reached(const FlightStories& stories, const ShotTrack& track) {
+  if (!stories.crossing) return 0.0;
+  if (stories.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
+    return 1.0;
+  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  return kicking::normal_below(end_s - stories.crossing->t_s, stories.crossing->sd_t_s);
+}
+
+Weights weigh(const FlightStories& stories, const ShotTrack& track, const kicking::Goal& goal,
+              const config::ShotObserver& settings) {
+  Weights weights;
+  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  const double there = reached(stories, track);
+  double log_passed = stories.log_passed, log_back = stories.log_thrown_back;
+  if (track.end == FlightEnd::kBeyondLine) log_back += std::log(kAgainstTheEnd);
+  if (track.end == FlightEnd::kThrownBack) log_passed += std::log(kAgainstTheEnd);
+  // The best story has the likelihood 1, so that nothing overflows.
+  double best = stories.seen_after_crossing ? std::max(log_passed, log_back) : 0.0;
+  for (const Turn& turn : stories.turns) best = std::max(best, turn.log_likelihood);
+  const double free = std::exp(-best);
+  if (there > 0.0) weigh_crossing(*stories.crossing, log_passed - best, log_back - best, there, goal, weights);
+
+  const bool ended_free = !stories.seen_after_crossing && there < 1.0;
+  if (ended_free && track.end == FlightEnd::kAtRest) of(weights.outcome, Outcome::kShort) = (1.0 - there) * free;
+  if (ended_free && track.end == FlightEnd::kTakenAway) {
+    FlightFilter ball = stories.last;
+    ball.advance(std::max(0.0, end_s - stories.last_t_s));
+    const double sd_mps = std::hypot(kRestDoubt_mps, std::sqrt(ball.y().var_v_m2ps2));
+    const double lies = kicking::normal_below(3.0 * settings.rest_speed_mps - ball.speed_mps(), sd_mps);
+    of(weights.outcome, Outcome::kShort) = (1.0 - there) * free * lies;
+    weights.nothing = (1.0 - there) * free * (1.0 - lies) * kStopped_per_s * end_s;
+  }
+  double& blocked = of(weights.outcome, Outcome::kBlocked);
+  const double whole_s = std::max(stories.last_t_s, 0.1);
+  for (std::size_t i = 0; i < stories.turns.size(); ++i) {
+    const Turn& turn = stories.turns[i];
+    const double share = i == 0 ? kBlockedAtOnce : (1.0 - kBlockedAtOnce) * turn.within_s / whole_s;
+    blocked += kBlocked * share * std::exp(turn.log_likelihood - best);
+  }
+  if (ended_free && track.end == FlightEnd::kTakenAway)
+    blocked += kBlocked * (1.0 - kBlockedAtOnce) * std::max(0.0, end_s - stories.last_t_s) / whole_s * free;
+  return weights;
+}
+
+}  // namespace
+
+ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
+  ShotVerdict verdict;
+  describe_exit(in_the_air(track.sightings), verdict);
+  const auto stories = flight_stories(track, goal.y_m);
+  if (!stories) return verdict;
+  verdict.residual_sd_m = stories->residual_sd_m;
+  verdict.bounced = stories->crossing ? stories->crossing->ball.bounced() : stories->last.bounced();
+  if (track.end == FlightEnd::kLost && !stories->seen_after_crossing) return verdict;
+
+  Weights weights = weigh(*stories, track, goal, settings);
+  const double sum = std::accumulate(weights.outcome.begin(), weights.outcome.end(), weights.nothing);
+  if (!(sum > 0.0)) return verdict;
+  for (double& p : weights.outcome) p /= sum;
+  const auto likeliest = std::max_element(weights.outcome.begin(), weights.outcome.end());
+  const bool turned = *likeliest == of(weights.outcome, Outcome::kBlocked) && *likeliest >= settings.label_probability;
+  if (track.sightings.size() < kFewest && !turned) return {};
+  if (*likeliest >= settings.label_probability)
+    verdict.outcome = static_cast<Outcome>(likeliest - weights.outcome.begin());
+  const double not_there =
+      of(weights.outcome, Outcome::kBlocked) + of(weights.outcome, Outcome::kShort) + weights.nothing / sum;
+  if (stories->crossing && not_there < 0.5) {
+    verdict.x_cross_m = stories->crossing->x_m;
+    verdict.z_cross_m = stories->crossing->z_m;
+    verdict.sd_cross_m = std::max(stories->crossing->sd_x_m, stories->crossing->sd_z_m);
+  }
+  verdict.probabilities = weights.outcome;
+  return verdict;
+}
+
+}  // namespace trivela::robot

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "config/settings.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "kicking/outcome/outcome.hpp"
+#include "kicking/outcome/outcome_probability.hpp"
+#include "robot/observer/flight_fit.hpp"
+
+namespace trivela::robot {
+
+/// What the sightings of a shot say about it.
+struct ShotVerdict {
+  kicking::Outcome outcome = kicking::Outcome::kUnknown;
+  std::optional<kicking::OutcomeProbabilities> probabilities;  ///< none: not computed
+  std::optional<double> x_cross_m;                             ///< ball centre at the goal line, in F
+  std::optional<double> z_cross_m;
+  std::optional<double> sd_cross_m;      ///< the larger one of both
+  std::optional<double> exit_speed_mps;  ///< over ground, of the first sightings
+  std::optional<double> exit_elevation_rad;
+  bool bounced = false;  ///< it touched the floor before the line, or before it was seen last
+  std::optional<double> residual_sd_m;
+};
+
+/// How the sightings ended.
+enum class FlightEnd {
+  kBeyondLine,  ///< the ball is behind the goal line
+  kThrownBack,  ///< it came back from the plane of the goal
+  kAtRest,      ///< it lies, or time is up
+  kTakenAway,   ///< the referee stopped the game, or the ball is suddenly elsewhere
+  kLost         ///< no sighting for too long
+};
+
+/// A kick as it was expected and as it was seen.
+struct ShotTrack {
+  std::span<const Sighting> sightings;  ///< from the expected release on
+  FlightEnd end{};
+  std::int64_t release_t_ns = 0;
+  std::int64_t end_t_ns = 0;                   ///< when it was over; the last sighting or later
+  double expected_speed_mps = 0.0;             ///< over ground, that the kick should have given
+  std::optional<double> expected_climb_mps{};  ///< the same upwards; none: not known
+  double ball_sd_m = 0.03;                     ///< of a sighting
+};
+
+/// Weighs the outcomes by their likelihood in the light of the sightings:
+///
+///     free flight to the line (FlightFilter), there clean or past the frame: it flies on; post or bar: it comes back
+///     (a keeper's save, rarely); free flight and rest: short; an opponent turned it between two sightings: blocked.
+///
+/// Where the crossing may lie is a normal distribution over the regions of classify(); what followed the crossing
+/// decides between the regions that let a ball pass and those that throw it back. The likeliest outcome is given where
+/// its probability is at least `label_probability`, otherwise kUnknown; fewer than five sightings tell of kBlocked and
+/// of nothing else. A ball that flew freely up to the referee's stop before the line is kUnknown, too: nothing was seen
+/// that stopped it. What is left of 1 of the probabilities is just that.
+ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings);
+
+}  // namespace trivela::robot

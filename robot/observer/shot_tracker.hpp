@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "robot/observer/camera_noise.hpp"
+#include "robot/observer/shot_judge.hpp"
+
+namespace trivela::robot {
+
+/// A kick whose flight is over.
+struct TrackedShot {
+  std::int64_t kick_id = 0;
+  std::int64_t t_ns = 0;  ///< exposure that settled it
+  std::size_t sightings = 0;
+  ShotVerdict verdict;
+};
+
+/// Follows the ball after each release until the shot is settled. It sees the flight camera's frames and the receipts
+/// and nothing else. A receipt may come later than the first frames of its flight: the last `history_s` of frames are
+/// kept. How far a sighting may be off it learns from flight to flight.
+class ShotTracker {
+ public:
+  ShotTracker(const config::ShotObserver& settings, const kicking::Goal& goal)
+      : settings_(settings), goal_(goal), noise_(settings.ball_sd_m) {}
+
+  /// A kick was accepted and leaves at `release_t_ns` with `expected_speed_mps` over ground and `expected_climb_mps`
+  /// upwards (none: not known). A shot still open is judged by what was seen of it.
+  std::vector<TrackedShot> release(std::int64_t kick_id, std::int64_t release_t_ns, double expected_speed_mps,
+                                   std::optional<double> expected_climb_mps = std::nullopt);
+
+  /// One frame; nullopt where the ball was not seen.
+  std::vector<TrackedShot> frame(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
+
+  /// A shot is open: frames and the referee's word count for it.
+  bool follows() const { return open_.has_value(); }
+
+  /// The referee stopped the game at `t_ns`: what was seen until then settles an open shot.
+  std::vector<TrackedShot> stopped(std::int64_t t_ns);
+
+ private:
+  struct Open {
+    std::int64_t kick_id;
+    std::int64_t release_t_ns;
+    double expected_speed_mps;
+    std::optional<double> expected_climb_mps;
+    std::int64_t seen_t_ns;
+    double farthest_y_m;
+    std::vector<Sighting> sightings;
+  };
+
+  std::optional<FlightEnd> follow(const Sighting& sighting);
+  std::optional<FlightEnd> missed(std::int64_t t_ns) const;
+  std::optional<FlightEnd> step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
+  bool at_rest() const;
+  bool beyond_line(double y_m) const;
+  bool came_back(double y_m) const;
+  FlightEnd where_it_was() const;
+  TrackedShot settle(FlightEnd end, std::int64_t t_ns);
+
+  config::ShotObserver settings_;
+  kicking::Goal goal_;
+  CameraNoise noise_;
+  std::deque<Sighting> history_;
+  std::optional<Open> open_;
+};
+
+}  // namespace trivela::robot

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "config/robot.hpp"
+#include "kicking/geometry/frames.hpp"
+
+namespace trivela::robot {
+
+/// Wheel speeds to body twist and back, for 3 or 4 wheels.
+///
+///     wheel_radius w_i = -sin(angle_i) vx + cos(angle_i) vy + wheel_distance omega        (rad/s, m/s)
+///
+/// The twist is the least-squares solution, so a fourth wheel averages noise.
+class OmniKinematics {
+ public:
+  /// Throws std::invalid_argument unless the base has 3 or 4 wheels, positive lengths and spans the plane.
+  explicit OmniKinematics(const config::WheelBase& base);
+
+  int wheel_count() const { return static_cast<int>(forward_.rows()); }
+
+  /// Body twist in R of the first wheel_count() speeds.
+  kicking::Twist twist(std::span<const double> wheel_radps) const;
+
+  /// Wheel speeds that give `twist`; the inverse of twist().
+  std::vector<double> wheel_speeds_radps(const kicking::Twist& twist) const;
+
+  /// Variances (vx, vy, omega) that independent wheel noise of standard deviation `wheel_sd_radps` leaves in twist().
+  Eigen::Vector3d twist_variance(double wheel_sd_radps) const;
+
+ private:
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> forward_;   // twist -> wheel speeds
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> backward_;  // its pseudo-inverse
+};
+
+}  // namespace trivela::robot

@@ -1,0 +1,98 @@
+#include "robot/recording/predecessor.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <exception>
+
+#include "evaluator/log/digest.hpp"
+#include "evaluator/log/reader.hpp"
+
+namespace trivela::robot {
+namespace {
+
+namespace fs = std::filesystem;
+using evaluator::log::integer;
+using evaluator::log::Value;
+
+using Cells = std::span<const Value>;
+
+// Logs that may be of the same match, the one written to last first.
+std::vector<fs::path> candidates(const fs::path& log) {
+  std::vector<std::pair<fs::file_time_type, fs::path>> found;
+  std::error_code error;
+  const fs::path folder = log.has_parent_path() ? log.parent_path() : fs::path{"."};
+  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const std::string stem = path.stem().string();
+    if (path.extension() != log.extension() || !entry->is_regular_file(error)) continue;
+    if (stem != log.stem().string() && !stem.starts_with(log.stem().string() + "-r")) continue;
+    if (entry->file_size(error) == 0) continue;
+    auto changed = entry->last_write_time(error);
+    // What is not folded in yet stands beside it.
+    std::error_code none;
+    if (const auto wal = fs::last_write_time(path.string() + "-wal", none); !none) changed = std::max(changed, wal);
+    found.emplace_back(changed, path);
+  }
+  std::ranges::sort(found, std::greater<>{});
+  constexpr std::size_t kMost = 16;
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) paths.push_back(found[i].second);
+  return paths;
+}
+
+std::int64_t first_number(const evaluator::log::Reader& reader, const std::string& sql) {
+  std::int64_t n = 0;
+  reader.query(sql, [&](Cells row) { n = evaluator::log::integer_if_any(row[0]).value_or(0); });
+  return n;
+}
+
+// Robots that said nothing in the session are where they were when it began.
+std::vector<evaluator::log::DriverCount> drivers_of(const evaluator::log::Reader& reader, std::int64_t session_id) {
+  std::vector<evaluator::log::DriverCount> drivers;
+  reader.query(fmt::format("SELECT robot_id, orders_handled, orders_refused FROM kicker_status AS k "
+                           "WHERE session_id = {0} AND seq = (SELECT max(seq) FROM kicker_status "
+                           "WHERE session_id = {0} AND robot_id = k.robot_id) "
+                           "UNION ALL SELECT robot_id, orders_handled, orders_refused FROM continued AS c "
+                           "WHERE session_id = {0} AND NOT EXISTS (SELECT 1 FROM kicker_status "
+                           "WHERE session_id = {0} AND robot_id = c.robot_id) ORDER BY robot_id",
+                           session_id),
+               [&](Cells row) {
+                 drivers.push_back({static_cast<int>(integer(row[0])), integer(row[1]), integer(row[2])});
+               });
+  return drivers;
+}
+
+}  // namespace
+
+std::optional<Predecessor> find_predecessor(const fs::path& log, const evaluator::log::Session& session,
+                                            std::int64_t now_utc_ns,
+                                            const std::function<void(const std::string&)>& warn) {
+  std::optional<Predecessor> newest;
+  std::int64_t newest_start_utc_ns = 0;
+  const std::string config_sha256 = evaluator::log::sha256(session.config_toml);
+  for (const fs::path& path : candidates(log)) {
+    if (newest) break;
+    try {
+      // A match goes on while this looks: whether the rows are sound is for the report to say.
+      const evaluator::log::Reader reader{path, evaluator::log::Check::kQuick};
+      for (const auto& recorded : reader.sessions()) {
+        const std::int64_t start_utc_ns = recorded.started_t_ns + recorded.realtime_offset_ns;
+        if (recorded.config_sha256 != config_sha256) continue;
+        if (newest && start_utc_ns <= newest_start_utc_ns) continue;
+        const std::int64_t last_t_ns = first_number(
+            reader,
+            fmt::format("SELECT max(to_t_ns) FROM losses WHERE session_id = {} AND robot_id = 0", recorded.session_id));
+        const std::int64_t last_utc_ns = std::max(last_t_ns, recorded.started_t_ns) + recorded.realtime_offset_ns;
+        if (static_cast<double>(now_utc_ns - last_utc_ns) * 1e-9 > kLongestPause_s) continue;
+        newest = Predecessor{recorded.uuid, path, drivers_of(reader, recorded.session_id)};
+        newest_start_utc_ns = start_utc_ns;
+      }
+    } catch (const std::exception& error) {
+      warn(fmt::format("a log beside the new one is passed over: {}", error.what()));
+    }
+  }
+  return newest;
+}
+
+}  // namespace trivela::robot

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "robot/watch/silence_watch.hpp"
+
+namespace trivela::robot {
+
+/// Sentences on silences: one where it begins and one where it ends. A stream that comes and goes makes no more than
+/// two of them a second.
+class SilenceLines {
+ public:
+  /// What is known of an edge, with the name that its stream goes by.
+  void note(const SilenceEdge& edge, const std::string& name) {
+    Voice& voice = voices_.try_emplace({edge.stream, edge.robot_id}, Voice{.name = name}).first->second;
+    if (!edge.to_ns) {
+      voice.silent_from_ns = edge.from_ns;
+      return;
+    }
+    if (voice.said) {
+      ready_.push_back(fmt::format("{} back after {:.2f} s", name, seconds(*edge.to_ns - edge.from_ns)));
+    } else if (voice.silent_from_ns) {
+      ++voice.unsaid;
+    }
+    voice.silent_from_ns.reset();
+    voice.said = false;
+  }
+
+  /// What is to be said now.
+  std::vector<std::string> due(std::int64_t now_ns) {
+    for (auto& [key, voice] : voices_) {
+      if (!voice.silent_from_ns || voice.said) continue;
+      if (voice.said_ns && now_ns - *voice.said_ns < kPause_ns) continue;
+      const std::string more =
+          voice.unsaid > 0 ? fmt::format(", and {} shorter silences before", voice.unsaid) : std::string{};
+      ready_.push_back(fmt::format("no {} for {:.2f} s{}", voice.name, seconds(now_ns - *voice.silent_from_ns), more));
+      voice.said = true;
+      voice.said_ns = now_ns;
+      voice.unsaid = 0;
+    }
+    return std::exchange(ready_, {});
+  }
+
+ private:
+  struct Voice {
+    std::string name;
+    std::optional<std::int64_t> silent_from_ns{};
+    bool said = false;                      // that it is silent now
+    std::optional<std::int64_t> said_ns{};  // when that was said last
+    int unsaid = 0;                         // silences since then that nothing was said of
+  };
+  static constexpr std::int64_t kPause_ns = 1'000'000'000;
+  static double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+  std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;
+  std::vector<std::string> ready_;
+};
+
+}  // namespace trivela::robot

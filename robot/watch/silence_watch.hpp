@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace trivela::robot {
+
+/// How many periods without a sample make a silence.
+inline constexpr std::int64_t kSilentPeriods = 3;
+
+/// The beginning or the end of a silence: a stream was heard and then not for more than three of its periods.
+struct SilenceEdge {
+  std::size_t stream = 0;
+  std::uint8_t robot_id = 0;
+  std::int64_t limit_ns = 0;            ///< three periods
+  std::int64_t from_ns = 0;             ///< the last sample before it
+  std::optional<std::int64_t> to_ns{};  ///< the first sample after it; none: it begins
+
+  /// It ended, and by the samples' own instants nothing stayed away: they came late.
+  bool was_delay() const { return to_ns && *to_ns >= from_ns && *to_ns - from_ns <= limit_ns; }
+};
+
+/// Knows which streams of which robots are silent. A stream that was never heard is not. Instants are nanoseconds of
+/// one clock, the steady one in the nodes.
+class SilenceWatch {
+ public:
+  /// `step_ns`: how far apart looks are meant to be. Where one comes later by far, it was this process that stood
+  /// still: the time beyond two steps is nobody's silence.
+  explicit SilenceWatch(std::int64_t step_ns) : longest_step_ns_(2 * step_ns) {}
+
+  /// One more stream; returns its number.
+  std::size_t add(std::int64_t period_ns) {
+    periods_ns_.push_back(period_ns);
+    return periods_ns_.size() - 1;
+  }
+
+  /// A sample of `ns` was heard. A gap between the instants of two samples is a silence that has ended, even if no look
+  /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news.
+  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns) {
+    const auto [place, first] = voices_.try_emplace({stream, robot_id});
+    Voice& voice = place->second;
+    if (!first && ns == voice.last_ns) return;
+    const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
+    if (voice.silent || (!first && ns > voice.last_ns && ns - voice.last_ns > limit_ns))
+      edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, ns});
+    voice = {.last_ns = ns};
+  }
+
+  /// What began or ended since the last look, in the order in which it was noticed.
+  std::vector<SilenceEdge> look(std::int64_t now_ns) {
+    awake_ns_ += std::clamp<std::int64_t>(now_ns - looked_ns_.value_or(now_ns), 0, longest_step_ns_);
+    looked_ns_ = now_ns;
+    for (auto& [key, voice] : voices_) {
+      const auto& [stream, robot_id] = key;
+      const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
+      if (!voice.heard_awake_ns) voice.heard_awake_ns = awake_ns_;
+      if (voice.silent || awake_ns_ - *voice.heard_awake_ns <= limit_ns) continue;
+      voice.silent = true;
+      edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, std::nullopt});
+    }
+    return std::exchange(edges_, {});
+  }
+
+ private:
+  struct Voice {
+    std::int64_t last_ns = 0;
+    std::optional<std::int64_t> heard_awake_ns{};  // of the first look after the last sample
+    bool silent = false;
+  };
+
+  std::int64_t longest_step_ns_;
+  std::vector<std::int64_t> periods_ns_;
+  std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;
+  std::vector<SilenceEdge> edges_;
+  std::int64_t awake_ns_ = 0;  // time that went on while somebody looked
+  std::optional<std::int64_t> looked_ns_;
+};
+
+}  // namespace trivela::robot

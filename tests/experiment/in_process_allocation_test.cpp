@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <string>
+
+#include "experiment/play/play_match.hpp"
+#include "experiment/play/robot_chain.hpp"
+#include "hal/sim/sim_messages.hpp"
+#include "sim/match.hpp"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace trivela::experiment {
+namespace {
+
+TEST(InProcessAllocation, IsCounted) {
+  const std::size_t before = allocations;
+  const auto text = std::make_unique<std::string>(100, 'x');
+  EXPECT_GT(allocations, before);
+}
+
+TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
+  for (const auto policy :
+       {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving, kicking::PolicyName::kPredictive}) {
+    config::Settings settings;
+    settings.kick_decision.policy_by_half = {policy};
+    const config::Robot robot;
+    RobotChain chain{settings, robot, 1, 1, std::nullopt};
+    sim::Match match{{}, 1, 1, 1e6, 10};
+    std::size_t inside = 0;
+    int orders = 0;
+    while (!match.done()) {
+      const sim::Sensors sensors = match.sense();
+      const msg::Referee referee = hal::referee_message(sensors.t_ns, sensors.referee);
+      const std::size_t before = allocations;
+      const robot::CycleDecision* decision = chain.cycle(sensors, referee, std::nullopt, nullptr);
+      inside += allocations - before;
+      ASSERT_NE(decision, nullptr);
+      sim::Commands commands{decision->in_charge.judgement.drive, std::nullopt};
+      if (const auto& receipt = chain.receipt(); receipt && receipt->accepted) {
+        commands.fire = sim::Fire{receipt->fired_t_ns, receipt->kick_id, receipt->power};
+        ++orders;
+      }
+      match.step(commands);
+    }
+    EXPECT_EQ(inside, 0u) << kicking::name(policy);
+    EXPECT_GT(orders, 0) << kicking::name(policy);
+  }
+}
+
+TEST(InProcessAllocation, AMatchNeedsAFewForEachPossessionAndNoneForItsCycles) {
+  const auto needed = [](std::uint32_t possessions) {
+    const std::size_t before = allocations;
+    play_match({}, Arm{}, 1, 0, possessions);
+    return allocations - before;
+  };
+  const std::size_t few = needed(10), many = needed(110);
+  EXPECT_LT(many - few, 100u * 12u) << "a possession has some eighty cycles";
+}
+
+}  // namespace
+}  // namespace trivela::experiment

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "evaluator/stats/label_doubt.hpp"
+#include "experiment/play/play_match.hpp"
+#include "kicking/outcome/outcome.hpp"
+
+namespace trivela::experiment {
+
+/// A goal camera. The observer is not told: its setting stays at 3 cm.
+struct GoalCamera {
+  double sd_m = 0.03;
+  double frames_per_s = 50.0;
+  double dropout_ratio = 0.0;
+};
+
+/// Labels beside the simulator's truth.
+struct LabelCounts {
+  int kicks = 0;
+  int given = 0;       ///< not unknown
+  int right = 0;       ///< of them
+  int too_good = 0;    ///< called on target, but were not
+  int too_bad = 0;     ///< were on target, but called something else
+  double doubt = 0.0;  ///< sum of 1 - p of the given labels: how many should be wrong
+  int matches = 0;
+  int covered = 0;  ///< matches whose bounds hold the true share on target
+  std::map<std::pair<kicking::Outcome, kicking::Outcome>, int> confused;  ///< truth, label; where they differ
+
+  int unknown() const { return kicks - given; }
+};
+
+/// Adds one match of `possessions` possessions; odd matches are played by moving, even ones by predictive.
+inline void add_match(const GoalCamera& camera, std::uint64_t seed, std::uint32_t match_id, std::uint32_t possessions,
+                      LabelCounts& counts) {
+  sim::Scenario scenario;
+  scenario.flight_camera.position_sd_m = camera.sd_m;
+  scenario.flight_camera.period_s = 1.0 / camera.frames_per_s;
+  scenario.flight_camera.dropout_ratio = camera.dropout_ratio;
+  Arm arm;
+  arm.policy = match_id % 2 == 0 ? kicking::PolicyName::kPredictive : kicking::PolicyName::kMoving;
+  if (camera.frames_per_s > 50.0) scenario.cycle_s = arm.settings.run.cycle_s = 1.0 / camera.frames_per_s;
+  MatchRecord record;
+  play_match(scenario, arm, seed, match_id, possessions, {}, &record);
+  std::map<std::int64_t, const msg::KickOutcome*> observed;
+  for (const msg::KickOutcome& outcome : record.outcomes) observed[outcome.kick_id] = &outcome;
+  evaluator::stats::DoubtfulCounts match;
+  int kicks = 0, inside = 0;
+  for (const msg::KickTruth& truth : record.kick_truths) {
+    const auto found = observed.find(truth.kick_id);
+    const auto label =
+        found == observed.end() ? kicking::Outcome::kUnknown : static_cast<kicking::Outcome>(found->second->outcome);
+    const auto true_one = static_cast<kicking::Outcome>(truth.outcome);
+    const bool is_in = true_one == kicking::Outcome::kOnTarget;
+    ++kicks;
+    inside += is_in;
+    if (label == kicking::Outcome::kUnknown) {
+      ++match.unknown;
+      continue;
+    }
+    const msg::KickOutcome& out = *found->second;
+    const double p[] = {out.p_on_target, out.p_wide_left, out.p_wide_right, out.p_over,
+                        out.p_short,     out.p_post,      out.p_bar,        out.p_blocked};
+    const bool called_in = label == kicking::Outcome::kOnTarget;
+    ++match.known.n;
+    match.known.inside += called_in;
+    (called_in ? match.doubt.inside : match.doubt.outside) += called_in ? 1.0 - out.p_on_target : out.p_on_target;
+    ++counts.given;
+    counts.doubt += 1.0 - p[static_cast<int>(label)];
+    counts.right += label == true_one;
+    counts.too_good += called_in && !is_in;
+    counts.too_bad += is_in && !called_in;
+    if (label != true_one) ++counts.confused[{true_one, label}];
+  }
+  counts.kicks += kicks;
+  if (kicks == 0) return;
+  const auto bounds = evaluator::stats::efficiency_bounds(match);
+  const double share = static_cast<double>(inside) / kicks;
+  ++counts.matches;
+  counts.covered += bounds.lo <= share + 1e-12 && share <= bounds.hi + 1e-12;
+}
+
+}  // namespace trivela::experiment
