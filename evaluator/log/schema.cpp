@@ -35,8 +35,8 @@ const std::string& match_schema() {
   static const std::string text = [] {
     const std::string schema(kSchemaSql);
     std::string later;
-    for (const kicking::PolicyName policy : kicking::kEveryPolicy) {
-      const std::string allowed = fmt::format("policy = '{}'", kicking::name(policy));
+    for (const kicking::PolicyFacts& policy : kicking::kPolicyFacts) {
+      const std::string allowed = fmt::format("policy = '{}'", policy.name);
       if (schema.find(allowed) == std::string::npos) later += " OR " + allowed;
     }
     return std::regex_replace(schema, std::regex(" OR policy = 'oracle'"), "$&" + later);

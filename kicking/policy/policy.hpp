@@ -27,8 +27,8 @@ enum class PolicyNeeds { kNothing, kModel, kTruth };
 
 /// What others need to know of a policy.
 struct PolicyFacts {
-  const char* name = "";  ///< in files, flags and logs, and the wire's label
-  PolicyKind kind = PolicyKind::kPlay;
+  const char* name;  ///< in files, flags and logs, and the wire's label
+  PolicyKind kind;
   PolicyNeeds needs = PolicyNeeds::kNothing;
   bool rides_along = false;  ///< judged as a shadow while another one is in charge; the wire and the log have four
 
@@ -46,7 +46,8 @@ struct PolicyRow {
 template <class Memory>
 PolicyRow(PolicyFacts, Rule<Memory>*) -> PolicyRow<Memory>;
 
-/// The policies, in the order of the wire's Policy.
+/// The policies, in the order of the wire's Policy; each rule's own file says what it does. The oracle is predictive on
+/// the simulator's true state.
 inline constexpr std::tuple kPolicyRows{
     PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true}, judge_stopped},
     PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true}, judge_moving},
@@ -70,7 +71,7 @@ constexpr std::optional<int> row_of(std::string_view name) {
   return std::nullopt;
 }
 
-/// A policy: the place of its row. Those that something singles out have a name here.
+/// A policy: the place of its row. Those that something singles out have an enumerator; the others need none.
 enum class PolicyName {
   kStopped = row_of("stopped").value(),
   kMoving = row_of("moving").value(),
