@@ -59,7 +59,8 @@ void add_frontier(CLI::App& app, int& exit_code) {
       app.add_subcommand("frontier", "Efficiency against volume, swept over a policy's firing threshold");
   const auto flags = std::make_shared<FrontierFlags>();
   verb->add_option("--policy", flags->policy, "Which is swept")
-      ->check(CLI::IsMember({"predictive", "learned"}))
+      ->check(CLI::IsMember(kicking::policies_where(
+          [](const auto& policy) { return policy.kind == kicking::PolicyKind::kPredictive && !policy.needs_truth(); })))
       ->capture_default_str();
   verb->add_option("--threshold", flags->thresholds, "Least probabilities of a ball on target that it fires at")
       ->delimiter(',')

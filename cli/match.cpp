@@ -1,9 +1,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include "cli/launch/record_lockstep.hpp"
@@ -17,14 +15,11 @@
 namespace trivela::cli {
 namespace {
 
-/// That decide on the robots' knowledge alone.
-constexpr std::array<std::string_view, 4> kPolicies{"stopped", "moving", "predictive", "learned"};
-
-/// The oracle is refused by a sentence of its own.
+/// Policies of play before the drives; one that needs the truth is refused by a sentence of its own.
 std::vector<std::string> half_policies() {
-  std::vector<std::string> names(kPolicies.begin(), kPolicies.end());
-  for (const char* other : {"oracle", "standing_drive", "lateral_drive", "turn_drive", "straight_drive"})
-    names.emplace_back(other);
+  std::vector<std::string> names = kicking::policies_where([](const auto& policy) { return policy.plays(); });
+  for (std::string& drive : kicking::policies_where([](const auto& policy) { return !policy.plays(); }))
+    names.push_back(std::move(drive));
   return names;
 }
 
@@ -49,10 +44,12 @@ std::string list(const std::vector<std::string>& policies) {
 
 void refuse_oracle(const config::KickDecision& decision) {
   for (const auto& policies : {decision.policy_by_half, decision.policy_by_robot, decision.random}) {
-    if (std::find(policies.begin(), policies.end(), kicking::PolicyName::kOracle) == policies.end()) continue;
+    const auto who = std::ranges::find_if(policies, [](auto policy) { return facts(policy).needs_truth(); });
+    if (who == policies.end()) continue;
     throw UsageError{
-        "the policy oracle is told the simulator's true state, which is not on the bus: play it with "
-        "trivela simulate"};
+        fmt::format("the policy {} is told the simulator's true state, which is not on the bus: play it with "
+                    "trivela simulate",
+                    kicking::name(*who))};
   }
 }
 
@@ -79,8 +76,9 @@ std::vector<std::string> drawn_policies(const std::string& random) {
   std::vector<std::string> policies = CLI::detail::split(random, ',');
   const std::vector<std::string> known = half_policies();
   for (const std::string& policy : policies) {
-    if (std::ranges::find(known, policy) == known.end())
-      throw UsageError{fmt::format("--random: '{}' is no policy; there are {}", policy, fmt::join(kPolicies, ", "))};
+    if (std::ranges::find(known, policy) != known.end()) continue;
+    const auto drawn = kicking::policies_where([](const auto& any) { return any.plays() && !any.needs_truth(); });
+    throw UsageError{fmt::format("--random: '{}' is no policy; there are {}", policy, fmt::join(drawn, ", "))};
   }
   return policies;
 }

@@ -105,8 +105,7 @@ Robot load_robot(const std::filesystem::path& path) {
 }
 
 kicking::HeightLaw height_table_law(const Settings& settings) {
-  using kicking::PolicyName;
-  const auto by_law = [](PolicyName policy) { return policy == PolicyName::kStopped || policy == PolicyName::kMoving; };
+  const auto by_law = [](kicking::PolicyName policy) { return facts(policy).kind == kicking::PolicyKind::kPlay; };
   const KickDecision& decision = settings.kick_decision;
   const bool some = decision.random.empty() ? std::ranges::any_of(decision.policy_by_half, by_law) ||
                                                   std::ranges::any_of(decision.policy_by_robot, by_law)

@@ -20,21 +20,19 @@ void make_relative_to(const std::filesystem::path& folder, std::string& file) {
   if (!file.empty() && std::filesystem::path{file}.is_relative()) file = (folder / file).string();
 }
 
-bool names_learned(const std::vector<kicking::PolicyName>& policies) {
-  return std::ranges::find(policies, kicking::PolicyName::kLearned) != policies.end();
-}
-
 /// Brings policy.learned in line with kick_decision.learned_model.
 void read_learned_model(Settings& settings, const std::string& source) {
   const KickDecision& k = settings.kick_decision;
   settings.policy.learned.reset();
   if (!k.learned_model.empty()) settings.policy.learned = load_learned_model(k.learned_model).model;
-  const bool wanted = names_learned(k.policy_by_half) || names_learned(k.policy_by_robot) || names_learned(k.random);
-  if (wanted && !settings.policy.learned) {
+  if (settings.policy.learned) return;
+  for (const auto& policies : {k.policy_by_half, k.policy_by_robot, k.random}) {
+    const auto who = std::ranges::find_if(policies, [](auto policy) { return facts(policy).needs_model(); });
+    if (who == policies.end()) continue;
     throw Error{fmt::format(
-        "{}: policy \"learned\" needs kick_decision.learned_model, a file that `trivela learn` has written, such as "
+        "{}: policy \"{}\" needs kick_decision.learned_model, a file that `trivela learn` has written, such as "
         "--set 'kick_decision.learned_model=\"config/learned.toml\"'",
-        source)};
+        source, name(*who))};
   }
 }
 

@@ -8,16 +8,12 @@ namespace trivela::config {
 
 template <>
 struct Names<kicking::PolicyName> {
-  static constexpr std::array<std::pair<std::string_view, kicking::PolicyName>, kicking::kPolicyCount> entries{
-      {{"stopped", kicking::PolicyName::kStopped},
-       {"moving", kicking::PolicyName::kMoving},
-       {"standing_drive", kicking::PolicyName::kStandingDrive},
-       {"lateral_drive", kicking::PolicyName::kLateralDrive},
-       {"turn_drive", kicking::PolicyName::kTurnDrive},
-       {"straight_drive", kicking::PolicyName::kStraightDrive},
-       {"predictive", kicking::PolicyName::kPredictive},
-       {"learned", kicking::PolicyName::kLearned},
-       {"oracle", kicking::PolicyName::kOracle}}};
+  static constexpr auto entries = [] {
+    std::array<std::pair<std::string_view, kicking::PolicyName>, kicking::kPolicyCount> all{};
+    for (const kicking::PolicyName policy : kicking::kEveryPolicy)
+      all[static_cast<std::size_t>(policy)] = {kicking::name(policy), policy};
+    return all;
+  }();
 };
 template <>
 struct Names<kicking::HeightLaw> {

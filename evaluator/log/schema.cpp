@@ -14,6 +14,7 @@
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
+#include "kicking/policy/policy.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -27,6 +28,20 @@ const std::string& store(SQLite::Database& database, const std::string& text, Di
   insert.bindNoCopy(2, text);
   insert.exec();
   return key;
+}
+
+/// schema.sql with the policies that came after its text.
+const std::string& match_schema() {
+  static const std::string text = [] {
+    const std::string schema(kSchemaSql);
+    std::string later;
+    for (const kicking::PolicyFacts& policy : kicking::kPolicyFacts) {
+      const std::string allowed = fmt::format("policy = '{}'", policy.name);
+      if (schema.find(allowed) == std::string::npos) later += " OR " + allowed;
+    }
+    return std::regex_replace(schema, std::regex(" OR policy = 'oracle'"), "$&" + later);
+  }();
+  return text;
 }
 
 /// The view `kicks` of a schema as a view of the connection by the name `name`. It asks the file's own tables, also
@@ -62,7 +77,7 @@ std::string_view schema_of(const LogKind& kind, int version) {
     case 3:
       return kSchemaVersion3Sql;
     default:
-      return kSchemaSql;
+      return match_schema();
   }
 }
 
@@ -79,7 +94,7 @@ void create_reading_views(SQLite::Database& database, int version) {
 void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
-  database.exec(kSchemaSql);
+  database.exec(match_schema());
 }
 
 void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,

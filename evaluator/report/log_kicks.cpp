@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "evaluator/report/log_design.hpp"
+#include "kicking/policy/policy.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -35,10 +36,14 @@ std::optional<Name> name_by(const LoggedOpportunities& logged, const std::string
   return std::nullopt;
 }
 
-// Older and simpler ones first, others behind by their name.
+// Policies of play and tables, older and simpler ones first; others behind by their name.
 std::size_t rank_of(const std::string& name) {
-  static constexpr std::array kOrder{"stopped", "moving", "predictive", "learned", "oracle", "old", "new"};
-  return static_cast<std::size_t>(std::ranges::find(kOrder, name) - kOrder.begin());
+  static const std::vector<std::string> order = [] {
+    auto names = kicking::policies_where([](const auto& policy) { return policy.plays(); });
+    names.insert(names.end(), {"old", "new"});
+    return names;
+  }();
+  return static_cast<std::size_t>(std::ranges::find(order, name) - order.begin());
 }
 
 std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std::string& by, const Name& name) {

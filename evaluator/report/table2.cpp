@@ -25,7 +25,7 @@ using Cells = std::span<const log::Value>;
 using log::integer;
 const std::string& text(const log::Value& value) { return std::get<std::string>(value); }
 
-using Rows = std::map<std::string, PolicyRow, std::greater<>>;  // "stopped" before "moving": the older policy first
+using Rows = std::map<std::string, PolicyRow, std::greater<>>;  // by reverse alphabet: "stopped" before "moving"
 
 // What sessions say of robots that they have not recorded is nobody's.
 void forget_absent_robots(std::vector<log::RecordedSession>& sessions, const LoggedOpportunities& logged) {

@@ -23,8 +23,8 @@ config::Settings settings_of_match(const Arm& arm, std::uint64_t seed, const Pla
 }
 
 bool knows_the_truth(const config::KickDecision& settings, std::uint8_t robot_id) {
-  const auto candidates = robot::PolicyAssignment{settings, robot_id}.candidates();
-  return std::find(candidates.begin(), candidates.end(), kicking::PolicyName::kOracle) != candidates.end();
+  return std::ranges::any_of(robot::PolicyAssignment{settings, robot_id}.candidates(),
+                             [](kicking::PolicyName policy) { return facts(policy).needs_truth(); });
 }
 
 bool somebody_knows_the_truth(const config::KickDecision& settings, const sim::Scenario& scenario) {

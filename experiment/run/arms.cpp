@@ -28,14 +28,8 @@ config::ArmFields arm_named(const std::string& name) {
   const auto at = name.find('@');
   const std::string policy = name.substr(0, at);
   if (at != std::string::npos) arm.table = name.substr(at + 1);
-  bool known = false;
-  for (std::size_t i = 0; i < kicking::kPolicyCount; ++i) {
-    const auto candidate = static_cast<kicking::PolicyName>(i);
-    if (policy != kicking::name(candidate)) continue;
-    arm.policy = candidate;
-    known = true;
-  }
-  if (!known) throw cli::UsageError{fmt::format("--arms: \"{}\" is no policy", policy)};
+  arm.policy = kicking::policy_named(policy);
+  if (!arm.policy) throw cli::UsageError{fmt::format("--arms: \"{}\" is no policy", policy)};
   if (arm.table != kNewTable && arm.table != kOldTable)
     throw cli::UsageError{fmt::format("--arms: \"{}\": a table is new or old", name)};
   return arm;
@@ -66,18 +60,14 @@ std::vector<std::string> default_robots() {
   return files;
 }
 
-bool is_drive(kicking::PolicyName policy) {
-  return policy >= kicking::PolicyName::kStandingDrive && policy <= kicking::PolicyName::kStraightDrive;
-}
-
 void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, const config::Settings& settings) {
-  if (is_drive(policy)) {
+  if (!facts(policy).plays()) {
     throw cli::UsageError{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
                                       arm.place, kicking::name(policy))};
   }
-  if (policy == kicking::PolicyName::kLearned && !settings.policy.learned) {
-    throw cli::UsageError{
-        fmt::format("{}: the policy learned needs a model: --set 'kick_decision.learned_model=\"FILE\"'", arm.place)};
+  if (facts(policy).needs_model() && !settings.policy.learned) {
+    throw cli::UsageError{fmt::format("{}: the policy {} needs a model: --set 'kick_decision.learned_model=\"FILE\"'",
+                                      arm.place, kicking::name(policy))};
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
@@ -85,19 +86,22 @@ std::vector<std::string> keys_of(const std::string& choice) {
   return keys;
 }
 
+constexpr std::array kSpaces{std::pair{kicking::PolicyName::kStopped, &of_stopped},
+                             std::pair{kicking::PolicyName::kMoving, &of_moving},
+                             std::pair{kicking::PolicyName::kPredictive, &of_predictive}};
+
 }  // namespace
 
+std::vector<std::string> tuned_policies() {
+  std::vector<std::string> names;
+  for (const auto& [policy, space] : kSpaces) names.emplace_back(kicking::name(policy));
+  return names;
+}
+
 std::vector<Coordinate> tuned_space(kicking::PolicyName policy) {
-  switch (policy) {
-    case kicking::PolicyName::kStopped:
-      return of_stopped();
-    case kicking::PolicyName::kMoving:
-      return of_moving();
-    case kicking::PolicyName::kPredictive:
-      return of_predictive();
-    default:
-      throw std::invalid_argument{fmt::format("{} has no settings to choose", kicking::name(policy))};
-  }
+  for (const auto& [tuned, space] : kSpaces)
+    if (tuned == policy) return space();
+  throw std::invalid_argument{fmt::format("{} has no settings to choose", kicking::name(policy))};
 }
 
 Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space) {

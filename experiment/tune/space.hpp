@@ -19,6 +19,9 @@ struct Coordinate {
 /// std::invalid_argument for a policy without settings to choose.
 std::vector<Coordinate> tuned_space(kicking::PolicyName policy);
 
+/// Names of the policies that have some.
+std::vector<std::string> tuned_policies();
+
 /// "KEY=V1|V2|V3" as a coordinate; "KEY" alone: that of the space. Throws UsageError for a key that is no setting of
 /// [policy], a value that it cannot have, and fewer than two values.
 Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space);

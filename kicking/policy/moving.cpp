@@ -33,7 +33,7 @@ Direction expected_direction(const PolicyConfig& config, const RobotModel& robot
 }  // namespace
 
 Judgement judge_moving(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                       PolicyMemory& memory) {
+                       MovingMemory& memory) {
   const Shot shot = moving_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);

@@ -26,7 +26,7 @@ Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, cons
 /// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due
 /// straight before the target, at `distance_m`. At 0 m/s it stands there: the kick that the others are held against.
 Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                     PolicyMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
+                     DriveMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
   const Shot shot = drive_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
@@ -38,7 +38,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   const Eigen::Vector2d ahead = std::copysign(1.0, velocity_mps) * along;
   const double passed_m = (position - kick_place).dot(ahead);
   const bool standing = velocity_mps == 0.0;
-  bool& passing = memory.drive.passing;
+  bool& passing = memory.passing;
   if (!passing) {
     memory.settling_since_t_ns.reset();
     const Eigen::Vector2d mark = standing ? kick_place : kick_place - config.test_drive.run_up_m * ahead;
@@ -55,7 +55,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   judgement.drive.vx_mps = velocity_mps * along.x();
   judgement.drive.vy_mps = velocity_mps * along.y();
   if (standing) {
-    judgement.reason = settle(config, input, memory);
+    judgement.reason = settle(config, input, memory.settling_since_t_ns);
   } else if (passed_m >= 0.0 && passed_m <= kOrderCycles * config.cycle_s * std::abs(velocity_mps)) {
     judgement.reason = Reason::kFire;
   } else {
@@ -79,31 +79,19 @@ Judgement finished(const PolicyConfig& config, const Goal& goal) {
 }  // namespace
 
 Judgement judge_lateral_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                              const PolicyInput& input, PolicyMemory& memory) {
+                              const PolicyInput& input, DriveMemory& memory) {
   const auto& velocities = config.test_drive.lateral_mps;
-  if (memory.drive.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.drive.level],
+  if (memory.level >= velocities.size()) return finished(config, goal);
+  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.level],
                     config.test_drive.distance_m);
 }
 
 Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                               const PolicyInput& input, PolicyMemory& memory) {
+                               const PolicyInput& input, DriveMemory& memory) {
   const auto& velocities = config.test_drive.straight_mps;
-  if (memory.drive.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.drive.level],
+  if (memory.level >= velocities.size()) return finished(config, goal);
+  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.level],
                     config.test_drive.straight_distance_m);
-}
-
-void count_drive_kick(PolicyName drive, const PolicyConfig& config, const PolicyInput& input, const Twist& command,
-                      TestDriveMemory& memory) {
-  memory.passing = false;
-  memory.command = command;
-  if (drive == PolicyName::kTurnDrive) {
-    memory.awaited_possession = input.possession_id;  // it counts once it was seen
-  } else if (++memory.kicks >= config.test_drive.kicks_per_level) {
-    memory.kicks = 0;
-    ++memory.level;
-  }
 }
 
 }  // namespace trivela::kicking

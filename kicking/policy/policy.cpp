@@ -3,12 +3,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "kicking/policy/judgement.hpp"
-#include "kicking/policy/moving.hpp"
-#include "kicking/policy/predictive/predictive.hpp"
-#include "kicking/policy/stopped.hpp"
-#include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -29,19 +26,6 @@ Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
   return Reason::kFire;
 }
 
-bool is_drive(PolicyName policy) {
-  return policy >= PolicyName::kStandingDrive && policy <= PolicyName::kStraightDrive;
-}
-
-bool is_predictive(PolicyName policy) { return policy >= PolicyName::kPredictive; }
-
-using Rule = Judgement (*)(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, PolicyMemory&);
-
-/// In the order of PolicyName.
-constexpr std::array<Rule, kPolicyCount> kRules{judge_stopped,       judge_moving,     judge_standing_drive,
-                                                judge_lateral_drive, judge_turn_drive, judge_straight_drive,
-                                                judge_predictive,    judge_learned,    judge_predictive};
-
 /// Nothing is decided: why not, and how to drive meanwhile.
 Judgement hold(const PolicyConfig& config, const Goal& goal, Reason reason, const Twist& drive) {
   Judgement judgement = describe(config, goal, {});
@@ -50,49 +34,62 @@ Judgement hold(const PolicyConfig& config, const Goal& goal, Reason reason, cons
   return judgement;
 }
 
-/// The policy's own rule, where something may be decided.
-Judgement judge_freely(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                       const PolicyInput& input, PolicyMemory& memory) {
-  Judgement judgement = kRules[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
-  if (order_pending(config, input, memory)) {
+/// The memory of this type, a fresh one where the policy before remembered something else.
+template <class Memory>
+Memory& own(PolicyMemory& memory) {
+  Memory* const same = std::get_if<Memory>(&memory);
+  return same != nullptr ? *same : memory.emplace<Memory>();
+}
+
+template <bool kOutlives, class Memory>
+void begin_possession(Memory& memory, std::uint32_t possession_id) {
+  if (memory.possession_id == possession_id) return;
+  if constexpr (kOutlives) {
+    memory.interrupt();
+    memory.fired_t_ns.reset();
+  } else {
+    memory = {};
+  }
+  memory.possession_id = possession_id;
+}
+
+/// judge() of one row.
+template <std::size_t kRow>
+Judgement judge_row(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                    PolicyMemory& any_memory) {
+  constexpr const auto& row = std::get<kRow>(kPolicyRows);
+  constexpr bool drive = row.facts.kind == PolicyKind::kDrive;
+  auto& memory = own<typename std::remove_cvref_t<decltype(row)>::Remembered>(any_memory);
+  begin_possession<drive>(memory, input.possession_id);
+  if constexpr (row.facts.kind == PolicyKind::kPredictive) memory.watch(config, input);
+  if (const Reason hindered = hindrance(config, input); hindered != Reason::kFire) {
+    memory.interrupt();
+    return hold(config, goal, hindered, {});
+  }
+  const bool pending = order_pending(config, input, memory);
+  // Between a drive's order and its release nothing may change: the next velocity and the way back are for later.
+  if constexpr (drive) {
+    if (pending) return hold(config, goal, Reason::kOrderPending, memory.command);
+  }
+  Judgement judgement = row.judge(config, robot, goal, input, memory);
+  if (pending) {
     judgement.reason = Reason::kOrderPending;
   } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
     judgement.reason = Reason::kKickerNotReady;
   }
   judgement.fire = judgement.reason == Reason::kFire;
-  if (judgement.fire) {
-    memory.fired_t_ns = input.t_ns;
-    if (is_drive(policy)) count_drive_kick(policy, config, input, judgement.drive, memory.drive);
-  }
+  if (!judgement.fire) return judgement;
+  memory.fired_t_ns = input.t_ns;
+  if constexpr (drive) memory.order(config.test_drive, judgement.drive);
   return judgement;
 }
 
-}  // namespace
-
-const char* name(PolicyName policy) {
-  switch (policy) {
-    case PolicyName::kStopped:
-      return "stopped";
-    case PolicyName::kMoving:
-      return "moving";
-    case PolicyName::kStandingDrive:
-      return "standing_drive";
-    case PolicyName::kLateralDrive:
-      return "lateral_drive";
-    case PolicyName::kTurnDrive:
-      return "turn_drive";
-    case PolicyName::kStraightDrive:
-      return "straight_drive";
-    case PolicyName::kPredictive:
-      return "predictive";
-    case PolicyName::kLearned:
-      return "learned";
-    case PolicyName::kOracle:
-      return "oracle";
-  }
-  assert(false);
-  return "unknown";
+constexpr std::array kJudges = []<std::size_t... kRow>(std::index_sequence<kRow...>) {
+  return std::array{judge_row<kRow>...};
 }
+(std::make_index_sequence<kPolicyCount>{});
+
+}  // namespace
 
 const char* name(Reason reason) {
   switch (reason) {
@@ -131,26 +128,7 @@ const char* name(Reason reason) {
 
 Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                 const PolicyInput& input, PolicyMemory& memory) {
-  if (memory.possession_id != input.possession_id) {
-    const TestDriveMemory drive = memory.drive;
-    memory = {};
-    memory.possession_id = input.possession_id;
-    memory.drive = drive;
-    memory.drive.passing = false;
-  }
-
-  if (is_predictive(policy)) watch_predictive(config, input, memory);
-  const Reason hindered = hindrance(config, input);
-  if (hindered != Reason::kFire) {
-    memory.turning = false;
-    memory.settling_since_t_ns.reset();
-    memory.drive.passing = false;
-    return hold(config, goal, hindered, {});
-  }
-  // Between a drive's order and its release nothing may change: the next velocity and the way back are for later.
-  if (is_drive(policy) && order_pending(config, input, memory))
-    return hold(config, goal, Reason::kOrderPending, memory.drive.command);
-  return judge_freely(policy, config, robot, goal, input, memory);
+  return kJudges[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
 }
 
 }  // namespace trivela::kicking

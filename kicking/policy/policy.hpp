@@ -1,141 +1,127 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
-#include "kicking/alignment/release_predictor.hpp"
-#include "kicking/geometry/frames.hpp"
-#include "kicking/geometry/goal.hpp"
-#include "kicking/policy/policy_config.hpp"
-#include "kicking/policy/predictive/drive_plan.hpp"
-#include "kicking/policy/predictive/opponent_watch.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/policy/moving.hpp"
+#include "kicking/policy/predictive/predictive.hpp"
+#include "kicking/policy/rule.hpp"
+#include "kicking/policy/stopped.hpp"
+#include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
 
-/// kStopped: drive, brake, turn, settle, kick: "a two-step behaviour", the method before the paper.
-/// kMoving: the paper's: alignment is evaluated in parallel with the motion.
-/// The drives calibrate a robot (kicking/policy/test_drive.hpp).
-/// kPredictive: fires where the probability of a ball on target, weighed against losing the ball, is highest; kLearned:
-/// the same with that probability corrected by a model trained on logs; kOracle: the same on the simulator's true
-/// state. In the order of the wire's Policy.
+/// kPlay: aims by the configured laws. kPredictive: weighs probabilities and aims by its own. kDrive: calibrates a
+/// robot and is no policy of play; its memory outlives the possession.
+enum class PolicyKind { kPlay, kPredictive, kDrive };
+
+/// What a policy has to be given besides a robot's own belief: a learned model, or the simulator's true state.
+enum class PolicyNeeds { kNothing, kModel, kTruth };
+
+/// What others need to know of a policy.
+struct PolicyFacts {
+  const char* name;  ///< in files, flags and logs, and the wire's label
+  PolicyKind kind;
+  PolicyNeeds needs = PolicyNeeds::kNothing;
+  bool rides_along = false;  ///< judged as a shadow while another one is in charge; the wire and the log have four
+
+  constexpr bool plays() const { return kind != PolicyKind::kDrive; }
+  constexpr bool needs_truth() const { return needs == PolicyNeeds::kTruth; }
+  constexpr bool needs_model() const { return needs == PolicyNeeds::kModel; }
+};
+
+template <class Memory>
+struct PolicyRow {
+  using Remembered = Memory;
+  PolicyFacts facts;
+  Rule<Memory>* judge;
+};
+template <class Memory>
+PolicyRow(PolicyFacts, Rule<Memory>*) -> PolicyRow<Memory>;
+
+/// The policies, in the order of the wire's Policy; each rule's own file says what it does. The oracle is predictive on
+/// the simulator's true state.
+inline constexpr std::tuple kPolicyRows{
+    PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true}, judge_stopped},
+    PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true}, judge_moving},
+    PolicyRow{{.name = "standing_drive", .kind = PolicyKind::kDrive}, judge_standing_drive},
+    PolicyRow{{.name = "lateral_drive", .kind = PolicyKind::kDrive}, judge_lateral_drive},
+    PolicyRow{{.name = "turn_drive", .kind = PolicyKind::kDrive}, judge_turn_drive},
+    PolicyRow{{.name = "straight_drive", .kind = PolicyKind::kDrive}, judge_straight_drive},
+    PolicyRow{{.name = "predictive", .kind = PolicyKind::kPredictive, .rides_along = true}, judge_predictive},
+    PolicyRow{{.name = "learned", .kind = PolicyKind::kPredictive, .needs = PolicyNeeds::kModel, .rides_along = true},
+              judge_learned},
+    PolicyRow{{.name = "oracle", .kind = PolicyKind::kPredictive, .needs = PolicyNeeds::kTruth}, judge_predictive},
+};
+
+inline constexpr std::array kPolicyFacts =
+    std::apply([](const auto&... row) { return std::array{row.facts...}; }, kPolicyRows);
+inline constexpr std::size_t kPolicyCount = kPolicyFacts.size();
+
+constexpr std::optional<int> row_of(std::string_view name) {
+  for (std::size_t i = 0; i < kPolicyCount; ++i)
+    if (name == kPolicyFacts[i].name) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+/// A policy: the place of its row. Those that something singles out have an enumerator; the others need none.
 enum class PolicyName {
-  kStopped,
-  kMoving,
-  kStandingDrive,
-  kLateralDrive,
-  kTurnDrive,
-  kStraightDrive,
-  kPredictive,
-  kLearned,
-  kOracle
+  kStopped = row_of("stopped").value(),
+  kMoving = row_of("moving").value(),
+  kStandingDrive = row_of("standing_drive").value(),
+  kLateralDrive = row_of("lateral_drive").value(),
+  kTurnDrive = row_of("turn_drive").value(),
+  kStraightDrive = row_of("straight_drive").value(),
+  kPredictive = row_of("predictive").value(),
+  kLearned = row_of("learned").value(),
+  kOracle = row_of("oracle").value()
 };
 
-inline constexpr std::size_t kPolicyCount = 9;
+inline constexpr std::array kEveryPolicy = [] {
+  std::array<PolicyName, kPolicyCount> all{};
+  for (std::size_t i = 0; i < kPolicyCount; ++i) all[i] = static_cast<PolicyName>(i);
+  return all;
+}();
 
-/// Why a policy fires or holds, in the order of the wire's DecisionReason.
-enum class Reason {
-  kFire,
-  kNotPlaying,
-  kNoBall,
-  kKickerNotReady,
-  kOrderPending,
-  kApproaching,
-  kTurning,
-  kSettling,
-  kNotAligned,
-  kOutOfRange,
-  kStaleState,
-  kDriveFinished,
-  kUnlikely,
-  kWaiting
+constexpr const PolicyFacts& facts(PolicyName policy) { return kPolicyFacts[static_cast<std::size_t>(policy)]; }
+constexpr const char* name(PolicyName policy) { return facts(policy).name; }
+constexpr std::optional<PolicyName> policy_named(std::string_view name) {
+  if (const auto row = row_of(name)) return static_cast<PolicyName>(*row);
+  return std::nullopt;
+}
+
+/// Names of the policies with such facts, in the order of the rows.
+std::vector<std::string> policies_where(auto&& fits) {
+  std::vector<std::string> names;
+  for (const PolicyFacts& facts : kPolicyFacts)
+    if (fits(facts)) names.emplace_back(facts.name);
+  return names;
+}
+
+/// A variant of these types, each once.
+template <class Variant, class... Types>
+struct VariantOf {
+  using type = Variant;
 };
+template <class... Held, class First, class... Rest>
+struct VariantOf<std::variant<Held...>, First, Rest...>
+    : VariantOf<
+          std::conditional_t<(std::is_same_v<Held, First> || ...), std::variant<Held...>, std::variant<Held..., First>>,
+          Rest...> {};
 
-/// "stopped", "moving", "standing_drive", "lateral_drive", "turn_drive", "straight_drive", "predictive", "learned",
-/// "oracle".
-const char* name(PolicyName policy);
-/// "fire", "not_playing", ...
-const char* name(Reason reason);
+template <class... Memory>
+auto memory_of(const std::tuple<PolicyRow<Memory>...>&) -> typename VariantOf<std::variant<>, Memory...>::type;
 
-/// What was seen of a kick.
-struct SeenKick {
-  std::int64_t kick_id = 0;
-  std::uint32_t possession_id = 0;  ///< that it ended
-  std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F; none: it was not seen to cross
-};
-
-/// What one cycle knows.
-struct PolicyInput {
-  std::int64_t t_ns = 0;  ///< instant at which pose and twist hold
-  Pose pose{};            ///< in F
-  Twist twist{};          ///< in R
-  bool playing = false;
-  bool possession = false;
-  std::uint32_t possession_id = 0;
-  bool kicker_ready = false;
-  double state_age_s = 0.0;    ///< of the older of world state and kicker status
-  double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
-  double sd_heading_rad = 0.0;
-  std::optional<double> opponent_distance_m;   ///< nearest opponent to the ball; stopped and moving do not look at it
-  std::optional<double> opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
-  std::optional<SeenKick> last_kick;           ///< the latest one with an outcome; the turn drive alone looks at it
-};
-
-/// How far a test drive has come. It outlives the possession.
-struct TestDriveMemory {
-  std::size_t level = 0;    ///< entry of the drive's list
-  std::uint32_t kicks = 0;  ///< that count for this level; of the turn drive: for this step
-  bool passing = false;     ///< on its way past the mark or the target; of this possession
-  std::uint32_t step = 0;   ///< turn drive: halvings done
-  double low_rad = 0.0;     ///< turn drive: the allowed error, as an angle, is between these
-  std::optional<double> high_rad;
-  double late_sum_m = 0.0;  ///< turn drive: of this step's balls, beyond the target in the sense of turning
-  Twist command{};          ///< of the order: it goes on until the ball has left
-  std::optional<std::uint32_t> awaited_possession;  ///< turn drive: its kick has not been seen yet
-};
-
-/// What the predictive policy remembers of a possession.
-struct PredictiveMemory {
-  OpponentWatch opponent{};
-  DrivePlan plan = DrivePlan::kOnto;  ///< that it drives by
-  std::optional<Twist> command;       ///< of the last cycle
-  std::optional<Twist> twist;         ///< of the robot in the last cycle
-  double speed_jump_mps = 0.0;        ///< by which the twist changed more than the base can
-};
-
-/// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress.
-struct PolicyMemory {
-  std::optional<std::uint32_t> possession_id;
-  std::optional<std::int64_t> fired_t_ns;           ///< last order of this possession
-  bool aligned_before = false;                      ///< moving: in the previous cycle
-  bool turning = false;                             ///< stopped: has come to rest, turns or settles
-  std::optional<std::int64_t> settling_since_t_ns;  ///< stopped, standing drive
-  TestDriveMemory drive;
-  PredictiveMemory predictive;
-};
-
-/// One decision with every number behind it.
-struct Judgement {
-  bool fire = false;
-  Reason reason = Reason::kNotPlaying;
-  double target_x_m = 0.0;  ///< aim point in F
-  double target_y_m = 0.0;
-  double target_z_m = 0.0;
-  double distance_m = 0.0;           ///< ball centre to target, horizontal
-  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
-  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
-  std::optional<double> power;       ///< set-point, fractional
-  double alpha_rad = 0.0;            ///< right positive
-  double beta_rad = 0.0;             ///< with the sign of omega
-  bool aligned = false;
-  std::optional<double> offset_right_m;
-  double left_m = 0.0;
-  double right_m = 0.0;
-  std::optional<Crossing> predicted;  ///< of an order that goes out now
-  std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
-  double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
-  Twist drive{};                      ///< command until the next cycle, in R
-};
+/// What a policy remembers from cycle to cycle. A new possession starts it afresh, but for a drive's progress; so does
+/// a policy that remembers something else.
+using PolicyMemory = decltype(memory_of(kPolicyRows));
 
 /// Fire or hold? A pure function of its arguments but for the policy's own memory, which it brings up to date; nothing
 /// allocates. A policy that is not in charge is judged by the same function with a memory of its own. It never fires

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "kicking/policy/policy.hpp"
+#include "kicking/policy/rule.hpp"
 
 namespace trivela::kicking {
 

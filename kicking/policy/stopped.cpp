@@ -10,12 +10,11 @@ namespace {
 
 /// Brings the phases up to date and names the one that holds the kick back, kFire if none does.
 Reason stopped_phase(const PolicyConfig& config, const PolicyInput& input, double heading_error_rad,
-                     PolicyMemory& memory) {
+                     StoppedMemory& memory) {
   const double speed = std::hypot(input.twist.vx_mps, input.twist.vy_mps);
   // Once at rest it takes twice the speed to be moving again, so that noise does not throw it back.
   if (speed > (memory.turning ? 2.0 : 1.0) * config.rest_speed_mps) {
-    memory.turning = false;
-    memory.settling_since_t_ns.reset();
+    memory.interrupt();
     return Reason::kApproaching;
   }
   memory.turning = true;
@@ -35,7 +34,7 @@ Reason stopped_phase(const PolicyConfig& config, const PolicyInput& input, doubl
 }  // namespace
 
 Judgement judge_stopped(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        PolicyMemory& memory) {
+                        StoppedMemory& memory) {
   const Shot shot = stopped_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
@@ -48,8 +47,7 @@ Judgement judge_stopped(const PolicyConfig& config, const RobotModel& robot, con
     judgement.drive.vx_mps = velocity.x();
     judgement.drive.vy_mps = velocity.y();
     judgement.reason = velocity.isZero() ? Reason::kOutOfRange : Reason::kApproaching;
-    memory.turning = false;
-    memory.settling_since_t_ns.reset();
+    memory.interrupt();
     return judgement;
   }
   judgement.reason = stopped_phase(config, input, error, memory);

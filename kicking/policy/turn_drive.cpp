@@ -10,13 +10,13 @@ namespace {
 constexpr double kFewCycles = 3.0;  // within which an order must follow the alignment; a later kick would tell nothing
 
 /// The allowed error of this step, as an angle.
-double allowed_rad(const TestDriveConfig& config, const TestDriveMemory& memory) {
+double allowed_rad(const TestDriveConfig& config, const TurnDriveMemory& memory) {
   return 0.5 * (memory.low_rad + memory.high_rad.value_or(config.turn_widest_rad));
 }
 
 /// Takes in what was seen of the last kick. Once a step has its kicks, their mean halves the interval: balls that went
 /// beyond the target in the sense of turning left too late, so that a wider error must be allowed.
-void learn(const PolicyConfig& config, const PolicyInput& input, double omega_radps, TestDriveMemory& memory) {
+void learn(const PolicyConfig& config, const PolicyInput& input, double omega_radps, TurnDriveMemory& memory) {
   if (!memory.awaited_possession || !input.last_kick) return;
   if (input.last_kick->possession_id != *memory.awaited_possession) return;
   memory.awaited_possession.reset();
@@ -30,16 +30,17 @@ void learn(const PolicyConfig& config, const PolicyInput& input, double omega_ra
   memory.kicks = 0;
   memory.late_sum_m = 0.0;
   if (++memory.step < drive.turn_steps) return;
-  const std::size_t next = memory.level + 1;
-  memory = {};
-  memory.level = next;
+  memory.step = 0;
+  memory.low_rad = 0.0;
+  memory.high_rad.reset();
+  memory.passing = false;
+  ++memory.level;
 }
 
 }  // namespace
 
 Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, PolicyMemory& memory) {
-  TestDriveMemory& progress = memory.drive;
+                           const PolicyInput& input, TurnDriveMemory& progress) {
   const TestDriveConfig& drive = config.test_drive;
   if (progress.level < drive.turn_radps.size()) learn(config, input, drive.turn_radps[progress.level], progress);
   if (progress.level >= drive.turn_radps.size()) {

@@ -1,5 +1,7 @@
 #include "nodes/kick_decision/kick_decision_node.hpp"
 
+#include <fmt/format.h>
+
 #include <random>
 #include <stdexcept>
 
@@ -13,10 +15,11 @@ std::uint32_t session_of_kicks(std::uint32_t given) { return given != 0 ? given 
 
 void refuse_oracle(const robot::PolicyAssignment& assignment) {
   for (const kicking::PolicyName policy : assignment.candidates()) {
-    if (policy != kicking::PolicyName::kOracle) continue;
+    if (!facts(policy).needs_truth()) continue;
     throw std::runtime_error{
-        "the policy oracle is told the simulator's true state, which is not on the bus: "
-        "play it with trivela simulate"};
+        fmt::format("the policy {} is told the simulator's true state, which is not on the bus: "
+                    "play it with trivela simulate",
+                    kicking::name(policy))};
   }
 }
 

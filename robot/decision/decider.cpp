@@ -13,8 +13,9 @@ namespace {
 
 using kicking::PolicyName;
 
-/// Policies that ride along: those that a robot may be given in play.
-constexpr std::array kShadows{PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive};
+static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts::rides_along) <=
+                  static_cast<std::ptrdiff_t>(std::tuple_size_v<decltype(CycleDecision::shadows)>),
+              "the wire carries no more shadows");
 
 /// session (15 bit) | robot (8 bit) | counter (40 bit).
 std::int64_t kick_id_base(std::uint32_t session, std::uint8_t robot_id) {
@@ -41,14 +42,16 @@ Decider::Decider(const config::Settings& settings, const kicking::RobotModel& mo
       robot_id_(robot_id),
       kick_id_base_(kick_id_base(session, robot_id)) {
   if (!settings.kick_decision.shadows) return;
-  shadows_.assign(kShadows.begin(), kShadows.end());
-  if (settings.policy.learned) shadows_.push_back(PolicyName::kLearned);
+  for (const PolicyName policy : kicking::kEveryPolicy) {
+    if (!facts(policy).rides_along || (facts(policy).needs_model() && !settings.policy.learned)) continue;
+    shadows_.push_back(policy);
+  }
 }
 
 kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput& input,
                                   const kicking::PolicyInput* truth) {
   kicking::PolicyMemory& memory = memory_[static_cast<std::size_t>(policy)];
-  if (policy != PolicyName::kOracle) return kicking::judge(policy, policy_, model_, goal_, input, memory);
+  if (!facts(policy).needs_truth()) return kicking::judge(policy, policy_, model_, goal_, input, memory);
   assert(oracle_ && truth != nullptr);
   return kicking::judge(policy, oracle_->policy, oracle_->model, goal_, *truth, memory);
 }
@@ -57,7 +60,8 @@ kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput&
 void Decider::begin_half(std::uint8_t half) {
   if (half_ == half) return;
   half_ = half;
-  for (kicking::PolicyMemory& memory : memory_) memory.possession_id.reset();
+  for (kicking::PolicyMemory& memory : memory_)
+    std::visit([](kicking::PossessionMemory& any) { any.possession_id.reset(); }, memory);
 }
 
 const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,

@@ -8,11 +8,6 @@
 namespace trivela::robot {
 namespace {
 
-static_assert(int{msg::POLICY_STOPPED} == int(kicking::PolicyName::kStopped));
-static_assert(int{msg::POLICY_MOVING} == int(kicking::PolicyName::kMoving));
-static_assert(int{msg::POLICY_STRAIGHT_DRIVE} == int(kicking::PolicyName::kStraightDrive));
-static_assert(int{msg::POLICY_ORACLE} == int(kicking::PolicyName::kOracle));
-static_assert(int{msg::POLICY_ORACLE} + 1 == int(kicking::kPolicyCount));
 static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
 static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/schema.hpp"
+#include "kicking/policy/policy.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -103,6 +106,25 @@ TEST(Schema, ColumnsAreTheFieldsOfTheMessages) {
     }
     EXPECT_EQ(columns, fields_of(file, type)) << table;
   }
+}
+
+/// Policies that a log takes in a table, in the order of its schema.
+std::vector<std::string> policies_of(const std::string& table) {
+  const std::string schema(log::schema_of(log::kMatchLog, log::kMatchLog.version));
+  const auto begin = schema.find("CREATE TABLE " + table + " (");
+  const std::string text = schema.substr(begin, schema.find(") STRICT", begin) - begin);
+  const std::regex label("policy = '([a-z_]+)'");
+  std::vector<std::string> labels;
+  for (std::sregex_iterator it(text.begin(), text.end(), label), end; it != end; ++it) labels.push_back((*it)[1]);
+  return labels;
+}
+
+TEST(Schema, TakesThePoliciesOfTheRegistryAndNoOthers) {
+  using kicking::PolicyFacts;
+  const auto all = kicking::policies_where([](const PolicyFacts&) { return true; });
+  for (const char* const table : {"session_policies", "assignments", "kick_decisions"})
+    EXPECT_EQ(policies_of(table), all) << table;
+  EXPECT_EQ(policies_of("shadow_decisions"), kicking::policies_where(std::mem_fn(&PolicyFacts::rides_along)));
 }
 
 TEST(Digest, Sha256OfThePublishedExamples) {

@@ -36,9 +36,7 @@ void expect_decisions_without_allocation(const RobotModel& robot) {
   config.learned.emplace();
   double sum = 0.0;
   const std::size_t before = allocations;
-  for (const PolicyName policy :
-       {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kStandingDrive, PolicyName::kLateralDrive,
-        PolicyName::kTurnDrive, PolicyName::kStraightDrive, PolicyName::kPredictive, PolicyName::kLearned}) {
+  for (const PolicyName policy : kEveryPolicy) {
     for (const HeightLaw height : {HeightLaw::kPaper, HeightLaw::kExtendedRange, HeightLaw::kExact}) {
       for (const MotionLaw motion : {MotionLaw::kPaper, MotionLaw::kExact}) {
         for (const AlphaLaw alpha : {AlphaLaw::kPaperLine, AlphaLaw::kPhysical}) {

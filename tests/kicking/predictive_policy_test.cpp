@@ -19,6 +19,8 @@ Judgement once(const PolicyInput& input, const PolicyConfig& config = {}, const 
   return judge(kPredictive, config, robot, {}, input, memory);
 }
 
+const PredictiveMemory& own(const PolicyMemory& memory) { return std::get<PredictiveMemory>(memory); }
+
 /// A cycle of a robot that knows its opponent exactly.
 PolicyInput threatened(const Pose& pose, const Twist& twist, double opponent_m, double closing_mps) {
   PolicyInput input = ready_at(pose, twist);
@@ -189,16 +191,17 @@ TEST(PredictivePolicy, OutOfRangeIsWhereFullPowerFallsShort) {
 TEST(PredictivePolicy, DrivesOnAsReckonedUntilTheBallHasLeft) {
   PolicyMemory memory;
   PolicyInput input = threatened({0, 3, 0.25}, {0, 0.8, -2.5}, 0.9, 2.0);
-  for (int i = 0; i < 20 && !memory.fired_t_ns; ++i) {
-    judge(kPredictive, {}, {}, {}, input, memory);
+  bool fired = false;
+  for (int i = 0; i < 20 && !fired; ++i) {
+    fired = judge(kPredictive, {}, {}, {}, input, memory).fire;
     input.t_ns += 20'000'000;
   }
-  ASSERT_TRUE(memory.fired_t_ns);
-  const DrivePlan plan = memory.predictive.plan;
+  ASSERT_TRUE(fired);
+  const DrivePlan plan = own(memory).plan;
   const Judgement pending = judge(kPredictive, {}, {}, {}, input, memory);
   EXPECT_FALSE(pending.fire);
   EXPECT_EQ(pending.reason, Reason::kOrderPending);
-  EXPECT_EQ(memory.predictive.plan, plan);
+  EXPECT_EQ(own(memory).plan, plan);
 }
 
 TEST(LearnedPolicy, WithAnEmptyModelDecidesByThePhysicalProbability) {

@@ -268,6 +268,11 @@ TEST(TurnDrive, AKickThatWasNotSeenToCrossDoesNotCount) {
   EXPECT_DOUBLE_EQ(drill.possession({0, 1, 0}).fired->beta_rad, 1.25 * first);
 }
 
+DriveMemory& drive_of(PolicyMemory& memory) {
+  if (auto* const turn = std::get_if<TurnDriveMemory>(&memory)) return *turn;
+  return std::get<DriveMemory>(memory);
+}
+
 class AnyDrive : public testing::TestWithParam<PolicyName> {};
 
 TEST_P(AnyDrive, NeverFiresAgainstTheConditionsOfEveryPolicy) {
@@ -283,14 +288,14 @@ TEST_P(AnyDrive, NeverFiresAgainstTheConditionsOfEveryPolicy) {
       {spoiled([](PolicyInput& in) { in.pose.x_m = NAN; }), Reason::kStaleState}};
   for (const auto& [input, reason] : cases) {
     PolicyMemory memory;
-    memory.possession_id = 1;
-    memory.drive.passing = true;
-    memory.settling_since_t_ns = -1'000'000'000;
+    judge(GetParam(), {}, {}, {}, ready_at({0.0, 3.0, 0.0}), memory);
+    drive_of(memory).passing = true;
+    drive_of(memory).settling_since_t_ns = -1'000'000'000;
     const Judgement judgement = judge(GetParam(), {}, {}, {}, input, memory);
     EXPECT_FALSE(judgement.fire);
     EXPECT_EQ(judgement.reason, reason);
     EXPECT_EQ(judgement.drive.vx_mps, 0.0);
-    EXPECT_FALSE(memory.drive.passing) << "a pass that was interrupted starts over";
+    EXPECT_FALSE(drive_of(memory).passing) << "a pass that was interrupted starts over";
   }
 }
 

@@ -1,5 +1,6 @@
 #include "robot/decision/decision_message.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,13 +18,14 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 TEST(WireEnums, CarryTheAlgorithmsLabels) {
   using kicking::PolicyName;
   using kicking::Reason;
+  std::vector<std::string> labels;
   for (const auto& policy : bus::enumeration<msg::Policy>::enumerators) {
-    const auto ours = static_cast<PolicyName>(policy.value);
-    EXPECT_EQ(to_wire(ours), policy.value);
-    EXPECT_STREQ(kicking::name(ours), bus::label(to_wire(ours)));
+    EXPECT_EQ(std::size_t{policy.value}, labels.size()) << policy.label;
+    labels.emplace_back(policy.label);
   }
+  EXPECT_THAT(kicking::policies_where([](const auto&) { return true; }), testing::ElementsAreArray(labels))
+      << "rows of kicking/policy/policy.hpp against labels of idl/kick.idl";
   EXPECT_EQ(to_wire(PolicyName::kMoving), msg::POLICY_MOVING);
-  EXPECT_EQ(bus::enumeration<msg::Policy>::enumerators.size(), kicking::kPolicyCount);
   for (const auto& reason : bus::enumeration<msg::DecisionReason>::enumerators) {
     const auto ours = static_cast<Reason>(reason.value);
     EXPECT_EQ(to_wire(ours), reason.value);

@@ -3,9 +3,8 @@
 #include <array>
 #include <optional>
 
-#include "kicking/policy/policy.hpp"
 #include "kicking/policy/predictive/drive_plan.hpp"
-#include "kicking/policy/predictive/opponent_watch.hpp"
+#include "kicking/policy/predictive/predictive.hpp"
 #include "kicking/policy/predictive/shot_chance.hpp"
 
 namespace trivela::kicking {

@@ -48,10 +48,9 @@ Reason reason_of(const Outlook& best) {
 }
 
 Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                   const PolicyInput& input, PolicyMemory& memory) {
-  PredictiveMemory& own = memory.predictive;
+                   const PolicyInput& input, PredictiveMemory& own) {
   Lookout lookout(config, robot, goal, input, own, learned);
-  const bool pending = order_pending(config, input, memory);
+  const bool pending = order_pending(config, input, own);
   Outlook best{};
   if (pending) {
     best.plan = own.plan;  // the kick was reckoned with this way of driving
@@ -71,21 +70,19 @@ Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, cons
 
 }  // namespace
 
-void watch_predictive(const PolicyConfig& config, const PolicyInput& input, PolicyMemory& memory) {
-  PredictiveMemory& own = memory.predictive;
-  own.opponent.update(config.predictive, input.t_ns, input.playing, input.opponent_distance_m,
-                      input.opponent_closing_mps);
-  own.speed_jump_mps = speed_jump(config, input, own);
-  own.twist = input.twist;
+void PredictiveMemory::watch(const PolicyConfig& config, const PolicyInput& input) {
+  opponent.update(config.predictive, input.t_ns, input.playing, input.opponent_distance_m, input.opponent_closing_mps);
+  speed_jump_mps = speed_jump(config, input, *this);
+  twist = input.twist;
 }
 
 Judgement judge_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, PolicyMemory& memory) {
+                           const PolicyInput& input, PredictiveMemory& memory) {
   return judge_by(nullptr, config, robot, goal, input, memory);
 }
 
 Judgement judge_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        PolicyMemory& memory) {
+                        PredictiveMemory& memory) {
   return judge_by(config.learned ? &*config.learned : nullptr, config, robot, goal, input, memory);
 }
 

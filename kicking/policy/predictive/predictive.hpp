@@ -1,19 +1,29 @@
 #pragma once
 
-#include "kicking/policy/policy.hpp"
+#include "kicking/policy/predictive/drive_plan.hpp"
+#include "kicking/policy/predictive/opponent_watch.hpp"
+#include "kicking/policy/rule.hpp"
 
 namespace trivela::kicking {
+
+struct PredictiveMemory : PossessionMemory {
+  OpponentWatch opponent{};
+  DrivePlan plan = DrivePlan::kOnto;  ///< that it drives by
+  std::optional<Twist> command;       ///< of the last cycle
+  std::optional<Twist> twist;         ///< of the robot in the last cycle
+  double speed_jump_mps = 0.0;        ///< by which the twist changed more than the base can
+
+  /// What is seen in every cycle, also while nothing may be decided: the opponent, the robot's own twist.
+  void watch(const PolicyConfig& config, const PolicyInput& input);
+};
 
 /// Fires where the probability of a ball on target now is worth more than any later moment's, weighed with keeping the
 /// ball until then (docs/policies.md).
 Judgement judge_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, PolicyMemory& memory);
+                           const PolicyInput& input, PredictiveMemory& memory);
 
 /// The same with the probability corrected by config.learned, where there is one.
 Judgement judge_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        PolicyMemory& memory);
-
-/// What the policy sees while nothing may be decided: the opponent.
-void watch_predictive(const PolicyConfig& config, const PolicyInput& input, PolicyMemory& memory);
+                        PredictiveMemory& memory);
 
 }  // namespace trivela::kicking

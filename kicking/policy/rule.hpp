@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "kicking/alignment/release_predictor.hpp"
+#include "kicking/geometry/frames.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "kicking/policy/policy_config.hpp"
+#include "kicking/robot_model.hpp"
+
+namespace trivela::kicking {
+
+/// Why a policy fires or holds, in the order of the wire's DecisionReason.
+enum class Reason {
+  kFire,
+  kNotPlaying,
+  kNoBall,
+  kKickerNotReady,
+  kOrderPending,
+  kApproaching,
+  kTurning,
+  kSettling,
+  kNotAligned,
+  kOutOfRange,
+  kStaleState,
+  kDriveFinished,
+  kUnlikely,
+  kWaiting
+};
+
+/// "fire", "not_playing", ...
+const char* name(Reason reason);
+
+/// What was seen of a kick.
+struct SeenKick {
+  std::int64_t kick_id = 0;
+  std::uint32_t possession_id = 0;  ///< that it ended
+  std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F; none: it was not seen to cross
+};
+
+/// What one cycle knows.
+struct PolicyInput {
+  std::int64_t t_ns = 0;  ///< instant at which pose and twist hold
+  Pose pose{};            ///< in F
+  Twist twist{};          ///< in R
+  bool playing = false;
+  bool possession = false;
+  std::uint32_t possession_id = 0;
+  bool kicker_ready = false;
+  double state_age_s = 0.0;    ///< of the older of world state and kicker status
+  double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
+  double sd_heading_rad = 0.0;
+  std::optional<double> opponent_distance_m;   ///< nearest opponent to the ball; stopped and moving do not look at it
+  std::optional<double> opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
+  std::optional<SeenKick> last_kick;           ///< the latest one with an outcome; the turn drive alone looks at it
+};
+
+/// One decision with every number behind it.
+struct Judgement {
+  bool fire = false;
+  Reason reason = Reason::kNotPlaying;
+  double target_x_m = 0.0;  ///< aim point in F
+  double target_y_m = 0.0;
+  double target_z_m = 0.0;
+  double distance_m = 0.0;           ///< ball centre to target, horizontal
+  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
+  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
+  std::optional<double> power;       ///< set-point, fractional
+  double alpha_rad = 0.0;            ///< right positive
+  double beta_rad = 0.0;             ///< with the sign of omega
+  bool aligned = false;
+  std::optional<double> offset_right_m;
+  double left_m = 0.0;
+  double right_m = 0.0;
+  std::optional<Crossing> predicted;  ///< of an order that goes out now
+  std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
+  double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
+  Twist drive{};                      ///< command until the next cycle, in R
+};
+
+/// What every policy remembers of a possession. One that remembers more derives from it.
+struct PossessionMemory {
+  std::optional<std::uint32_t> possession_id;
+  std::optional<std::int64_t> fired_t_ns;  ///< last order
+
+  /// Nothing may be decided in this cycle.
+  void interrupt() {}
+};
+
+/// What makes a policy: asked in each cycle in which something may be decided. Reason kFire: it would kick now, the
+/// kicker and an order on its way aside.
+template <class Memory>
+using Rule = Judgement(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, Memory&);
+
+}  // namespace trivela::kicking
