@@ -69,7 +69,7 @@ struct Match::State {
     ++possession_id;
     phase = Phase::kStop;
     ending.reset();
-    const Draws draws{seed, situation()};
+    const kicking::Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
     world.place(opportunity, kickers[opportunity.robot - 1u].speed_scale_ratio, draws);
     sensors.begin(draws);

@@ -33,7 +33,7 @@ double reach_y_m(const BallMotion& motion, const Ball& ball) {
 
 }  // namespace
 
-Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const Draws& draws)
+Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const kicking::Draws& draws)
     : scenario_(scenario),
       draws_(draws),
       released_(released),
@@ -118,7 +118,7 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
 bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
   const Keeper& keeper = scenario_.keeper;
   if (!keeper.enabled) return false;
-  const auto noise = draws_.normals(Role::kKeeper, 0);
+  const auto noise = draws_.normals(kicking::Role::kKeeper, 0);
   return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, 0.0,
                      {crossing, flown_s, scenario_.ball.radius_m}, {noise[0], noise[1]});
 }
@@ -136,7 +136,7 @@ void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, do
   const Vec3& from = released_.position_m;
   const double middle_x_m = from.x * defenders.line_distance_m / (goal_y_m - from.y);
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(defenders.count); ++i) {
-    const auto noise = draws_.normals(Role::kDefender, 0, i);
+    const auto noise = draws_.normals(kicking::Role::kDefender, 0, i);
     const double place_m = middle_x_m + defenders.spread_sd_m * noise[2];
     if (!guard_stops(defenders.guard, {}, place_m, ball, {noise[0], noise[1]})) continue;
     ball_ = there;

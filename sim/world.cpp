@@ -6,7 +6,7 @@ namespace trivela::sim {
 
 World::World(const Scenario& scenario) : scenario_(scenario), body_(scenario.robot), kicker_(scenario.kicker) {}
 
-void World::place(const Opportunity& opportunity, double speed_scale_ratio, const Draws& draws) {
+void World::place(const Opportunity& opportunity, double speed_scale_ratio, const kicking::Draws& draws) {
   playing_ = false;
   shot_.reset();
   draws_ = draws;

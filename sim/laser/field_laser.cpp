@@ -20,10 +20,10 @@ LaserModel laser_model(const Laser& laser) {
 }
 
 FieldLaser::FieldLaser(const Laser& laser, double ball_radius_m) {
-  if (laser.enabled) builder_.emplace(laser_model(laser), ball_radius_m, Draws{0, 0});
+  if (laser.enabled) builder_.emplace(laser_model(laser), ball_radius_m, kicking::Draws{0, 0});
 }
 
-void FieldLaser::begin(const Draws& draws) {
+void FieldLaser::begin(const kicking::Draws& draws) {
   if (builder_) builder_->use(draws);
   ball_was_moved_ = true;
 }

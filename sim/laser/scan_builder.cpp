@@ -26,7 +26,8 @@ double background_m(const LaserModel& laser, double cos_a, double sin_a) {
 
 }  // namespace
 
-ScanBuilder::ScanBuilder(const LaserModel& laser, double ball_radius_m, const Draws& draws, std::int64_t first_t_ns)
+ScanBuilder::ScanBuilder(const LaserModel& laser, double ball_radius_m, const kicking::Draws& draws,
+                         std::int64_t first_t_ns)
     : laser_(laser), radius_m_(ball_radius_m), draws_(draws), first_t_ns_(first_t_ns), t_ns_(first_t_ns) {
   const auto& geometry = laser_.geometry;
   if (geometry.beams == 0 || !(geometry.beam_period_s > 0.0) || !(geometry.scan_period_s > 0.0)) {
@@ -102,7 +103,7 @@ void ScanBuilder::measure(std::size_t i, const std::optional<Vec3>& ball) {
 }
 
 void ScanBuilder::mix(std::size_t i, double edge_m) {
-  const double u = draws_.uniform(Role::kLaserMixed, scan_index_, static_cast<std::uint32_t>(i));
+  const double u = draws_.uniform(kicking::Role::kLaserMixed, scan_index_, static_cast<std::uint32_t>(i));
   if (u >= laser_.mixed_ratio) return;
   const double far_m = std::max(edge_m, std::min(beams_[i].background_m, edge_m + laser_.mixed_depth_m));
   scan_.range_mm[i] = answer(i, std::lerp(edge_m, far_m, u / laser_.mixed_ratio));
@@ -111,8 +112,8 @@ void ScanBuilder::mix(std::size_t i, double edge_m) {
 std::uint32_t ScanBuilder::answer(std::size_t i, double range_m) const {
   if (!(range_m >= laser_.geometry.min_range_m && range_m <= laser_.geometry.max_range_m)) return kNoAnswer_mm;
   const auto beam = static_cast<std::uint32_t>(i);
-  if (draws_.uniform(Role::kLaserDropout, scan_index_, beam) < laser_.dropout_ratio) return kNoAnswer_mm;
-  const double noise = draws_.normals(Role::kLaserNoise, scan_index_, beam / 4)[beam % 4];
+  if (draws_.uniform(kicking::Role::kLaserDropout, scan_index_, beam) < laser_.dropout_ratio) return kNoAnswer_mm;
+  const double noise = draws_.normals(kicking::Role::kLaserNoise, scan_index_, beam / 4)[beam % 4];
   return static_cast<std::uint32_t>(std::max(0L, std::lround(1000.0 * (range_m + laser_.range_sd_m * noise))));
 }
 

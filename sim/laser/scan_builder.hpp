@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kicking/lob/scan.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/laser/laser_model.hpp"
-#include "sim/random.hpp"
 #include "sim/truth.hpp"
 
 namespace trivela::sim {
@@ -23,7 +23,7 @@ class ScanBuilder {
  public:
   /// The first scan starts at `first_t_ns`. Throws std::invalid_argument for a geometry without beams or with a beam or
   /// scan period that is not positive.
-  ScanBuilder(const LaserModel& laser, double ball_radius_m, const Draws& draws, std::int64_t first_t_ns = 0);
+  ScanBuilder(const LaserModel& laser, double ball_radius_m, const kicking::Draws& draws, std::int64_t first_t_ns = 0);
 
   /// The ball's centre in F at t_ns, none if there is no ball. Call after each physics step, a millisecond at most: the
   /// beams since the last call are measured, the ball being on the straight line between the two places. Time goes
@@ -34,7 +34,7 @@ class ScanBuilder {
   std::optional<kicking::lob::Scan> take();
 
   /// The random numbers of another opportunity, from the next beam on.
-  void use(const Draws& draws) { draws_ = draws; }
+  void use(const kicking::Draws& draws) { draws_ = draws; }
 
  private:
   /// Direction of a beam in the scan plane, and what it reads without a ball.
@@ -56,7 +56,7 @@ class ScanBuilder {
 
   LaserModel laser_;
   double radius_m_;
-  Draws draws_;
+  kicking::Draws draws_;
   std::vector<Beam> beams_;
   std::deque<kicking::lob::Scan> complete_;
   std::int64_t first_t_ns_;

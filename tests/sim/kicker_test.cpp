@@ -12,7 +12,7 @@ namespace trivela::sim {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-const Draws kDraws{1, 1};
+const kicking::Draws kDraws{1, 1};
 
 Kicker quiet() {
   Kicker k;

@@ -14,7 +14,7 @@ namespace {
 
 using kicking::lob::Scan;
 
-const Draws kDraws{5, 1};
+const kicking::Draws kDraws{5, 1};
 constexpr double kRadius_m = 0.11;
 
 LaserModel noiseless() {
@@ -26,7 +26,7 @@ LaserModel noiseless() {
 /// Scans of the first `seconds`, in steps of step_s, with the ball at place(t).
 std::vector<Scan> scans_of(const LaserModel& laser, double seconds,
                            const std::function<std::optional<Vec3>(double)>& place, double step_s = 1e-3,
-                           const Draws& draws = kDraws) {
+                           const kicking::Draws& draws = kDraws) {
   ScanBuilder builder(laser, kRadius_m, draws);
   std::vector<Scan> scans;
   const auto steps = std::lround(seconds / step_s);
@@ -108,7 +108,7 @@ TEST(ScanBuilder, DoesNotDependOnTheStepsOfTheWorld) {
 
 TEST(ScanBuilder, IsFixedBySeedAndOpportunity) {
   const LaserModel laser;
-  const auto scan = [&](const Draws& draws) {
+  const auto scan = [&](const kicking::Draws& draws) {
     return scans_of(
                laser, 0.03, [](double) { return std::nullopt; }, 1e-3, draws)
         .at(0)

@@ -186,11 +186,12 @@ TEST(Match, TheRefereeStopsAPossessionButNoBallInTheAir) {
   EXPECT_GT(stopped, static_cast<int>(carried.possessions.size()) * 9 / 10);
   for (const auto& p : carried.possessions) {
     if (p.ending != PossessionEnd::kStopped) continue;
-    EXPECT_EQ(p.t_ns - p.start_t_ns,
-              static_cast<std::int64_t>(std::ceil(draw_opportunity(s, Draws{5, p.possession_id}).whistle_s * 1e9)));
+    EXPECT_EQ(
+        p.t_ns - p.start_t_ns,
+        static_cast<std::int64_t>(std::ceil(draw_opportunity(s, kicking::Draws{5, p.possession_id}).whistle_s * 1e9)));
   }
   for (const auto& p : play(s, 5, 1, 1.0, fire_at_once(30)).possessions) {
-    if (draw_opportunity(s, Draws{5, p.possession_id}).whistle_s > 0.02) {
+    if (draw_opportunity(s, kicking::Draws{5, p.possession_id}).whistle_s > 0.02) {
       EXPECT_EQ(p.ending, PossessionEnd::kKicked);
     }
   }

@@ -156,7 +156,7 @@ TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
   scenario.keeper.enabled = true;
   scenario.keeper.guard.sight_sd_mps = 1.5;
   const auto saved = [&](std::uint32_t opportunity) {
-    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.8, 6.0, 5.3}}, 0, Draws{1, opportunity}};
+    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.8, 6.0, 5.3}}, 0, kicking::Draws{1, opportunity}};
     for (std::int64_t t = 1; t <= 60; ++t) shot.advance_to(t * 20'000'000, at(kNobody));
     return shot.result()->saved;
   };
