@@ -6,10 +6,10 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "kicking/policy/policy_config.hpp"
 #include "kicking/policy/predictive/drive_plan.hpp"
 #include "kicking/policy/predictive/opponent_watch.hpp"
-#include "kicking/robot_model.hpp"
 
 namespace trivela::kicking {
 
