@@ -62,9 +62,9 @@ BallMotion release(const Stroke& stroke, const kicking::Pose& pose, const kickin
                        kicker.transfer_lateral_ratio * (twist.vx_mps - twist.omega_radps * ball_offset_m);
   const double forward = horizontal * std::cos(stroke.deflection_rad) + forward_ratio * twist.vy_mps;
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
-  return {
-      {pose.x_m - s * ball_offset_m, pose.y_m + c * ball_offset_m, radius_m},
-      {c * right - s * forward, s * right + c * forward, stroke.exit_speed_mps * std::sin(stroke.exit_elevation_rad)}};
+  return {{{pose.x_m - s * ball_offset_m, pose.y_m + c * ball_offset_m, radius_m},
+           {c * right - s * forward, s * right + c * forward,
+            stroke.exit_speed_mps * std::sin(stroke.exit_elevation_rad)}}};
 }
 
 }  // namespace trivela::sim

@@ -157,9 +157,9 @@ struct Match::State {
     if (world.kicker().stroke() && world.kicker().stroke()->live) return;  // the ball leaves first
     if (world.t_ns() >= dispute_t_ns) return end(PossessionEnd::kDisputed, 0.0, events);
     if (world.t_ns() >= whistle_t_ns) return end(PossessionEnd::kStopped, 0.0, events);
-    const Vec3 ball = world.ball_m();
+    const Eigen::Vector3d ball = world.ball_m();
     const bool carried_out =
-        std::abs(ball.x) > scenario.field.side_line_x_m || std::abs(ball.y) > scenario.field.goal_line_y_m;
+        std::abs(ball.x()) > scenario.field.side_line_x_m || std::abs(ball.y()) > scenario.field.goal_line_y_m;
     if (carried_out || world.t_ns() - play_t_ns >= time_limit_ns) {
       end(PossessionEnd::kTimedOut, 0.0, events);
     }

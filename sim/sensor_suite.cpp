@@ -90,12 +90,12 @@ std::optional<SensorSuite::Snapshot> SensorSuite::at(std::int64_t t_ns) const {
 SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns) {
   const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
   const double heading = a.pose.heading_rad + part * kicking::wrap_angle(b.pose.heading_rad - a.pose.heading_rad);
-  return {
-      t_ns,
-      {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part), heading},
-      {std::cos(heading), std::sin(heading)},
-      {std::lerp(a.ball.x, b.ball.x, part), std::lerp(a.ball.y, b.ball.y, part), std::lerp(a.ball.z, b.ball.z, part)},
-      {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
+  return {t_ns,
+          {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part), heading},
+          {std::cos(heading), std::sin(heading)},
+          {std::lerp(a.ball.x(), b.ball.x(), part), std::lerp(a.ball.y(), b.ball.y(), part),
+           std::lerp(a.ball.z(), b.ball.z(), part)},
+          {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
 }
 
 WheelSample SensorSuite::wheels(const World& world) const {
@@ -129,9 +129,9 @@ VisionFrame SensorSuite::vision(const World& world) const {
         kicking::wrap_angle(seen->pose.heading_rad + slow.heading_rad + v.heading_white_sd_rad * heading)};
   }
   const auto [ball_x, ball_y, opponent_x, opponent_y] = draws_.normals(kicking::Role::kSightNoise, cycle_);
-  const PlanPoint ball = in_robot(seen->pose, seen->axis, seen->ball.x, seen->ball.y);
+  const PlanPoint ball = in_robot(seen->pose, seen->axis, seen->ball.x(), seen->ball.y());
   const double ball_distance = length(ball);
-  if (ball_luck >= v.dropout_ratio && ball_distance <= v.ball_range_m && seen->ball.z <= v.ball_height_max_m) {
+  if (ball_luck >= v.dropout_ratio && ball_distance <= v.ball_range_m && seen->ball.z() <= v.ball_height_max_m) {
     const double sd = v.ball_sd_m + v.ball_sd_ratio * ball_distance;
     frame.ball = PlanPoint{ball.x_m + sd * ball_x, ball.y_m + sd * ball_y};
   }
@@ -154,8 +154,8 @@ FlightFrame SensorSuite::flight(const World& world) const {
   const auto seen = at(frame.t_exposure_ns);
   if (!seen || draws_.uniform(kicking::Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
   const auto [x, y, z, spare] = draws_.normals(kicking::Role::kFlightNoise, cycle_);
-  frame.ball = FlightFrame::Point{seen->ball.x + c.position_sd_m * x, seen->ball.y + c.position_sd_m * y,
-                                  seen->ball.z + c.position_sd_m * z};
+  frame.ball = FlightFrame::Point{seen->ball.x() + c.position_sd_m * x, seen->ball.y() + c.position_sd_m * y,
+                                  seen->ball.z() + c.position_sd_m * z};
   return frame;
 }
 

@@ -40,7 +40,7 @@ class SensorSuite {
     std::int64_t t_ns;
     kicking::Pose pose;
     PlanVector axis;
-    Vec3 ball;
+    Eigen::Vector3d ball{0.0, 0.0, 0.0};
     PlanPoint opponent;
   };
 

@@ -47,7 +47,7 @@ class World {
   std::int64_t shot_kick_id() const { return shot_kick_id_; }
 
   /// The ball's centre in F.
-  Vec3 ball_m() const;
+  Eigen::Vector3d ball_m() const;
 
  private:
   void coil_events();

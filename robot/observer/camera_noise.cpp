@@ -16,12 +16,12 @@ constexpr double kMedianOfNormal = 0.6744897501960817;
 
 CameraNoise::CameraNoise(double configured_sd_m) : configured_m2_(configured_sd_m * configured_sd_m) {}
 
-void CameraNoise::learn(std::span<const Sighting> sightings) {
+void CameraNoise::learn(std::span<const kicking::Sighting> sightings) {
   if (sightings.size() < 3) return;
   std::vector<double> off_m;
   off_m.reserve(2 * (sightings.size() - 2));
   for (std::size_t i = 1; i + 1 < sightings.size(); ++i) {
-    const Sighting &a = sightings[i - 1], &b = sightings[i], &c = sightings[i + 1];
+    const kicking::Sighting &a = sightings[i - 1], &b = sightings[i], &c = sightings[i + 1];
     if (a.t_ns >= c.t_ns) continue;
     const double w = static_cast<double>(b.t_ns - a.t_ns) / static_cast<double>(c.t_ns - a.t_ns);
     const double scale = 1.0 / std::sqrt(1.0 + (1.0 - w) * (1.0 - w) + w * w);

@@ -28,7 +28,7 @@ void FieldLaser::begin(const kicking::Draws& draws) {
   ball_was_moved_ = true;
 }
 
-void FieldLaser::see(std::int64_t t_ns, const Vec3& ball_m) {
+void FieldLaser::see(std::int64_t t_ns, const Eigen::Vector3d& ball_m) {
   if (!builder_) return;
   // Between two places of a ball that was carried there is no line that it flew.
   builder_->advance(t_ns, ball_was_moved_ ? std::nullopt : std::optional{ball_m});

@@ -23,7 +23,7 @@ class FieldLaser {
   void begin(const kicking::Draws& draws);
 
   /// The ball's centre at t_ns, after each sub-step.
-  void see(std::int64_t t_ns, const Vec3& ball_m);
+  void see(std::int64_t t_ns, const Eigen::Vector3d& ball_m);
 
   /// Scans finished since forget().
   const std::vector<kicking::lob::Scan>& scans() const { return scans_; }

@@ -48,14 +48,14 @@ class Scene {
 SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const Ball& ball,
                                   std::uint64_t seed) {
   const double heading = laser.heading_rad + plan.direction_error_rad;
-  const Vec3 launch{-plan.lateral_error_m * std::cos(laser.heading_rad),
-                    -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
+  const Eigen::Vector3d launch{-plan.lateral_error_m * std::cos(laser.heading_rad),
+                               -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
   SyntheticRecord record{mount_of(laser, {}), {}, {}};
   Scene scene{laser, ball, seed};
   scene.pass(kicking::nanoseconds(plan.background_s));
   for (std::uint32_t i = 0; i < plan.kicks.size(); ++i) {
     const SyntheticKick& kick = plan.kicks[i];
-    scene.motion = BallMotion{launch, {}, true};
+    scene.motion = BallMotion{{launch}, true};
     // A kick falls anywhere within a revolution.
     scene.pass(kicking::nanoseconds(
         plan.lie_s + kicking::Draws{seed, i}.uniform_in(0.0, laser.geometry.scan_period_s, kicking::Role::kStart, 0)));
@@ -63,8 +63,8 @@ SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& pla
     const double v_h = kick.exit_speed_mps * std::cos(kick.exit_angle_rad);
     scene.drag_coefficient(kick.drag_coefficient);
     scene.motion = BallMotion{
-        launch,
-        {-v_h * std::sin(heading), v_h * std::cos(heading), kick.exit_speed_mps * std::sin(kick.exit_angle_rad)}};
+        {launch,
+         {-v_h * std::sin(heading), v_h * std::cos(heading), kick.exit_speed_mps * std::sin(kick.exit_angle_rad)}}};
     scene.pass(kicking::nanoseconds(plan.fly_s));
     scene.motion.reset();
     scene.pass(kicking::nanoseconds(plan.pause_s));

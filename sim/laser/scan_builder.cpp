@@ -48,23 +48,23 @@ std::int64_t ScanBuilder::beam_t_ns(std::size_t i) const {
   return scan_.t_ns + std::llround(static_cast<double>(i) * laser_.geometry.beam_period_s * 1e9);
 }
 
-Vec3 ScanBuilder::in_plane(const Vec3& ball) const {
-  const double dx = ball.x - laser_.x_m, dy = ball.y - laser_.y_m;
+Eigen::Vector3d ScanBuilder::in_plane(const Eigen::Vector3d& ball) const {
+  const double dx = ball.x() - laser_.x_m, dy = ball.y() - laser_.y_m;
   const double cos_h = std::cos(laser_.heading_rad), sin_h = std::sin(laser_.heading_rad);
-  return {-sin_h * dx + cos_h * dy, -cos_h * dx - sin_h * dy, ball.z - laser_.z_m};
+  return {-sin_h * dx + cos_h * dy, -cos_h * dx - sin_h * dy, ball.z() - laser_.z_m};
 }
 
-void ScanBuilder::advance(std::int64_t t_ns, const std::optional<Vec3>& ball) {
+void ScanBuilder::advance(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball) {
   if (t_ns < t_ns_) {
     throw std::invalid_argument("laser: t_ns = " + std::to_string(t_ns) + " is before " + std::to_string(t_ns_));
   }
-  const std::optional<Vec3> next = ball ? std::optional(in_plane(*ball)) : std::nullopt;
+  const std::optional<Eigen::Vector3d> next = ball ? std::optional(in_plane(*ball)) : std::nullopt;
   for (std::int64_t beam_t = beam_t_ns(next_beam_); beam_t <= t_ns; beam_t = beam_t_ns(next_beam_)) {
-    std::optional<Vec3> now;
+    std::optional<Eigen::Vector3d> now;
     if (ball_ && next) {
       const double part = t_ns == t_ns_ ? 1.0 : static_cast<double>(beam_t - t_ns_) / static_cast<double>(t_ns - t_ns_);
-      now = Vec3{std::lerp(ball_->x, next->x, part), std::lerp(ball_->y, next->y, part),
-                 std::lerp(ball_->z, next->z, part)};
+      now = Eigen::Vector3d{std::lerp(ball_->x(), next->x(), part), std::lerp(ball_->y(), next->y(), part),
+                            std::lerp(ball_->z(), next->z(), part)};
     }
     measure(next_beam_, now);
     if (++next_beam_ < beams_.size()) continue;
@@ -85,16 +85,16 @@ std::optional<kicking::lob::Scan> ScanBuilder::take() {
   return oldest;
 }
 
-std::optional<double> ScanBuilder::ball_range(const Beam& beam, const Vec3& ball) const {
-  const double along = ball.x * beam.cos_a + ball.z * beam.sin_a;
-  const double q = ball.x * beam.sin_a - ball.z * beam.cos_a;
-  const double depth2 = radius_m_ * radius_m_ - ball.y * ball.y - q * q;  // (rho^2 - q^2)
+std::optional<double> ScanBuilder::ball_range(const Beam& beam, const Eigen::Vector3d& ball) const {
+  const double along = ball.x() * beam.cos_a + ball.z() * beam.sin_a;
+  const double q = ball.x() * beam.sin_a - ball.z() * beam.cos_a;
+  const double depth2 = radius_m_ * radius_m_ - ball.y() * ball.y() - q * q;  // (rho^2 - q^2)
   if (along <= 0.0 || depth2 <= 0.0) return std::nullopt;
   const double range_m = along - std::sqrt(depth2);
   return range_m < beam.background_m ? std::optional(range_m) : std::nullopt;
 }
 
-void ScanBuilder::measure(std::size_t i, const std::optional<Vec3>& ball) {
+void ScanBuilder::measure(std::size_t i, const std::optional<Eigen::Vector3d>& ball) {
   const auto hit_m = ball ? ball_range(beams_[i], *ball) : std::nullopt;
   scan_.range_mm[i] = answer(i, hit_m.value_or(beams_[i].background_m));
   if (hit_m && !edge_m_ && i > 0) mix(i - 1, *hit_m);

@@ -8,7 +8,6 @@
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/lob/drag_path.hpp"
 #include "kicking/lob/effective_fit.hpp"
 #include "kicking/lob/true_fit.hpp"
 #include "kicking/random/draws.hpp"

@@ -111,7 +111,7 @@ TEST(Match, TheBallLeavesAtTheRobotsPointAtTheInstantOfRelease) {
   }
   EXPECT_EQ(kicks[0].release_t_ns, fire_t_ns + 33'300'000);
   const auto& v = kicks[0].release_velocity_mps;
-  EXPECT_NEAR(v.z, Kicker{}.exit_speeds_mps[2] * std::sin(Kicker{}.exit_elevations_rad[2]), 1e-9);
+  EXPECT_NEAR(v.z(), Kicker{}.exit_speeds_mps[2] * std::sin(Kicker{}.exit_elevations_rad[2]), 1e-9);
 }
 
 TEST(Match, AFireWithoutABallDrainsAndHasNoTruth) {
@@ -212,7 +212,7 @@ TEST(Match, EachPossessionBelongsToOneRobotOfTheTeamWithItsOwnKicker) {
     for (const auto& p : events.possessions) EXPECT_EQ(p.robot, sensors.carrier);
     for (const auto& k : events.kicks) {
       const double ratio = s.team.speed_scale_ratios[sensors.carrier - 1U];
-      EXPECT_NEAR(k.release_velocity_mps.z, ratio * 8.721521 * std::sin(0.62666896), 1e-9);
+      EXPECT_NEAR(k.release_velocity_mps.z(), ratio * 8.721521 * std::sin(0.62666896), 1e-9);
       kicked.insert(sensors.carrier);
     }
   }
