@@ -1,8 +1,9 @@
 #include "robot/observer/camera_noise.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "kicking/estimate.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -29,9 +30,7 @@ void CameraNoise::learn(std::span<const kicking::Sighting> sightings) {
       off_m.push_back(scale * std::abs(b.ball_m[axis] - (1.0 - w) * a.ball_m[axis] - w * c.ball_m[axis]));
   }
   if (off_m.empty()) return;
-  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
-  std::nth_element(off_m.begin(), middle, off_m.end());
-  const double sd_m = *middle / kMedianOfNormal;
+  const double sd_m = kicking::upper_median(std::span(off_m)) / kMedianOfNormal;
   const double weight = kWeightOfATriplet * 0.5 * static_cast<double>(off_m.size());
   learned_m2_ += weight * sd_m * sd_m;
   weight_ += weight;
