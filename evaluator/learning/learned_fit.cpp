@@ -14,6 +14,7 @@
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/interval.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
+#include "kicking/outcome/p_inside.hpp"
 
 namespace trivela::evaluator {
 namespace {

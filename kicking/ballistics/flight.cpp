@@ -6,18 +6,18 @@
 namespace trivela::kicking {
 
 void fly(FlightState& ball, double dt_s, double drag_per_m, double gravity_mps2) {
-  using State = Eigen::Matrix<double, 6, 1>;
-  State state;
-  state << ball.position_m, ball.velocity_mps;
-  const auto& [k1, k2, k3, k4] = slopes(state, dt_s, [&](const State& s) {
-    State rate;
-    rate << s.tail<3>(), drag_acceleration(s.tail<3>(), drag_per_m, gravity_mps2);
-    return rate;
-  });
+  using Eigen::Vector3d;
+  const Vector3d v1 = ball.velocity_mps;
+  const auto& [a1, a2, a3, a4] =
+      slopes(v1, dt_s, [&](const Vector3d& v) { return drag_acceleration(v, drag_per_m, gravity_mps2); });
+  const Vector3d v2 = v1 + 0.5 * dt_s * a1, v3 = v1 + 0.5 * dt_s * a2, v4 = v1 + dt_s * a3;
   // Not runge_kutta(): its sum, in another order, would change the last bits of every simulated match.
-  state += dt_s / 6.0 * (k1 + 2.0 * k2);
-  state += dt_s / 6.0 * (k4 + 2.0 * k3);
-  ball = {state.head<3>(), state.tail<3>()};
+  const auto step = [&](Vector3d& x, const Vector3d& k1, const Vector3d& k2, const Vector3d& k3, const Vector3d& k4) {
+    x += dt_s / 6.0 * (k1 + 2.0 * k2);
+    x += dt_s / 6.0 * (k4 + 2.0 * k3);
+  };
+  step(ball.position_m, v1, v2, v3, v4);
+  step(ball.velocity_mps, a1, a2, a3, a4);
 }
 
 std::optional<FlightState> fit_flight(std::span<const Sighting> sightings, double gravity_mps2) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,9 +17,11 @@ struct FlightState {
 };
 
 /// a = -k |v| v - g e_z of a ball in the air [m/s2].
-inline Eigen::Vector3d drag_acceleration(const Eigen::Vector3d& velocity_mps, double drag_per_m,
+inline Eigen::Vector3d drag_acceleration(const Eigen::Vector3d& v, double drag_per_m,
                                          double gravity_mps2 = kGravity_mps2) {
-  return -drag_per_m * velocity_mps.norm() * velocity_mps - Eigen::Vector3d(0.0, 0.0, gravity_mps2);
+  // Not norm(), which adds in the order that suits the machine.
+  const double speed = std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
+  return -drag_per_m * speed * v - Eigen::Vector3d(0.0, 0.0, gravity_mps2);
 }
 
 /// Moves a ball in the air by one step of Runge and Kutta's method of order 4.
