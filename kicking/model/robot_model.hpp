@@ -4,8 +4,6 @@
 
 #include "kicking/ballistics/transfer.hpp"
 #include "kicking/constants.hpp"
-#include "kicking/model/angle_table.hpp"
-#include "kicking/model/power_table.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/model/angle_table.hpp"
 #include "kicking/model/power_table.hpp"

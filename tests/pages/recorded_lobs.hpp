@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "evaluator/log/scan_log.hpp"
-#include "kicking/model/power_table.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/model/power_table.hpp"
 #include "sim/laser/record.hpp"
