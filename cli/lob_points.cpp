@@ -19,7 +19,7 @@
 namespace trivela::cli {
 namespace {
 
-using kicking::lob::Estimate;
+using kicking::Estimate;
 using kicking::lob::ForegroundReturn;
 using kicking::lob::LobRecord;
 using Json = nlohmann::ordered_json;

@@ -5,7 +5,7 @@
 #include "cli/csv_rows.hpp"
 #include "cli/number_checks.hpp"
 #include "kicking/constants.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::cli {
 

@@ -8,8 +8,8 @@
 #include "config/calibration.hpp"
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
-#include "kicking/fit/distance_table.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/distance_table.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::config {
 

@@ -1,14 +1,12 @@
 #pragma once
 
+#include "kicking/ballistics/flight.hpp"
 #include "sim/scenario.hpp"
-#include "sim/truth.hpp"
 
 namespace trivela::sim {
 
-/// The free ball.
-struct BallMotion {
-  Vec3 position_m;  ///< centre, in F
-  Vec3 velocity_mps;
+/// The free ball, in F.
+struct BallMotion : kicking::FlightState {
   bool rolling = false;  ///< stays on the floor
   bool bounced = false;  ///< has touched the floor since it was released
 };

@@ -12,9 +12,9 @@
 #include <variant>
 
 #include "kicking/ballistics/drag.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
 #include "sim/kicker_table.hpp"
-#include "sim/random.hpp"
 
 namespace trivela::sim {
 namespace {
@@ -62,17 +62,17 @@ std::vector<double> smoothed(const std::vector<kicking::DistancePoint>& points) 
 using Made = std::variant<kicking::DistanceTable, std::string>;
 
 /// The table of one try; every try has numbers of its own.
-Made make_table(const Scenario& scenario, const Kicker& kicker, const Draws& draws, std::uint32_t robot,
+Made make_table(const Scenario& scenario, const Kicker& kicker, const kicking::Draws& draws, std::uint32_t robot,
                 std::uint32_t tried) {
   const HandTable& hand = scenario.hand_table;
   const auto first = tried * (1 + static_cast<std::uint32_t>(hand.distances_m.size()));
-  const auto common = draws.normals(Role::kHandTable, robot, first);
+  const auto common = draws.normals(kicking::Role::kHandTable, robot, first);
   const double day_ratio = 1.0 + hand.day_sd_ratio * common[0];
   // A ball taken for higher than it flies is sent lower.
   const double launch_to_target_m = hand.target_height_m - scenario.ball.radius_m - hand.eye_bias_sd_m * common[1];
   std::vector<kicking::DistancePoint> noted;
   for (std::size_t i = 0; i < hand.distances_m.size(); ++i) {
-    const auto noise = draws.normals(Role::kHandTable, robot, first + 1 + static_cast<std::uint32_t>(i));
+    const auto noise = draws.normals(kicking::Role::kHandTable, robot, first + 1 + static_cast<std::uint32_t>(i));
     const double mean_ratio = 1.0 + kicker.speed_sd_ratio * noise[1] / std::sqrt(hand.kicks_per_distance);
     const double height_m = launch_to_target_m - hand.eye_height_sd_m * noise[0];
     const auto power =
@@ -100,7 +100,7 @@ kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& k
                                        std::uint32_t match, std::uint32_t robot) {
   std::string why;
   for (std::uint32_t tried = 0; tried < kMostTries; ++tried) {
-    Made made = make_table(scenario, kicker, Draws{seed, match}, robot, tried);
+    Made made = make_table(scenario, kicker, kicking::Draws{seed, match}, robot, tried);
     if (auto* const table = std::get_if<kicking::DistanceTable>(&made)) return std::move(*table);
     why = std::get<std::string>(made);
   }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kicking/fit/distance_table.hpp"
+#include "kicking/model/distance_table.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::sim {

@@ -26,7 +26,7 @@ std::optional<std::int64_t> KickerDevice::next_event_t_ns() const {
   return std::nullopt;
 }
 
-void KickerDevice::energise_due(std::int64_t t_ns, bool live, const Draws& draws, std::uint32_t attempt) {
+void KickerDevice::energise_due(std::int64_t t_ns, bool live, const kicking::Draws& draws, std::uint32_t attempt) {
   if (!order_ || order_->t_ns > t_ns) return;
   const Exit exit = exit_at(values_, order_->power);
   const double relative = exit.speed_mps / values_.exit_speeds_mps.back();
@@ -34,7 +34,7 @@ void KickerDevice::energise_due(std::int64_t t_ns, bool live, const Draws& draws
   const double strength = charge_ >= needed ? 1.0 : std::sqrt(charge_ / needed);
   charge_ = std::max(0.0, charge_ - needed);
 
-  const auto [speed_noise, direction_noise, delay_noise, spare] = draws.normals(Role::kKicker, attempt);
+  const auto [speed_noise, direction_noise, delay_noise, spare] = draws.normals(kicking::Role::kKicker, attempt);
   const double delay_s = std::max(0.0, values_.delay_s + values_.delay_sd_s * delay_noise);
   stroke_ = Stroke{.kick_id = order_->kick_id,
                    .release_t_ns = t_ns + std::llround(delay_s * 1e9),
@@ -62,9 +62,9 @@ BallMotion release(const Stroke& stroke, const kicking::Pose& pose, const kickin
                        kicker.transfer_lateral_ratio * (twist.vx_mps - twist.omega_radps * ball_offset_m);
   const double forward = horizontal * std::cos(stroke.deflection_rad) + forward_ratio * twist.vy_mps;
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
-  return {
-      {pose.x_m - s * ball_offset_m, pose.y_m + c * ball_offset_m, radius_m},
-      {c * right - s * forward, s * right + c * forward, stroke.exit_speed_mps * std::sin(stroke.exit_elevation_rad)}};
+  return {{{pose.x_m - s * ball_offset_m, pose.y_m + c * ball_offset_m, radius_m},
+           {c * right - s * forward, s * right + c * forward,
+            stroke.exit_speed_mps * std::sin(stroke.exit_elevation_rad)}}};
 }
 
 }  // namespace trivela::sim

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/commands.hpp"
 #include "sim/flight.hpp"
-#include "sim/random.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::sim {
@@ -41,7 +41,7 @@ class KickerDevice {
   std::optional<std::int64_t> next_event_t_ns() const;
 
   /// Energises an order that is due at t_ns; `live` as in Stroke. Attempt n of an opportunity has its own noise.
-  void energise_due(std::int64_t t_ns, bool live, const Draws& draws, std::uint32_t attempt);
+  void energise_due(std::int64_t t_ns, bool live, const kicking::Draws& draws, std::uint32_t attempt);
 
   /// The stroke that reaches the ball at t_ns or before, once.
   std::optional<Stroke> take_released(std::int64_t t_ns);

@@ -29,21 +29,21 @@ Exit effective_exit(const Exit& true_exit, const Ball& ball) {
         fmt::format("no lob leaves at {} m/s and an elevation of {} rad", true_exit.speed_mps, elevation)};
   }
   // Far above the floor, so that it never bounces.
-  BallMotion now{{0.0, 0.0, 100.0},
-                 {0.0, true_exit.speed_mps * std::cos(elevation), true_exit.speed_mps * std::sin(elevation)}};
-  const double launch_z = now.position_m.z;
+  BallMotion now{
+      {{0.0, 0.0, 100.0}, {0.0, true_exit.speed_mps * std::cos(elevation), true_exit.speed_mps * std::sin(elevation)}}};
+  const double launch_z = now.position_m.z();
   double apex = 0.0;
   constexpr double kStep_s = 1e-3;
   for (;;) {
     BallMotion next = now;
     advance(next, ball, kStep_s);
-    if (now.velocity_mps.z > 0.0 && next.velocity_mps.z <= 0.0) {
-      const double fraction = now.velocity_mps.z / (now.velocity_mps.z - next.velocity_mps.z);
-      apex = now.position_m.z - launch_z + 0.5 * now.velocity_mps.z * fraction * kStep_s;
+    if (now.velocity_mps.z() > 0.0 && next.velocity_mps.z() <= 0.0) {
+      const double fraction = now.velocity_mps.z() / (now.velocity_mps.z() - next.velocity_mps.z());
+      apex = now.position_m.z() - launch_z + 0.5 * now.velocity_mps.z() * fraction * kStep_s;
     }
-    if (next.position_m.z <= launch_z) {
-      const double fraction = (now.position_m.z - launch_z) / (now.position_m.z - next.position_m.z);
-      const double range = std::lerp(now.position_m.y, next.position_m.y, fraction);
+    if (next.position_m.z() <= launch_z) {
+      const double fraction = (now.position_m.z() - launch_z) / (now.position_m.z() - next.position_m.z());
+      const double range = std::lerp(now.position_m.y(), next.position_m.y(), fraction);
       const double theta = std::atan(4.0 * apex / range);
       return {std::sqrt(range * ball.gravity_mps2 / std::sin(2.0 * theta)), theta};
     }

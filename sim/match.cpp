@@ -69,7 +69,7 @@ struct Match::State {
     ++possession_id;
     phase = Phase::kStop;
     ending.reset();
-    const Draws draws{seed, situation()};
+    const kicking::Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
     world.place(opportunity, kickers[opportunity.robot - 1u].speed_scale_ratio, draws);
     sensors.begin(draws);
@@ -157,9 +157,9 @@ struct Match::State {
     if (world.kicker().stroke() && world.kicker().stroke()->live) return;  // the ball leaves first
     if (world.t_ns() >= dispute_t_ns) return end(PossessionEnd::kDisputed, 0.0, events);
     if (world.t_ns() >= whistle_t_ns) return end(PossessionEnd::kStopped, 0.0, events);
-    const Vec3 ball = world.ball_m();
+    const Eigen::Vector3d ball = world.ball_m();
     const bool carried_out =
-        std::abs(ball.x) > scenario.field.side_line_x_m || std::abs(ball.y) > scenario.field.goal_line_y_m;
+        std::abs(ball.x()) > scenario.field.side_line_x_m || std::abs(ball.y()) > scenario.field.goal_line_y_m;
     if (carried_out || world.t_ns() - play_t_ns >= time_limit_ns) {
       end(PossessionEnd::kTimedOut, 0.0, events);
     }

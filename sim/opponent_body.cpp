@@ -5,7 +5,7 @@
 
 namespace trivela::sim {
 
-void OpponentBody::place(const Vec3& ball_m, const OpponentStart& start) {
+void OpponentBody::place(const Eigen::Vector3d& ball_m, const OpponentStart& start) {
   distance_m_ = start.distance_m;
   closing_mps_ = start.closing_mps;
   unit_x_ = -std::sin(start.bearing_rad);
@@ -13,9 +13,9 @@ void OpponentBody::place(const Vec3& ball_m, const OpponentStart& start) {
   close_in(ball_m, 0.0);
 }
 
-void OpponentBody::close_in(const Vec3& ball_m, double dt_s) {
+void OpponentBody::close_in(const Eigen::Vector3d& ball_m, double dt_s) {
   distance_m_ = std::max(0.0, distance_m_ - closing_mps_ * dt_s);
-  position_ = {ball_m.x + distance_m_ * unit_x_, ball_m.y + distance_m_ * unit_y_};
+  position_ = {ball_m.x() + distance_m_ * unit_x_, ball_m.y() + distance_m_ * unit_y_};
 }
 
 double OpponentBody::time_until_s(double distance_m) const {
@@ -23,12 +23,12 @@ double OpponentBody::time_until_s(double distance_m) const {
   return closing_mps_ > 0.0 ? (distance_m_ - distance_m) / closing_mps_ : HUGE_VAL;
 }
 
-void Opponents::place(const Vec3& ball_m, const Opportunity& opportunity) {
+void Opponents::place(const Eigen::Vector3d& ball_m, const Opportunity& opportunity) {
   count_ = opportunity.opponent_count;
   for (std::size_t i = 0; i < count_; ++i) bodies_[i].place(ball_m, opportunity.opponents[i]);
 }
 
-void Opponents::close_in(const Vec3& ball_m, double dt_s) {
+void Opponents::close_in(const Eigen::Vector3d& ball_m, double dt_s) {
   for (std::size_t i = 0; i < count_; ++i) bodies_[i].close_in(ball_m, dt_s);
 }
 

@@ -12,10 +12,10 @@ namespace trivela::sim {
 /// p = ball + distance(t) (-sin bearing, cos bearing). Once the ball is gone it stands.
 class OpponentBody {
  public:
-  void place(const Vec3& ball_m, const OpponentStart& start);
+  void place(const Eigen::Vector3d& ball_m, const OpponentStart& start);
 
   /// Closes in for dt [s] on the ball, which is now at `ball_m`. Never passes through it.
-  void close_in(const Vec3& ball_m, double dt_s);
+  void close_in(const Eigen::Vector3d& ball_m, double dt_s);
 
   /// How long until it is `distance_m` from the ball; without end if it never is.
   double time_until_s(double distance_m) const;
@@ -37,8 +37,8 @@ class OpponentBody {
 /// All of them.
 class Opponents {
  public:
-  void place(const Vec3& ball_m, const Opportunity& opportunity);
-  void close_in(const Vec3& ball_m, double dt_s);
+  void place(const Eigen::Vector3d& ball_m, const Opportunity& opportunity);
+  void close_in(const Eigen::Vector3d& ball_m, double dt_s);
 
   /// Whoever is `distance_m` from the ball first.
   const OpponentBody& first_at(double distance_m) const;

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "kicking/geometry/frames.hpp"
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::sim {
@@ -35,6 +35,6 @@ struct Opportunity {
 /// ball x ~ U(-lateral, lateral), goal distance ~ U(min, max), heading = bearing of the goal centre + N(0, aim),
 /// speed ~ U(min, max), its direction = heading + N(0, travel), ln(opponent distance) ~ N(ln median, sigma), the robot
 /// any of the team alike, whistle ~ Exp(stops_per_min).
-Opportunity draw_opportunity(const Scenario& scenario, const Draws& draws);
+Opportunity draw_opportunity(const Scenario& scenario, const kicking::Draws& draws);
 
 }  // namespace trivela::sim

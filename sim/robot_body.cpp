@@ -71,7 +71,7 @@ kicking::Twist RobotBody::twist() const {
   return {c * vx_field_mps_ + s * vy_field_mps_, -s * vx_field_mps_ + c * vy_field_mps_, omega_radps_};
 }
 
-Vec3 RobotBody::ball_point_m() const {
+Eigen::Vector3d RobotBody::ball_point_m() const {
   return {pose_.x_m - axis_.s * limits_.ball_offset_m, pose_.y_m + axis_.c * limits_.ball_offset_m, 0.0};
 }
 

@@ -37,7 +37,7 @@ class RobotBody {
   kicking::Twist twist() const;
 
   /// The held ball's centre on the floor plan, in F (z = 0).
-  Vec3 ball_point_m() const;
+  Eigen::Vector3d ball_point_m() const;
 
  private:
   void turn(double dt_s);

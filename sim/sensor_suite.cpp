@@ -40,16 +40,16 @@ SensorSuite::SensorSuite(const Scenario& scenario)
   }
 }
 
-void SensorSuite::begin(const Draws& draws) {
+void SensorSuite::begin(const kicking::Draws& draws) {
   draws_ = draws;
   cycle_ = 0;
   kept_ = 0;
   const Odometry& o = scenario_.odometry;
-  wheel_scale_ = draws.normals(Role::kWheelSlip, 0);
+  wheel_scale_ = draws.normals(kicking::Role::kWheelSlip, 0);
   for (double& scale : wheel_scale_) scale = 1.0 + o.slip_sd_ratio * scale;
-  gyro_bias_radps_ = o.gyro_bias_sd_radps * draws.normal(Role::kGyroBias, 0);
+  gyro_bias_radps_ = o.gyro_bias_sd_radps * draws.normal(kicking::Role::kGyroBias, 0);
   const Vision& v = scenario_.vision;
-  const auto [x, y, heading, spare] = draws.normals(Role::kPoseSlow, 0);
+  const auto [x, y, heading, spare] = draws.normals(kicking::Role::kPoseSlow, 0);
   slow_error_ = {v.position_slow_sd_m * x, v.position_slow_sd_m * y, v.heading_slow_sd_rad * heading};
   slow_cycle_ = 0;
 }
@@ -68,7 +68,7 @@ const kicking::Pose& SensorSuite::slow_error() const {
   const Vision& v = scenario_.vision;
   const double fresh = std::sqrt(1.0 - slow_keep_ * slow_keep_);
   while (slow_cycle_ < cycle_) {
-    const auto [x, y, heading, spare] = draws_.normals(Role::kPoseSlow, ++slow_cycle_);
+    const auto [x, y, heading, spare] = draws_.normals(kicking::Role::kPoseSlow, ++slow_cycle_);
     slow_error_ = {slow_keep_ * slow_error_.x_m + fresh * v.position_slow_sd_m * x,
                    slow_keep_ * slow_error_.y_m + fresh * v.position_slow_sd_m * y,
                    slow_keep_ * slow_error_.heading_rad + fresh * v.heading_slow_sd_rad * heading};
@@ -90,19 +90,19 @@ std::optional<SensorSuite::Snapshot> SensorSuite::at(std::int64_t t_ns) const {
 SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns) {
   const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
   const double heading = a.pose.heading_rad + part * kicking::wrap_angle(b.pose.heading_rad - a.pose.heading_rad);
-  return {
-      t_ns,
-      {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part), heading},
-      {std::cos(heading), std::sin(heading)},
-      {std::lerp(a.ball.x, b.ball.x, part), std::lerp(a.ball.y, b.ball.y, part), std::lerp(a.ball.z, b.ball.z, part)},
-      {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
+  return {t_ns,
+          {std::lerp(a.pose.x_m, b.pose.x_m, part), std::lerp(a.pose.y_m, b.pose.y_m, part), heading},
+          {std::cos(heading), std::sin(heading)},
+          {std::lerp(a.ball.x(), b.ball.x(), part), std::lerp(a.ball.y(), b.ball.y(), part),
+           std::lerp(a.ball.z(), b.ball.z(), part)},
+          {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
 }
 
 WheelSample SensorSuite::wheels(const World& world) const {
   const Odometry& noise = scenario_.odometry;
   const kicking::Twist twist = world.body().twist();
-  const auto [gyro, first, second, third] = draws_.normals(Role::kOdometryNoise, cycle_);
-  const double fourth = wheels_.size() > 3 ? draws_.normal(Role::kOdometryNoise, cycle_, 1) : 0.0;
+  const auto [gyro, first, second, third] = draws_.normals(kicking::Role::kOdometryNoise, cycle_);
+  const double fourth = wheels_.size() > 3 ? draws_.normal(kicking::Role::kOdometryNoise, cycle_, 1) : 0.0;
   const std::array<double, 4> white{first, second, third, fourth};
   WheelSample sample;
   sample.wheel_count = static_cast<int>(wheels_.size());
@@ -120,18 +120,18 @@ VisionFrame SensorSuite::vision(const World& world) const {
   VisionFrame frame{.t_exposure_ns = world.t_ns() - vision_latency_ns_, .pose = {}, .ball = {}, .opponent = {}};
   const auto seen = at(frame.t_exposure_ns);
   if (!seen) return frame;
-  const auto [pose_luck, ball_luck, opponent_luck, spare] = draws_.uniforms(Role::kVisionDropout, cycle_);
+  const auto [pose_luck, ball_luck, opponent_luck, spare] = draws_.uniforms(kicking::Role::kVisionDropout, cycle_);
   if (pose_luck >= v.dropout_ratio) {
-    const auto [x, y, heading, unused] = draws_.normals(Role::kPoseNoise, cycle_);
+    const auto [x, y, heading, unused] = draws_.normals(kicking::Role::kPoseNoise, cycle_);
     const kicking::Pose& slow = slow_error();
     frame.pose = kicking::Pose{
         seen->pose.x_m + slow.x_m + v.position_white_sd_m * x, seen->pose.y_m + slow.y_m + v.position_white_sd_m * y,
         kicking::wrap_angle(seen->pose.heading_rad + slow.heading_rad + v.heading_white_sd_rad * heading)};
   }
-  const auto [ball_x, ball_y, opponent_x, opponent_y] = draws_.normals(Role::kSightNoise, cycle_);
-  const PlanPoint ball = in_robot(seen->pose, seen->axis, seen->ball.x, seen->ball.y);
+  const auto [ball_x, ball_y, opponent_x, opponent_y] = draws_.normals(kicking::Role::kSightNoise, cycle_);
+  const PlanPoint ball = in_robot(seen->pose, seen->axis, seen->ball.x(), seen->ball.y());
   const double ball_distance = length(ball);
-  if (ball_luck >= v.dropout_ratio && ball_distance <= v.ball_range_m && seen->ball.z <= v.ball_height_max_m) {
+  if (ball_luck >= v.dropout_ratio && ball_distance <= v.ball_range_m && seen->ball.z() <= v.ball_height_max_m) {
     const double sd = v.ball_sd_m + v.ball_sd_ratio * ball_distance;
     frame.ball = PlanPoint{ball.x_m + sd * ball_x, ball.y_m + sd * ball_y};
   }
@@ -152,10 +152,10 @@ FlightFrame SensorSuite::flight(const World& world) const {
     frame.t_exposure_ns -= since_ns;
   }
   const auto seen = at(frame.t_exposure_ns);
-  if (!seen || draws_.uniform(Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
-  const auto [x, y, z, spare] = draws_.normals(Role::kFlightNoise, cycle_);
-  frame.ball = FlightFrame::Point{seen->ball.x + c.position_sd_m * x, seen->ball.y + c.position_sd_m * y,
-                                  seen->ball.z + c.position_sd_m * z};
+  if (!seen || draws_.uniform(kicking::Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
+  const auto [x, y, z, spare] = draws_.normals(kicking::Role::kFlightNoise, cycle_);
+  frame.ball = FlightFrame::Point{seen->ball.x() + c.position_sd_m * x, seen->ball.y() + c.position_sd_m * y,
+                                  seen->ball.z() + c.position_sd_m * z};
   return frame;
 }
 

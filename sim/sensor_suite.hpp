@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/scenario.hpp"
 #include "sim/sensors.hpp"
 #include "sim/world.hpp"
@@ -20,7 +20,7 @@ class SensorSuite {
 
   /// A new opportunity: new scale errors and slow errors; what the cameras saw before is gone, because the robot was
   /// carried elsewhere.
-  void begin(const Draws& draws);
+  void begin(const kicking::Draws& draws);
 
   /// Remembers the world for exposures of the past; call after every sub-step.
   void remember(const World& world);
@@ -40,7 +40,7 @@ class SensorSuite {
     std::int64_t t_ns;
     kicking::Pose pose;
     PlanVector axis;
-    Vec3 ball;
+    Eigen::Vector3d ball{0.0, 0.0, 0.0};
     PlanPoint opponent;
   };
 
@@ -64,7 +64,7 @@ class SensorSuite {
   const double slow_keep_;  // of the slow error, from cycle to cycle
   std::vector<WheelRow> wheels_;
 
-  Draws draws_{0, 0};
+  kicking::Draws draws_{0, 0};
   std::uint32_t cycle_ = 0;
   std::array<double, 4> wheel_scale_{};  // of this opportunity
   double gyro_bias_radps_ = 0.0;

@@ -27,21 +27,21 @@ bool touched_floor(const BallMotion& motion) { return motion.bounced || motion.r
 /// How far along y a rolling ball still goes; without end in the air, where its fall decides nothing about the line.
 double reach_y_m(const BallMotion& motion, const Ball& ball) {
   if (!motion.rolling || ball.rolling_deceleration_mps2 <= 0.0) return HUGE_VAL;
-  const double speed = std::hypot(motion.velocity_mps.x, motion.velocity_mps.y);
-  return 0.5 * speed * std::abs(motion.velocity_mps.y) / ball.rolling_deceleration_mps2;
+  const double speed = std::hypot(motion.velocity_mps.x(), motion.velocity_mps.y());
+  return 0.5 * speed * std::abs(motion.velocity_mps.y()) / ball.rolling_deceleration_mps2;
 }
 
 }  // namespace
 
-Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const Draws& draws)
+Shot::Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const kicking::Draws& draws)
     : scenario_(scenario),
       draws_(draws),
       released_(released),
       ball_(released),
       release_t_ns_(t_ns),
       t_ns_(t_ns),
-      farthest_y_m_(released.position_m.y) {
-  if (released.position_m.y >= scenario.field.goal_line_y_m) meet_goal_plane(t_ns);
+      farthest_y_m_(released.position_m.y()) {
+  if (released.position_m.y() >= scenario.field.goal_line_y_m) meet_goal_plane(t_ns);
 }
 
 void Shot::advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
@@ -59,10 +59,10 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   sim::advance(ball_, scenario_.ball, dt_s);
   const std::int64_t before_t_ns = std::exchange(t_ns_, t_ns);
   if (result_) return;
-  farthest_y_m_ = std::max(farthest_y_m_, ball_.position_m.y);
+  farthest_y_m_ = std::max(farthest_y_m_, ball_.position_m.y());
   if (scenario_.defenders.count > 0.0) meet_defenders(before, before_t_ns, dt_s);
   if (result_) return;
-  if (ball_.position_m.y >= scenario_.field.goal_line_y_m) {
+  if (ball_.position_m.y() >= scenario_.field.goal_line_y_m) {
     double until_s = dt_s;
     ball_ = at_line(before, scenario_.field.goal_line_y_m, dt_s, until_s);
     meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
@@ -83,12 +83,12 @@ BallMotion Shot::at_line(const BallMotion& before, double line_y_m, double dt_s,
     sim::advance(ball, scenario_.ball, t_s);
     return ball;
   };
-  double low_s = 0.0, low = before.position_m.y - line_y_m, high = ball_.position_m.y - line_y_m;
+  double low_s = 0.0, low = before.position_m.y() - line_y_m, high = ball_.position_m.y() - line_y_m;
   until_s = dt_s;
   for (int i = 0; i < 8 && high - low > 0.0; ++i) {
     const double middle_s = low_s - low * (until_s - low_s) / (high - low);
     const BallMotion middle = after(middle_s);
-    const double y = middle.position_m.y - line_y_m;
+    const double y = middle.position_m.y() - line_y_m;
     if (std::abs(y) < 1e-9) {
       until_s = middle_s;
       return middle;
@@ -102,7 +102,7 @@ BallMotion Shot::at_line(const BallMotion& before, double line_y_m, double dt_s,
 void Shot::meet_goal_plane(std::int64_t t_ns) {
   const kicking::Goal goal = goal_of(scenario_.field);
   const kicking::Ball ball = ball_of(scenario_.ball);
-  const Crossing crossing{ball_.position_m.x, ball_.position_m.z};
+  const Crossing crossing{ball_.position_m.x(), ball_.position_m.z()};
   const auto outcome = kicking::classify(crossing.x_m, crossing.z_m, goal, ball);
   const double margin = std::min(sim::margin_m(crossing, goal, ball), reach_y_m(ball_, scenario_.ball));
   const bool saved =
@@ -110,15 +110,15 @@ void Shot::meet_goal_plane(std::int64_t t_ns) {
   result_ = ShotResult{t_ns, outcome, crossing, margin, saved, touched_floor(ball_)};
   if (saved || outcome == kicking::Outcome::kPost || outcome == kicking::Outcome::kBar) {
     const double kept = saved ? scenario_.ball.body_restitution_ratio : scenario_.ball.frame_restitution_ratio;
-    const Vec3& v = ball_.velocity_mps;
-    ball_.velocity_mps = {kept * v.x, -kept * std::abs(v.y), kept * v.z};
+    const Eigen::Vector3d& v = ball_.velocity_mps;
+    ball_.velocity_mps = {kept * v.x(), -kept * std::abs(v.y()), kept * v.z()};
   }
 }
 
 bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
   const Keeper& keeper = scenario_.keeper;
   if (!keeper.enabled) return false;
-  const auto noise = draws_.normals(Role::kKeeper, 0);
+  const auto noise = draws_.normals(kicking::Role::kKeeper, 0);
   return guard_stops(keeper.guard, {keeper.side_extension_m, keeper.up_extension_m, keeper.extension_s}, 0.0,
                      {crossing, flown_s, scenario_.ball.radius_m}, {noise[0], noise[1]});
 }
@@ -127,20 +127,20 @@ bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
 void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, double dt_s) {
   const Defenders& defenders = scenario_.defenders;
   const double goal_y_m = scenario_.field.goal_line_y_m, line_y_m = goal_y_m - defenders.line_distance_m;
-  if (before.position_m.y >= line_y_m || ball_.position_m.y < line_y_m) return;
+  if (before.position_m.y() >= line_y_m || ball_.position_m.y() < line_y_m) return;
   double until_s = dt_s;
   const BallMotion there = at_line(before, line_y_m, dt_s, until_s);
   const std::int64_t t_ns = before_t_ns + std::llround(until_s * 1e9);
   const GuardedBall ball{
-      {there.position_m.x, there.position_m.z}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
-  const Vec3& from = released_.position_m;
-  const double middle_x_m = from.x * defenders.line_distance_m / (goal_y_m - from.y);
+      {there.position_m.x(), there.position_m.z()}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
+  const Eigen::Vector3d& from = released_.position_m;
+  const double middle_x_m = from.x() * defenders.line_distance_m / (goal_y_m - from.y());
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(defenders.count); ++i) {
-    const auto noise = draws_.normals(Role::kDefender, 0, i);
+    const auto noise = draws_.normals(kicking::Role::kDefender, 0, i);
     const double place_m = middle_x_m + defenders.spread_sd_m * noise[2];
     if (!guard_stops(defenders.guard, {}, place_m, ball, {noise[0], noise[1]})) continue;
     ball_ = there;
-    ball_.velocity_mps.y *= -scenario_.ball.body_restitution_ratio;
+    ball_.velocity_mps.y() *= -scenario_.ball.body_restitution_ratio;
     block(t_ns);
     return sim::advance(ball_, scenario_.ball, dt_s - until_s);
   }
@@ -152,28 +152,29 @@ void Shot::block(std::int64_t t_ns) {
 
 /// The ball comes within reach of the opponent in the next dt_s: its way over the floor is straight.
 bool Shot::passes(const PlanPoint& opponent, double dt_s) const {
-  const Vec3 &p = ball_.position_m, &v = ball_.velocity_mps;
-  const double dx = opponent.x_m - p.x, dy = opponent.y_m - p.y;
-  const double ahead = v.x * dx + v.y * dy;  // times the speed
+  const Eigen::Vector3d &p = ball_.position_m, &v = ball_.velocity_mps;
+  const double dx = opponent.x_m - p.x(), dy = opponent.y_m - p.y();
+  const double ahead = v.x() * dx + v.y() * dy;  // times the speed
   if (ahead <= 0.0) return false;
-  const double square = v.x * v.x + v.y * v.y, reach = scenario_.opponent.body_radius_m + scenario_.ball.radius_m;
-  const double aside = v.x * dy - v.y * dx;
+  const double square = v.x() * v.x() + v.y() * v.y(),
+               reach = scenario_.opponent.body_radius_m + scenario_.ball.radius_m;
+  const double aside = v.x() * dy - v.y() * dx;
   if (aside * aside >= reach * reach * square) return false;
   const double near = reach + std::sqrt(square) * dt_s;
   return dx * dx + dy * dy < near * near;
 }
 
 void Shot::meet_opponent(const PlanPoint& opponent, std::int64_t t_ns) {
-  const double dx = ball_.position_m.x - opponent.x_m, dy = ball_.position_m.y - opponent.y_m;
+  const double dx = ball_.position_m.x() - opponent.x_m, dy = ball_.position_m.y() - opponent.y_m;
   const double reach = scenario_.opponent.body_radius_m + scenario_.ball.radius_m;
   const double distance = std::sqrt(dx * dx + dy * dy);
-  if (distance >= reach || ball_.position_m.z - scenario_.ball.radius_m >= scenario_.opponent.body_height_m) return;
-  Vec3& v = ball_.velocity_mps;
-  const double inward = distance > 0.0 ? -(v.x * dx + v.y * dy) / distance : 0.0;
+  if (distance >= reach || ball_.position_m.z() - scenario_.ball.radius_m >= scenario_.opponent.body_height_m) return;
+  Eigen::Vector3d& v = ball_.velocity_mps;
+  const double inward = distance > 0.0 ? -(v.x() * dx + v.y() * dy) / distance : 0.0;
   if (inward <= 0.0) return;  // leaving it already
   const double push = (1.0 + scenario_.ball.body_restitution_ratio) * inward / distance;
-  v.x += push * dx;
-  v.y += push * dy;
+  v.x() += push * dx;
+  v.y() += push * dy;
   block(t_ns);
 }
 

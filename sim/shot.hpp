@@ -5,9 +5,9 @@
 #include <span>
 
 #include "kicking/outcome/outcome.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
 #include "sim/opponent_body.hpp"
-#include "sim/random.hpp"
 #include "sim/scenario.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
@@ -31,7 +31,7 @@ struct ShotResult {
 class Shot {
  public:
   /// `scenario` must outlive the shot. `draws`: where defenders stand and what they and the keeper mistake.
-  Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const Draws& draws = {0, 0});
+  Shot(const Scenario& scenario, const BallMotion& released, std::int64_t t_ns, const kicking::Draws& draws = {0, 0});
 
   /// Moves the ball to t_ns, a control cycle ahead at most, while the opponents stand.
   void advance_to(std::int64_t t_ns, std::span<const OpponentBody> opponents);
@@ -55,7 +55,7 @@ class Shot {
   void settle_short(std::int64_t t_ns);
 
   const Scenario& scenario_;
-  Draws draws_;
+  kicking::Draws draws_;
   BallMotion released_;
   BallMotion ball_;
   std::int64_t release_t_ns_;

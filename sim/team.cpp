@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 namespace trivela::sim {
 
@@ -15,7 +15,8 @@ Kicker team_kicker(const Scenario& scenario, std::uint32_t robot) {
 
 Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t seed) {
   Kicker kicker = team_kicker(scenario, robot);
-  const double drift = Draws{seed, 0}.normal(Role::kTeam, robot);  // opportunities count from 1: 0 is the match's own
+  const double drift =
+      kicking::Draws{seed, 0}.normal(kicking::Role::kTeam, robot);  // opportunities count from 1: 0 is the match's own
   kicker.speed_scale_ratio *= std::max(0.5, 1.0 + kicker.drift_sd_ratio * drift);
   return kicker;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -8,13 +9,6 @@
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::sim {
-
-/// A point or a velocity in F, z up.
-struct Vec3 {
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-};
 
 /// Where the ball's centre passed the plane of the goal line, in F.
 struct Crossing {
@@ -33,8 +27,8 @@ struct KickTruth {
   bool saved = false;    ///< on target, but the keeper had it
   bool bounced = false;  ///< touched the floor before that, or before the goal line
   std::int64_t release_t_ns = 0;
-  Vec3 release_position_m;    ///< ball centre
-  Vec3 release_velocity_mps;  ///< over ground
+  Eigen::Vector3d release_position_m{0.0, 0.0, 0.0};    ///< ball centre
+  Eigen::Vector3d release_velocity_mps{0.0, 0.0, 0.0};  ///< over ground
   /// Distance of the crossing from the nearest edge that would change the outcome; for a short ball, of its nearest
   /// point from the goal line; none for a blocked one.
   std::optional<double> margin_m;

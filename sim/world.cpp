@@ -6,7 +6,7 @@ namespace trivela::sim {
 
 World::World(const Scenario& scenario) : scenario_(scenario), body_(scenario.robot), kicker_(scenario.kicker) {}
 
-void World::place(const Opportunity& opportunity, double speed_scale_ratio, const Draws& draws) {
+void World::place(const Opportunity& opportunity, double speed_scale_ratio, const kicking::Draws& draws) {
   playing_ = false;
   shot_.reset();
   draws_ = draws;
@@ -66,10 +66,10 @@ void World::move(std::int64_t t_ns) {
   }
 }
 
-Vec3 World::ball_m() const {
+Eigen::Vector3d World::ball_m() const {
   if (shot_) return shot_->ball().position_m;
-  Vec3 held = body_.ball_point_m();
-  held.z = scenario_.ball.radius_m;
+  Eigen::Vector3d held = body_.ball_point_m();
+  held.z() = scenario_.ball.radius_m;
   return held;
 }
 

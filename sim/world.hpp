@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "kicking/random/draws.hpp"
 #include "sim/commands.hpp"
 #include "sim/kicker_device.hpp"
 #include "sim/opponent_body.hpp"
 #include "sim/opportunity.hpp"
-#include "sim/random.hpp"
 #include "sim/robot_body.hpp"
 #include "sim/scenario.hpp"
 #include "sim/shot.hpp"
@@ -23,7 +23,7 @@ class World {
   /// A new opportunity: its robot stands at its start with the ball, the opponents at theirs. Its kicker has the
   /// table's speeds times `speed_scale_ratio`, its capacitor is full, and what it was about to do is forgotten: the
   /// stop of a real match is long enough. `draws` supplies the kicker's noise.
-  void place(const Opportunity& opportunity, double speed_scale_ratio, const Draws& draws);
+  void place(const Opportunity& opportunity, double speed_scale_ratio, const kicking::Draws& draws);
 
   /// Play starts: the robot has the opportunity's velocity and the opponents come.
   void start_play(const Opportunity& opportunity);
@@ -47,7 +47,7 @@ class World {
   std::int64_t shot_kick_id() const { return shot_kick_id_; }
 
   /// The ball's centre in F.
-  Vec3 ball_m() const;
+  Eigen::Vector3d ball_m() const;
 
  private:
   void coil_events();
@@ -59,7 +59,7 @@ class World {
   RobotBody body_;
   KickerDevice kicker_;
   Opponents opponents_;
-  Draws draws_{0, 0};
+  kicking::Draws draws_{0, 0};
   std::uint32_t attempts_ = 0;
   std::optional<Shot> shot_;
   std::int64_t shot_kick_id_ = 0;

@@ -62,13 +62,13 @@ std::optional<LaunchTrack> track_of(const RecordedDrives& drives, const DriveKic
 
 /// Line x = a + b y through the sightings between release and goal line; the direction is -atan(b), its standard error
 /// from the line's own residuals. None: fewer than ten sightings or none beyond a metre.
-std::optional<kicking::LaunchDirection> launch_direction(const std::vector<BallSighting>& sightings,
+std::optional<kicking::LaunchDirection> launch_direction(const std::vector<kicking::Sighting>& sightings,
                                                          const DriveKick& kick, const kicking::RobotModel& model) {
   constexpr double kLeft_s = 0.06;  // after the release: four standard deviations of its instant
   constexpr std::size_t kFewest = 10;
   constexpr double kLeastLength_m = 1.0;
   std::vector<Eigen::Vector2d> places;
-  for (const BallSighting& sighting : sightings) {
+  for (const kicking::Sighting& sighting : sightings) {
     const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
     if (t_s < model.delay_s + kLeft_s) continue;
     if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;

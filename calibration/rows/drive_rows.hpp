@@ -9,7 +9,7 @@
 #include "kicking/fit/direction_fit.hpp"
 #include "kicking/fit/rotation_fit.hpp"
 #include "kicking/fit/transfer_fit.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::calibration {
 

@@ -8,6 +8,8 @@ namespace trivela::calibration {
 namespace {
 
 using Eigen::Vector3d;
+using kicking::drag_acceleration;
+using kicking::FlightState;
 
 constexpr double kTrackBegin_s = 0.06;  // after the release: four standard deviations of its instant
 constexpr double kTrackEnd_s = 2.0;
@@ -17,36 +19,27 @@ constexpr double kTrackBack_m = 0.3;    // between two sightings: somebody has p
 constexpr std::size_t kFewestOfTrack = 10;
 constexpr double kTrackStep_s = 0.01;
 
-struct FlightState {
-  Vector3d place_m;
-  Vector3d velocity_mps;
-};
-
 struct SeenBall {
   double t_s;  ///< after the release
   Vector3d ball_m;
 };
 
-Vector3d acceleration(const Vector3d& velocity_mps, double drag_per_m) {
-  return -drag_per_m * velocity_mps.norm() * velocity_mps - Vector3d(0.0, 0.0, kicking::kGravity_mps2);
-}
-
 /// One step of the midpoint rule; a flight of a second is right to 1e-5 m.
 FlightState one_step(const FlightState& s, double dt_s, double drag_per_m) {
-  const Vector3d middle = s.velocity_mps + 0.5 * dt_s * acceleration(s.velocity_mps, drag_per_m);
-  return {s.place_m + dt_s * middle, s.velocity_mps + dt_s * acceleration(middle, drag_per_m)};
+  const Vector3d middle = s.velocity_mps + 0.5 * dt_s * drag_acceleration(s.velocity_mps, drag_per_m);
+  return {s.position_m + dt_s * middle, s.velocity_mps + dt_s * drag_acceleration(middle, drag_per_m)};
 }
 
-FlightState fly(FlightState s, double for_s, double drag_per_m) {
+FlightState flown(FlightState s, double for_s, double drag_per_m) {
   const double steps = std::max(1.0, std::ceil(std::abs(for_s) / kTrackStep_s));
   for (double i = 0.0; i < steps; i += 1.0) s = one_step(s, for_s / steps, drag_per_m);
   return s;
 }
 
-std::vector<SeenBall> in_flight(std::span<const BallSighting> sightings, std::int64_t release_t_ns,
+std::vector<SeenBall> in_flight(std::span<const kicking::Sighting> sightings, std::int64_t release_t_ns,
                                 double goal_line_y_m, double radius_m) {
   std::vector<SeenBall> seen;
-  const auto from = std::ranges::lower_bound(sightings, release_t_ns, {}, &BallSighting::t_ns);
+  const auto from = std::ranges::lower_bound(sightings, release_t_ns, {}, &kicking::Sighting::t_ns);
   for (auto sighting = from; sighting != sightings.end(); ++sighting) {
     const double t_s = 1e-9 * static_cast<double>(sighting->t_ns - release_t_ns);
     const Vector3d& ball_m = sighting->ball_m;
@@ -61,7 +54,7 @@ std::vector<SeenBall> in_flight(std::span<const BallSighting> sightings, std::in
 
 }  // namespace
 
-std::optional<LaunchTrack> launch_track(std::span<const BallSighting> sightings, std::int64_t release_t_ns,
+std::optional<LaunchTrack> launch_track(std::span<const kicking::Sighting> sightings, std::int64_t release_t_ns,
                                         double goal_line_y_m, const kicking::Ball& ball) {
   const std::vector<SeenBall> seen = in_flight(sightings, release_t_ns, goal_line_y_m, ball.radius_m);
   if (seen.size() < kFewestOfTrack) return std::nullopt;
@@ -80,25 +73,25 @@ std::optional<LaunchTrack> launch_track(std::span<const BallSighting> sightings,
     double now_s = first_s;
     Vector3d mean_m = Vector3d::Zero(), moment = Vector3d::Zero();
     for (const SeenBall& one : seen) {
-      now = fly(now, one.t_s - now_s, drag_per_m);
+      now = flown(now, one.t_s - now_s, drag_per_m);
       now_s = one.t_s;
-      const Vector3d bent_m = now.place_m - start.place_m - (one.t_s - first_s) * start.velocity_mps;
+      const Vector3d bent_m = now.position_m - start.position_m - (one.t_s - first_s) * start.velocity_mps;
       const Vector3d straight_m = one.ball_m - bent_m;
       mean_m += straight_m / n;
       moment += (one.t_s - mean_t_s) * straight_m;
     }
     start.velocity_mps = moment / spread_s2;
-    start.place_m = mean_m + (first_s - mean_t_s) * start.velocity_mps;
+    start.position_m = mean_m + (first_s - mean_t_s) * start.velocity_mps;
   }
 
   // Back to the floor, by Newton's steps.
   FlightState launch = start;
   for (int i = 0; i < 6; ++i) {
-    const double above_m = launch.place_m.z() - ball.radius_m;
+    const double above_m = launch.position_m.z() - ball.radius_m;
     if (!(launch.velocity_mps.z() > 0.5)) return std::nullopt;
-    launch = fly(launch, -above_m / launch.velocity_mps.z(), drag_per_m);
+    launch = flown(launch, -above_m / launch.velocity_mps.z(), drag_per_m);
   }
-  if (std::abs(launch.place_m.z() - ball.radius_m) > 0.01) return std::nullopt;
+  if (std::abs(launch.position_m.z() - ball.radius_m) > 0.01) return std::nullopt;
   return LaunchTrack{launch.velocity_mps, spread_s2};
 }
 

@@ -5,8 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "calibration/rows/release_track.hpp"
-#include "kicking/constants.hpp"
+#include "kicking/ballistics/flight.hpp"
 
 namespace trivela::calibration {
 
@@ -20,7 +19,7 @@ struct LaunchTrack {
 /// from 0.06 s after `release_t_ns` until the goal line, the floor or the hand that carries the ball back; its velocity
 /// at the instant at which the centre is one radius high. The flight itself says when it began, so that `release_t_ns`
 /// needs to be right to 0.05 s only. None: fewer than ten sightings, or a track that never was on the floor.
-std::optional<LaunchTrack> launch_track(std::span<const BallSighting> sightings, std::int64_t release_t_ns,
+std::optional<LaunchTrack> launch_track(std::span<const kicking::Sighting> sightings, std::int64_t release_t_ns,
                                         double goal_line_y_m, const kicking::Ball& ball);
 
 }  // namespace trivela::calibration

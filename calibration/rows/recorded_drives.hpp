@@ -36,7 +36,7 @@ struct DriveKick {
 /// ball, held or flying, in the order of what they show. Nothing of a simulator's truth.
 struct RecordedDrives {
   std::vector<DriveKick> kicks;
-  std::map<RobotKey, std::vector<BallSighting>> sightings;
+  std::map<RobotKey, std::vector<kicking::Sighting>> sightings;
 };
 
 /// The drives of a match log.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "kicking/constants.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::calibration {
 namespace {
@@ -14,65 +14,44 @@ constexpr double kAway_m = 0.25;  // eight standard deviations of a sighting: th
 constexpr std::size_t kFewest = 5;
 constexpr std::size_t kMostInFlight = 8;
 
-/// p(t) = start + velocity g(t).
-struct Track {
-  Eigen::Vector3d start_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
-};
-
-struct Place {
-  double t_s;  ///< after the order
-  Eigen::Vector3d ball_m;
-};
-
-/// Least squares over the places, g(t) = t - slowing (t - t_0)^2 / 2 with t_0 that of the first place.
-Track fit_track(std::span<const Place> places, double slowing_hz) {
-  const auto elapsed_s = [&](const Place& place) {
-    const double t_s = place.t_s - places.front().t_s;
-    return place.t_s - 0.5 * slowing_hz * t_s * t_s;
+/// Least squares of p(t) = position + velocity (t - slowing (t - t_0)^2 / 2), t after the order, t_0 that of the first.
+std::optional<kicking::FlightState> fit_track(std::span<const kicking::Sighting> sightings, std::int64_t order_t_ns,
+                                              double slowing_hz) {
+  const auto elapsed_s = [&](const kicking::Sighting& s) {
+    const double after_s = kicking::seconds(order_t_ns, s.t_ns);
+    const double t_s = after_s - kicking::seconds(order_t_ns, sightings.front().t_ns);
+    return after_s - 0.5 * slowing_hz * t_s * t_s;
   };
-  const auto n = static_cast<double>(places.size());
-  double mean_t_s = 0.0;
-  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
-  for (const Place& place : places) {
-    mean_t_s += elapsed_s(place) / n;
-    mean_m += place.ball_m / n;
-  }
-  double spread_s2 = 0.0;
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (const Place& place : places) {
-    const double away_s = elapsed_s(place) - mean_t_s;
-    spread_s2 += away_s * away_s;
-    moment += away_s * (place.ball_m - mean_m);
-  }
-  const Eigen::Vector3d velocity = moment / spread_s2;
-  return {mean_m - velocity * mean_t_s, velocity};
+  return kicking::fit_line(sightings, elapsed_s, [](const kicking::Sighting& s) { return s.ball_m; });
 }
 
 }  // namespace
 
-std::optional<double> release_delay_s(std::span<const BallSighting> sightings, std::int64_t order_t_ns) {
-  std::vector<Place> held, after;
-  for (const BallSighting& sighting : sightings) {
-    const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - order_t_ns);
-    if (t_s >= -kHeld_s && t_s <= 0.0) held.push_back({t_s, sighting.ball_m});
-    if (t_s > 0.0 && t_s <= kTrack_s) after.push_back({t_s, sighting.ball_m});
+std::optional<double> release_delay_s(std::span<const kicking::Sighting> sightings, std::int64_t order_t_ns) {
+  std::vector<kicking::Sighting> held, after;
+  for (const kicking::Sighting& sighting : sightings) {
+    const double t_s = kicking::seconds(order_t_ns, sighting.t_ns);
+    if (t_s >= -kHeld_s && t_s <= 0.0) held.push_back(sighting);
+    if (t_s > 0.0 && t_s <= kTrack_s) after.push_back(sighting);
   }
   if (held.size() < kFewest) return std::nullopt;
-  const Track handler = fit_track(held, 0.0);
-  const auto gone = [&](const Place& place) {
-    return (place.ball_m - handler.start_m - handler.velocity_mps * place.t_s).head<2>().norm() > kAway_m;
+  const auto handler = fit_track(held, order_t_ns, 0.0);
+  if (!handler) return std::nullopt;
+  const auto gone = [&](const kicking::Sighting& seen) {
+    const double t_s = kicking::seconds(order_t_ns, seen.t_ns);
+    return (seen.ball_m - handler->position_m - handler->velocity_mps * t_s).head<2>().norm() > kAway_m;
   };
   const auto first = std::ranges::find_if(after, gone);
   const auto left = static_cast<std::size_t>(after.end() - first);
   if (left < kFewest) return std::nullopt;
-  const std::span<const Place> flight(first, std::min(left, kMostInFlight));
-  const double speed_mps = fit_track(flight, 0.0).velocity_mps.norm();
-  const Track ball = fit_track(flight, kicking::drag_per_m({}, {}) * speed_mps);
+  const std::span<const kicking::Sighting> flight(first, std::min(left, kMostInFlight));
+  auto ball = fit_track(flight, order_t_ns, 0.0);
+  if (ball) ball = fit_track(flight, order_t_ns, kicking::drag_per_m({}, {}) * ball->velocity_mps.norm());
+  if (!ball) return std::nullopt;
 
   // Backwards from the first place the drag is neglected: within 0.05 s it is a millimetre.
-  const Eigen::Vector2d apart_m = (handler.start_m - ball.start_m).head<2>();
-  const Eigen::Vector2d closing_mps = (ball.velocity_mps - handler.velocity_mps).head<2>();
+  const Eigen::Vector2d apart_m = (handler->position_m - ball->position_m).head<2>();
+  const Eigen::Vector2d closing_mps = (ball->velocity_mps - handler->velocity_mps).head<2>();
   const double squared = closing_mps.squaredNorm();
   if (!(squared > 0.0)) return std::nullopt;
   return apart_m.dot(closing_mps) / squared;

@@ -8,7 +8,7 @@
 #include "cli/write_file.hpp"
 #include "config/robot.hpp"
 #include "config/software_version.hpp"
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -42,7 +42,7 @@ std::vector<sim::SyntheticKick> kicks_of(const SyntheticFlags& flags) {
   const auto add = [&](double speed_mps, std::optional<double> power) {
     for (int trial = 0; trial < flags.lobs; ++trial) {
       const auto number = static_cast<std::uint32_t>(kicks.size());
-      const auto spread = sim::Draws(flags.seed, number).normals(sim::Role::kKicker, 0);
+      const auto spread = kicking::Draws(flags.seed, number).normals(kicking::Role::kKicker, 0);
       kicks.push_back({.exit_speed_mps = speed_mps + spread[0] * flags.speed_sd_mps,
                        .exit_angle_rad = kicking::radians(flags.exit_angle_deg + spread[1] * flags.angle_sd_deg),
                        .drag_coefficient = flags.cd,

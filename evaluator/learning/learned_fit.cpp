@@ -10,9 +10,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/interval.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
+#include "kicking/outcome/p_inside.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -164,11 +166,10 @@ HeldOutLoss held_out_loss(const LearnedModel& model, std::span<const PredictedKi
   out.kicks = static_cast<std::int64_t>(kicks.size());
   out.matches = static_cast<std::int64_t>(by_match.size());
   out.difference = out.learned - out.predictive;
-  const auto groups = static_cast<double>(by_match.size());
-  double squares = 0.0;
-  for (const auto& [match, cell] : by_match) squares += std::pow(cell.first - cell.second * out.difference, 2);
-  const double se = std::sqrt(groups / (groups - 1.0) * squares) / n;
-  const double reach = stats::t_of(stats::kConfidence, groups - 1.0) * se;
+  std::vector<stats::Influence> of_sum;
+  for (const auto& [match, cell] : by_match) of_sum.push_back({match, 0, cell.first - cell.second * out.difference});
+  const stats::ClusterVariance spread = *stats::cluster_variance(of_sum);
+  const double reach = stats::t_of(stats::kConfidence, spread.df) * (std::sqrt(spread.variance) / n);
   out.ci = {out.difference - reach, out.difference + reach};
   out.deciles = deciles_of(model, kicks);
   return out;

@@ -50,4 +50,16 @@ std::optional<ClusterVariance> cluster_variance(std::span<const Influence> influ
   return result;
 }
 
+std::vector<double> jackknife(std::size_t n, const std::function<double(std::size_t)>& without) {
+  const auto count = static_cast<double>(n);
+  std::vector<double> left_out;
+  double mean = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    left_out.push_back(without(i));
+    mean += left_out.back() / count;
+  }
+  for (double& each : left_out) each = (count - 1.0) / count * (mean - each);
+  return left_out;
+}
+
 }  // namespace trivela::evaluator::stats

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "evaluator/stats/quantile.hpp"
 
@@ -40,5 +42,9 @@ struct ClusterVariance {
 /// and Webb 2021), and has Satterthwaite's degrees of freedom V^2 / (V_M^2 / (M - 1) + V_K^2 / (K - 1) + V_MK^2 / ((M -
 /// 1)(K - 1))), V_MK = V_M + V_K - V. None: fewer than two matches.
 std::optional<ClusterVariance> cluster_variance(std::span<const Influence> influences);
+
+/// What each of `n` matches adds to an estimate's error by the jackknife (Efron and Stein 1981): (n - 1) / n (mean -
+/// value without it). `without`: the estimate without match i.
+std::vector<double> jackknife(std::size_t n, const std::function<double(std::size_t)>& without);
 
 }  // namespace trivela::evaluator::stats

@@ -3,13 +3,13 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "kicking/outcome/p_inside.hpp"
+
 namespace trivela::evaluator::stats {
 namespace {
 
 constexpr int kSteps = 50;
 constexpr double kConverged = 1e-10;  // largest change of a coefficient
-
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 double logit_of_share(const Eigen::VectorXd& y) {
   const double k = y.sum() + 0.5, n = static_cast<double>(y.size()) + 1.0;
@@ -19,7 +19,7 @@ double logit_of_share(const Eigen::VectorXd& y) {
 }  // namespace
 
 double LogisticFit::probability(const Eigen::VectorXd& x) const {
-  return logistic(intercept + weights.dot(((x - means).array() / scales.array()).matrix()));
+  return kicking::logistic(intercept + weights.dot(((x - means).array() / scales.array()).matrix()));
 }
 
 LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, double ridge,
@@ -53,7 +53,7 @@ LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, d
   };
   double current = loss(beta);
   for (int step = 0; step < kSteps; ++step) {
-    const Eigen::ArrayXd p = (design * beta + known).unaryExpr(&logistic).array();
+    const Eigen::ArrayXd p = (design * beta + known).unaryExpr(&kicking::logistic).array();
     const Eigen::VectorXd gradient =
         design.transpose() * (y.array() - p).matrix() - (penalty.array() * beta.array()).matrix();
     Eigen::MatrixXd hessian = design.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * design;

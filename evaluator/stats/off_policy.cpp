@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
 
@@ -64,15 +65,13 @@ PolicyValue mean_of(std::span<const Trial> trials, const std::vector<double>& sc
     divisor += parts[i];
   }
   const double value = sum / divisor;
-  std::map<std::uint32_t, double> by_unit;
+  std::vector<Influence> influences;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    by_unit[by_match ? trials[i].match : static_cast<std::uint32_t>(i)] += (scores[i] - value * parts[i]) / divisor;
+    const std::uint32_t unit = by_match ? trials[i].match : static_cast<std::uint32_t>(i);
+    influences.push_back({.match = unit, .u = (scores[i] - value * parts[i]) / divisor});
   }
-  double variance = 0.0;
-  for (const auto& [unit, influence] : by_unit) variance += influence * influence;
-  const double g = static_cast<double>(by_unit.size());
-  if (g > 1.0) variance *= g / (g - 1.0);
-  const double half_width = (by_match ? t_of(confidence, g - 1.0) : z_of(confidence)) * std::sqrt(variance);
+  const ClusterVariance spread = cluster_variance(influences).value_or(ClusterVariance{});
+  const double half_width = by_match ? spread.reach(confidence) : z_of(confidence) * std::sqrt(spread.variance);
   return {value,
           {std::max(value - half_width, std::min(value, 0.0)), std::min(value + half_width, std::max(value, 1.0))}};
 }

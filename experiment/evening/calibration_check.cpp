@@ -2,11 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "calibration/calibration_run.hpp"
+#include "kicking/estimate.hpp"
 #include "kicking/fit/deflection_fit.hpp"
 #include "kicking/fit/rotation_fit.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -18,13 +17,6 @@ namespace {
 
 using evaluator::log::Crossing;
 using kicking::degrees;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 AimErrors errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings, auto&& crossing_of) {
   AimErrors result;
@@ -38,8 +30,9 @@ AimErrors errors(std::span<const evaluator::log::Kick> kicks, const config::Sett
     height_m.push_back(crossed ? std::abs(*seen->z_cross_m - settings.policy.target_height_m) : HUGE_VAL);
     sideways_m.push_back(crossed ? std::abs(*seen->x_cross_m - settings.policy.target_x_m) : HUGE_VAL);
   }
-  result.median_height_m = median(height_m);
-  result.median_sideways_m = median(sideways_m);
+  if (result.kicks == 0) return {.median_height_m = std::nan(""), .median_sideways_m = std::nan("")};
+  result.median_height_m = kicking::median(height_m);
+  result.median_sideways_m = kicking::median(sideways_m);
   return result;
 }
 

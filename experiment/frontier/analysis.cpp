@@ -40,17 +40,12 @@ Effect jackknife(const std::vector<const ArmTally*>& arms,
   for (const ArmTally* arm : arms) totals.push_back(total_of(*arm));
   const double value = of(totals);
   const ArmTally& matches = *arms.front();
-  const auto count = static_cast<double>(matches.size());
-  std::vector<double> left_out;
-  double mean = 0.0;
-  for (std::size_t m = 0; m < matches.size(); ++m) {
+  const auto without_match = [&](std::size_t m) {
     std::vector<MatchTally> rest = totals;
     for (std::size_t a = 0; a < arms.size(); ++a) rest[a] = without(rest[a], (*arms[a])[m]);
-    left_out.push_back(of(rest));
-    mean += left_out.back() / count;
-  }
-  for (double& each : left_out) each = (count - 1.0) / count * (mean - each);
-  const double reach = reach_of(matches, left_out);
+    return of(rest);
+  };
+  const double reach = reach_of(matches, evaluator::stats::jackknife(matches.size(), without_match));
   return {value, {value - reach, value + reach}};
 }
 

@@ -38,9 +38,8 @@ double kicks_per_opportunity(const MatchTally& total);
 double efficiency_of(const MatchTally& total);
 double on_target_per_opportunity(const MatchTally& total);
 
-/// A function of the arms' totals over all matches with its 95 % interval: the jackknife over matches (Efron and Stein
-/// 1981), by match and calibration (reach_of()): a match adds (G - 1) / G (mean - value without it). No interval where
-/// the function has no finite value without one of the matches.
+/// A function of the arms' totals over all matches with its 95 % interval: the jackknife over matches, by match and
+/// calibration (reach_of()). No interval where the function has no finite value without one of the matches.
 Effect jackknife(const std::vector<const ArmTally*>& arms,
                  const std::function<double(const std::vector<MatchTally>&)>& of);
 

@@ -7,9 +7,9 @@
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/robot_chain.hpp"
 #include "hal/sim/sim_messages.hpp"
+#include "kicking/random/draws.hpp"
 #include "robot/observer/observer.hpp"
 #include "sim/match.hpp"
-#include "sim/random.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -237,8 +237,8 @@ class Game {
 }  // namespace
 
 std::uint64_t match_seed(std::uint64_t seed, std::uint32_t match_id) {
-  const auto words = sim::philox4x32({match_id, 0, 0, 0x4d415443},
-                                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  const auto words = kicking::philox4x32({match_id, 0, 0, 0x4d415443},
+                                         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
   return (std::uint64_t{words[0]} << 32 | words[1]) >> 12;
 }
 

@@ -93,11 +93,11 @@ msg::KickTruth truth_message(const sim::KickTruth& truth) {
   out.x_cross_m = truth.crossing ? truth.crossing->x_m : msg::kNone;
   out.z_cross_m = truth.crossing ? truth.crossing->z_m : msg::kNone;
   out.release_t_ns = truth.release_t_ns;
-  out.release_x_m = truth.release_position_m.x;
-  out.release_y_m = truth.release_position_m.y;
-  out.release_vx_mps = truth.release_velocity_mps.x;
-  out.release_vy_mps = truth.release_velocity_mps.y;
-  out.release_vz_mps = truth.release_velocity_mps.z;
+  out.release_x_m = truth.release_position_m.x();
+  out.release_y_m = truth.release_position_m.y();
+  out.release_vx_mps = truth.release_velocity_mps.x();
+  out.release_vy_mps = truth.release_velocity_mps.y();
+  out.release_vz_mps = truth.release_velocity_mps.z();
   out.margin_m = truth.margin_m.value_or(msg::kNone);
   out.saved = truth.saved;
   out.bounced = truth.bounced;

@@ -11,12 +11,6 @@ namespace {
 constexpr double kScaleOfMad = 1.4826;  // of a normal distribution
 constexpr double kOutlierScales = 3.5;
 
-double median_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 }  // namespace
 
 DelayFit fit_delay(std::span<const double> delays_s, double least_scale_s) {
@@ -30,10 +24,12 @@ DelayFit fit_delay(std::span<const double> delays_s, double least_scale_s) {
     }
   }
   DelayFit fit;
-  fit.median_s = median_of({delays_s.begin(), delays_s.end()});
+  std::vector<double> sample(delays_s.begin(), delays_s.end());
+  fit.median_s = median(sample);
   std::vector<double> deviations;
   for (const double delay : delays_s) deviations.push_back(std::abs(delay - fit.median_s));
-  fit.mad_s = median_of(deviations);
+  sample = deviations;
+  fit.mad_s = median(sample);
   const double limit_s = kOutlierScales * std::max(kScaleOfMad * fit.mad_s, least_scale_s);
   std::vector<double> kept;
   for (std::size_t i = 0; i < delays_s.size(); ++i) {

@@ -4,12 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "kicking/lob/lob_record.hpp"
+#include "kicking/estimate.hpp"
 
 namespace trivela::kicking {
-
-/// A number with its standard error.
-using lob::Estimate;
 
 /// A figure that these data do not show.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kicking/fit/least_squares.hpp"
-#include "kicking/fit/power_table.hpp"
+#include "kicking/model/power_table.hpp"
 
 namespace trivela::kicking {
 

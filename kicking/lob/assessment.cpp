@@ -27,9 +27,7 @@ std::string sentence(const char* format, Values... values) {
 bool trim(std::vector<BallCentre>& centres, std::vector<double> residuals_m) {
   constexpr double kLeast_m = 0.02, kRobustSds = 4.0, kRayleighMedian = 1.1774;
   std::vector<double> sorted = residuals_m;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit_m = std::max(kLeast_m, kRobustSds * *middle / kRayleighMedian);
+  const double limit_m = std::max(kLeast_m, kRobustSds * upper_median(std::span(sorted)) / kRayleighMedian);
   const auto belongs = [&](double residual_m) { return residual_m <= limit_m; };
   const auto first = std::find_if(residuals_m.begin(), residuals_m.end(), belongs);
   const auto last = std::find_if(residuals_m.rbegin(), residuals_m.rend(), belongs);

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+
+#include "kicking/estimate.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
 
 /// A beam has a background when it had a return in so many of the scans; a stray return or two is none.
 constexpr double kLeastReturns = 0.1;
-
-std::uint32_t median(std::vector<std::uint32_t>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::uint32_t to_mm(double range_m) { return static_cast<std::uint32_t>(std::lround(1000.0 * range_m)); }
 
@@ -49,10 +46,11 @@ void Background::settle_beam(std::size_t i) {
   range_m_[i] = -1.0;
   nearer_than_mm_[i] = last_mm_ + 1;
   if (values.empty() || returns < kLeastReturns * scans) return;
-  const std::uint32_t middle_mm = median(values);
+  const std::uint32_t middle_mm = upper_median(std::span(values));
   if (returns > 0.5 * scans) range_m_[i] = middle_mm / 1000.0;
   for (std::uint32_t& value : values) value = std::max(value, middle_mm) - std::min(value, middle_mm);
-  const double margin_m = std::max(config_.foreground_margin_m, config_.foreground_mads * median(values) / 1000.0);
+  const double margin_m =
+      std::max(config_.foreground_margin_m, config_.foreground_mads * upper_median(std::span(values)) / 1000.0);
   nearer_than_mm_[i] = middle_mm - std::min(middle_mm, to_mm(margin_m));
 }
 

@@ -1,6 +1,6 @@
 #include "kicking/lob/flight_model.hpp"
 
-#include "kicking/lob/drag_path.hpp"
+#include "kicking/ballistics/drag.hpp"
 
 namespace trivela::kicking::lob {
 

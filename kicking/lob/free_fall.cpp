@@ -71,11 +71,9 @@ std::optional<VerticalMotion> vertical_motion(std::span<const BallCentre> centre
     squares += error * error;
     if (kept < errors_m.size()) errors_m[kept++] = std::abs(error);
   }
-  const auto middle = errors_m.begin() + static_cast<std::ptrdiff_t>(kept / 2);
-  std::nth_element(errors_m.begin(), middle, errors_m.begin() + static_cast<std::ptrdiff_t>(kept));
   const double variance = squares / (static_cast<double>(centres.size()) - 3.0);
   const double se = std::sqrt(variance * decomposed.solve(Eigen::Matrix3d::Identity())(2, 2));
-  return VerticalMotion{{solution[2], se}, *middle};
+  return VerticalMotion{{solution[2], se}, upper_median(std::span(errors_m).first(kept))};
 }
 
 bool falls_freely(std::span<const BallCentre> centres) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "kicking/estimate.hpp"
+
 namespace trivela::kicking::lob {
 
 /// How the ball's centre is found in its cluster of returns. kMiddleOfLimits: the paper's, the middle of the two outer
@@ -19,12 +21,6 @@ struct BallCentre {
   double z_m = 0.0;
   int returns = 0;
   double chord_ratio = 1.0;  ///< angle covered / angle that a ball in the scan plane covers
-};
-
-/// A number with its standard error.
-struct Estimate {
-  double value = 0.0;
-  double se = 0.0;
 };
 
 /// The paper's fit: parabola z(x) through the centres, H and D relative to the launch height, theta = atan(4 H / D), V0

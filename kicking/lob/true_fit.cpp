@@ -39,9 +39,7 @@ double robust_sd_m(const std::vector<Eigen::Vector2d>& errors_m) {
   for (const Eigen::Vector2d& error : errors_m) {
     for (const double coordinate : error) sizes_m.push_back(std::abs(coordinate));
   }
-  const auto middle = sizes_m.begin() + static_cast<std::ptrdiff_t>(sizes_m.size() / 2);
-  std::nth_element(sizes_m.begin(), middle, sizes_m.end());
-  return std::clamp(1.4826 * *middle, 0.0005, 0.03);
+  return std::clamp(1.4826 * upper_median(std::span(sizes_m)), 0.0005, 0.03);
 }
 
 std::optional<FittedFlight> fit(std::span<const BallCentre> centres, double launch_z_m, const AnalyzerConfig& config,

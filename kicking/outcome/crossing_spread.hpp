@@ -5,7 +5,7 @@
 #include "kicking/ballistics/directed_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/goal.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::kicking {
 

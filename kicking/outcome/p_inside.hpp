@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "kicking/constants.hpp"
 #include "kicking/geometry/goal.hpp"
 
@@ -46,6 +48,9 @@ struct InsideProbability {
 /// Phi(margin / sd), the probability that a normal error of that standard deviation stays below the margin; a step at
 /// zero if nothing spreads.
 double normal_below(double margin_m, double sd_m);
+
+/// The probability that has the logit x: 1 / (1 + e^-x).
+inline double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 /// First-order propagation of the spread: P = Phi((z_clean - z) / sd_z) (Phi((x_clean - x) / sd_x) - Phi((-x_clean - x)
 /// / sd_x)). There is no lower limit, since a ball that bounces in counts. x_mean_m is where the kick is expected to

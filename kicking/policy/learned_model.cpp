@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/outcome/p_inside.hpp"
+
 namespace trivela::kicking {
 namespace {
 
@@ -15,8 +17,6 @@ double held_logit(double p) {
   const double held = std::clamp(p, kLeastP, 1.0 - kLeastP);
   return std::log(held / (1.0 - held));
 }
-
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 
 LearnedModel::Row LearnedModel::row_of(const ShotFeatures& shot) {
   const double opponent_m = shot.opponent_distance_m.value_or(kFarthestOpponent_m);

@@ -47,7 +47,4 @@ struct LearnedModel {
 /// ln(p / (1 - p)) with p held within [1e-4, 1 - 1e-4].
 double held_logit(double p);
 
-/// 1 / (1 + e^-x).
-double logistic(double x);
-
 }  // namespace trivela::kicking

@@ -3,17 +3,13 @@
 #include <optional>
 
 #include "kicking/alignment/alignment.hpp"
+#include "kicking/ballistics/height_law.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/policy/learned_model.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
 #include "kicking/policy/test_drive_config.hpp"
 
 namespace trivela::kicking {
-
-/// Exit speed for the target's height at its distance.
-/// kPaper: the range law of section 2.2, the ball lands on the goal line. kExtendedRange: the released code's D = d + h
-/// / tan(theta). kExact: the parabola through the target.
-enum class HeightLaw { kPaper, kExtendedRange, kExact };
 
 /// Exit speed of a moving robot. kPaper: V_kick = V0 - k v cos(theta) (section 2.2), distance as of now.
 /// kExact: velocities added at the ball's point, at the release.

@@ -7,7 +7,7 @@
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/policy/policy_config.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::kicking {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "kicking/ballistics/aim_exact.hpp"
-#include "kicking/ballistics/crossing.hpp"
+#include "kicking/ballistics/height_law.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
 
 namespace trivela::kicking {
@@ -11,21 +11,6 @@ namespace {
 
 constexpr int kBisections = 40;  // of a gap between set-points: 1e-11 of a power
 constexpr int kRounds = 12;
-
-/// The point that the drag-free flight shall pass, by the law for heights.
-FlightPoint flight_point(HeightLaw law, double target_height_m, const RobotModel& robot, double distance_m,
-                         const Elevation& exit_angle) {
-  const FlightPoint target{distance_m, target_height_m - robot.ball.radius_m};
-  switch (law) {
-    case HeightLaw::kPaper:
-      return {distance_m, 0.0};
-    case HeightLaw::kExtendedRange:
-      return {extended_range(target, exit_angle), 0.0};
-    case HeightLaw::kExact:
-      break;
-  }
-  return target;
-}
 
 /// What the robot's motion at the release gives to the ball, along and to the right of the line ball - target.
 Carry carry_towards(const Eigen::Vector2d& line, const TurnedPose& release, const RobotModel& robot,
@@ -126,8 +111,9 @@ Shot shot_at_rest(HeightLaw law, const PolicyConfig& config, const RobotModel& r
   Shot shot;
   shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
   shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  const FlightPoint target{shot.distance_m, config.target_height_m - robot.ball.radius_m};
   set_speeds(shot, robot, [&](const Elevation& angle) {
-    const auto v0_mps = crossing_speed(flight_point(law, config.target_height_m, robot, shot.distance_m, angle), angle);
+    const auto v0_mps = crossing_speed(point_by(law, target, angle), angle);
     return Speeds{v0_mps, v0_mps};
   });
   set_power(shot, robot, goal, input);
@@ -151,8 +137,9 @@ Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal
   const Eigen::Vector2d line =
       target_on_line(config, goal) - (exact ? held_ball(shot.release, robot) : held_ball(input.pose, robot));
   shot.distance_m = line.norm();
+  const FlightPoint target{shot.distance_m, config.target_height_m - robot.ball.radius_m};
   set_speeds(shot, robot, [&](const Elevation& angle) {
-    const FlightPoint point = flight_point(config.height_law, config.target_height_m, robot, shot.distance_m, angle);
+    const FlightPoint point = point_by(config.height_law, target, angle);
     Speeds speeds{crossing_speed(point, angle), std::nullopt};
     if (!speeds.v0_mps) return speeds;
     if (exact) {

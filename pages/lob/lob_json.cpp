@@ -8,7 +8,7 @@
 namespace trivela::pages {
 namespace {
 
-using kicking::lob::Estimate;
+using kicking::Estimate;
 using kicking::lob::LobRecord;
 using nlohmann::json;
 

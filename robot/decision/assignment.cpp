@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -10,8 +10,8 @@ namespace {
 constexpr std::uint32_t kPurpose = 0x41535347;  // where the simulator's numbers have their role, and none has this one
 
 double uniform(std::uint64_t seed, std::uint8_t robot_id, std::uint8_t half, std::uint32_t possession_id) {
-  const auto words = sim::philox4x32({possession_id, half, kPurpose, robot_id},
-                                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  const auto words = kicking::philox4x32({possession_id, half, kPurpose, robot_id},
+                                         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
   const std::uint64_t bits = (std::uint64_t{words[0]} << 32 | words[1]) >> 11;
   return static_cast<double>(bits) * 0x1p-53;
 }

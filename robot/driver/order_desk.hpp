@@ -6,7 +6,7 @@
 #include "config/settings.hpp"
 #include "hal/kicker.hpp"
 #include "idl/messages.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "robot/driver/order_gate.hpp"
 
 namespace trivela::robot {

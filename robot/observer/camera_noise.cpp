@@ -1,8 +1,9 @@
 #include "robot/observer/camera_noise.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "kicking/estimate.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -16,12 +17,12 @@ constexpr double kMedianOfNormal = 0.6744897501960817;
 
 CameraNoise::CameraNoise(double configured_sd_m) : configured_m2_(configured_sd_m * configured_sd_m) {}
 
-void CameraNoise::learn(std::span<const Sighting> sightings) {
+void CameraNoise::learn(std::span<const kicking::Sighting> sightings) {
   if (sightings.size() < 3) return;
   std::vector<double> off_m;
   off_m.reserve(2 * (sightings.size() - 2));
   for (std::size_t i = 1; i + 1 < sightings.size(); ++i) {
-    const Sighting &a = sightings[i - 1], &b = sightings[i], &c = sightings[i + 1];
+    const kicking::Sighting &a = sightings[i - 1], &b = sightings[i], &c = sightings[i + 1];
     if (a.t_ns >= c.t_ns) continue;
     const double w = static_cast<double>(b.t_ns - a.t_ns) / static_cast<double>(c.t_ns - a.t_ns);
     const double scale = 1.0 / std::sqrt(1.0 + (1.0 - w) * (1.0 - w) + w * w);
@@ -29,9 +30,7 @@ void CameraNoise::learn(std::span<const Sighting> sightings) {
       off_m.push_back(scale * std::abs(b.ball_m[axis] - (1.0 - w) * a.ball_m[axis] - w * c.ball_m[axis]));
   }
   if (off_m.empty()) return;
-  const auto middle = off_m.begin() + static_cast<std::ptrdiff_t>(off_m.size() / 2);
-  std::nth_element(off_m.begin(), middle, off_m.end());
-  const double sd_m = *middle / kMedianOfNormal;
+  const double sd_m = kicking::upper_median(std::span(off_m)) / kMedianOfNormal;
   const double weight = kWeightOfATriplet * 0.5 * static_cast<double>(off_m.size());
   learned_m2_ += weight * sd_m * sd_m;
   weight_ += weight;

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "robot/observer/flight_fit.hpp"
+#include "kicking/ballistics/flight.hpp"
 
 namespace trivela::robot {
 
@@ -17,7 +17,7 @@ class CameraNoise {
   explicit CameraNoise(double configured_sd_m);
 
   /// Learns from one flight.
-  void learn(std::span<const Sighting> sightings);
+  void learn(std::span<const kicking::Sighting> sightings);
 
   double sd_m() const;
   /// Sightings that the value rests on.

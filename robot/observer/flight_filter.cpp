@@ -46,7 +46,7 @@ void keep(AxisState& s, double ratio, double sd) {
 
 }  // namespace
 
-FlightFilter::FlightFilter(const Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
+FlightFilter::FlightFilter(const kicking::Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
                            const Eigen::Vector3d& sd_mps, bool rolls)
     : rolling_(rolls) {
   AxisState* const axes[] = {&x_, &y_, &z_};

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "robot/observer/flight_fit.hpp"
+#include "kicking/ballistics/flight.hpp"
 
 namespace trivela::robot {
 
@@ -25,7 +25,7 @@ class FlightFilter {
  public:
   /// A ball seen at `first` that has `velocity_mps` with the standard deviations `sd_mps`. `rolls`: it is on the floor
   /// and stays there.
-  FlightFilter(const Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
+  FlightFilter(const kicking::Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
                const Eigen::Vector3d& sd_mps, bool rolls);
 
   void advance(double dt_s);

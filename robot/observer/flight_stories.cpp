@@ -54,11 +54,11 @@ std::optional<PlaneCrossing> meets_plane(const FlightFilter& from, double t_s, d
 
 class Stories {
  public:
-  Stories(const ShotTrack& track, std::span<const Sighting> seen, double goal_y_m)
+  Stories(const ShotTrack& track, std::span<const kicking::Sighting> seen, double goal_y_m)
       : track_(track),
         seen_(seen),
         goal_y_m_(goal_y_m),
-        rolls_(std::ranges::all_of(seen, [](const Sighting& s) { return s.ball_m.z() < kOnFloorBelow_m; })) {
+        rolls_(std::ranges::all_of(seen, [](const kicking::Sighting& s) { return s.ball_m.z() < kOnFloorBelow_m; })) {
     free_.reserve(seen.size());
     misfit_.reserve(seen.size());
     log_free_.reserve(seen.size());
@@ -169,7 +169,7 @@ class Stories {
   }
 
   const ShotTrack& track_;
-  std::span<const Sighting> seen_;
+  std::span<const kicking::Sighting> seen_;
   double goal_y_m_;
   bool rolls_;
   std::vector<FlightFilter> free_;  // after each sighting before the line
@@ -183,10 +183,10 @@ class Stories {
 }  // namespace
 
 std::optional<FlightStories> flight_stories(const ShotTrack& track, double goal_y_m) {
-  const auto left = std::find_if(track.sightings.begin(), track.sightings.end(), [&](const Sighting& s) {
+  const auto left = std::find_if(track.sightings.begin(), track.sightings.end(), [&](const kicking::Sighting& s) {
     return 1e-9 * static_cast<double>(s.t_ns - track.release_t_ns) >= kReleaseDoubt_s;
   });
-  const std::span<const Sighting> seen{left, track.sightings.end()};
+  const std::span<const kicking::Sighting> seen{left, track.sightings.end()};
   if (seen.size() < kFewestInFlight) return std::nullopt;
   return Stories{track, seen, goal_y_m}.tell();
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "idl/messages.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "robot/observer/shot_tracker.hpp"
 
 namespace trivela::robot {

@@ -28,7 +28,7 @@ constexpr double kRestDoubt_mps = 0.15;
 
 /// The sightings of the flight up to the first bounce: the release is only expected, so that the first ones may show
 /// the ball in the handler still.
-std::span<const Sighting> in_the_air(std::span<const Sighting> sightings) {
+std::span<const kicking::Sighting> in_the_air(std::span<const kicking::Sighting> sightings) {
   std::size_t launch = 0;
   while (launch + 1 < sightings.size() &&
          std::min(sightings[launch].ball_m.z(), sightings[launch + 1].ball_m.z()) < kNearFloor_m) {
@@ -43,11 +43,11 @@ std::span<const Sighting> in_the_air(std::span<const Sighting> sightings) {
   return sightings;
 }
 
-void describe_exit(std::span<const Sighting> airborne, ShotVerdict& verdict) {
-  const auto piece = fit_flight(airborne.first(std::min(airborne.size(), kWindow)), kicking::kGravity_mps2);
-  if (!piece || airborne.size() < kWindow) return;
-  verdict.exit_speed_mps = piece->velocity_mps.norm();
-  verdict.exit_elevation_rad = std::atan2(piece->velocity_mps.z(), piece->velocity_mps.head<2>().norm());
+void describe_exit(std::span<const kicking::Sighting> airborne, ShotVerdict& verdict) {
+  const auto start = kicking::fit_flight(airborne.first(std::min(airborne.size(), kWindow)), kicking::kGravity_mps2);
+  if (!start || airborne.size() < kWindow) return;
+  verdict.exit_speed_mps = start->velocity_mps.norm();
+  verdict.exit_elevation_rad = std::atan2(start->velocity_mps.z(), start->velocity_mps.head<2>().norm());
 }
 
 double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "config/settings.hpp"
+#include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/outcome/outcome_probability.hpp"
-#include "robot/observer/flight_fit.hpp"
 
 namespace trivela::robot {
 
@@ -37,7 +37,7 @@ enum class FlightEnd {
 
 /// A kick as it was expected and as it was seen.
 struct ShotTrack {
-  std::span<const Sighting> sightings;  ///< from the expected release on
+  std::span<const kicking::Sighting> sightings;  ///< from the expected release on
   FlightEnd end{};
   std::int64_t release_t_ns = 0;
   std::int64_t end_t_ns = 0;                   ///< when it was over; the last sighting or later

@@ -24,7 +24,7 @@ std::vector<TrackedShot> ShotTracker::release(std::int64_t kick_id, std::int64_t
   if (open_) settled.push_back(settle(FlightEnd::kLost, release_t_ns));
   open_ = Open{kick_id, release_t_ns, expected_speed_mps, expected_climb_mps, release_t_ns, -HUGE_VAL, {}};
   open_->sightings.reserve(kUsualSightings);
-  for (const Sighting& sighting : history_) {
+  for (const kicking::Sighting& sighting : history_) {
     if (!open_) break;
     if (sighting.t_ns < release_t_ns) continue;
     if (const auto end = step(sighting.t_ns, sighting.ball_m)) settled.push_back(settle(*end, sighting.t_ns));
@@ -70,7 +70,7 @@ FlightEnd ShotTracker::where_it_was() const {
   return beyond_line(open_->sightings.back().ball_m.y()) ? FlightEnd::kBeyondLine : FlightEnd::kTakenAway;
 }
 
-std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
+std::optional<FlightEnd> ShotTracker::follow(const kicking::Sighting& sighting) {
   auto& sightings = open_->sightings;
   if (!sightings.empty()) {
     const double apart_s = kicking::seconds(sighting.t_ns - sightings.back().t_ns);
@@ -92,7 +92,7 @@ std::optional<FlightEnd> ShotTracker::follow(const Sighting& sighting) {
 /// Slower than rest_speed over the last half second.
 bool ShotTracker::at_rest() const {
   const auto& sightings = open_->sightings;
-  const auto from = std::find_if(sightings.begin(), sightings.end(), [&](const Sighting& s) {
+  const auto from = std::find_if(sightings.begin(), sightings.end(), [&](const kicking::Sighting& s) {
     return kicking::seconds(sightings.back().t_ns - s.t_ns) <= 0.5;
   });
   const double span_s = kicking::seconds(sightings.back().t_ns - from->t_ns);

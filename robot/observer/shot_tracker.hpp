@@ -48,10 +48,10 @@ class ShotTracker {
     std::optional<double> expected_climb_mps;
     std::int64_t seen_t_ns;
     double farthest_y_m;
-    std::vector<Sighting> sightings;
+    std::vector<kicking::Sighting> sightings;
   };
 
-  std::optional<FlightEnd> follow(const Sighting& sighting);
+  std::optional<FlightEnd> follow(const kicking::Sighting& sighting);
   std::optional<FlightEnd> missed(std::int64_t t_ns) const;
   std::optional<FlightEnd> step(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball_m);
   bool at_rest() const;
@@ -63,7 +63,7 @@ class ShotTracker {
   config::ShotObserver settings_;
   kicking::Goal goal_;
   CameraNoise noise_;
-  std::deque<Sighting> history_;
+  std::deque<kicking::Sighting> history_;
   std::optional<Open> open_;
 };
 

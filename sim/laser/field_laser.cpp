@@ -20,15 +20,15 @@ LaserModel laser_model(const Laser& laser) {
 }
 
 FieldLaser::FieldLaser(const Laser& laser, double ball_radius_m) {
-  if (laser.enabled) builder_.emplace(laser_model(laser), ball_radius_m, Draws{0, 0});
+  if (laser.enabled) builder_.emplace(laser_model(laser), ball_radius_m, kicking::Draws{0, 0});
 }
 
-void FieldLaser::begin(const Draws& draws) {
+void FieldLaser::begin(const kicking::Draws& draws) {
   if (builder_) builder_->use(draws);
   ball_was_moved_ = true;
 }
 
-void FieldLaser::see(std::int64_t t_ns, const Vec3& ball_m) {
+void FieldLaser::see(std::int64_t t_ns, const Eigen::Vector3d& ball_m) {
   if (!builder_) return;
   // Between two places of a ball that was carried there is no line that it flew.
   builder_->advance(t_ns, ball_was_moved_ ? std::nullopt : std::optional{ball_m});

@@ -20,10 +20,10 @@ class FieldLaser {
   FieldLaser(const Laser& laser, double ball_radius_m);
 
   /// Another opportunity begins: its random numbers, and the ball is somewhere else from one instant to the next.
-  void begin(const Draws& draws);
+  void begin(const kicking::Draws& draws);
 
   /// The ball's centre at t_ns, after each sub-step.
-  void see(std::int64_t t_ns, const Vec3& ball_m);
+  void see(std::int64_t t_ns, const Eigen::Vector3d& ball_m);
 
   /// Scans finished since forget().
   const std::vector<kicking::lob::Scan>& scans() const { return scans_; }

@@ -29,6 +29,6 @@ struct LaserModel {
 };
 
 /// The pose as the analyzer has to know it, for kicks from `launch`: x along u from there.
-kicking::lob::LaserMount mount_of(const LaserModel& laser, const Vec3& launch);
+kicking::lob::LaserMount mount_of(const LaserModel& laser, const Eigen::Vector3d& launch);
 
 }  // namespace trivela::sim

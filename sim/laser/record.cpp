@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
 #include "sim/laser/scan_builder.hpp"
-#include "sim/random.hpp"
 
 namespace trivela::sim {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::int64_t kStep_ns = 1'000'000;
 class Scene {
  public:
   Scene(const LaserModel& laser, const Ball& ball, std::uint64_t seed)
-      : ball_(ball), builder_(laser, ball.radius_m, Draws{seed, 0}) {}
+      : ball_(ball), builder_(laser, ball.radius_m, kicking::Draws{seed, 0}) {}
 
   /// Lets `duration_ns` pass; the ball, if there is one, moves by advance().
   void pass(std::int64_t duration_ns) {
@@ -48,23 +48,23 @@ class Scene {
 SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const Ball& ball,
                                   std::uint64_t seed) {
   const double heading = laser.heading_rad + plan.direction_error_rad;
-  const Vec3 launch{-plan.lateral_error_m * std::cos(laser.heading_rad),
-                    -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
+  const Eigen::Vector3d launch{-plan.lateral_error_m * std::cos(laser.heading_rad),
+                               -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
   SyntheticRecord record{mount_of(laser, {}), {}, {}};
   Scene scene{laser, ball, seed};
   scene.pass(kicking::nanoseconds(plan.background_s));
   for (std::uint32_t i = 0; i < plan.kicks.size(); ++i) {
     const SyntheticKick& kick = plan.kicks[i];
-    scene.motion = BallMotion{launch, {}, true};
+    scene.motion = BallMotion{{launch}, true};
     // A kick falls anywhere within a revolution.
-    scene.pass(kicking::nanoseconds(plan.lie_s +
-                                    Draws{seed, i}.uniform_in(0.0, laser.geometry.scan_period_s, Role::kStart, 0)));
+    scene.pass(kicking::nanoseconds(
+        plan.lie_s + kicking::Draws{seed, i}.uniform_in(0.0, laser.geometry.scan_period_s, kicking::Role::kStart, 0)));
     record.truth.push_back({scene.t_ns(), kick});
     const double v_h = kick.exit_speed_mps * std::cos(kick.exit_angle_rad);
     scene.drag_coefficient(kick.drag_coefficient);
     scene.motion = BallMotion{
-        launch,
-        {-v_h * std::sin(heading), v_h * std::cos(heading), kick.exit_speed_mps * std::sin(kick.exit_angle_rad)}};
+        {launch,
+         {-v_h * std::sin(heading), v_h * std::cos(heading), kick.exit_speed_mps * std::sin(kick.exit_angle_rad)}}};
     scene.pass(kicking::nanoseconds(plan.fly_s));
     scene.motion.reset();
     scene.pass(kicking::nanoseconds(plan.pause_s));

@@ -26,7 +26,8 @@ double background_m(const LaserModel& laser, double cos_a, double sin_a) {
 
 }  // namespace
 
-ScanBuilder::ScanBuilder(const LaserModel& laser, double ball_radius_m, const Draws& draws, std::int64_t first_t_ns)
+ScanBuilder::ScanBuilder(const LaserModel& laser, double ball_radius_m, const kicking::Draws& draws,
+                         std::int64_t first_t_ns)
     : laser_(laser), radius_m_(ball_radius_m), draws_(draws), first_t_ns_(first_t_ns), t_ns_(first_t_ns) {
   const auto& geometry = laser_.geometry;
   if (geometry.beams == 0 || !(geometry.beam_period_s > 0.0) || !(geometry.scan_period_s > 0.0)) {
@@ -47,23 +48,23 @@ std::int64_t ScanBuilder::beam_t_ns(std::size_t i) const {
   return scan_.t_ns + std::llround(static_cast<double>(i) * laser_.geometry.beam_period_s * 1e9);
 }
 
-Vec3 ScanBuilder::in_plane(const Vec3& ball) const {
-  const double dx = ball.x - laser_.x_m, dy = ball.y - laser_.y_m;
+Eigen::Vector3d ScanBuilder::in_plane(const Eigen::Vector3d& ball) const {
+  const double dx = ball.x() - laser_.x_m, dy = ball.y() - laser_.y_m;
   const double cos_h = std::cos(laser_.heading_rad), sin_h = std::sin(laser_.heading_rad);
-  return {-sin_h * dx + cos_h * dy, -cos_h * dx - sin_h * dy, ball.z - laser_.z_m};
+  return {-sin_h * dx + cos_h * dy, -cos_h * dx - sin_h * dy, ball.z() - laser_.z_m};
 }
 
-void ScanBuilder::advance(std::int64_t t_ns, const std::optional<Vec3>& ball) {
+void ScanBuilder::advance(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball) {
   if (t_ns < t_ns_) {
     throw std::invalid_argument("laser: t_ns = " + std::to_string(t_ns) + " is before " + std::to_string(t_ns_));
   }
-  const std::optional<Vec3> next = ball ? std::optional(in_plane(*ball)) : std::nullopt;
+  const std::optional<Eigen::Vector3d> next = ball ? std::optional(in_plane(*ball)) : std::nullopt;
   for (std::int64_t beam_t = beam_t_ns(next_beam_); beam_t <= t_ns; beam_t = beam_t_ns(next_beam_)) {
-    std::optional<Vec3> now;
+    std::optional<Eigen::Vector3d> now;
     if (ball_ && next) {
       const double part = t_ns == t_ns_ ? 1.0 : static_cast<double>(beam_t - t_ns_) / static_cast<double>(t_ns - t_ns_);
-      now = Vec3{std::lerp(ball_->x, next->x, part), std::lerp(ball_->y, next->y, part),
-                 std::lerp(ball_->z, next->z, part)};
+      now = Eigen::Vector3d{std::lerp(ball_->x(), next->x(), part), std::lerp(ball_->y(), next->y(), part),
+                            std::lerp(ball_->z(), next->z(), part)};
     }
     measure(next_beam_, now);
     if (++next_beam_ < beams_.size()) continue;
@@ -84,16 +85,16 @@ std::optional<kicking::lob::Scan> ScanBuilder::take() {
   return oldest;
 }
 
-std::optional<double> ScanBuilder::ball_range(const Beam& beam, const Vec3& ball) const {
-  const double along = ball.x * beam.cos_a + ball.z * beam.sin_a;
-  const double q = ball.x * beam.sin_a - ball.z * beam.cos_a;
-  const double depth2 = radius_m_ * radius_m_ - ball.y * ball.y - q * q;  // (rho^2 - q^2)
+std::optional<double> ScanBuilder::ball_range(const Beam& beam, const Eigen::Vector3d& ball) const {
+  const double along = ball.x() * beam.cos_a + ball.z() * beam.sin_a;
+  const double q = ball.x() * beam.sin_a - ball.z() * beam.cos_a;
+  const double depth2 = radius_m_ * radius_m_ - ball.y() * ball.y() - q * q;  // (rho^2 - q^2)
   if (along <= 0.0 || depth2 <= 0.0) return std::nullopt;
   const double range_m = along - std::sqrt(depth2);
   return range_m < beam.background_m ? std::optional(range_m) : std::nullopt;
 }
 
-void ScanBuilder::measure(std::size_t i, const std::optional<Vec3>& ball) {
+void ScanBuilder::measure(std::size_t i, const std::optional<Eigen::Vector3d>& ball) {
   const auto hit_m = ball ? ball_range(beams_[i], *ball) : std::nullopt;
   scan_.range_mm[i] = answer(i, hit_m.value_or(beams_[i].background_m));
   if (hit_m && !edge_m_ && i > 0) mix(i - 1, *hit_m);
@@ -102,7 +103,7 @@ void ScanBuilder::measure(std::size_t i, const std::optional<Vec3>& ball) {
 }
 
 void ScanBuilder::mix(std::size_t i, double edge_m) {
-  const double u = draws_.uniform(Role::kLaserMixed, scan_index_, static_cast<std::uint32_t>(i));
+  const double u = draws_.uniform(kicking::Role::kLaserMixed, scan_index_, static_cast<std::uint32_t>(i));
   if (u >= laser_.mixed_ratio) return;
   const double far_m = std::max(edge_m, std::min(beams_[i].background_m, edge_m + laser_.mixed_depth_m));
   scan_.range_mm[i] = answer(i, std::lerp(edge_m, far_m, u / laser_.mixed_ratio));
@@ -111,8 +112,8 @@ void ScanBuilder::mix(std::size_t i, double edge_m) {
 std::uint32_t ScanBuilder::answer(std::size_t i, double range_m) const {
   if (!(range_m >= laser_.geometry.min_range_m && range_m <= laser_.geometry.max_range_m)) return kNoAnswer_mm;
   const auto beam = static_cast<std::uint32_t>(i);
-  if (draws_.uniform(Role::kLaserDropout, scan_index_, beam) < laser_.dropout_ratio) return kNoAnswer_mm;
-  const double noise = draws_.normals(Role::kLaserNoise, scan_index_, beam / 4)[beam % 4];
+  if (draws_.uniform(kicking::Role::kLaserDropout, scan_index_, beam) < laser_.dropout_ratio) return kNoAnswer_mm;
+  const double noise = draws_.normals(kicking::Role::kLaserNoise, scan_index_, beam / 4)[beam % 4];
   return static_cast<std::uint32_t>(std::max(0L, std::lround(1000.0 * (range_m + laser_.range_sd_m * noise))));
 }
 

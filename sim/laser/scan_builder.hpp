@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kicking/lob/scan.hpp"
+#include "kicking/random/draws.hpp"
 #include "sim/laser/laser_model.hpp"
-#include "sim/random.hpp"
 #include "sim/truth.hpp"
 
 namespace trivela::sim {
@@ -23,18 +23,18 @@ class ScanBuilder {
  public:
   /// The first scan starts at `first_t_ns`. Throws std::invalid_argument for a geometry without beams or with a beam or
   /// scan period that is not positive.
-  ScanBuilder(const LaserModel& laser, double ball_radius_m, const Draws& draws, std::int64_t first_t_ns = 0);
+  ScanBuilder(const LaserModel& laser, double ball_radius_m, const kicking::Draws& draws, std::int64_t first_t_ns = 0);
 
   /// The ball's centre in F at t_ns, none if there is no ball. Call after each physics step, a millisecond at most: the
   /// beams since the last call are measured, the ball being on the straight line between the two places. Time goes
   /// forward only; std::invalid_argument otherwise.
-  void advance(std::int64_t t_ns, const std::optional<Vec3>& ball);
+  void advance(std::int64_t t_ns, const std::optional<Eigen::Vector3d>& ball);
 
   /// The oldest scan whose last beam has been measured and that was not taken yet.
   std::optional<kicking::lob::Scan> take();
 
   /// The random numbers of another opportunity, from the next beam on.
-  void use(const Draws& draws) { draws_ = draws; }
+  void use(const kicking::Draws& draws) { draws_ = draws; }
 
  private:
   /// Direction of a beam in the scan plane, and what it reads without a ball.
@@ -45,10 +45,10 @@ class ScanBuilder {
   };
 
   /// Ball centre from the scanner: x along u, z up, y to the left of the scan plane.
-  Vec3 in_plane(const Vec3& ball) const;
+  Eigen::Vector3d in_plane(const Eigen::Vector3d& ball) const;
   /// Range of the ball in the beam; none: the beam misses it.
-  std::optional<double> ball_range(const Beam& beam, const Vec3& ball) const;
-  void measure(std::size_t i, const std::optional<Vec3>& ball);
+  std::optional<double> ball_range(const Beam& beam, const Eigen::Vector3d& ball) const;
+  void measure(std::size_t i, const std::optional<Eigen::Vector3d>& ball);
   std::uint32_t answer(std::size_t i, double range_m) const;
   /// The beam beside the ball's edge, maybe a mixed pixel.
   void mix(std::size_t i, double edge_m);
@@ -56,7 +56,7 @@ class ScanBuilder {
 
   LaserModel laser_;
   double radius_m_;
-  Draws draws_;
+  kicking::Draws draws_;
   std::vector<Beam> beams_;
   std::deque<kicking::lob::Scan> complete_;
   std::int64_t first_t_ns_;
@@ -65,7 +65,7 @@ class ScanBuilder {
   std::size_t next_beam_ = 0;
   std::optional<double> edge_m_;  ///< range of the ball in the beam before
   std::int64_t t_ns_;
-  std::optional<Vec3> ball_;  ///< at t_ns_, in_plane()
+  std::optional<Eigen::Vector3d> ball_;  ///< at t_ns_, in_plane()
 };
 
 }  // namespace trivela::sim

@@ -121,7 +121,7 @@ void synthesize_scan(benchmark::State& state) {
   sim::ScanBuilder builder({}, 0.11, {1, 1});
   std::int64_t t_ns = 0;
   for (auto _ : state) {
-    for (int i = 0; i < 25; ++i) builder.advance(t_ns += 1'000'000, sim::Vec3{3.0, 0.0, 1.0});
+    for (int i = 0; i < 25; ++i) builder.advance(t_ns += 1'000'000, Eigen::Vector3d{3.0, 0.0, 1.0});
     benchmark::DoNotOptimize(builder.take());
   }
 }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kicking/alignment/release_predictor.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::calibration {

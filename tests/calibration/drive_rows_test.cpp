@@ -81,8 +81,9 @@ TEST_F(DriveLog, KicksWithoutACrossingOrRefusedAreLeftOut) {
 }
 
 /// The ball held at v until the release, then in flight with drag, seen at 50 Hz with an offset of the frames.
-std::vector<BallSighting> seen_release(Int order_t_ns, double delay_s, double vx, double vy, double noise_m = 0.0) {
-  std::vector<BallSighting> sightings;
+std::vector<kicking::Sighting> seen_release(Int order_t_ns, double delay_s, double vx, double vy,
+                                            double noise_m = 0.0) {
+  std::vector<kicking::Sighting> sightings;
   const kicking::RobotModel model;
   const double k = kicking::drag_per_m({}, {});
   Eigen::Vector3d ball(0.3, 3.0, 0.11);
@@ -146,7 +147,7 @@ TEST_F(DriveLog, DelaysComeFromTheFlightCameraOfKicksThatDoNotTurn) {
   for (std::size_t i = 0; i < delays.size(); ++i) {
     const Int order_t_ns = static_cast<Int>(i + 1) * 1'000'000'000;
     kick("standing_drive", {0, 3, 0}, {0, 0, 0}, 0.0, 0.7);
-    for (const BallSighting& s : seen_release(order_t_ns, delays[i], 0.0, 0.0)) {
+    for (const kicking::Sighting& s : seen_release(order_t_ns, delays[i], 0.0, 0.0)) {
       writer_.push(frames_, {Int{1}, ++seq_, s.t_ns, s.t_ns, Int{1}, s.ball_m.x(), s.ball_m.y(), s.ball_m.z()});
     }
   }
@@ -163,7 +164,7 @@ TEST_F(DriveLog, DelaysComeFromTheFlightCameraOfKicksThatDoNotTurn) {
 TEST_F(DriveLog, DirectionsAreThoseOfTheBallAndEndWhereItIsCarriedBack) {
   for (const double vx : {-0.4, 0.0, 0.7}) {
     kick("standing_drive", {0, 3, 0.3}, {0, 0, 0}, 0.0, 0.7);  // the heading believed plays no part
-    for (const BallSighting& s : seen_release(kicks_ * 1'000'000'000, 0.06, vx, 0.0, 0.01)) {
+    for (const kicking::Sighting& s : seen_release(kicks_ * 1'000'000'000, 0.06, vx, 0.0, 0.01)) {
       writer_.push(frames_, {Int{1}, ++seq_, s.t_ns, s.t_ns, Int{1}, s.ball_m.x(), s.ball_m.y(), s.ball_m.z()});
     }
   }

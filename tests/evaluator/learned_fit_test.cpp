@@ -6,6 +6,8 @@
 #include <functional>
 #include <random>
 
+#include "kicking/outcome/p_inside.hpp"
+
 namespace trivela::evaluator {
 namespace {
 

@@ -104,5 +104,13 @@ TEST(ClusterVariance, IsNeverBelowThatOfOneKindOfCluster) {
   EXPECT_TRUE(std::isfinite(result.reach()));
 }
 
+TEST(Jackknife, OfAMeanIsWhatEachValueAddsToIt) {
+  const std::vector<double> values{1.0, 4.0, 10.0};
+  const auto without = [&](std::size_t i) { return (15.0 - values[i]) / 2.0; };
+  const std::vector<double> u = jackknife(values.size(), without);
+  ASSERT_EQ(u.size(), values.size());
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], (values[i] - 5.0) / 3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace trivela::evaluator::stats

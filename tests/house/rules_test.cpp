@@ -100,6 +100,24 @@ TEST(House, RoomsIncludeOnlyWhatTheArchitectureAllows) {
   EXPECT_THAT(broken, IsEmpty());
 }
 
+TEST(House, StoreysOfKickingRestOnThoseBelow) {
+  const std::vector<std::string> storeys{"text",      "geometry", "random", "ballistics", "model",
+                                         "alignment", "outcome",  "lob",    "fit",        "policy"};
+  // What lies in kicking/ itself is below them all.
+  const auto storey = [&](const std::string& path) {
+    const auto begin = path.find('/') + 1, end = path.find('/', begin);
+    if (end == std::string::npos) return std::ptrdiff_t{-1};
+    return std::find(storeys.begin(), storeys.end(), path.substr(begin, end - begin)) - storeys.begin();
+  };
+  std::vector<std::string> broken;
+  for (const Include& include : includes("kicking")) {
+    if (storey(include.file) == std::ssize(storeys)) broken.push_back(include.file + " is in no storey");
+    if (include.target.starts_with("kicking/") && storey(include.target) > storey(include.file))
+      broken.push_back(include.file + " includes " + include.target);
+  }
+  EXPECT_THAT(broken, IsEmpty());
+}
+
 TEST(House, EveryOuterLibraryHasOneDoor) {
   const std::map<std::string, std::vector<std::string>> doors{
       {"dds/", {"bus/", "idl/"}}, {"SQLiteCpp/", {"evaluator/log/"}},   {"sqlite3.h", {"evaluator/log/"}},

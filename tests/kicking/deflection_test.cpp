@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {

@@ -1,4 +1,4 @@
-#include "kicking/fit/distance_table.hpp"
+#include "kicking/model/distance_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kicking/outcome/p_inside.hpp"
+
 namespace trivela::kicking {
 namespace {
 

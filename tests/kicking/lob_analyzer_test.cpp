@@ -244,7 +244,7 @@ struct Disc {
 std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double seconds) {
   const ScanGeometry geometry;
   const LaserMount mount;
-  sim::ScanBuilder empty(sim::LaserModel{}, 0.11, sim::Draws{1, 1});
+  sim::ScanBuilder empty(sim::LaserModel{}, 0.11, kicking::Draws{1, 1});
   std::vector<Scan> scans;
   const auto take = [&](double t_s) {
     empty.advance(std::llround(t_s * 1e9), std::nullopt);
@@ -313,7 +313,7 @@ TEST(NotALob, PersonWhoWalksOrRunsThrough) {
 }
 
 TEST(NotALob, Garbage) {
-  const sim::Draws draws{8, 1};
+  const kicking::Draws draws{8, 1};
   const ScanGeometry geometry;
   std::vector<Scan> scans(300, Scan{0, std::vector<std::uint32_t>(geometry.beams, 1)});
   for (std::uint32_t j = 0; j < scans.size(); ++j) {
@@ -323,7 +323,7 @@ TEST(NotALob, Garbage) {
     for (std::uint32_t i = 0; i < geometry.beams; ++i) {
       // Now steps, now patches as wide as a ball.
       if (i % (1 + j % 20) == 0)
-        range_mm = static_cast<std::uint32_t>(draws.uniform_in(0, 9e3, sim::Role::kStart, j, i));
+        range_mm = static_cast<std::uint32_t>(draws.uniform_in(0, 9e3, kicking::Role::kStart, j, i));
       scans[j].range_mm[i] = range_mm;
     }
   }

@@ -7,7 +7,7 @@
 
 #include "kicking/geometry/angle.hpp"
 #include "kicking/lob/ball_centre.hpp"
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking::lob {
@@ -17,7 +17,7 @@ constexpr double kRadius_m = 0.11;
 
 /// What a scanner sees of a ball at `distance_m` in the direction `direction_rad`.
 std::vector<BeamReturn> see(double distance_m, double direction_rad, double step_rad, double sd_m,
-                            const sim::Draws& draws, std::uint32_t trial) {
+                            const kicking::Draws& draws, std::uint32_t trial) {
   std::vector<BeamReturn> returns;
   const double half = std::asin(kRadius_m / distance_m);
   for (int beam = static_cast<int>(std::ceil((direction_rad - half) / step_rad));
@@ -25,7 +25,7 @@ std::vector<BeamReturn> see(double distance_m, double direction_rad, double step
     const double angle = beam * step_rad, off = angle - direction_rad, q = distance_m * std::sin(off);
     const double range = distance_m * std::cos(off) - std::sqrt(std::max(0.0, kRadius_m * kRadius_m - q * q));
     const auto index = static_cast<std::uint32_t>(beam + 10000);
-    returns.push_back({beam, beam * 17361, range + sd_m * draws.normal(sim::Role::kLaserNoise, trial, index),
+    returns.push_back({beam, beam * 17361, range + sd_m * draws.normal(kicking::Role::kLaserNoise, trial, index),
                        std::cos(angle), std::sin(angle)});
   }
   return returns;
@@ -38,11 +38,11 @@ struct Errors {
 
 template <typename Estimator>
 Errors errors_of(const Estimator& estimator, const tests::VectorRow& row, std::uint32_t trials) {
-  const sim::Draws draws{11, 1};
+  const kicking::Draws draws{11, 1};
   const double distance = row.number("centre_distance_m"), step = radians(row.number("inc_deg"));
   double sum = 0.0, squares = 0.0, across = 0.0;
   for (std::uint32_t trial = 0; trial < trials; ++trial) {
-    const double direction = draws.uniform_in(0.5, 0.5 + step, sim::Role::kStart, trial);
+    const double direction = draws.uniform_in(0.5, 0.5 + step, kicking::Role::kStart, trial);
     const PlanePoint c = estimator(see(distance, direction, step, row.number("sigma_range_m"), draws, trial));
     const double along = c.x * std::cos(direction) + c.z * std::sin(direction) - distance;
     sum += along;
@@ -105,7 +105,7 @@ TEST(BallCentre, MiddleOfExactTangentsIsTheClosedForm) {
 }
 
 TEST(BallCentre, CircleIsExactWithoutNoiseAtAnyDistanceAndDirection) {
-  const sim::Draws draws{1, 1};
+  const kicking::Draws draws{1, 1};
   for (const double distance : {0.5, 1.0, 2.7, 4.0, 8.0}) {
     for (double direction = 0.0; direction < 3.1; direction += 0.0137) {
       const auto returns = see(distance, direction, radians(0.25), 0.0, draws, 0);
@@ -120,7 +120,7 @@ TEST(FindBall, LeavesOutMixedPixelsAtTheEdges) {
   const double step = radians(0.25), distance = 4.0;
   for (const double behind : {0.01, 0.03, 0.06, 0.09, 0.3}) {  // the ball's centre
     for (std::uint32_t trial = 0; trial < 50; ++trial) {
-      auto returns = see(distance, 1.0 + 0.0001 * trial, step, 0.005, sim::Draws{1, 1}, trial);
+      auto returns = see(distance, 1.0 + 0.0001 * trial, step, 0.005, kicking::Draws{1, 1}, trial);
       const auto clean = find_ball(returns, step, {});
       const BeamReturn& edge = returns.back();
       const double angle = (edge.beam + 1) * step;
@@ -135,7 +135,7 @@ TEST(FindBall, LeavesOutMixedPixelsAtTheEdges) {
 
 TEST(FindBall, TakesTheTimeOfTheBeamThroughTheCentre) {
   const double step = radians(0.25), direction = 200.3 * step;
-  auto returns = see(3.0, direction, step, 0.0, sim::Draws{1, 1}, 0);
+  auto returns = see(3.0, direction, step, 0.0, kicking::Draws{1, 1}, 0);
   EXPECT_NEAR(static_cast<double>(find_ball(returns, step, {})->t_ns), 200.3 * 17361.0, 200.0);
   returns.pop_back();  // a dropout at one end
   returns.pop_back();
@@ -144,7 +144,7 @@ TEST(FindBall, TakesTheTimeOfTheBeamThroughTheCentre) {
 
 TEST(FindBall, KnowsABallByTheAngleItCovers) {
   const double step = radians(0.25);
-  const auto ball = see(3.0, 1.0, step, 0.0, sim::Draws{1, 1}, 0);
+  const auto ball = see(3.0, 1.0, step, 0.0, kicking::Draws{1, 1}, 0);
   EXPECT_NEAR(find_ball(ball, step, {})->chord_ratio, 1.0, 0.06);
   EXPECT_EQ(find_ball(ball, step, {})->returns, static_cast<int>(ball.size()));
   AnalyzerConfig other;

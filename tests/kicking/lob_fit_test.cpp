@@ -8,10 +8,9 @@
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
-#include "kicking/lob/drag_path.hpp"
 #include "kicking/lob/effective_fit.hpp"
 #include "kicking/lob/true_fit.hpp"
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
@@ -34,9 +33,9 @@ std::vector<BallCentre> flight(double speed, double angle_rad, double drag_coeff
 }
 
 void add_noise(std::vector<BallCentre>& centres, double sd_m, std::uint32_t trial) {
-  const sim::Draws draws{5, trial};
+  const kicking::Draws draws{5, trial};
   for (std::uint32_t i = 0; i < centres.size(); ++i) {
-    const auto noise = draws.normals(sim::Role::kLaserNoise, i);
+    const auto noise = draws.normals(kicking::Role::kLaserNoise, i);
     centres[i].x_m += sd_m * noise[0];
     centres[i].z_m += sd_m * noise[1];
   }

@@ -1,4 +1,4 @@
-#include "kicking/fit/power_table.hpp"
+#include "kicking/model/power_table.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "kicking/robot_model.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "evaluator/log/scan_log.hpp"
-#include "kicking/fit/power_table.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/model/power_table.hpp"
 #include "sim/laser/record.hpp"
 
 namespace trivela::pages {

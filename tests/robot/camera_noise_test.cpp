@@ -9,9 +9,9 @@ namespace trivela::robot {
 namespace {
 
 /// A flight of `n` sightings that something turns in the middle.
-std::vector<Sighting> flight(double sd_m, int n, std::mt19937_64& random) {
+std::vector<kicking::Sighting> flight(double sd_m, int n, std::mt19937_64& random) {
   std::normal_distribution<double> noise{0.0, sd_m};
-  std::vector<Sighting> seen;
+  std::vector<kicking::Sighting> seen;
   for (int i = 0; i < n; ++i) {
     const double t_s = 0.02 * i, turned_s = 0.02 * std::max(0, i - n / 2);
     seen.push_back(

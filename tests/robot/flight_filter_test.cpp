@@ -10,12 +10,12 @@
 namespace trivela::robot {
 namespace {
 
-sim::BallMotion kicked() { return {{0.5, 3.0, 0.11}, {-0.7, 6.0, 4.5}, false}; }
+sim::BallMotion kicked() { return {{{0.5, 3.0, 0.11}, {-0.7, 6.0, 4.5}}, false}; }
 
 FlightFilter filter_of(const sim::BallMotion& ball, double sd_mps = 0.01) {
-  const Sighting first{0, {ball.position_m.x, ball.position_m.y, ball.position_m.z}};
+  const kicking::Sighting first{0, ball.position_m};
   const auto& v = ball.velocity_mps;
-  return {first, 0.001, {v.x, v.y, v.z}, {sd_mps, sd_mps, sd_mps}, ball.rolling};
+  return {first, 0.001, v, {sd_mps, sd_mps, sd_mps}, ball.rolling};
 }
 
 void fly(sim::BallMotion& ball, double dt_s) {
@@ -28,23 +28,23 @@ TEST(FlightFilter, FliesAsTheBallDoesThroughAirAndBounces) {
   for (int i = 1; i <= 75; ++i) {
     fly(ball, 0.02);
     filter.advance(0.02);
-    ASSERT_NEAR(filter.x().p_m, ball.position_m.x, 0.02) << i;
-    ASSERT_NEAR(filter.y().p_m, ball.position_m.y, 0.03) << i;
-    ASSERT_NEAR(filter.z().p_m, ball.position_m.z, 0.05) << i;
+    ASSERT_NEAR(filter.x().p_m, ball.position_m.x(), 0.02) << i;
+    ASSERT_NEAR(filter.y().p_m, ball.position_m.y(), 0.03) << i;
+    ASSERT_NEAR(filter.z().p_m, ball.position_m.z(), 0.05) << i;
     if (i == 30) EXPECT_FALSE(filter.bounced());
   }
   EXPECT_TRUE(filter.bounced());
 }
 
 TEST(FlightFilter, ARollingBallComesToRestAndStays) {
-  sim::BallMotion ball{{0.0, 5.0, 0.11}, {0.3, 1.0, 0.0}, true};
+  sim::BallMotion ball{{{0.0, 5.0, 0.11}, {0.3, 1.0, 0.0}}, true};
   FlightFilter filter = filter_of(ball);
   for (int i = 0; i < 200; ++i) {
     fly(ball, 0.02);
     filter.advance(0.02);
   }
   EXPECT_EQ(filter.speed_mps(), 0.0);
-  EXPECT_NEAR(filter.y().p_m, ball.position_m.y, 0.02);
+  EXPECT_NEAR(filter.y().p_m, ball.position_m.y(), 0.02);
 }
 
 // Of many noisy flights the standard deviations hold what they say, before the bounce and after it.
@@ -57,16 +57,16 @@ TEST(FlightFilter, SaysHowFarItMayBeOff) {
   for (int run = 0; run < kRuns; ++run) {
     sim::BallMotion ball = kicked();
     const auto see = [&] {
-      return Eigen::Vector3d{ball.position_m.x + noise(random), ball.position_m.y + noise(random),
-                             ball.position_m.z + noise(random)};
+      return Eigen::Vector3d{ball.position_m.x() + noise(random), ball.position_m.y() + noise(random),
+                             ball.position_m.z() + noise(random)};
     };
     FlightFilter filter{{0, see()}, kSd_m, {0.0, 5.0, 4.0}, {3.0, 3.0, 3.0}, false};
     for (int i = 1; i <= 55; ++i) {
       fly(ball, 0.02);
       filter.advance(0.02);
       filter.correct(see(), kSd_m);
-      const double off_z = filter.z().p_m - ball.position_m.z;
-      if (i == 40) squares_x += std::pow(filter.x().p_m - ball.position_m.x, 2) / filter.x().var_p_m2;
+      const double off_z = filter.z().p_m - ball.position_m.z();
+      if (i == 40) squares_x += std::pow(filter.x().p_m - ball.position_m.x(), 2) / filter.x().var_p_m2;
       if (i == 40) squares_z += off_z * off_z / filter.z().var_p_m2;
       if (i == 55) after_z += off_z * off_z / filter.z().var_p_m2;
     }

@@ -16,8 +16,8 @@ inline constexpr std::int64_t kFrame_ns = 20'000'000;
 
 /// A kick of the simulated world, as it leaves the robot.
 struct Kick {
-  sim::Vec3 from_m{0.0, 4.0, 0.11};
-  sim::Vec3 velocity_mps{};
+  Eigen::Vector3d from_m{0.0, 4.0, 0.11};
+  Eigen::Vector3d velocity_mps{0.0, 0.0, 0.0};
   bool rolling = false;
   sim::PlanPoint opponent{50.0, 50.0};
 };
@@ -25,8 +25,8 @@ struct Kick {
 /// A kick without drag that comes to `x_cross_m`, `z_cross_m` at the goal line after `flight_s`.
 inline Kick aimed(double x_cross_m, double z_cross_m, double flight_s = 0.8) {
   Kick kick;
-  kick.velocity_mps = {(x_cross_m - kick.from_m.x) / flight_s, (9.0 - kick.from_m.y) / flight_s,
-                       (z_cross_m - kick.from_m.z) / flight_s + 9.81 * flight_s / 2.0};
+  kick.velocity_mps = {(x_cross_m - kick.from_m.x()) / flight_s, (9.0 - kick.from_m.y()) / flight_s,
+                       (z_cross_m - kick.from_m.z()) / flight_s + 9.81 * flight_s / 2.0};
   return kick;
 }
 
@@ -54,16 +54,16 @@ inline FlownShot fly(const Kick& kick, const sim::Scenario& scenario, unsigned s
   std::uniform_real_distribution<double> share{0.0, 1.0};
   FlownShot flown;
   flown.release_t_ns = 10 * kFrame_ns + 2 * kSubstep_ns;
-  flown.expected_speed_mps = std::hypot(kick.velocity_mps.x, kick.velocity_mps.y);
+  flown.expected_speed_mps = std::hypot(kick.velocity_mps.x(), kick.velocity_mps.y());
   std::optional<sim::Shot> shot;
-  const double opponent_x = kick.opponent.x_m - kick.from_m.x, opponent_y = kick.opponent.y_m - kick.from_m.y;
+  const double opponent_x = kick.opponent.x_m - kick.from_m.x(), opponent_y = kick.opponent.y_m - kick.from_m.y();
   std::array<sim::OpponentBody, 1> opponents;
   opponents[0].place(kick.from_m, {std::hypot(opponent_x, opponent_y), std::atan2(-opponent_x, opponent_y), 0.0});
   std::int64_t end_ns = 4'000'000'000;
   const auto tail_ns = static_cast<std::int64_t>((scenario.possession.after_crossing_s + watch_on_s) * 1e9);
   for (std::int64_t t_ns = 0; t_ns <= end_ns; t_ns += kSubstep_ns) {
     if (t_ns == flown.release_t_ns)
-      shot.emplace(scenario, sim::BallMotion{kick.from_m, kick.velocity_mps, kick.rolling}, t_ns);
+      shot.emplace(scenario, sim::BallMotion{{kick.from_m, kick.velocity_mps}, kick.rolling}, t_ns);
     if (shot && t_ns > flown.release_t_ns) shot->advance_to(t_ns, opponents);
     if (shot && shot->result() && flown.truth.t_ns == 0) {
       flown.truth = *shot->result();
@@ -71,9 +71,9 @@ inline FlownShot fly(const Kick& kick, const sim::Scenario& scenario, unsigned s
       flown.play_ends_t_ns = flown.truth.t_ns + tail_ns;
     }
     if (t_ns % kFrame_ns != 0) continue;
-    const sim::Vec3& ball = shot ? shot->ball().position_m : kick.from_m;
-    const Eigen::Vector3d seen = Eigen::Vector3d{ball.x, ball.y, ball.z} +
-                                 camera.position_sd_m * Eigen::Vector3d{noise(random), noise(random), noise(random)};
+    const Eigen::Vector3d& ball = shot ? shot->ball().position_m : kick.from_m;
+    const Eigen::Vector3d seen =
+        ball + camera.position_sd_m * Eigen::Vector3d{noise(random), noise(random), noise(random)};
     flown.frames.push_back({t_ns, share(random) < camera.dropout_ratio ? std::nullopt : std::optional{seen}});
   }
   return flown;

@@ -13,9 +13,9 @@ const config::ShotObserver kSettings{};
 const kicking::Goal kGoal{};
 
 /// Sightings of a flight that would cross the goal line at x, z after 0.5 s, up to `until_s`.
-std::vector<Sighting> towards(double x_cross_m, double z_cross_m, double until_s = 0.49) {
+std::vector<kicking::Sighting> towards(double x_cross_m, double z_cross_m, double until_s = 0.49) {
   constexpr double kFlight_s = 0.5;
-  std::vector<Sighting> seen;
+  std::vector<kicking::Sighting> seen;
   for (int i = 0; i * 0.02 <= until_s; ++i) {
     const double t_s = i * 0.02, left_s = kFlight_s - t_s;
     const double vz_end_mps = -2.0;
@@ -26,7 +26,7 @@ std::vector<Sighting> towards(double x_cross_m, double z_cross_m, double until_s
   return seen;
 }
 
-ShotVerdict verdict_of(const std::vector<Sighting>& seen, FlightEnd end, const kicking::Goal& goal = kGoal) {
+ShotVerdict verdict_of(const std::vector<kicking::Sighting>& seen, FlightEnd end, const kicking::Goal& goal = kGoal) {
   const ShotTrack track{.sightings = seen,
                         .end = end,
                         .release_t_ns = seen.front().t_ns,
@@ -37,7 +37,7 @@ ShotVerdict verdict_of(const std::vector<Sighting>& seen, FlightEnd end, const k
   return judge_shot(track, goal, kSettings);
 }
 
-Outcome judged(const std::vector<Sighting>& seen, FlightEnd end) { return verdict_of(seen, end).outcome; }
+Outcome judged(const std::vector<kicking::Sighting>& seen, FlightEnd end) { return verdict_of(seen, end).outcome; }
 
 TEST(ShotJudge, ABallThrownBackHitTheNearerOfPostAndBar) {
   // By a hair it would have gone in, or past: it came back, so it met the frame.
@@ -64,7 +64,7 @@ TEST(ShotJudge, ABallThatFliesFreelyUntilTheStopOrIsLostIsUnknown) {
 TEST(ShotJudge, ABallThatSomethingTurnedBeforeTheStopWasBlocked) {
   auto seen = towards(0.0, 0.5, 0.3);
   for (int i = 0; i < 6; ++i) {
-    const Sighting last = seen.back();
+    const kicking::Sighting last = seen.back();
     seen.push_back({last.t_ns + 20'000'000, last.ball_m + Eigen::Vector3d{0.05, -0.04, -0.03}});
   }
   const auto verdict = verdict_of(seen, FlightEnd::kTakenAway);
@@ -124,7 +124,7 @@ TEST(ShotJudge, AHandfulOfSightingsTellNothing) {
 }
 
 TEST(ShotJudge, FourSightingsTellOfATurnAndOfNothingElse) {
-  const auto outcome_of = [](const std::vector<Sighting>& seen) {
+  const auto outcome_of = [](const std::vector<kicking::Sighting>& seen) {
     const ShotTrack track{.sightings = seen,
                           .end = FlightEnd::kTakenAway,
                           .release_t_ns = 0,

@@ -66,7 +66,7 @@ TEST_P(ShotTrackerTest, SeesWhereTheBallWent) {
     EXPECT_GT(tracked.t_ns, shot.truth.t_ns);
     ASSERT_TRUE(tracked.verdict.exit_speed_mps && tracked.verdict.exit_elevation_rad);
     EXPECT_NEAR(*tracked.verdict.exit_speed_mps,
-                std::hypot(shot.expected_speed_mps, aimed(GetParam().x_m, GetParam().z_m).velocity_mps.z), 1.2);
+                std::hypot(shot.expected_speed_mps, aimed(GetParam().x_m, GetParam().z_m).velocity_mps.z()), 1.2);
   }
 }
 
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ShotTracker, ABallThatRollsInIsOnTarget) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     Kick kick;
-    kick.from_m.y = 5.0;
+    kick.from_m.y() = 5.0;
     kick.velocity_mps = {0.3, 4.0, 0.0};
     kick.rolling = true;
     const auto tracked = watched(fly(kick, airless(), seed));
@@ -110,7 +110,7 @@ TEST(ShotTracker, ABallThatBouncesInIsJudgedByItsLastBounce) {
 TEST(ShotTracker, ABallThatRestsBeforeTheLineIsShort) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     Kick kick;
-    kick.from_m.y = 1.0;
+    kick.from_m.y() = 1.0;
     kick.velocity_mps = {0.0, 2.5, 2.5};
     const auto shot = fly(kick, airless(), seed);
     ASSERT_EQ(shot.truth.outcome, Outcome::kShort);
@@ -277,14 +277,14 @@ TEST(ShotTracker, AgreesWithTheTruthWhereverTheCrossingIsNotWithinTheNoise) {
     Kick kick;
     kick.from_m = {in(-2.5, 2.5), in(1.0, 6.0), 0.11};
     const double speed_mps = in(3.5, 11.0), elevation_rad = in(0.60, 0.66);
-    const double azimuth_rad = std::atan2(in(-1.6, 1.6) - kick.from_m.x, 9.0 - kick.from_m.y);
+    const double azimuth_rad = std::atan2(in(-1.6, 1.6) - kick.from_m.x(), 9.0 - kick.from_m.y());
     kick.velocity_mps = {speed_mps * std::cos(elevation_rad) * std::sin(azimuth_rad),
                          speed_mps * std::cos(elevation_rad) * std::cos(azimuth_rad),
                          speed_mps * std::sin(elevation_rad)};
     if (i % 5 == 0) {
       const double along = in(0.8, 2.5);
-      kick.opponent = {kick.from_m.x + along * std::sin(azimuth_rad) + in(-0.3, 0.3),
-                       kick.from_m.y + along * std::cos(azimuth_rad)};
+      kick.opponent = {kick.from_m.x() + along * std::sin(azimuth_rad) + in(-0.3, 0.3),
+                       kick.from_m.y() + along * std::cos(azimuth_rad)};
     }
     const auto shot = fly(kick, scenario, i);
     const auto tracked = watched(shot);

@@ -26,17 +26,17 @@ Crossings cross(double power, double distance_m, double sideways_mps, double for
   const kicking::CrossingSpread law =
       kicking::crossing_spread({{0, 0}, {0, 1}, {sideways_mps, forward_mps}, 0.0},
                                {seen.speed_mps, Elevation(seen.elevation_rad)}, robot, {}, distance_m);
-  BallMotion ball{{0, 0, scenario.ball.radius_m},
-                  {sideways_mps, exit.speed_mps * std::cos(exit.elevation_rad) + forward_mps,
-                   exit.speed_mps * std::sin(exit.elevation_rad)}};
+  BallMotion ball{{{0, 0, scenario.ball.radius_m},
+                   {sideways_mps, exit.speed_mps * std::cos(exit.elevation_rad) + forward_mps,
+                    exit.speed_mps * std::sin(exit.elevation_rad)}}};
   BallMotion before = ball;
-  for (int i = 0; i < 3000 && ball.position_m.y < distance_m; ++i) {
+  for (int i = 0; i < 3000 && ball.position_m.y() < distance_m; ++i) {
     before = ball;
     advance(ball, scenario.ball, 1e-3);
   }
-  const double part = (distance_m - before.position_m.y) / (ball.position_m.y - before.position_m.y);
-  return {law.x_m, law.z_m, std::lerp(before.position_m.x, ball.position_m.x, part),
-          std::lerp(before.position_m.z, ball.position_m.z, part)};
+  const double part = (distance_m - before.position_m.y()) / (ball.position_m.y() - before.position_m.y());
+  return {law.x_m, law.z_m, std::lerp(before.position_m.x(), ball.position_m.x(), part),
+          std::lerp(before.position_m.z(), ball.position_m.z(), part)};
 }
 
 /// The least power that crosses at 0.4 m by the law, to a quarter of a set-point.

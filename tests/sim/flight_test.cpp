@@ -12,24 +12,24 @@ namespace {
 constexpr double kStep_s = 1e-3;
 
 BallMotion launch(double speed, double elevation, double z = 0.11) {
-  return {{0.0, 0.0, z}, {0.0, speed * std::cos(elevation), speed * std::sin(elevation)}};
+  return {{{0.0, 0.0, z}, {0.0, speed * std::cos(elevation), speed * std::sin(elevation)}}};
 }
 
 double energy(const BallMotion& m, const Ball& ball) {
-  const Vec3& v = m.velocity_mps;
-  return 0.5 * (v.x * v.x + v.y * v.y + v.z * v.z) + ball.gravity_mps2 * m.position_m.z;
+  const Eigen::Vector3d& v = m.velocity_mps;
+  return 0.5 * (v.x() * v.x() + v.y() * v.y() + v.z() * v.z()) + ball.gravity_mps2 * m.position_m.z();
 }
 
 TEST(Flight, WithoutDragFollowsTheParabola) {
   Ball ball;
   ball.drag_coefficient = 0.0;
   BallMotion m = launch(8.0, 0.7, 1.0);
-  const Vec3 v = m.velocity_mps;
+  const Eigen::Vector3d v = m.velocity_mps;
   for (int i = 1; i <= 900; ++i) {
     advance(m, ball, kStep_s);
     const double t = i * kStep_s;
-    ASSERT_NEAR(m.position_m.y, v.y * t, 1e-9);
-    ASSERT_NEAR(m.position_m.z, 1.0 + v.z * t - 0.5 * 9.81 * t * t, 1e-9);
+    ASSERT_NEAR(m.position_m.y(), v.y() * t, 1e-9);
+    ASSERT_NEAR(m.position_m.z(), 1.0 + v.z() * t - 0.5 * 9.81 * t * t, 1e-9);
   }
 }
 
@@ -43,14 +43,14 @@ TEST(Flight, LandsWhereTheDragVectorsSay) {
     double apex = 0.0;
     BallMotion before = m;
     double t = 0.0;
-    while (m.position_m.z >= 50.0) {
+    while (m.position_m.z() >= 50.0) {
       before = m;
       advance(m, ball, kStep_s);
       t += kStep_s;
-      apex = std::max(apex, m.position_m.z - 50.0);
+      apex = std::max(apex, m.position_m.z() - 50.0);
     }
-    const double part = (before.position_m.z - 50.0) / (before.position_m.z - m.position_m.z);
-    EXPECT_NEAR(std::lerp(before.position_m.y, m.position_m.y, part), row.number("range_m"), 1e-4);
+    const double part = (before.position_m.z() - 50.0) / (before.position_m.z() - m.position_m.z());
+    EXPECT_NEAR(std::lerp(before.position_m.y(), m.position_m.y(), part), row.number("range_m"), 1e-4);
     EXPECT_NEAR(t - kStep_s + part * kStep_s, row.number("time_s"), 1e-4);
     EXPECT_NEAR(apex, row.number("apex_m"), 1e-4);
   }
@@ -65,49 +65,49 @@ TEST(Flight, NeverGainsEnergyAndComesToRest) {
     for (; !at_rest(m) && steps < 60000; ++steps) {
       advance(m, ball, kStep_s);
       ASSERT_LE(energy(m, ball), last + 1e-9);
-      ASSERT_GE(m.position_m.z, ball.radius_m - 1e-9);
+      ASSERT_GE(m.position_m.z(), ball.radius_m - 1e-9);
       last = energy(m, ball);
     }
     EXPECT_TRUE(at_rest(m));
-    const Vec3 resting = m.position_m;
+    const Eigen::Vector3d resting = m.position_m;
     advance(m, ball, 0.1);
-    EXPECT_EQ(m.position_m.y, resting.y);
+    EXPECT_EQ(m.position_m.y(), resting.y());
   }
 }
 
 TEST(Flight, BouncesWithRestitutionAndRetention) {
   Ball ball;
   ball.drag_coefficient = 0.0;
-  BallMotion m{{0.0, 0.0, 0.61}, {1.0, 2.0, 0.0}};
+  BallMotion m{{{0.0, 0.0, 0.61}, {1.0, 2.0, 0.0}}};
   const double impact = std::sqrt(2.0 * 9.81 * 0.5), fall = impact / 9.81;
   const double t = 0.4;  // after the first bounce, before the second
   for (int i = 0; i < 400; ++i) advance(m, ball, kStep_s);
   const double flown = t - fall;
-  EXPECT_NEAR(m.velocity_mps.z, 0.65 * impact - 9.81 * flown, 1e-6);
-  EXPECT_NEAR(m.position_m.z, 0.11 + 0.65 * impact * flown - 0.5 * 9.81 * flown * flown, 1e-6);
-  EXPECT_NEAR(m.velocity_mps.x, 0.8, 1e-12);
-  EXPECT_NEAR(m.position_m.y, 2.0 * fall + 1.6 * flown, 1e-6);
+  EXPECT_NEAR(m.velocity_mps.z(), 0.65 * impact - 9.81 * flown, 1e-6);
+  EXPECT_NEAR(m.position_m.z(), 0.11 + 0.65 * impact * flown - 0.5 * 9.81 * flown * flown, 1e-6);
+  EXPECT_NEAR(m.velocity_mps.x(), 0.8, 1e-12);
+  EXPECT_NEAR(m.position_m.y(), 2.0 * fall + 1.6 * flown, 1e-6);
 }
 
 TEST(Flight, RollsAsFarAsItsDecelerationLets) {
   Ball ball;
   ball.drag_coefficient = 0.0;
-  BallMotion m{{0.0, 0.0, ball.radius_m}, {0.6, 0.8, 0.0}, true};
+  BallMotion m{{{0.0, 0.0, ball.radius_m}, {0.6, 0.8, 0.0}}, true};
   while (!at_rest(m)) advance(m, ball, kStep_s);
-  EXPECT_NEAR(std::hypot(m.position_m.x, m.position_m.y), 1.0 / (2.0 * ball.rolling_deceleration_mps2), 1e-9);
-  EXPECT_NEAR(m.position_m.x / m.position_m.y, 0.75, 1e-9);
+  EXPECT_NEAR(std::hypot(m.position_m.x(), m.position_m.y()), 1.0 / (2.0 * ball.rolling_deceleration_mps2), 1e-9);
+  EXPECT_NEAR(m.position_m.x() / m.position_m.y(), 0.75, 1e-9);
 }
 
 TEST(Flight, IsItsOwnMirrorImage) {
   const Ball ball;
-  BallMotion right{{0.5, 0.0, 0.11}, {1.3, 5.0, 4.0}}, left{{-0.5, 0.0, 0.11}, {-1.3, 5.0, 4.0}};
+  BallMotion right{{{0.5, 0.0, 0.11}, {1.3, 5.0, 4.0}}}, left{{{-0.5, 0.0, 0.11}, {-1.3, 5.0, 4.0}}};
   for (int i = 0; i < 2500; ++i) {
     advance(right, ball, kStep_s);
     advance(left, ball, kStep_s);
   }
-  EXPECT_EQ(right.position_m.x, -left.position_m.x);
-  EXPECT_EQ(right.position_m.y, left.position_m.y);
-  EXPECT_EQ(right.position_m.z, left.position_m.z);
+  EXPECT_EQ(right.position_m.x(), -left.position_m.x());
+  EXPECT_EQ(right.position_m.y(), left.position_m.y());
+  EXPECT_EQ(right.position_m.z(), left.position_m.z());
 }
 
 TEST(Flight, DoesNotDependOnTheStep) {
@@ -115,8 +115,8 @@ TEST(Flight, DoesNotDependOnTheStep) {
   BallMotion coarse = launch(8.0, 0.64), fine = coarse;
   for (int i = 0; i < 2000; ++i) advance(coarse, ball, 1e-3);
   for (int i = 0; i < 20000; ++i) advance(fine, ball, 1e-4);
-  EXPECT_NEAR(coarse.position_m.y, fine.position_m.y, 1e-5);
-  EXPECT_NEAR(coarse.position_m.z, fine.position_m.z, 1e-5);
+  EXPECT_NEAR(coarse.position_m.y(), fine.position_m.y(), 1e-5);
+  EXPECT_NEAR(coarse.position_m.z(), fine.position_m.z(), 1e-5);
 }
 
 }  // namespace

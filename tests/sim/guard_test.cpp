@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 namespace trivela::sim {
 namespace {
@@ -72,9 +72,9 @@ TEST(Guard, WithWorseEyesItStopsLess) {
     guard.sight_sd_mps = sight_sd_mps;
     int n = 0;
     for (std::uint32_t i = 0; i < 2000; ++i) {
-      const Draws draws{3, i};
-      const auto noise = draws.normals(Role::kKeeper, 0);
-      n += guard_stops(guard, {}, 0.0, ball(draws.uniform_in(-0.89, 0.89, Role::kStart, 0), 0.5, 0.9),
+      const kicking::Draws draws{3, i};
+      const auto noise = draws.normals(kicking::Role::kKeeper, 0);
+      n += guard_stops(guard, {}, 0.0, ball(draws.uniform_in(-0.89, 0.89, kicking::Role::kStart, 0), 0.5, 0.9),
                        {noise[0], noise[1]});
     }
     return n;

@@ -12,7 +12,7 @@ namespace trivela::sim {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-const Draws kDraws{1, 1};
+const kicking::Draws kDraws{1, 1};
 
 Kicker quiet() {
   Kicker k;
@@ -145,11 +145,11 @@ TEST(Release, AddsTheVelocityOfTheBallsPoint) {
                       .live = true};
   // Facing -x of F (heading 90 degrees): forward is -x, right is +y.
   const BallMotion m = release(stroke, {1.0, 2.0, std::numbers::pi / 2}, {0.4, 1.5, 2.0}, Kicker{}, 0.27, 0.11);
-  EXPECT_NEAR(m.position_m.x, 0.73, 1e-12);
-  EXPECT_NEAR(m.position_m.y, 2.0, 1e-12);
-  EXPECT_NEAR(m.velocity_mps.x, -(8.0 + 1.5), 1e-12);
-  EXPECT_NEAR(m.velocity_mps.y, 0.4 - 2.0 * 0.27, 1e-12);
-  EXPECT_NEAR(m.velocity_mps.z, 6.0, 1e-12);
+  EXPECT_NEAR(m.position_m.x(), 0.73, 1e-12);
+  EXPECT_NEAR(m.position_m.y(), 2.0, 1e-12);
+  EXPECT_NEAR(m.velocity_mps.x(), -(8.0 + 1.5), 1e-12);
+  EXPECT_NEAR(m.velocity_mps.y(), 0.4 - 2.0 * 0.27, 1e-12);
+  EXPECT_NEAR(m.velocity_mps.z(), 6.0, 1e-12);
 }
 
 TEST(Release, KeepsForwardAndBackwardTransferApart) {
@@ -163,9 +163,9 @@ TEST(Release, KeepsForwardAndBackwardTransferApart) {
                       .exit_elevation_rad = 0.0,
                       .deflection_rad = 0.0,
                       .live = true};
-  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, 2.0, 0.0}, k, 0.27, 0.11).velocity_mps.y, 6.0);
-  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, -2.0, 0.0}, k, 0.27, 0.11).velocity_mps.y, 4.5);
-  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, 2.0, 3.0}, k, 0.27, 0.11).velocity_mps.x, 0.0);
+  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, 2.0, 0.0}, k, 0.27, 0.11).velocity_mps.y(), 6.0);
+  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, -2.0, 0.0}, k, 0.27, 0.11).velocity_mps.y(), 4.5);
+  EXPECT_DOUBLE_EQ(release(stroke, {}, {1.0, 2.0, 3.0}, k, 0.27, 0.11).velocity_mps.x(), 0.0);
 }
 
 }  // namespace

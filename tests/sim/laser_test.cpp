@@ -14,7 +14,7 @@ namespace {
 
 using kicking::lob::Scan;
 
-const Draws kDraws{5, 1};
+const kicking::Draws kDraws{5, 1};
 constexpr double kRadius_m = 0.11;
 
 LaserModel noiseless() {
@@ -25,8 +25,8 @@ LaserModel noiseless() {
 
 /// Scans of the first `seconds`, in steps of step_s, with the ball at place(t).
 std::vector<Scan> scans_of(const LaserModel& laser, double seconds,
-                           const std::function<std::optional<Vec3>(double)>& place, double step_s = 1e-3,
-                           const Draws& draws = kDraws) {
+                           const std::function<std::optional<Eigen::Vector3d>(double)>& place, double step_s = 1e-3,
+                           const kicking::Draws& draws = kDraws) {
   ScanBuilder builder(laser, kRadius_m, draws);
   std::vector<Scan> scans;
   const auto steps = std::lround(seconds / step_s);
@@ -76,9 +76,9 @@ TEST(ScanBuilder, SeesFloorWallsAndCeiling) {
 
 TEST(ScanBuilder, MeasuresTheBallWhereItIsAtEachBeamsTime) {
   const LaserModel laser = noiseless();
-  const Vec3 start{3.0, 0.0, 1.0}, velocity{6.0, 0.0, 3.0};
+  const Eigen::Vector3d start{3.0, 0.0, 1.0}, velocity{6.0, 0.0, 3.0};
   const auto place = [&](double t) {
-    return std::optional(Vec3{start.x + velocity.x * t, 0.0, start.z + velocity.z * t});
+    return std::optional(Eigen::Vector3d{start.x() + velocity.x() * t, 0.0, start.z() + velocity.z() * t});
   };
   const auto scans = scans_of(laser, 0.1, place);
   ASSERT_EQ(scans.size(), 4u);
@@ -86,8 +86,8 @@ TEST(ScanBuilder, MeasuresTheBallWhereItIsAtEachBeamsTime) {
   for (const Scan& scan : scans) {
     for (std::size_t i = 0; i < scan.range_mm.size(); ++i) {
       const double t = 1e-9 * static_cast<double>(scan.t_ns) + static_cast<double>(i) * laser.geometry.beam_period_s;
-      const Vec3 ball = *place(t);
-      const double x = ball.x - laser.x_m, z = ball.z - laser.z_m, distance = std::hypot(x, z);
+      const Eigen::Vector3d ball = *place(t);
+      const double x = ball.x() - laser.x_m, z = ball.z() - laser.z_m, distance = std::hypot(x, z);
       const double off = elevation(laser, i) - std::atan2(z, x), q = distance * std::sin(off);
       if (std::cos(off) < 0.0 || std::abs(q) >= kRadius_m) continue;
       const double range = distance * std::cos(off) - std::sqrt(kRadius_m * kRadius_m - q * q);
@@ -100,7 +100,7 @@ TEST(ScanBuilder, MeasuresTheBallWhereItIsAtEachBeamsTime) {
 
 TEST(ScanBuilder, DoesNotDependOnTheStepsOfTheWorld) {
   const LaserModel laser;
-  const auto place = [](double t) { return std::optional(Vec3{2.0 + 5.0 * t, 0.01, 0.5 + 2.0 * t}); };
+  const auto place = [](double t) { return std::optional(Eigen::Vector3d{2.0 + 5.0 * t, 0.01, 0.5 + 2.0 * t}); };
   const auto coarse = scans_of(laser, 0.2, place, 1e-3), fine = scans_of(laser, 0.2, place, 1e-4);
   ASSERT_EQ(coarse.size(), fine.size());
   for (std::size_t j = 0; j < coarse.size(); ++j) EXPECT_EQ(coarse[j].range_mm, fine[j].range_mm);
@@ -108,7 +108,7 @@ TEST(ScanBuilder, DoesNotDependOnTheStepsOfTheWorld) {
 
 TEST(ScanBuilder, IsFixedBySeedAndOpportunity) {
   const LaserModel laser;
-  const auto scan = [&](const Draws& draws) {
+  const auto scan = [&](const kicking::Draws& draws) {
     return scans_of(
                laser, 0.03, [](double) { return std::nullopt; }, 1e-3, draws)
         .at(0)
@@ -150,7 +150,7 @@ TEST(ScanBuilder, HasTheNoiseAndDropoutsThatTheModelNames) {
 
 TEST(ScanBuilder, MixesPixelsAtTheBallsEdges) {
   LaserModel laser = noiseless();
-  const auto place = [](double) { return std::optional(Vec3{5.0, 0.0, 1.5}); };
+  const auto place = [](double) { return std::optional(Eigen::Vector3d{5.0, 0.0, 1.5}); };
   const auto clean = scans_of(laser, 0.03, place).at(0);
   laser.mixed_ratio = 0.3;
   const auto scans = scans_of(laser, 20.0, place);
@@ -173,7 +173,7 @@ TEST(ScanBuilder, BallBesideThePlaneLooksSmallerAndVanishes) {
   const LaserModel laser = noiseless();
   const auto background = empty_scans(laser, 0.03).at(0);
   const auto covered = [&](double off_m) {
-    const auto scans = scans_of(laser, 0.03, [&](double) { return std::optional(Vec3{4.0, off_m, 1.05}); });
+    const auto scans = scans_of(laser, 0.03, [&](double) { return std::optional(Eigen::Vector3d{4.0, off_m, 1.05}); });
     return hits(scans.at(0), background) * laser.geometry.step_rad;
   };
   for (const double off : {-0.1, -0.05, 0.0, 0.05, 0.1}) {
@@ -186,17 +186,21 @@ TEST(ScanBuilder, BallBesideThePlaneLooksSmallerAndVanishes) {
 
 TEST(ScanBuilder, SeesTheSameWhereverItStandsInTheField) {
   const LaserModel along_x = noiseless();
-  const auto expected = scans_of(along_x, 0.1, [](double t) { return std::optional(Vec3{6.0 * t, 0.05, 0.5}); });
+  const auto expected = scans_of(along_x, 0.1, [](double t) {
+    return std::optional(Eigen::Vector3d{6.0 * t, 0.05, 0.5});
+  });
   for (const double heading : {0.0, 0.7, -2.5}) {
-    const Vec3 u{-std::sin(heading), std::cos(heading), 0.0}, left{-std::cos(heading), -std::sin(heading), 0.0};
-    const Vec3 origin{1.5, -2.0, 0.0};
+    const Eigen::Vector3d u{-std::sin(heading), std::cos(heading), 0.0},
+        left{-std::cos(heading), -std::sin(heading), 0.0};
+    const Eigen::Vector3d origin{1.5, -2.0, 0.0};
     const auto placed = [&](double along, double to_left, double z) {
-      return Vec3{origin.x + along * u.x + to_left * left.x, origin.y + along * u.y + to_left * left.y, z};
+      return Eigen::Vector3d{origin.x() + along * u.x() + to_left * left.x(),
+                             origin.y() + along * u.y() + to_left * left.y(), z};
     };
     LaserModel laser = noiseless();
-    const Vec3 at = placed(4.0, 0.0, 0.0);
-    laser.x_m = at.x;
-    laser.y_m = at.y;
+    const Eigen::Vector3d at = placed(4.0, 0.0, 0.0);
+    laser.x_m = at.x();
+    laser.y_m = at.y();
     laser.heading_rad = heading;
     const auto scans = scans_of(laser, 0.1, [&](double t) { return std::optional(placed(6.0 * t, 0.05, 0.5)); });
     EXPECT_NEAR(mount_of(laser, placed(0.0, 0.0, 0.11)).x_m, 4.0, 1e-12);
@@ -211,7 +215,7 @@ TEST(ScanBuilder, SeesTheSameWhereverItStandsInTheField) {
 TEST(ScanBuilder, LyingOnItsOtherSideItLooksTheOtherWayRound) {
   LaserModel laser = noiseless();
   laser.z_m = 0.3;
-  const auto place = [](double) { return std::optional(Vec3{3.0, 0.0, 1.0}); };
+  const auto place = [](double) { return std::optional(Eigen::Vector3d{3.0, 0.0, 1.0}); };
   auto scan = scans_of(laser, 0.03, place).at(0).range_mm;
   laser.mirrored = true;
   const auto mirrored = scans_of(laser, 0.03, place).at(0).range_mm;
@@ -239,7 +243,7 @@ TEST(ScanBuilder, BallThatComesOrGoesIsThereOnlyBetweenTwoSights) {
   const LaserModel laser = noiseless();
   const auto background = empty_scans(laser, 0.03).at(0);
   const auto scans = scans_of(laser, 0.2, [](double t) {
-    return t > 0.049 && t < 0.101 ? std::optional(Vec3{3.0, 0.0, 1.0}) : std::nullopt;
+    return t > 0.049 && t < 0.101 ? std::optional(Eigen::Vector3d{3.0, 0.0, 1.0}) : std::nullopt;
   });
   std::vector<int> seen;
   for (const Scan& scan : scans) seen.push_back(hits(scan, background) > 0);
@@ -273,11 +277,11 @@ TEST(SyntheticRecord, HoldsBackgroundAndThenEachKickAsItsTruthSays) {
     // Where the ball is in the scan that sees it 0.3 s later.
     Ball ball;
     ball.drag_coefficient = truth.kick.drag_coefficient;
-    BallMotion motion{{0.0, 0.0, 0.11},
-                      {truth.kick.exit_speed_mps * std::cos(truth.kick.exit_angle_rad), 0.0,
-                       truth.kick.exit_speed_mps * std::sin(truth.kick.exit_angle_rad)}};
+    BallMotion motion{{{0.0, 0.0, 0.11},
+                       {truth.kick.exit_speed_mps * std::cos(truth.kick.exit_angle_rad), 0.0,
+                        truth.kick.exit_speed_mps * std::sin(truth.kick.exit_angle_rad)}}};
     for (int i = 0; i < 300; ++i) advance(motion, ball, 1e-3);
-    const double x = motion.position_m.x - laser.x_m, z = motion.position_m.z - laser.z_m;
+    const double x = motion.position_m.x() - laser.x_m, z = motion.position_m.z() - laser.z_m;
     const auto after = std::find_if(record.scans.begin(), record.scans.end(), [&](const Scan& s) {
       return s.t_ns + 25'000'000 > truth.launch_t_ns + 300'000'000;
     });

@@ -25,7 +25,7 @@ TEST(Match, TheSameSeedAndCommandsGiveTheSameBits) {
   }
   ASSERT_EQ(a.kicks.size(), b.kicks.size());
   for (std::size_t i = 0; i < a.kicks.size(); ++i) {
-    ASSERT_EQ(a.kicks[i].release_velocity_mps.x, b.kicks[i].release_velocity_mps.x);
+    ASSERT_EQ(a.kicks[i].release_velocity_mps.x(), b.kicks[i].release_velocity_mps.x());
     ASSERT_EQ(a.kicks[i].margin_m, b.kicks[i].margin_m);
   }
 }

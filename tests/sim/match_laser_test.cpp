@@ -70,8 +70,8 @@ TEST(MatchLaser, SeesTheBallFlyOverIt) {
   ASSERT_EQ(watched.kicks.size(), 1u);
   const KickTruth& kick = watched.kicks.front();
   // A ball at 30 degrees of drag-free lob is straight above the laser, 4 m away, about when it has flown 4 m.
-  const double over_s = 4.0 / kick.release_velocity_mps.y;
-  const double height_m = 0.11 + kick.release_velocity_mps.z * over_s - 0.5 * 9.81 * over_s * over_s;
+  const double over_s = 4.0 / kick.release_velocity_mps.y();
+  const double height_m = 0.11 + kick.release_velocity_mps.z() * over_s - 0.5 * 9.81 * over_s * over_s;
   std::uint32_t nearest_mm = 100'000;
   for (const auto& scan : watched.scans) {
     const double age_s = 1e-9 * static_cast<double>(scan.t_ns - kick.release_t_ns);
@@ -90,8 +90,8 @@ TEST(MatchLaser, ChangesNothingElse) {
   ASSERT_EQ(seen.kicks.size(), unseen.kicks.size());
   for (std::size_t i = 0; i < seen.kicks.size(); ++i) {
     EXPECT_EQ(seen.kicks[i].release_t_ns, unseen.kicks[i].release_t_ns);
-    EXPECT_EQ(seen.kicks[i].release_velocity_mps.x, unseen.kicks[i].release_velocity_mps.x);
-    EXPECT_EQ(seen.kicks[i].release_velocity_mps.z, unseen.kicks[i].release_velocity_mps.z);
+    EXPECT_EQ(seen.kicks[i].release_velocity_mps.x(), unseen.kicks[i].release_velocity_mps.x());
+    EXPECT_EQ(seen.kicks[i].release_velocity_mps.z(), unseen.kicks[i].release_velocity_mps.z());
   }
 }
 

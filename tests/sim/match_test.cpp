@@ -111,7 +111,7 @@ TEST(Match, TheBallLeavesAtTheRobotsPointAtTheInstantOfRelease) {
   }
   EXPECT_EQ(kicks[0].release_t_ns, fire_t_ns + 33'300'000);
   const auto& v = kicks[0].release_velocity_mps;
-  EXPECT_NEAR(v.z, Kicker{}.exit_speeds_mps[2] * std::sin(Kicker{}.exit_elevations_rad[2]), 1e-9);
+  EXPECT_NEAR(v.z(), Kicker{}.exit_speeds_mps[2] * std::sin(Kicker{}.exit_elevations_rad[2]), 1e-9);
 }
 
 TEST(Match, AFireWithoutABallDrainsAndHasNoTruth) {
@@ -186,11 +186,12 @@ TEST(Match, TheRefereeStopsAPossessionButNoBallInTheAir) {
   EXPECT_GT(stopped, static_cast<int>(carried.possessions.size()) * 9 / 10);
   for (const auto& p : carried.possessions) {
     if (p.ending != PossessionEnd::kStopped) continue;
-    EXPECT_EQ(p.t_ns - p.start_t_ns,
-              static_cast<std::int64_t>(std::ceil(draw_opportunity(s, Draws{5, p.possession_id}).whistle_s * 1e9)));
+    EXPECT_EQ(
+        p.t_ns - p.start_t_ns,
+        static_cast<std::int64_t>(std::ceil(draw_opportunity(s, kicking::Draws{5, p.possession_id}).whistle_s * 1e9)));
   }
   for (const auto& p : play(s, 5, 1, 1.0, fire_at_once(30)).possessions) {
-    if (draw_opportunity(s, Draws{5, p.possession_id}).whistle_s > 0.02) {
+    if (draw_opportunity(s, kicking::Draws{5, p.possession_id}).whistle_s > 0.02) {
       EXPECT_EQ(p.ending, PossessionEnd::kKicked);
     }
   }
@@ -211,7 +212,7 @@ TEST(Match, EachPossessionBelongsToOneRobotOfTheTeamWithItsOwnKicker) {
     for (const auto& p : events.possessions) EXPECT_EQ(p.robot, sensors.carrier);
     for (const auto& k : events.kicks) {
       const double ratio = s.team.speed_scale_ratios[sensors.carrier - 1U];
-      EXPECT_NEAR(k.release_velocity_mps.z, ratio * 8.721521 * std::sin(0.62666896), 1e-9);
+      EXPECT_NEAR(k.release_velocity_mps.z(), ratio * 8.721521 * std::sin(0.62666896), 1e-9);
       kicked.insert(sensors.carrier);
     }
   }

@@ -17,7 +17,7 @@ TEST(Opportunity, FollowsTheScenariosDistributions) {
   std::vector<double> opponents;
   double aim = 0, aim2 = 0, distance = 0, bearing = 0;
   for (std::uint32_t i = 1; i <= kCount; ++i) {
-    const Opportunity o = draw_opportunity(s, Draws{1, i});
+    const Opportunity o = draw_opportunity(s, kicking::Draws{1, i});
     const double h = o.start.heading_rad;
     const double ball_x = o.start.x_m - 0.27 * std::sin(h), ball_y = o.start.y_m + 0.27 * std::cos(h);
     ASSERT_LE(std::abs(ball_x), 3.0);
@@ -48,7 +48,7 @@ TEST(Opportunity, WithoutAimErrorFacesTheGoalCentre) {
   Scenario s;
   s.possession.aim_error_sd_rad = 0.0;
   for (std::uint32_t i = 1; i <= 50; ++i) {
-    const auto start = draw_opportunity(s, Draws{1, i}).start;
+    const auto start = draw_opportunity(s, kicking::Draws{1, i}).start;
     const double reach = (9.0 - start.y_m) / std::cos(start.heading_rad);
     EXPECT_NEAR(start.x_m - std::sin(start.heading_rad) * reach, 0.0, 1e-9);
   }
@@ -72,7 +72,8 @@ TEST(Opportunity, FurtherOpponentsAreNotNearerThanTheNearest) {
   s.opponent.count = 5;
   double farther = 0.0;
   for (std::uint32_t i = 1; i <= 500; ++i) {
-    const Opportunity one = draw_opportunity({}, Draws{1, i}), five = draw_opportunity(s, Draws{1, i});
+    const Opportunity one = draw_opportunity({}, kicking::Draws{1, i}),
+                      five = draw_opportunity(s, kicking::Draws{1, i});
     ASSERT_EQ(five.opponent_count, 5U);
     EXPECT_EQ(five.opponents[0].distance_m, one.opponents[0].distance_m);  // more of them shift nothing
     EXPECT_EQ(five.start.x_m, one.start.x_m);
@@ -89,20 +90,20 @@ TEST(Opportunity, EveryRobotOfTheTeamGainsTheBallAlikeOften) {
   Scenario s;
   s.team.robots = 5;
   std::array<int, 6> gained{};
-  for (std::uint32_t i = 1; i <= 2000; ++i) ++gained.at(draw_opportunity(s, Draws{1, i}).robot);
+  for (std::uint32_t i = 1; i <= 2000; ++i) ++gained.at(draw_opportunity(s, kicking::Draws{1, i}).robot);
   EXPECT_EQ(gained[0], 0);
   for (std::size_t robot = 1; robot <= 5; ++robot) EXPECT_NEAR(gained[robot], 400, 72);  // four sd
-  EXPECT_EQ(draw_opportunity({}, Draws{1, 1}).robot, 1);
+  EXPECT_EQ(draw_opportunity({}, kicking::Draws{1, 1}).robot, 1);
 }
 
 TEST(Opportunity, TheRefereeWhistlesAtItsRate) {
   Scenario s;
   s.referee.stops_per_min = 30.0;
   double sum = 0.0;
-  for (std::uint32_t i = 1; i <= 4000; ++i) sum += draw_opportunity(s, Draws{1, i}).whistle_s;
+  for (std::uint32_t i = 1; i <= 4000; ++i) sum += draw_opportunity(s, kicking::Draws{1, i}).whistle_s;
   EXPECT_NEAR(sum / 4000, 2.0, 0.13);
   s.referee.stops_per_min = 0.0;
-  EXPECT_TRUE(std::isinf(draw_opportunity(s, Draws{1, 1}).whistle_s));
+  EXPECT_TRUE(std::isinf(draw_opportunity(s, kicking::Draws{1, 1}).whistle_s));
 }
 
 TEST(Opponents, TheFirstOneThereDisputes) {

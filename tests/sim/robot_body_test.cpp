@@ -64,8 +64,8 @@ TEST(RobotBody, BrakesOnASetPointThatIsNoNumber) {
 TEST(RobotBody, HoldsTheBallInFront) {
   RobotBody body{Robot{}};
   body.place({1.0, 2.0, M_PI / 2}, {});
-  EXPECT_NEAR(body.ball_point_m().x, 0.73, 1e-12);
-  EXPECT_NEAR(body.ball_point_m().y, 2.0, 1e-12);
+  EXPECT_NEAR(body.ball_point_m().x(), 0.73, 1e-12);
+  EXPECT_NEAR(body.ball_point_m().y(), 2.0, 1e-12);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace trivela::sim {
 namespace {
 
-const Draws kDraws{5, 1};
+const kicking::Draws kDraws{5, 1};
 
 Opportunity standing(double x, double y, double heading) {
   Opportunity o;
@@ -102,7 +102,7 @@ TEST(Vision, HasTheNoiseThatTheScenarioNames) {
   double squares_x = 0, squares_h = 0, ball2 = 0, product = 0, slow_variance = 0;
   int seen = 0, missed = 0, runs = 0;
   for (std::uint32_t opportunity = 1; opportunity <= 400; ++opportunity) {
-    const Draws draws{9, opportunity};
+    const kicking::Draws draws{9, opportunity};
     world.place(standing(1.0, 2.0, 0.4), 1.0, draws);
     suite.begin(draws);
     suite.remember(world);
@@ -143,7 +143,7 @@ TEST(Wheels, HaveTheNoiseThatTheScenarioNames) {
   double white2 = 0, gyro2 = 0;
   int count = 0;
   for (std::uint32_t opportunity = 1; opportunity <= 1000; ++opportunity, ++count) {
-    const Draws draws{9, opportunity};
+    const kicking::Draws draws{9, opportunity};
     world.place(standing(0, 0, 0), 1.0, draws);
     suite.begin(draws);
     const WheelSample sample = suite.wheels(world);

@@ -25,7 +25,7 @@ const auto kFarAway = at(kNobody);
 /// A shot without drag from (x, 3) that crosses the goal line 6 m on after one second, at the height z.
 Shot fly(const Scenario& scenario, double x_cross, double z_cross, double x_start = 0.0, PlanPoint opponent = kNobody) {
   const double vz = z_cross - 0.11 + 0.5 * scenario.ball.gravity_mps2;
-  Shot shot{scenario, {{x_start, 3.0, 0.11}, {x_cross - x_start, 6.0, vz}}, 0};
+  Shot shot{scenario, {{{x_start, 3.0, 0.11}, {x_cross - x_start, 6.0, vz}}}, 0};
   for (std::int64_t t = 1; t <= 4000; ++t) shot.advance_to(t * 1'000'000, at(opponent));
   return shot;
 }
@@ -65,21 +65,21 @@ TEST(Shot, IsJudgedByWhereItCrossesTheGoalLine) {
 
 TEST(Shot, BouncesBackFromPostAndBarAndFliesOnBehindAGoal) {
   const Scenario scenario = airless();
-  EXPECT_LT(fly(scenario, 1.0, 0.5).ball().position_m.y, 9.0);
-  EXPECT_LT(fly(scenario, 0.0, 1.0).ball().position_m.y, 9.0);
-  EXPECT_GT(fly(scenario, 0.0, 0.5).ball().position_m.y, 9.0);
+  EXPECT_LT(fly(scenario, 1.0, 0.5).ball().position_m.y(), 9.0);
+  EXPECT_LT(fly(scenario, 0.0, 1.0).ball().position_m.y(), 9.0);
+  EXPECT_GT(fly(scenario, 0.0, 0.5).ball().position_m.y(), 9.0);
 }
 
 TEST(Shot, IsShortWhenItRestsOrTakesTooLong) {
   Scenario scenario;
-  Shot resting{scenario, {{0.0, 0.0, 0.11}, {0.0, 0.5, 0.0}, true}, 0};
+  Shot resting{scenario, {{{0.0, 0.0, 0.11}, {0.0, 0.5, 0.0}}, true}, 0};
   for (std::int64_t t = 1; t <= 2000; ++t) resting.advance_to(t * 1'000'000, kFarAway);
   ASSERT_TRUE(resting.result());
   EXPECT_EQ(resting.result()->outcome, Outcome::kShort);
   EXPECT_FALSE(resting.result()->crossing);
-  EXPECT_NEAR(*resting.result()->margin_m, 9.0 - resting.ball().position_m.y, 1e-9);
+  EXPECT_NEAR(*resting.result()->margin_m, 9.0 - resting.ball().position_m.y(), 1e-9);
 
-  Shot slow{scenario, {{0.0, 0.0, 0.11}, {0.0, 2.5, 0.0}, true}, 0};
+  Shot slow{scenario, {{{0.0, 0.0, 0.11}, {0.0, 2.5, 0.0}}, true}, 0};
   for (std::int64_t t = 1; t <= 2999; ++t) slow.advance_to(t * 1'000'000, kFarAway);
   EXPECT_FALSE(slow.result());
   slow.advance_to(3'000'000'000, kFarAway);
@@ -88,7 +88,7 @@ TEST(Shot, IsShortWhenItRestsOrTakesTooLong) {
 
 TEST(Shot, RollingInCountsAsOnTarget) {
   const Scenario scenario;
-  Shot shot{scenario, {{0.2, 7.0, 0.11}, {0.0, 3.0, 0.0}, true}, 0};
+  Shot shot{scenario, {{{0.2, 7.0, 0.11}, {0.0, 3.0, 0.0}}, true}, 0};
   for (std::int64_t t = 1; t <= 1500; ++t) shot.advance_to(t * 1'000'000, kFarAway);
   ASSERT_TRUE(shot.result());
   EXPECT_EQ(shot.result()->outcome, Outcome::kOnTarget);
@@ -98,7 +98,7 @@ TEST(Shot, RollingInCountsAsOnTarget) {
 TEST(Shot, ABallThatBarelyCrossesHasASmallMargin) {
   Scenario scenario = airless();
   const double speed = std::sqrt(2.0 * scenario.ball.rolling_deceleration_mps2 * 1.02);  // rests 2 cm behind the line
-  Shot shot{scenario, {{0.0, 8.0, 0.11}, {0.0, speed, 0.0}, true}, 0};
+  Shot shot{scenario, {{{0.0, 8.0, 0.11}, {0.0, speed, 0.0}}, true}, 0};
   for (std::int64_t t = 1; t <= 2900; ++t) shot.advance_to(t * 1'000'000, kFarAway);
   ASSERT_TRUE(shot.result());
   EXPECT_EQ(shot.result()->outcome, Outcome::kOnTarget);
@@ -111,7 +111,7 @@ TEST(Shot, IsBlockedByABodyInItsWayAndPassesOverOne) {
   EXPECT_EQ(blocked.result()->outcome, Outcome::kBlocked);
   EXPECT_FALSE(blocked.result()->crossing);
   EXPECT_FALSE(blocked.result()->margin_m);
-  EXPECT_LT(blocked.ball().position_m.y, 3.7);
+  EXPECT_LT(blocked.ball().position_m.y(), 3.7);
   EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.1, 6.0}).result()->outcome, Outcome::kOnTarget);   // 1.2 m high there
   EXPECT_EQ(fly(scenario, 0.0, 0.5, 0.0, {0.38, 3.7}).result()->outcome, Outcome::kOnTarget);  // passes beside it
 }
@@ -121,7 +121,7 @@ TEST(Shot, AnyOfTheOpponentsBlocks) {
   for (std::size_t blocker = 0; blocker < 3; ++blocker) {
     std::array<OpponentBody, 3> bodies{at(kNobody)[0], at(kNobody)[0], at(kNobody)[0]};
     bodies[blocker] = at({0.1, 3.7})[0];
-    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.0, 6.0, 5.3}}, 0};
+    Shot shot{scenario, {{{0.0, 3.0, 0.11}, {0.0, 6.0, 5.3}}}, 0};
     for (std::int64_t t = 1; t <= 60; ++t) shot.advance_to(t * 20'000'000, bodies);
     ASSERT_TRUE(shot.result());
     EXPECT_EQ(shot.result()->outcome, Outcome::kBlocked);
@@ -142,7 +142,7 @@ TEST(Shot, AKeeperHasWhatItReachesInTime) {
     const Shot saved = fly(scenario, side * 0.56, 0.5);
     EXPECT_EQ(saved.result()->outcome, Outcome::kOnTarget);  // Table 2 counts it
     EXPECT_TRUE(saved.result()->saved);
-    EXPECT_LT(saved.ball().position_m.y, 9.0);
+    EXPECT_LT(saved.ball().position_m.y(), 9.0);
     EXPECT_FALSE(fly(scenario, side * 0.58, 0.5).result()->saved);
     EXPECT_FALSE(fly(scenario, side * 1.1, 0.5).result()->saved);  // post
   }
@@ -156,7 +156,7 @@ TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
   scenario.keeper.enabled = true;
   scenario.keeper.guard.sight_sd_mps = 1.5;
   const auto saved = [&](std::uint32_t opportunity) {
-    Shot shot{scenario, {{0.0, 3.0, 0.11}, {0.8, 6.0, 5.3}}, 0, Draws{1, opportunity}};
+    Shot shot{scenario, {{{0.0, 3.0, 0.11}, {0.8, 6.0, 5.3}}}, 0, kicking::Draws{1, opportunity}};
     for (std::int64_t t = 1; t <= 60; ++t) shot.advance_to(t * 20'000'000, at(kNobody));
     return shot.result()->saved;
   };
@@ -172,11 +172,11 @@ TEST(Shot, WhatAKeeperMistakesIsItsOwnDraw) {
 TEST(Shot, SaysWhetherItTouchedTheFloorBeforeTheLine) {
   const Scenario scenario;
   EXPECT_FALSE(fly(scenario, 0.0, 0.7).result()->bounced);
-  Shot low{scenario, {{0.0, 3.0, 0.11}, {0.0, 7.0, 3.0}}, 0};  // down after 0.6 s
+  Shot low{scenario, {{{0.0, 3.0, 0.11}, {0.0, 7.0, 3.0}}}, 0};  // down after 0.6 s
   for (std::int64_t t = 1; t <= 150; ++t) low.advance_to(t * 20'000'000, at(kNobody));
   ASSERT_TRUE(low.result()->crossing);
   EXPECT_TRUE(low.result()->bounced);
-  Shot rolling{scenario, {{0.0, 8.0, 0.11}, {0.0, 5.0, 0.0}, true}, 0};
+  Shot rolling{scenario, {{{0.0, 8.0, 0.11}, {0.0, 5.0, 0.0}}, true}, 0};
   for (std::int64_t t = 1; t <= 150; ++t) rolling.advance_to(t * 20'000'000, at(kNobody));
   EXPECT_TRUE(rolling.result()->bounced);
 }
@@ -188,7 +188,7 @@ TEST(Shot, DefendersStopWhatComesLow) {
   scenario.defenders.spread_sd_m = 0.0;
   scenario.defenders.guard.sight_sd_mps = 0.0;
   const auto outcome = [&](double vy_mps, double vz_mps, double vx_mps = 0.0) {
-    Shot shot{scenario, {{0.0, 3.0, 0.11}, {vx_mps, vy_mps, vz_mps}}, 0};
+    Shot shot{scenario, {{{0.0, 3.0, 0.11}, {vx_mps, vy_mps, vz_mps}}}, 0};
     for (std::int64_t t = 1; t <= 200; ++t) shot.advance_to(t * 20'000'000, at(kNobody));
     return *shot.result();
   };
@@ -209,7 +209,7 @@ TEST(Shot, DefendersStopWhatComesLow) {
 
 TEST(Shot, FromBehindTheLineIsJudgedWhereItStarts) {
   const Scenario scenario;
-  const Shot shot{scenario, {{3.0, 9.2, 0.11}, {0.0, 5.0, 3.0}}, 0};
+  const Shot shot{scenario, {{{3.0, 9.2, 0.11}, {0.0, 5.0, 3.0}}}, 0};
   ASSERT_TRUE(shot.result());
   EXPECT_EQ(shot.result()->outcome, Outcome::kWideRight);
 }

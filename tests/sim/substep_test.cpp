@@ -72,10 +72,10 @@ TEST(Substep, KicksAndPossessionsComeOutAsWithFineSteps) {
     for (std::size_t i = 0; i < std::min(a.kicks.size(), b.kicks.size()); ++i) {
       const KickTruth &p = a.kicks[i], &q = b.kicks[i];
       ASSERT_EQ(p.possession_id, q.possession_id);
-      EXPECT_NEAR(p.release_position_m.x, q.release_position_m.x, 1e-3);
-      EXPECT_NEAR(p.release_position_m.y, q.release_position_m.y, 1e-3);
-      EXPECT_NEAR(p.release_velocity_mps.x, q.release_velocity_mps.x, 3e-3);
-      EXPECT_NEAR(p.release_velocity_mps.y, q.release_velocity_mps.y, 3e-3);
+      EXPECT_NEAR(p.release_position_m.x(), q.release_position_m.x(), 1e-3);
+      EXPECT_NEAR(p.release_position_m.y(), q.release_position_m.y(), 1e-3);
+      EXPECT_NEAR(p.release_velocity_mps.x(), q.release_velocity_mps.x(), 3e-3);
+      EXPECT_NEAR(p.release_velocity_mps.y(), q.release_velocity_mps.y(), 3e-3);
       ++compared;
       if (p.outcome != q.outcome) {  // only on an edge
         EXPECT_LT(std::min(p.margin_m.value_or(1.0), q.margin_m.value_or(1.0)), 5e-3);
@@ -112,7 +112,7 @@ TEST(Substep, AShotCrossesWithinAMillimetreOfFineSteps) {
       for (const double y : {1.0, 4.2, 7.1}) {
         for (const double opponent_x : {50.0, 0.35, -0.1}) {
           const double forward = speed * std::cos(elevation);
-          const BallMotion released{{0.4, y, 0.11}, {-0.08 * forward, forward, speed * std::sin(elevation)}};
+          const BallMotion released{{{0.4, y, 0.11}, {-0.08 * forward, forward, speed * std::sin(elevation)}}};
           const PlanPoint opponent{opponent_x, y + 1.0};
           const Shot a = flown(scenario, released, 20'000'000, opponent);
           const Shot b = flown(scenario, released, 100'000, opponent);

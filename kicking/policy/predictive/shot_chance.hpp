@@ -1,8 +1,8 @@
 #pragma once
 
+#include "kicking/model/robot_model.hpp"
 #include "kicking/outcome/crossing_spread.hpp"
 #include "kicking/policy/policy_config.hpp"
-#include "kicking/robot_model.hpp"
 
 namespace trivela::kicking {
 

@@ -1,10 +1,10 @@
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace trivela::sim {
+namespace trivela::kicking {
 namespace {
 
 using Words = std::array<std::uint32_t, 4>;
@@ -97,4 +97,4 @@ TEST(Draws, ANormalIsTheFirstOfFour) {
 }
 
 }  // namespace
-}  // namespace trivela::sim
+}  // namespace trivela::kicking

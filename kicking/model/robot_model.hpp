@@ -4,9 +4,9 @@
 
 #include "kicking/ballistics/transfer.hpp"
 #include "kicking/constants.hpp"
-#include "kicking/fit/angle_table.hpp"
-#include "kicking/fit/power_table.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/model/angle_table.hpp"
+#include "kicking/model/power_table.hpp"
 
 namespace trivela::kicking {
 

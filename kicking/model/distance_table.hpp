@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "kicking/policy/policy_config.hpp"
-#include "kicking/robot_model.hpp"
+#include "kicking/ballistics/height_law.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::kicking {
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "kicking/fit/power_table.hpp"
+#include "kicking/model/power_table.hpp"
 
 namespace trivela::kicking {
 

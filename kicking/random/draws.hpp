@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace trivela::sim {
+namespace trivela::kicking {
 
 /// Philox 4x32 with 10 rounds: 128 random bits as a pure function of a counter and a key. Source: Salmon et al.,
 /// "Parallel random numbers: as easy as 1, 2, 3" (SC 2011); the tests hold it against Random123's known answers.
@@ -65,4 +65,4 @@ class Draws {
   std::uint32_t opportunity_;
 };
 
-}  // namespace trivela::sim
+}  // namespace trivela::kicking

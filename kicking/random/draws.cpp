@@ -1,9 +1,9 @@
-#include "sim/random.hpp"
+#include "kicking/random/draws.hpp"
 
 #include <bit>
 #include <cmath>
 
-namespace trivela::sim {
+namespace trivela::kicking {
 namespace {
 
 double unit_interval(std::uint32_t high, std::uint32_t low) {
@@ -121,4 +121,4 @@ double Draws::normal(Role role, std::uint32_t counter, std::uint32_t index) cons
   return normal_of(block(role, counter, index)[0], role, counter, index, 0);
 }
 
-}  // namespace trivela::sim
+}  // namespace trivela::kicking

@@ -1,37 +1,19 @@
-#include "kicking/fit/distance_table.hpp"
+#include "kicking/model/distance_table.hpp"
 
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "kicking/ballistics/crossing.hpp"
-
 namespace trivela::kicking {
-namespace {
-
-/// What the law asks of a robot at rest.
-std::optional<double> asked_speed_mps(HeightLaw law, const FlightPoint& target, double exit_angle_rad) {
-  switch (law) {
-    case HeightLaw::kPaper:
-      return crossing_speed({target.distance_m, 0.0}, exit_angle_rad);
-    case HeightLaw::kExtendedRange:
-      return crossing_speed({extended_range(target, exit_angle_rad), 0.0}, exit_angle_rad);
-    case HeightLaw::kExact:
-      break;
-  }
-  return crossing_speed(target, exit_angle_rad);
-}
-
-}  // namespace
 
 EffectiveTable effective_table(const DistanceTable& table, HeightLaw law, double target_height_m,
                                const RobotModel& robot) {
+  const Elevation exit_angle = robot.exit_angle_rad;
   std::vector<SetPoint> points;
   for (std::size_t i = 0; i < table.points.size(); ++i) {
     const DistancePoint& point = table.points[i];
     const FlightPoint target{point.distance_m, target_height_m - robot.ball.radius_m};
-    const auto speed_mps = asked_speed_mps(law, target, robot.exit_angle_rad);
+    const auto speed_mps = crossing_speed(point_by(law, target, exit_angle), exit_angle);
     const auto fail = [&](const std::string& why) {
       throw std::invalid_argument("height table: distances_m[" + std::to_string(i) +
                                   "] = " + std::to_string(point.distance_m) + ": " + why);
