@@ -49,7 +49,7 @@ void add_align(CLI::App& app, int& exit_code) {
   verb->footer(
       "Appends distance_m, offset_right_m (empty: the line of the kick does not meet that of the target), left_m,\n"
       "right_m and aligned. Columns px, py, tx, ty are in m.");
-  add_row_flags(*verb, align_verb().inputs, *arguments);
+  add_row_flags(*verb, align_verb(), *arguments);
   verb->callback([arguments, &exit_code] { exit_code = run_row_verb(align_verb(), *arguments); });
 }
 

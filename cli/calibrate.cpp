@@ -5,7 +5,7 @@
 namespace trivela::cli {
 
 void add_calibrate(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("calibrate", "a robot's kick model from laser scans, test drives or measured tables");
+  auto* verb = app.add_subcommand("calibrate", "A robot's kick model from laser scans, test drives or measured tables");
   verb->require_subcommand(1);
   add_calibrate_table(*verb, exit_code);
   add_calibrate_deflection(*verb, exit_code);

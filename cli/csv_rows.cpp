@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "cli/open_file.hpp"
+#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -203,15 +204,17 @@ ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file
   return code;
 }
 
-void add_row_flags(CLI::App& verb, const std::vector<Column>& inputs, RowArguments& arguments) {
-  verb.add_option("--csv", arguments.csv, "Read rows from this file, - for standard input, and append the results")
+void add_row_flags(CLI::App& app, const RowVerb& verb, RowArguments& arguments) {
+  app.add_option("--csv", arguments.csv, "Read rows from this file, - for standard input, and append the results")
       ->type_name("FILE|-");
-  verb.add_flag("--json", arguments.json, "Print JSON instead of CSV: an array with one object a row");
-  for (const Column& column : inputs) {
+  app.add_flag("--json", arguments.json, "Print JSON instead of CSV: an array with one object a row");
+  if (verb.draw)
+    app.add_option("--svg", arguments.svg, "Draw the one row's kick, from above and from the side")->type_name("FILE");
+  for (const Column& column : verb.inputs) {
     const std::string flag = flag_of(column) + (column.alias.empty() ? "" : "," + column.alias);
     const std::string name = column.name;
-    verb.add_option_function<std::string>(
-            flag, [&arguments, name](const std::string& text) { arguments.cells[name] = text; }, column.help)
+    app.add_option_function<std::string>(
+           flag, [&arguments, name](const std::string& text) { arguments.cells[name] = text; }, column.help)
         ->group("One row")
         ->type_name("");
   }
@@ -221,6 +224,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
   const RowFormat format = arguments.json ? RowFormat::kJson : RowFormat::kCsv;
   if (!arguments.csv.empty()) {
     if (!arguments.cells.empty()) throw UsageError("--csv goes without flags for single values");
+    if (!arguments.svg.empty()) throw UsageError("--svg draws one kick and goes without --csv");
     if (arguments.csv == "-") return run_rows(verb, std::cin, "standard input", format, std::cout, std::cerr);
     std::ifstream file = open_file(arguments.csv);
     return run_rows(verb, file, arguments.csv, format, std::cout, std::cerr);
@@ -240,6 +244,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     if (kicking::first_unprintable(cells[i]))
       throw UsageError(fmt::format("column {}: not printable UTF-8", header[i]));
   }
+  require_writable("--svg", arguments.svg);
   std::istringstream text(csv_line(header, {}) + csv_line(cells, {}));
   std::ostringstream out;
   std::ostringstream err;
@@ -247,6 +252,7 @@ ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments) {
     const std::string message = err.str();
     throw UsageError(message.substr(message.find("column"), message.find('\n') - message.find("column")));
   }
+  if (!arguments.svg.empty()) write_file(arguments.svg, verb.draw(Row(header, cells)));
   std::cout << out.str() << std::flush;
   return kDone;
 }

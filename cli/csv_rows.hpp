@@ -75,6 +75,7 @@ struct RowVerb {
   std::vector<Column> inputs;
   std::function<std::vector<std::string>(const std::function<bool(std::string_view)>& has)> results;
   std::function<std::vector<Value>(const Row&)> compute;
+  std::function<std::string(const Row&)> draw = {};  ///< the row as SVG; none: the verb has no --svg
 };
 
 enum class RowFormat { kCsv, kJson };
@@ -89,14 +90,17 @@ ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file
 struct RowArguments {
   std::string csv;
   bool json = false;
+  std::string svg = {};
   std::map<std::string, std::string> cells;  ///< by column name
 };
 
-/// Adds --csv, --json and a flag for each input column. `arguments` must outlive the parsing.
-void add_row_flags(CLI::App& verb, const std::vector<Column>& inputs, RowArguments& arguments);
+/// Adds --csv, --json, --svg where the verb draws, and a flag for each input column. `arguments` must outlive the
+/// parsing.
+void add_row_flags(CLI::App& app, const RowVerb& verb, RowArguments& arguments);
 
 /// Runs the verb over the file, standard input ("-") or the one row of the flags; writes to standard output and error.
-/// @throws UsageError if flags and --csv are mixed, a required flag is missing or its value is impossible.
+/// The one row is drawn where --svg says so. @throws UsageError if flags and --csv are mixed, a required flag is
+/// missing or its value is impossible.
 ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments);
 
 }  // namespace trivela::cli

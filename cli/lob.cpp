@@ -31,7 +31,7 @@ int run(const LobFlags& flags, bool place_given) {
 }  // namespace
 
 void add_lob(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("lob", "find lobs in the scans of a laser range finder and fit them");
+  auto* verb = app.add_subcommand("lob", "Find lobs in the scans of a laser range finder and fit them");
   auto flags = std::make_shared<LobFlags>();
   add_page_flags(*verb, flags->page);
   add_points_flags(*verb, flags->points);

@@ -8,8 +8,10 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/finite_numbers.hpp"
+#include "cli/nearest_word.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
 #include "config/software_version.hpp"
@@ -19,16 +21,48 @@ namespace cli = trivela::cli;
 
 namespace {
 
-/// The first word where a verb of `app` must stand and none does; none: what is wrong is something else.
+/// The verbs by what a person wants, in the order of the help.
+struct Group {
+  const char* wish;
+  std::vector<void (*)(CLI::App&, int&)> verbs;
+};
+
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all{
+      {"Play", {cli::add_match, cli::add_simulate}},
+      {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
+      {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
+      {"After a match", {cli::add_report, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
+      {"On the robot, one kick", {cli::add_solve, cli::add_align, cli::add_predict}}};
+  return all;
+}
+
+void add_verbs(CLI::App& app, int& exit_code) {
+  for (const Group& group : groups()) {
+    for (const auto add : group.verbs) {
+      add(app, exit_code);
+      app.get_subcommands([](const CLI::App*) { return true; }).back()->group(group.wish);
+    }
+  }
+}
+
+/// What is wrong with the first word where a verb of `app` must stand and none does; none: what is wrong is something
+/// else.
 std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** argv) {
   const CLI::App* at = &app;
+  std::string before;
   for (int i = 1; i < argc; ++i) {
-    const auto verbs = at->get_subcommands([](const CLI::App* part) { return !part->get_name().empty(); });
-    const auto verb = std::ranges::find(verbs, argv[i], &CLI::App::get_name);
-    if (verb == verbs.end()) {
-      return verbs.empty() || argv[i][0] == '-' ? std::nullopt : std::optional<std::string>{argv[i]};
+    std::vector<std::string> names;
+    for (const CLI::App* verb : at->get_subcommands([](const CLI::App* part) { return !part->get_name().empty(); }))
+      names.push_back(verb->get_name());
+    if (std::ranges::find(names, argv[i]) == names.end()) {
+      if (names.empty() || argv[i][0] == '-') return std::nullopt;
+      const auto meant = cli::nearest_word(argv[i], names);
+      return fmt::format("there is no verb \"{}\"; {}trivela --help names them all", argv[i],
+                         meant ? fmt::format("did you mean {}{}? ", before, *meant) : "");
     }
-    at = *verb;
+    at = at->get_subcommand(argv[i]);
+    before += at->get_name() + ' ';
   }
   return std::nullopt;
 }
@@ -38,29 +72,13 @@ int run(int argc, char** argv) {
   app.name("trivela");
   app.require_subcommand(1);
   app.set_version_flag("--version", fmt::format("trivela {}", trivela::config::software_version()));
-  app.footer("Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");
+  app.footer(
+      "On the robot itself each node is a program of its own, trivela-NODE: see docs/operations.md.\n"
+      "Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");
   int exit_code = cli::kDone;
-  cli::add_match(app, exit_code);
-  cli::add_replay(app, exit_code);
-  cli::add_simulate(app, exit_code);
-  cli::add_scan(app, exit_code);
-  cli::add_lob(app, exit_code);
-  cli::add_calibrate(app, exit_code);
-  cli::add_report(app, exit_code);
-  cli::add_migrate(app, exit_code);
-  cli::add_compare(app, exit_code);
-  cli::add_evaluate_policy(app, exit_code);
-  cli::add_learn(app, exit_code);
-  cli::add_factorial(app, exit_code);
-  cli::add_frontier(app, exit_code);
-  cli::add_sensitivity(app, exit_code);
-  cli::add_tune(app, exit_code);
-  cli::add_solve(app, exit_code);
-  cli::add_align(app, exit_code);
-  cli::add_predict(app, exit_code);
+  add_verbs(app, exit_code);
   cli::require_finite_numbers(app);
-  if (const auto word = unknown_verb(app, argc, argv))
-    throw cli::UsageError{fmt::format("there is no verb \"{}\"; trivela --help names them all", *word)};
+  if (const auto wrong = unknown_verb(app, argc, argv)) throw cli::UsageError{*wrong};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

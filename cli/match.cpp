@@ -110,7 +110,7 @@ config::Settings settings_of(const MatchFlags& flags) {
 }  // namespace
 
 void add_match(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("match", "play a simulated match with real node processes and record it");
+  auto* verb = app.add_subcommand("match", "Play a simulated match with real node processes and record it");
   auto flags = std::make_shared<MatchFlags>();
   auto* half = verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
                    ->expected(1)

@@ -1,9 +1,33 @@
 #include <memory>
 
 #include "cli/row_verbs.hpp"
-#include "kicking/alignment/release_predictor.hpp"
+#include "evaluator/report/kick_picture.hpp"
 
 namespace trivela::cli {
+namespace {
+
+evaluator::KickPicture picture_of(const Row& row, const FlightConstants& constants) {
+  const kicking::Pose pose{row.number("px"), row.number("py"), row.number("orientation_rad")};
+  const kicking::Twist twist{row.number("vx"), row.number("vy"), row.number("omega")};
+  const double k = row.number_in("k", 0.0, 10.0);
+  evaluator::KickPicture picture{.robot = pose,
+                                 .twist = twist,
+                                 .kick = {.v_kick_mps = row.positive("vk"),
+                                          .exit_angle = row.acute_angle_rad("theta_deg"),
+                                          .transfer = {k, k, k},
+                                          .delay_s = row.number_in("tau_s", 0.0, 10.0),
+                                          .ball_offset_m = row.number_in("r_m", 0.0, 10.0)},
+                                 .goal = {.y_m = row.number("goal_y")},
+                                 .ball = constants.ball,
+                                 .gravity_mps2 = constants.gravity_mps2};
+  if (picture.goal.y_m == 11.0) {  // the 22 x 14 m field
+    picture.goal.half_width_m = 1.2;
+    picture.side_line_x_m = 7.0;
+  }
+  return picture;
+}
+
+}  // namespace
 
 RowVerb predict_verb(const FlightConstants& constants) {
   RowVerb verb;
@@ -21,19 +45,13 @@ RowVerb predict_verb(const FlightConstants& constants) {
                  {"goal_y", "Goal line in the field frame, y [m]", true, "--goal-y-m"}};
   verb.results = [](const auto&) { return std::vector<std::string>{"x_cross_m", "z_cross_m", "t_flight_s"}; };
   verb.compute = [constants](const Row& row) {
-    const kicking::Pose pose{row.number("px"), row.number("py"), row.number("orientation_rad")};
-    const kicking::Twist twist{row.number("vx"), row.number("vy"), row.number("omega")};
-    const double k = row.number_in("k", 0.0, 10.0);
-    const kicking::KickAction kick{.v_kick_mps = row.positive("vk"),
-                                   .exit_angle = row.acute_angle_rad("theta_deg"),
-                                   .transfer = {k, k, k},
-                                   .delay_s = row.number_in("tau_s", 0.0, 10.0),
-                                   .ball_offset_m = row.number_in("r_m", 0.0, 10.0)};
-    const auto crossing = kicking::predict_crossing(pose, twist, kick, row.number("goal_y"), constants.ball.radius_m,
-                                                    constants.gravity_mps2);
+    const evaluator::KickPicture kick = picture_of(row, constants);
+    const auto crossing = kicking::predict_crossing(kick.robot, kick.twist, kick.kick, kick.goal.y_m,
+                                                    kick.ball.radius_m, kick.gravity_mps2);
     if (!crossing) return std::vector<Value>(3);
     return std::vector<Value>{crossing->x_m, crossing->z_m, crossing->t_flight_s};
   };
+  verb.draw = [constants](const Row& row) { return evaluator::to_svg(picture_of(row, constants)); };
   return verb;
 }
 
@@ -49,7 +67,7 @@ void add_predict(CLI::App& app, int& exit_code) {
       "negative z_cross_m: it would have touched the floor before the line. Columns px, py, goal_y are in m, vx, vy, "
       "vk\n"
       "in m/s, omega in rad/s.");
-  add_row_flags(*verb, predict_verb({}).inputs, arguments->rows);
+  add_row_flags(*verb, predict_verb({}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
   verb->callback(
       [arguments, &exit_code] { exit_code = run_row_verb(predict_verb(arguments->constants), arguments->rows); });

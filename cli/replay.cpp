@@ -50,7 +50,7 @@ int replay(const ReplayFlags& flags) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("replay", "let the nodes decide a recorded match again, with other settings");
+  auto* verb = app.add_subcommand("replay", "Let the nodes decide a recorded match again, with other settings");
   verb->footer(
       "The log's sensor samples go through the same nodes; what they order moves nothing, so that decisions and\n"
       "receipts are the nodes', while ball and robot go on as recorded. The robot and the settings are those of\n"

@@ -79,7 +79,7 @@ int run(ScanFlags& flags) {
 }  // namespace
 
 void add_scan(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("scan", "record a laser range finder, emulate one, or make synthetic scans");
+  auto* verb = app.add_subcommand("scan", "Record a laser range finder, emulate one, or make synthetic scans");
   verb->footer(
       fmt::format("Made scans are {}.\n"
                   "--emulate prints the address to connect to and plays until Ctrl-C.",

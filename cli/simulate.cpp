@@ -48,7 +48,7 @@ int simulate(const SimulateFlags& flags) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("simulate", "play many matches in this process, the same ones with every arm");
+  auto* verb = app.add_subcommand("simulate", "Play many matches in this process, the same ones with every arm");
   verb->footer(
       "Possession n of match m is the same situation with the same noise for every arm: what differs is what the arms\n"
       "did. The log is a match log with a session for each match and arm. A run that was stopped, however it was, goes "

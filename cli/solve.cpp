@@ -2,6 +2,7 @@
 
 #include "cli/row_verbs.hpp"
 #include "config/robot.hpp"
+#include "evaluator/report/kick_picture.hpp"
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
@@ -30,6 +31,42 @@ Value drag_speed(const Row& row, const kicking::FlightPoint& point, double angle
                                                          constants.gravity_mps2));
 }
 
+/// What a row asks for.
+struct Wanted {
+  double angle_rad;
+  kicking::FlightPoint point;
+  double v_front_mps, transfer;
+  double gravity_mps2;
+
+  double u_mps() const { return v_front_mps * transfer; }
+  std::optional<double> vk_exact_mps() const {
+    return kicking::moving_kick_exact(point, angle_rad, u_mps(), gravity_mps2);
+  }
+};
+
+Wanted wanted(const Row& row, const FlightConstants& constants) {
+  return {row.acute_angle_rad("theta_deg"),
+          {row.positive("d_m"), row.number("h_rel_m")},
+          row.number_if_any("v_front_mps").value_or(0.0),
+          row.word("k_transfer") ? row.number_in("k_transfer", 0.0, 10.0) : 1.0,
+          constants.gravity_mps2};
+}
+
+/// The robot faces the goal's middle; the ball leaves at once.
+std::string draw(const Row& row, const FlightConstants& constants) {
+  const Wanted want = wanted(row, constants);
+  const auto vk = want.vk_exact_mps();
+  if (!vk) throw std::runtime_error("--svg: no speed solves this kick, there is nothing to draw");
+  evaluator::KickPicture picture{.twist = {0.0, want.v_front_mps, 0.0},
+                                 .kick = {.v_kick_mps = *vk,
+                                          .exit_angle = want.angle_rad,
+                                          .transfer = {want.transfer, want.transfer, want.transfer}},
+                                 .ball = constants.ball,
+                                 .gravity_mps2 = constants.gravity_mps2};
+  picture.robot.y_m = picture.goal.y_m - want.point.distance_m - picture.kick.ball_offset_m;
+  return evaluator::to_svg(picture);
+}
+
 struct SolveArguments {
   RowArguments rows;
   FlightConstants constants;
@@ -53,17 +90,14 @@ RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking
     return columns;
   };
   verb.compute = [constants, table](const Row& row) {
-    const double angle_rad = row.acute_angle_rad("theta_deg");
-    const kicking::FlightPoint point{row.positive("d_m"), row.number("h_rel_m")};
-    const double v_front = row.number_if_any("v_front_mps").value_or(0.0);
-    const double u = v_front * (row.word("k_transfer") ? row.number_in("k_transfer", 0.0, 10.0) : 1.0);
-    const auto v0 = kicking::crossing_speed(point, angle_rad, constants.gravity_mps2);
-    const auto vk_exact = kicking::moving_kick_exact(point, angle_rad, u, constants.gravity_mps2);
+    const Wanted want = wanted(row, constants);
+    const auto v0 = kicking::crossing_speed(want.point, want.angle_rad, constants.gravity_mps2);
+    const auto vk_exact = want.vk_exact_mps();
     std::vector<Value> values(3);
-    if (v0) values = {*v0, value_or_none(vk_exact), kicking::moving_kick_paper(*v0, u, angle_rad)};
+    if (v0) values = {*v0, value_or_none(vk_exact), kicking::moving_kick_paper(*v0, want.u_mps(), want.angle_rad)};
     values.emplace_back(v0.has_value());
-    values.push_back(v0 ? Value(kicking::descends_through(point, angle_rad)) : Value());
-    if (row.has("Cd")) values.push_back(drag_speed(row, point, angle_rad, constants));
+    values.push_back(v0 ? Value(kicking::descends_through(want.point, want.angle_rad)) : Value());
+    if (row.has("Cd")) values.push_back(drag_speed(row, want.point, want.angle_rad, constants));
     if (table) {
       const auto reading = vk_exact ? std::optional(table->power_for(*vk_exact)) : std::nullopt;
       values.push_back(reading ? Value(reading->power) : Value());
@@ -71,6 +105,7 @@ RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking
     }
     return values;
   };
+  verb.draw = [constants](const Row& row) { return draw(row, constants); };
   return verb;
 }
 
@@ -80,8 +115,8 @@ void add_solve(CLI::App& app, int& exit_code) {
   verb->footer(
       "Appends v0_mps (robot at rest), vk_exact_mps and vk_paper_mps (moving robot), feasible, descending; with Cd\n"
       "v0_drag_mps; with --robot power and power_range (below, in or above the table) for vk_exact_mps.\n"
-      "Results of a row that no speed solves are empty.");
-  add_row_flags(*verb, solve_verb({}, {}).inputs, arguments->rows);
+      "Results of a row that no speed solves are empty. --svg draws vk_exact_mps, towards the middle of the goal.");
+  add_row_flags(*verb, solve_verb({}, {}), arguments->rows);
   add_flight_flags(*verb, arguments->constants);
   verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball")
       ->check(above_zero())

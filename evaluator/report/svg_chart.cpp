@@ -37,22 +37,6 @@ Axis bands_of(const Chart& chart, double from_px, double to_px) {
   return {places, from_px, to_px, 0.5};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 Axis axis_of(const Chart& chart, double ChartPoint::*coordinate, double from_px, double to_px) {
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
@@ -67,16 +51,6 @@ Axis axis_of(const Chart& chart, double ChartPoint::*coordinate, double from_px,
   return {round_ticks(low, high), from_px, to_px, 0.0};
 }
 
-std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                     escaped(words));
-}
-
-std::string line(const char* kind, double x1, double y1, double x2, double y2) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", kind, x1, y1, x2,
-                     y2);
-}
-
 /// A tick without the noise of its sum: "0.3", "-2", "10".
 std::string tick_label(double value) { return fmt::format("{:.6g}", std::abs(value) < 1e-12 ? 0.0 : value); }
 
@@ -85,37 +59,33 @@ std::string axes(const Chart& chart, const Axis& x, const Axis& y) {
   for (std::size_t i = 0; i < x.ticks.size(); ++i) {
     const double px = x.px(x.ticks[i]);
     const bool category = !chart.x_categories.empty();
-    if (!category) svg += line("grid", px, y.from_px, px, y.to_px);
-    svg += text(px, y.from_px + 20.0, "middle", category ? chart.x_categories[i] : tick_label(x.ticks[i]));
+    if (!category) svg += svg_line("grid", px, y.from_px, px, y.to_px);
+    svg += svg_text(px, y.from_px + 20.0, "middle", category ? chart.x_categories[i] : tick_label(x.ticks[i]));
   }
   for (const double tick : y.ticks) {
-    svg += line("grid", x.from_px, y.px(tick), x.to_px, y.px(tick));
-    svg += text(x.from_px - 8.0, y.px(tick) + 5.0, "end", tick_label(tick));
+    svg += svg_line("grid", x.from_px, y.px(tick), x.to_px, y.px(tick));
+    svg += svg_text(x.from_px - 8.0, y.px(tick) + 5.0, "end", tick_label(tick));
   }
-  svg +=
-      line("axis", x.from_px, y.from_px, x.to_px, y.from_px) + line("axis", x.from_px, y.from_px, x.from_px, y.to_px);
+  svg += svg_line("axis", x.from_px, y.from_px, x.to_px, y.from_px) +
+         svg_line("axis", x.from_px, y.from_px, x.from_px, y.to_px);
   const double middle_x = 0.5 * (x.from_px + x.to_px);
   const double middle_y = 0.5 * (y.from_px + y.to_px);
-  svg += text(middle_x, kTop - 26.0, "middle", chart.title, " class=\"title\"");
-  if (chart.simulated) svg += text(middle_x, kTop - 8.0, "middle", kSimulatedFigure);
-  svg += text(middle_x, y.from_px + 46.0, "middle", chart.x_label);
-  svg += text(20.0, middle_y, "middle", chart.y_label,
-              fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle_y).c_str());
+  svg += svg_text(middle_x, kTop - 26.0, "middle", chart.title, " class=\"title\"");
+  if (chart.simulated) svg += svg_text(middle_x, kTop - 8.0, "middle", kSimulatedFigure);
+  svg += svg_text(middle_x, y.from_px + 46.0, "middle", chart.x_label);
+  svg +=
+      svg_text(20.0, middle_y, "middle", chart.y_label, fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle_y));
   return svg;
 }
 
 std::string marks(const ChartSeries& series, const std::vector<ChartPoint>& pixels) {
   const std::string style = svg_class(series);
-  std::string svg;
   if (series.mark == ChartMark::kDots) {
-    for (const ChartPoint& p : pixels) {
-      svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"/>\n", style, p.x, p.y);
-    }
+    std::string svg;
+    for (const ChartPoint& p : pixels) svg += svg_circle(style, p, 4.0);
     return svg;
   }
-  svg += fmt::format("<polyline class=\"{}\" points=\"", style);
-  for (const ChartPoint& p : pixels) svg += fmt::format("{:.1f},{:.1f} ", p.x, p.y);
-  return svg + "\"/>\n";
+  return svg_polyline(style, pixels);
 }
 
 double column_width(const Chart& chart) {
@@ -133,7 +103,7 @@ std::string legend(const Chart& chart, double x0) {
     const bool dots = series.mark == ChartMark::kDots;
     svg += marks(series, dots ? std::vector<ChartPoint>{{x + 0.5 * kSampleWidth, y}}
                               : std::vector<ChartPoint>{{x, y}, {x + kSampleWidth, y}});
-    svg += text(x + kSampleWidth + 10.0, y + 5.0, "start", series.name);
+    svg += svg_text(x + kSampleWidth + 10.0, y + 5.0, "start", series.name);
   }
   return svg;
 }
@@ -167,12 +137,7 @@ std::string to_svg(const Chart& chart) {
   const auto columns = static_cast<double>((chart.series.size() + kLegendRows - 1) / kLegendRows);
   const double width = legend_x + columns * column_width(chart);
   const double height = kTop + kPlotHeight + kBottom;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\">\n"
-      "<title>{2}</title>\n<style>\n{3}</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
-      width, height, escaped(chart.title), svg_style());
-  svg += axes(chart, x, y);
+  std::string svg = svg_head(width, height, chart.title) + axes(chart, x, y);
   for (const ChartSeries& series : chart.series) {
     std::vector<ChartPoint> pixels;
     for (const ChartPoint& point : series.points) pixels.push_back({x.px(point.x), y.px(point.y)});

@@ -13,10 +13,6 @@ namespace {
 constexpr double kNames = 300.0, kPanel = 320.0, kGap = 56.0, kTop = 84.0, kRow = 24.0, kBottom = 64.0;
 constexpr std::size_t kMostRows = 20;  // the smallest are in the table
 
-std::string text(double x, double y, const char* anchor, const std::string& words, const char* more = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, words);
-}
-
 std::string line(const char* kind, double x1, double y1, double x2, double y2) {
   return fmt::format("<polyline class=\"{}\" points=\"{:.1f},{:.1f} {:.1f},{:.1f}\"/>\n", kind, x1, y1, x2, y2);
 }
@@ -43,12 +39,13 @@ class Panel {
 
   std::string draw() const {
     const double bottom = kTop + kRow * static_cast<double>(rows_);
-    std::string svg = text(left_ + 0.5 * kPanel, kTop - 14.0, "middle",
-                           report_.arms[headline_ + 1] + " - " + report_.arms[headline_]);
+    std::string svg = evaluator::svg_text(left_ + 0.5 * kPanel, kTop - 14.0, "middle",
+                                          report_.arms[headline_ + 1] + " - " + report_.arms[headline_]);
     for (const double tick : ticks_) {
       svg += fmt::format("<line class=\"{0}\" x1=\"{1:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{3:.1f}\"/>\n",
                          std::abs(tick) < 1e-9 ? "axis" : "grid", px(tick), kTop, bottom);
-      svg += text(px(tick), bottom + 20.0, "middle", fmt::format("{:g}", std::abs(tick) < 1e-9 ? 0.0 : tick));
+      svg += evaluator::svg_text(px(tick), bottom + 20.0, "middle",
+                                 fmt::format("{:g}", std::abs(tick) < 1e-9 ? 0.0 : tick));
     }
     for (std::size_t row = 0; row < rows_; ++row) svg += bars(row);
     return svg;
@@ -85,23 +82,19 @@ std::string to_svg(const SensitivityReport& report) {
   const std::size_t rows = std::min(report.inputs.size(), kMostRows), panels = report.arms.size() - 1;
   const double width = kNames + (kPanel + kGap) * static_cast<double>(panels);
   const double bottom = kTop + kRow * static_cast<double>(rows);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\">\n"
-      "<title>Sensitivity</title>\n<style>\n{2}polyline.bar{{stroke-width:8}}\npolyline.whisker{{stroke-width:1.2}}\n"
-      "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n",
-      width, bottom + kBottom, evaluator::svg_style());
-  svg += text(0.5 * width, 28.0, "middle",
-              report.measure == Measure::kGoals
-                  ? "Change of the difference in goals, points of 100 opportunities"
-                  : "Change of the difference in shots on target, points of 100 opportunities",
-              " class=\"title\"");
-  svg += text(0.5 * width, 46.0, "middle", evaluator::kSimulatedFigure);
-  svg += line("bar c0", 20.0, 54.0, 50.0, 54.0) + text(58.0, 59.0, "start", "low") +
-         line("bar c1", 100.0, 54.0, 130.0, 54.0) + text(138.0, 59.0, "start", "high");
+  std::string svg = evaluator::svg_head(width, bottom + kBottom, "Sensitivity",
+                                        "polyline.bar{stroke-width:8}\npolyline.whisker{stroke-width:1.2}\n");
+  svg += evaluator::svg_text(0.5 * width, 28.0, "middle",
+                             report.measure == Measure::kGoals
+                                 ? "Change of the difference in goals, points of 100 opportunities"
+                                 : "Change of the difference in shots on target, points of 100 opportunities",
+                             " class=\"title\"");
+  svg += evaluator::svg_text(0.5 * width, 46.0, "middle", evaluator::kSimulatedFigure);
+  svg += line("bar c0", 20.0, 54.0, 50.0, 54.0) + evaluator::svg_text(58.0, 59.0, "start", "low") +
+         line("bar c1", 100.0, 54.0, 130.0, 54.0) + evaluator::svg_text(138.0, 59.0, "start", "high");
   for (std::size_t row = 0; row < rows; ++row) {
-    svg +=
-        text(kNames - 14.0, kTop + kRow * (static_cast<double>(row) + 0.5) + 5.0, "end", report.inputs[row].input.key);
+    svg += evaluator::svg_text(kNames - 14.0, kTop + kRow * (static_cast<double>(row) + 0.5) + 5.0, "end",
+                               report.inputs[row].input.key);
   }
   for (std::size_t i = 0; i < panels; ++i) svg += Panel{report, i, rows}.draw();
   return svg + "</svg>\n";

@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
 
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
@@ -149,9 +152,65 @@ TEST(Usage, AVerbThatIsNoneIsNamed) {
     EXPECT_EQ(trivela.wait(), 2);
     EXPECT_EQ(trivela.errors(), "trivela: there is no verb \"dance\"; trivela --help names them all\n");
   }
+  for (const auto& [arguments, says] : std::vector<BadNumber>{
+           {{"simulte"}, "there is no verb \"simulte\"; did you mean simulate? trivela --help names them all"},
+           {{"macth", "--half", "moving"}, "there is no verb \"macth\"; did you mean match? trivela --help"},
+           {{"calibrate", "tabel", "--json"},
+            "there is no verb \"tabel\"; did you mean calibrate table? trivela --help"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2);
+    EXPECT_THAT(trivela.errors(), testing::StartsWith("trivela: " + says));
+  }
   Program none{"trivela", {}, folder.path()};
   EXPECT_EQ(none.wait(), 2);
   EXPECT_THAT(none.errors(), HasSubstr("A subcommand is required"));
+}
+
+TEST(Usage, TheHelpGroupsEveryVerbByWhatAPersonWantsWithALineEach) {
+  const Folder folder;
+  Program help{"trivela", {"--help"}, folder.path()};
+  EXPECT_EQ(help.wait(), 0);
+  std::istringstream lines{help.output()};
+  std::string group;
+  std::map<std::string, std::vector<std::string>> verbs;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with(':')) group = line;
+    if (std::smatch verb; std::regex_match(line, verb, std::regex("  ([a-z][a-z-]*) +[A-Z].*"))) {
+      verbs[group].push_back(verb[1]);
+      EXPECT_LE(line.size(), 110u) << line;
+    }
+  }
+  using testing::Contains;
+  EXPECT_EQ(verbs.size(), 5u);
+  EXPECT_THAT(verbs["Play:"], Contains("match"));
+  EXPECT_THAT(verbs["Calibrate:"], Contains("calibrate"));
+  EXPECT_THAT(verbs["Compare:"], Contains("compare"));
+  EXPECT_THAT(verbs["After a match:"], Contains("report"));
+  EXPECT_THAT(verbs["On the robot, one kick:"], Contains("predict"));
+  EXPECT_THAT(help.output(), testing::Not(HasSubstr("Subcommands")));
+}
+
+TEST(Usage, OneKickIsDrawnAndTwoAreNot) {
+  const Folder folder;
+  const std::vector<std::string> kick{"solve", "--theta-deg", "36.78", "--d-m", "5.73", "--h-rel-m", "0.59", "--svg"};
+  std::vector<std::string> drawn = kick;
+  drawn.push_back("kick.svg");
+  Program solve{"trivela", drawn, folder.path()};
+  EXPECT_EQ(solve.wait(), 0) << solve.errors();
+  EXPECT_THAT(text_of(folder / "kick.svg"), HasSubstr("x = 0.00 m, z = 0.70 m"));
+  for (const auto& [arguments, says] : std::vector<BadNumber>{
+           {{"solve", "--csv", "kicks.csv", "--svg", "k.svg"}, "--svg draws one kick and goes without --csv"},
+           {{"predict", "--csv", "-", "--svg", "k.svg"}, "--svg draws one kick and goes without --csv"},
+           {{"align", "--svg", "k.svg"}, "--svg"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2) << says;
+    EXPECT_THAT(trivela.errors(), HasSubstr(says));
+  }
+  Program steep{
+      "trivela", {"solve", "--theta-deg", "5", "--d-m", "1", "--h-rel-m", "3", "--svg", "k.svg"}, folder.path()};
+  EXPECT_EQ(steep.wait(), 1);
+  EXPECT_THAT(steep.errors(), HasSubstr("no speed solves this kick, there is nothing to draw"));
+  EXPECT_FALSE(exists(folder / "k.svg"));
 }
 
 TEST(Usage, EveryProgramSaysItsVersion) {
@@ -171,6 +230,8 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
            {{"factorial", "--matches", "1000000", "--svg", "."}, "cannot write --svg .: it is a folder"},
            {{"frontier", "--matches", "1000000", "--svg", "no/f.svg"}, "cannot write --svg no/f.svg: No such file"},
            {{"sensitivity", "--matches", "1000000", "--csv", "no/s.csv"}, "cannot write --csv no/s.csv: No such file"},
+           {{"solve", "--theta-deg", "36.78", "--d-m", "5.73", "--h-rel-m", "0.59", "--svg", "no/k.svg"},
+            "cannot write --svg no/k.svg: No such file"},
            {{"learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: No such file"},
            {{"scan", "--synthesize", "s.db", "--truth", "no/t.csv"}, "cannot write --truth no/t.csv: No such file"},
            {{"simulate", "--arms", "moving", "--matches", "1000000", "--out", "no/ab.db"}, "no/ab.db"},
