@@ -64,12 +64,13 @@ install_packages() {
     { tail -n 5 "$log" >&2; stop "apt-get could not install: ${missing[*]} (log: $log)"; }
 }
 
-# build PRESET [TARGET...]: configures and builds build/PRESET.
+# build PRESET [TARGET...]: configures (with configure_options) and builds build/PRESET.
+configure_options=()
 build() {
   local preset=$1; shift
   step "build/$preset"
   local tool
   for tool in cmake ninja g++ idlc; do command -v "$tool" >/dev/null || stop "$tool is missing though packages.txt lists its package"; done
-  follow "build/logs/$preset-configure.log" cmake --preset "$preset"
+  follow "build/logs/$preset-configure.log" cmake --preset "$preset" "${configure_options[@]}"
   follow "build/logs/$preset-build.log" cmake --build --preset "$preset" ${@:+--target "$@"}
 }

@@ -18,7 +18,7 @@ fs::path folder() {
   if (const char* named = std::getenv("TRIVELA_CONFIG"); named != nullptr && *named != '\0') return named;
   std::error_code unknown;
   const fs::path beside = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  const fs::path installed = beside.parent_path() / "share/trivela/config";
+  fs::path installed = beside.parent_path() / "share/trivela/config";
   if (!holds_settings(beside / "config") && holds_settings(installed)) return installed;
   for (fs::path above = beside; above.has_relative_path(); above = above.parent_path()) {
     if (holds_settings(above / "config")) return above / "config";

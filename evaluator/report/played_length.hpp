@@ -14,7 +14,7 @@ namespace trivela::evaluator {
 struct PlayedLength {
   std::int64_t session_id = 0;  ///< of the first recording
   double planned_s = 0.0;
-  double recorded_s = 0.0;  ///< between words of the referee, stops included
+  double recorded_s = 0.0;    ///< between words of the referee, stops included
   bool half_missing = false;  ///< one of the planned halves, all as long, is not there or ends early
 
   /// Less than was planned, all of it or of a half: a half that lasts until its last possession has ended makes up for

@@ -13,10 +13,10 @@ using LaunchDirection = Estimate;
 /// How far the kicks of a standing robot scatter sideways.
 struct DirectionFit {
   double mean_rad = 0.0;
-  Estimate sd_rad{kUnknown, kUnknown};  ///< from kick to kick: sqrt(s^2 - mean(se^2)), s the scatter seen; unknown: the
-                                        ///< tracks' own errors explain all of it
-  double seen_sd_rad = 0.0;             ///< s, with n - 1
-  double observer_sd_rad = 0.0;         ///< sqrt(mean(se^2))
+  Estimate sd_rad{kNotKnown, kNotKnown};  ///< from kick to kick: sqrt(s^2 - mean(se^2)), s the scatter seen; unknown:
+                                          ///< the tracks' own errors explain all of it
+  double seen_sd_rad = 0.0;               ///< s, with n - 1
+  double observer_sd_rad = 0.0;           ///< sqrt(mean(se^2))
 };
 
 /// The robot stands in one place in one direction for all kicks; how well it does so is part of the scatter.

@@ -9,12 +9,12 @@
 namespace trivela::kicking {
 
 /// A figure that these data do not show.
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// Mean and standard deviation of a sample; sd kUnknown for a single value.
+/// Mean and standard deviation of a sample; sd kNotKnown for a single value.
 struct Spread {
   double mean = 0.0;
-  double sd = kUnknown;  ///< with n - 1
+  double sd = kNotKnown;  ///< with n - 1
 };
 
 /// @throws std::invalid_argument for an empty sample or a value that is not finite.

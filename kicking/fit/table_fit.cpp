@@ -50,7 +50,7 @@ Spread spread_of(const std::vector<const Trial*>& trials, double Trial::*column)
   for (const Trial* trial : trials) {
     if (!std::isnan(trial->*column)) values.push_back(trial->*column);
   }
-  return values.empty() ? Spread{kUnknown, kUnknown} : kicking::spread_of(values);
+  return values.empty() ? Spread{kNotKnown, kNotKnown} : kicking::spread_of(values);
 }
 
 double range_of(const std::vector<const Trial*>& trials, double Trial::*column) {
@@ -110,7 +110,7 @@ class PooledSd {
     squares_ += (values - 1) * sd * sd;
     freedom_ += values - 1;
   }
-  double sd() const { return freedom_ > 0 ? std::sqrt(squares_ / freedom_) : kUnknown; }
+  double sd() const { return freedom_ > 0 ? std::sqrt(squares_ / freedom_) : kNotKnown; }
 
  private:
   double squares_ = 0.0;

@@ -40,18 +40,19 @@ struct TableOptions {
 
 /// A table with the figures behind it.
 struct TableFit {
-  std::vector<TrialMean> set_points;    ///< powers rising
-  Estimate exit_angle_rad;              ///< mean over the trials that count, as in the paper
-  std::size_t exit_angles = 0;          ///< trials that it is the mean of
-  double angle_spread_rad = 0.0;        ///< greatest less least mean angle of a set-point
-  double exit_speed_sd_mps = kUnknown;  ///< from kick to kick, pooled over the set-points; NaN: no power has two trials
-  double exit_speed_sd_ratio = kUnknown;  ///< the same of each set-point's own speed
-  double exit_speed_se_ratio = kUnknown;  ///< of a set-point's mean, root mean square over the set-points
-  double exit_angle_sd_rad = kUnknown;    ///< from kick to kick, pooled over the set-points, measurement included
-  std::vector<std::size_t> not_rising;    ///< set-points not faster than an earlier one, before the isotonic fit
-  bool isotonic = false;                  ///< the isotonic fit changed the speeds
-  std::vector<double> residual_mps;       ///< trial - speed of its set-point, in the order of the trials
-  std::vector<std::string> warnings;      ///< single trials, angles that differ by more than 1 degree
+  std::vector<TrialMean> set_points;  ///< powers rising
+  Estimate exit_angle_rad;            ///< mean over the trials that count, as in the paper
+  std::size_t exit_angles = 0;        ///< trials that it is the mean of
+  double angle_spread_rad = 0.0;      ///< greatest less least mean angle of a set-point
+  double exit_speed_sd_mps =
+      kNotKnown;  ///< from kick to kick, pooled over the set-points; NaN: no power has two trials
+  double exit_speed_sd_ratio = kNotKnown;  ///< the same of each set-point's own speed
+  double exit_speed_se_ratio = kNotKnown;  ///< of a set-point's mean, root mean square over the set-points
+  double exit_angle_sd_rad = kNotKnown;    ///< from kick to kick, pooled over the set-points, measurement included
+  std::vector<std::size_t> not_rising;     ///< set-points not faster than an earlier one, before the isotonic fit
+  bool isotonic = false;                   ///< the isotonic fit changed the speeds
+  std::vector<double> residual_mps;        ///< trial - speed of its set-point, in the order of the trials
+  std::vector<std::string> warnings;       ///< single trials, angles that differ by more than 1 degree
 
   /// Does each speed lie above its predecessor?
   bool rises() const;

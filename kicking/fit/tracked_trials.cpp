@@ -35,7 +35,7 @@ TrackedTrials tracked_trials(std::span<const TrackedTrial> kicks) {
   for (const TrackedTrial& kick : kicks) {
     const double square = kick.sideways_rad * kick.sideways_rad;
     result.trials.push_back({.power = kick.power,
-                             .exit_angle_rad = kick.lob ? kick.lob->exit_angle_rad - of_angle(1) * square : kUnknown,
+                             .exit_angle_rad = kick.lob ? kick.lob->exit_angle_rad - of_angle(1) * square : kNotKnown,
                              .exit_speed_mps = kick.up_mps * (of_speed(0) + of_speed(1) * kick.up_mps * kick.up_mps)});
   }
   return result;

@@ -6,8 +6,8 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
-#include "kicking/policy/policy_config.hpp"
 #include "kicking/model/robot_model.hpp"
+#include "kicking/policy/policy_config.hpp"
 
 namespace trivela::kicking {
 

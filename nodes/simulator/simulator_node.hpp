@@ -9,8 +9,8 @@
 
 namespace trivela::nodes {
 
-/// The world of run.scenario. Throws std::runtime_error naming file, key and values where these settings cannot be played
-/// in it.
+/// The world of run.scenario. Throws std::runtime_error naming file, key and values where these settings cannot be
+/// played in it.
 sim::Scenario scenario_of(const config::Settings& settings);
 
 /// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer, otherwise in

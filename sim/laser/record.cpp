@@ -50,7 +50,7 @@ SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& pla
   const double heading = laser.heading_rad + plan.direction_error_rad;
   const Eigen::Vector3d launch{-plan.lateral_error_m * std::cos(laser.heading_rad),
                                -plan.lateral_error_m * std::sin(laser.heading_rad), ball.radius_m};
-  SyntheticRecord record{mount_of(laser, {}), {}, {}};
+  SyntheticRecord record{mount_of(laser, Eigen::Vector3d::Zero()), {}, {}};
   Scene scene{laser, ball, seed};
   scene.pass(kicking::nanoseconds(plan.background_s));
   for (std::uint32_t i = 0; i < plan.kicks.size(); ++i) {

@@ -65,7 +65,9 @@ TEST(Evening, CoversTheWorldsFigures) {
   EXPECT_GE(figures.size(), 14u);
   for (const StudiedFigure& figure : figures) {
     EXPECT_GE(figure.covered, 0.74) << figure.key << ": 5 of 16 evenings outside is one in a thousand";
-    if (figure.key.starts_with("transfer_")) EXPECT_LE(figure.rms, 0.05) << figure.key;
+    if (figure.key.starts_with("transfer_")) {
+      EXPECT_LE(figure.rms, 0.05) << figure.key;
+    }
   }
 }
 

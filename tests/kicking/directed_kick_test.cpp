@@ -33,9 +33,9 @@ TEST(DirectedKick, CrossesAtTheHeightWhereverItPointsAndHoweverItIsCarried) {
 }
 
 TEST(DirectedKick, IsNoneWhereNoSpeedReachesTheHeight) {
-  EXPECT_FALSE(directed_kick({0.5, 1.0, 0.0}, 0.5, kAngle));     // above the straight line
-  EXPECT_FALSE(directed_kick({5.0, 0.0, 0.0}, 0.5, kAngle));     // along the goal line
-  EXPECT_FALSE(directed_kick({5.0, -0.5, 0.0}, 0.5, kAngle));    // away from it
+  EXPECT_FALSE(directed_kick({0.5, 1.0, 0.0}, 0.5, kAngle));      // above the straight line
+  EXPECT_FALSE(directed_kick({5.0, 0.0, 0.0}, 0.5, kAngle));      // along the goal line
+  EXPECT_FALSE(directed_kick({5.0, -0.5, 0.0}, 0.5, kAngle));     // away from it
   EXPECT_FALSE(directed_kick({5.0, 1.0, 200.0}, -0.05, kAngle));  // the robot alone is too fast
   EXPECT_FALSE(directed_kick({NAN, 1.0, 0.0}, 0.5, kAngle));
 }

@@ -31,7 +31,9 @@ TEST(FlightFilter, FliesAsTheBallDoesThroughAirAndBounces) {
     ASSERT_NEAR(filter.x().p_m, ball.position_m.x(), 0.02) << i;
     ASSERT_NEAR(filter.y().p_m, ball.position_m.y(), 0.03) << i;
     ASSERT_NEAR(filter.z().p_m, ball.position_m.z(), 0.05) << i;
-    if (i == 30) EXPECT_FALSE(filter.bounced());
+    if (i == 30) {
+      EXPECT_FALSE(filter.bounced());
+    }
   }
   EXPECT_TRUE(filter.bounced());
 }

@@ -51,7 +51,9 @@ TEST(Guard, ALaterOrWiderBallIsHarder) {
     }
     EXPECT_GE(widest_m, widest_before_m) << flown_s;
     widest_before_m = widest_m;
-    if (flown_s < guard.reaction_s) EXPECT_NEAR(widest_m, guard.half_width_m + kRadius_m, 0.011);
+    if (flown_s < guard.reaction_s) {
+      EXPECT_NEAR(widest_m, guard.half_width_m + kRadius_m, 0.011);
+    }
   }
   EXPECT_GT(widest_before_m, 0.7);
 }
