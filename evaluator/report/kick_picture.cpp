@@ -126,7 +126,7 @@ class Above {
     const ChartPoint corner = px({-x, std::max(0.0, y)});
     std::string svg = svg_rect("grass", corner, 2.0 * x * scale, std::abs(y) * scale) +
                       svg_text(corner.x + 8.0, corner.y + std::abs(y) * scale - 8.0, "start",
-                               fmt::format("half of the field of {:g} x {:g} m", 2.0 * std::abs(y), 2.0 * x)) +
+                               fmt::format("one half of {:g} x {:g} m", 2.0 * std::abs(y), 2.0 * x)) +
                       line("field", {{-x, 0.0}, {-x, y}, {x, y}, {x, 0.0}, {-x, 0.0}}) + line("field", circle) +
                       box("field", w + kGoalArea_m, kGoalArea_m) + box("field", w + kPenaltyArea_m, kPenaltyArea_m) +
                       box("axis goal", w, -kGoalDepth_m) +
