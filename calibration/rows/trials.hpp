@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kicking/fit/table_fit.hpp"
+#include "kicking/lob/lob_record.hpp"
 
 namespace trivela::calibration {
 
