@@ -4,3 +4,15 @@
 #include "idl/kick.hpp"
 #include "idl/robot.hpp"
 #include "idl/sim.hpp"
+
+namespace trivela::bus {
+
+/// Calls f.operator()<T>() for each topic's type T in the order of the IDL.
+template <class F>
+constexpr void for_each_message(F&& f) {
+  for_each_message_of_robot(f);
+  for_each_message_of_kick(f);
+  for_each_message_of_sim(f);
+}
+
+}  // namespace trivela::bus

@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 struct dds_topic_descriptor;
 
@@ -29,9 +32,9 @@ struct Enumerator {
   const char* label;
 };
 
-/// Specialised by the generated code for each struct T of the IDL: `name`, `fields`, `visit(message, f)`; for a topic
-/// also `topic`, `profile`, `period_s` (@period, the longest time between two samples while all is well; 0: none) and
-/// `descriptor()`.
+/// Specialised by the generated code for each struct T of the IDL: `name`, `fields`, `members` (pointers to them, in
+/// the same order), `visit(message, f)`; for a topic also `topic`, `profile`, `period_s` (@period, the longest time
+/// between two samples while all is well; 0: none) and `descriptor()`.
 template <class T>
 struct meta;
 
@@ -70,6 +73,23 @@ constexpr auto field_names() {
     return std::array<std::string_view, sizeof...(I)>{meta<T>::fields[I].name...};
   }
   (std::make_index_sequence<meta<T>::fields.size()>{});
+}
+
+/// Calls f(name, field) for each field that is a value and no array: the columns of the message in a table.
+template <class T, class F>
+requires Struct<std::remove_reference_t<T>>
+constexpr void visit_columns(T&& message, F&& f) {
+  visit_fields(message, [&](std::string_view name, std::string_view, auto& field) {
+    if constexpr (!std::is_array_v<std::remove_cvref_t<decltype(field)>>) f(name, field);
+  });
+}
+
+/// The names of these columns.
+template <Struct T>
+std::vector<std::string> columns_of() {
+  std::vector<std::string> columns;
+  visit_columns(T{}, [&](std::string_view name, const auto&) { columns.emplace_back(name); });
+  return columns;
 }
 
 /// The label of an enum's value, e.g. "wide_left" for OUTCOME_WIDE_LEFT; "invalid" for a number outside the enum (the

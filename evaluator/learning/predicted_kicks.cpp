@@ -3,29 +3,10 @@
 #include <map>
 
 #include "evaluator/log/reader.hpp"
-#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/predicted_kicks.sql.hpp"
 #include "evaluator/report/log_sessions.hpp"
 
 namespace trivela::evaluator {
-namespace {
-
-using LoggedCells = std::span<const log::Value>;
-
-PredictedKick predicted_kick(LoggedCells row) {
-  return {.match = 0,
-          .shot = {.p_on_target = log::number(row[3]),
-                   .distance_m = log::number(row[4]),
-                   .vx_mps = log::number(row[5]),
-                   .vy_mps = log::number(row[6]),
-                   .omega_radps = log::number(row[7]),
-                   .power = log::number(row[8]),
-                   .opponent_distance_m = log::number_if_any(row[9])},
-          .on_target = log::number(row[10]) > 0.5};
-}
-
-}  // namespace
-
 PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source) {
   struct Recorded {
     std::uint32_t session;
@@ -38,13 +19,24 @@ PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, P
   for (const std::filesystem::path& path : logs) {
     const log::Reader reader{path};
     const SessionPlaces fresh = book.add(reader, path.string());
-    reader.query(kPredictedKicksSql, [&](LoggedCells row) {
-      if (source == PredictionSource::kInCharge && log::text_if_any(row[0]) != "predictive") return;
-      const auto session = fresh.find(log::integer(row[1]));
-      if (session == fresh.end()) return;
-      recorded.push_back(
-          {session->second, static_cast<int>(log::integer(row[2])), log::integer(row[11]), predicted_kick(row)});
-    });
+    reader.query(kPredictedKicksSql,
+                 [&](const std::string& policy, std::int64_t session_id, int robot_id, double p_on_target,
+                     double distance_m, double vx_mps, double vy_mps, double omega_radps, double power,
+                     std::optional<double> opponent_distance_m, bool on_target, std::int64_t kick_id) {
+                   if (source == PredictionSource::kInCharge && policy != "predictive") return;
+                   const auto session = fresh.find(session_id);
+                   if (session == fresh.end()) return;
+                   recorded.push_back({session->second, robot_id, kick_id,
+                                       PredictedKick{.match = 0,
+                                                     .shot = {.p_on_target = p_on_target,
+                                                              .distance_m = distance_m,
+                                                              .vx_mps = vx_mps,
+                                                              .vy_mps = vy_mps,
+                                                              .omega_radps = omega_radps,
+                                                              .power = power,
+                                                              .opponent_distance_m = opponent_distance_m},
+                                                     .on_target = on_target}});
+                 });
   }
   book.refuse_replays_alone();
   book.settle();

@@ -119,14 +119,20 @@ void LogFile::check() const {
   if (said != "ok") throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind_.name, path_, said));
 }
 
-void LogFile::query(std::string_view sql, const RowFunction& fn) const {
+void LogFile::each_row(std::string_view sql, const RowFunction& fn) const {
   try {
     allow_steps();
     SQLite::Statement statement(*database_, std::string(sql));
     std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
     while (statement.executeStep()) {
       for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
-      fn(row);
+      try {
+        fn(row);
+      } catch (const WrongCell& wrong) {
+        throw std::runtime_error(fmt::format("cannot read the {} {}: column {} of \"{:.100}\" is not {}", kind_.name,
+                                             path_, statement.getColumnName(static_cast<int>(wrong.column)),
+                                             sql.substr(0, sql.find('\n')), wrong.wanted));
+      }
     }
   } catch (const SQLite::Exception& error) {
     throw std::runtime_error(unreadable(error));

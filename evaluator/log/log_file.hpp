@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "evaluator/log/log_check.hpp"
+#include "evaluator/log/queries.hpp"
 #include "evaluator/log/schema.hpp"
-#include "evaluator/log/value.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -17,18 +17,15 @@ namespace trivela::evaluator::log {
 Value value_of(const SQLite::Column& column);
 
 /// A finished or growing log, open for reading only. It may come from anybody: no view, trigger or index of its own
-/// plays a part, and what reading costs is bounded by its size.
-class LogFile {
+/// plays a part, and what reading costs is bounded by its size: a query that takes more steps than any of a file of
+/// this size does throws std::runtime_error, as every error naming the path.
+class LogFile final : public Queries {
  public:
   /// Throws std::runtime_error naming the path where it does not exist, is no log of this kind, is of a newer version,
   /// has another schema than its version, or is damaged.
   LogFile(const std::filesystem::path& path, const LogKind& kind, Check check = Check::kIfShort);
   ~LogFile();
   LogFile(LogFile&&) noexcept;
-
-  /// Calls `fn` for each row of the result. Throws std::runtime_error naming the path, also where that takes more steps
-  /// than any query of a file of this size does.
-  void query(std::string_view sql, const RowFunction& fn) const;
 
   /// The sentence on a session without an end.
   std::string not_closed() const;
@@ -45,6 +42,7 @@ class LogFile {
  private:
   struct Budget;
 
+  void each_row(std::string_view sql, const RowFunction& fn) const override;
   void open();
   void check() const;
   void allow_steps() const;

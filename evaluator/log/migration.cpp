@@ -31,9 +31,8 @@ using TextNames = std::map<std::string, std::string>;
 TextNames copy_texts(const Reader& reader, SQLite::Database& database) {
   TextNames names;
   SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
-  reader.query("SELECT sha256, text FROM texts", [&](std::span<const Value> row) {
-    const auto& text = std::get<std::string>(row[1]);
-    const std::string& name = names[std::get<std::string>(row[0])] = sha256(text);
+  reader.query("SELECT sha256, text FROM texts", [&](const std::string& old_name, const std::string& text) {
+    const std::string& name = names[old_name] = sha256(text);
     insert.reset();
     insert.bind(1, name);
     insert.bindNoCopy(2, text);
@@ -45,8 +44,7 @@ TextNames copy_texts(const Reader& reader, SQLite::Database& database) {
 std::int64_t rows_of(const Reader& reader) {
   std::int64_t rows = 0;
   for (const DigestedTable& table : kDigestedTables) {
-    reader.query(fmt::format("SELECT count(*) FROM {}", table.name),
-                 [&](std::span<const Value> row) { rows += integer(row[0]); });
+    reader.query(fmt::format("SELECT count(*) FROM {}", table.name), [&](std::int64_t count) { rows += count; });
   }
   return rows;
 }

@@ -13,24 +13,10 @@
 namespace trivela::evaluator::log {
 namespace {
 
-std::optional<double> number_of(const Value& value) {
-  const auto* const number = std::get_if<double>(&value);
-  return number != nullptr ? std::optional(*number) : std::nullopt;
-}
-
-std::optional<std::int64_t> integer_of(const Value& value) {
-  const auto* const integer = std::get_if<std::int64_t>(&value);
-  return integer != nullptr ? std::optional(*integer) : std::nullopt;
-}
-
-std::string text_of(const Value& value) {
-  const auto* const text = std::get_if<std::string>(&value);
-  return text != nullptr ? *text : std::string();
-}
-
-std::optional<Crossing> crossing_of(const Value& outcome, const Value& x_cross_m, const Value& z_cross_m) {
-  if (!std::holds_alternative<std::string>(outcome)) return std::nullopt;
-  return Crossing{text_of(outcome), number_of(x_cross_m), number_of(z_cross_m)};
+std::optional<Crossing> crossing_of(const std::optional<std::string>& outcome, std::optional<double> x_cross_m,
+                                    std::optional<double> z_cross_m) {
+  if (!outcome) return std::nullopt;
+  return Crossing{*outcome, x_cross_m, z_cross_m};
 }
 
 }  // namespace
@@ -86,7 +72,7 @@ void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::
   }
 }
 
-void Reader::query(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
+void Reader::each_row(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
                           const RowFunction& fn) const {
@@ -109,43 +95,21 @@ void Reader::for_each_row(std::string_view table, const std::vector<std::string>
 }
 
 std::vector<RecordedSession> Reader::sessions() const {
-  std::vector<RecordedSession> sessions;
-  query(
-      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, realtime_offset_ns, idl_sha256, "
-      "config_sha256, seed, software_version, scenario, simulated, arm, kicker_table, match_id, "
-      "continues_uuid, replays_uuid, paired_halves, planned_s, calibration_id "
-      "FROM sessions ORDER BY started_t_ns, session_id",
-      [&](std::span<const Value> row) {
-        RecordedSession session;
-        session.session_id = *integer_of(row[0]);
-        session.uuid = text_of(row[1]);
-        if (const auto robot_id = integer_of(row[2])) session.robot_id = static_cast<int>(*robot_id);
-        session.started_t_ns = *integer_of(row[3]);
-        session.closed_t_ns = integer_of(row[4]);
-        session.simulated_clock = text_of(row[5]) == "simulated";
-        session.realtime_offset_ns = *integer_of(row[6]);
-        session.idl_sha256 = text_of(row[7]);
-        session.config_sha256 = text_of(row[8]);
-        session.seed = integer_of(row[9]);
-        session.software_version = text_of(row[10]);
-        session.scenario = text_of(row[11]);
-        session.simulated = *integer_of(row[12]) != 0;
-        if (!text_of(row[13]).empty()) session.arm = text_of(row[13]);
-        if (!text_of(row[14]).empty()) session.kicker_table = text_of(row[14]);
-        session.match_id = integer_of(row[15]);
-        session.continues_uuid = text_of(row[16]);
-        session.replays_uuid = text_of(row[17]);
-        session.paired_halves = *integer_of(row[18]) != 0;
-        session.planned_s = number_of(row[19]);
-        session.calibration_id = integer_of(row[20]);
-        sessions.push_back(std::move(session));
-      });
-  for_each_row("session_policies", {"session_id", "half", "policy", "robot_id"}, [&](std::span<const Value> row) {
-    const auto session = std::ranges::find(sessions, *integer_of(row[0]), &RecordedSession::session_id);
-    if (session == sessions.end()) return;
-    session->policies.push_back(
-        {static_cast<int>(*integer_of(row[1])), text_of(row[2]), static_cast<int>(*integer_of(row[3]))});
-  });
+  using S = RecordedSession;
+  auto sessions = rows<S>(
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock = 'simulated', realtime_offset_ns, "
+      "idl_sha256, config_sha256, seed, software_version, scenario, simulated, nullif(arm, ''), "
+      "nullif(kicker_table, ''), match_id, coalesce(continues_uuid, ''), coalesce(replays_uuid, ''), paired_halves, "
+      "planned_s, calibration_id FROM sessions ORDER BY started_t_ns, session_id",
+      &S::session_id, &S::uuid, &S::robot_id, &S::started_t_ns, &S::closed_t_ns, &S::simulated_clock,
+      &S::realtime_offset_ns, &S::idl_sha256, &S::config_sha256, &S::seed, &S::software_version, &S::scenario,
+      &S::simulated, &S::arm, &S::kicker_table, &S::match_id, &S::continues_uuid, &S::replays_uuid, &S::paired_halves,
+      &S::planned_s, &S::calibration_id);
+  query("SELECT session_id, half, policy, robot_id FROM session_policies ORDER BY session_id, robot_id, half",
+        [&](std::int64_t session_id, int half, const std::string& policy, int robot_id) {
+          const auto session = std::ranges::find(sessions, session_id, &S::session_id);
+          if (session != sessions.end()) session->policies.push_back({half, policy, robot_id});
+        });
   return sessions;
 }
 
@@ -154,9 +118,9 @@ RecordedSession Reader::whole(RecordedSession session) const {
             "SELECT config.text, idl.text FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
             "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 WHERE session_id = {}",
             session.session_id),
-        [&](std::span<const Value> row) {
-          session.config_toml = text_of(row[0]);
-          session.idl = text_of(row[1]);
+        [&](std::optional<std::string> config_toml, std::optional<std::string> idl) {
+          session.config_toml = std::move(config_toml).value_or("");
+          session.idl = std::move(idl).value_or("");
         });
   return session;
 }
@@ -167,43 +131,36 @@ std::vector<Kick> Reader::kicks() const {
       "SELECT session_id, robot_id, kick_id, t_ns, half, possession_id, policy, order_seq, accepted, refusal, outcome, "
       "x_cross_m, z_cross_m, sd_cross_m, truth_outcome, truth_x_cross_m, truth_z_cross_m, truth_margin_m FROM kicks "
       "ORDER BY session_id, t_ns, robot_id",
-      [&](std::span<const Value> row) {
-        Kick kick;
-        kick.session_id = *integer_of(row[0]);
-        kick.robot_id = static_cast<int>(*integer_of(row[1]));
-        kick.kick_id = *integer_of(row[2]);
-        kick.t_ns = *integer_of(row[3]);
-        kick.half = static_cast<int>(*integer_of(row[4]));
-        kick.possession_id = *integer_of(row[5]);
-        kick.policy = text_of(row[6]);
-        kick.ordered = integer_of(row[7]).has_value();
-        if (const auto accepted = integer_of(row[8])) kick.accepted = *accepted != 0;
-        kick.refusal = text_of(row[9]);
-        kick.observed = crossing_of(row[10], row[11], row[12]);
-        kick.sd_cross_m = number_of(row[13]);
-        kick.truth = crossing_of(row[14], row[15], row[16]);
-        kick.truth_margin_m = number_of(row[17]);
-        kicks.push_back(std::move(kick));
+      [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns, int half,
+          std::int64_t possession_id, const std::string& policy, std::optional<std::int64_t> order_seq,
+          std::optional<bool> accepted, std::optional<std::string> refusal, std::optional<std::string> outcome,
+          std::optional<double> x_cross_m, std::optional<double> z_cross_m, std::optional<double> sd_cross_m,
+          std::optional<std::string> truth_outcome, std::optional<double> truth_x_cross_m,
+          std::optional<double> truth_z_cross_m, std::optional<double> truth_margin_m) {
+        kicks.push_back({.session_id = session_id,
+                         .robot_id = robot_id,
+                         .kick_id = kick_id,
+                         .t_ns = t_ns,
+                         .half = half,
+                         .possession_id = possession_id,
+                         .policy = policy,
+                         .ordered = order_seq.has_value(),
+                         .accepted = accepted,
+                         .refusal = std::move(refusal).value_or(""),
+                         .observed = crossing_of(outcome, x_cross_m, z_cross_m),
+                         .sd_cross_m = sd_cross_m,
+                         .truth = crossing_of(truth_outcome, truth_x_cross_m, truth_z_cross_m),
+                         .truth_margin_m = truth_margin_m});
       });
   return kicks;
 }
 
 std::vector<Loss> Reader::losses() const {
-  std::vector<Loss> losses;
-  query(
+  return rows<Loss>(
       "SELECT stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
       "sum(out_of_order) FROM losses GROUP BY stream ORDER BY stream",
-      [&](std::span<const Value> row) {
-        losses.push_back({.stream = text_of(row[0]),
-                          .received = *integer_of(row[1]),
-                          .lost = *integer_of(row[2]),
-                          .gaps = *integer_of(row[3]),
-                          .overflow = *integer_of(row[4]),
-                          .nan_refused = *integer_of(row[5]),
-                          .rejected = *integer_of(row[6]),
-                          .out_of_order = *integer_of(row[7])});
-      });
-  return losses;
+      &Loss::stream, &Loss::received, &Loss::lost, &Loss::gaps, &Loss::overflow, &Loss::nan_refused, &Loss::rejected,
+      &Loss::out_of_order);
 }
 
 std::vector<std::string> Reader::warnings() const {

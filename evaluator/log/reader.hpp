@@ -10,8 +10,8 @@
 
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/loss.hpp"
+#include "evaluator/log/queries.hpp"
 #include "evaluator/log/session.hpp"
-#include "evaluator/log/value.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -56,7 +56,7 @@ struct RecordedKick {
 };
 
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
-class Reader {
+class Reader final : public Queries {
  public:
   /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of a newer version, has
   /// another schema than its version, holds texts that are not those it names, or is otherwise damaged; as far as
@@ -96,11 +96,9 @@ class Reader {
   /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
   void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const;
 
-  /// Calls `fn` for each row of a query. Throws std::runtime_error where the query fails or would write.
-  void query(std::string_view sql, const RowFunction& fn) const;
-
  private:
   struct Impl;
+  void each_row(std::string_view sql, const RowFunction& fn) const override;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -15,42 +15,30 @@ namespace {
 
 constexpr std::size_t kApplicationIdOffset = 68;  // in the header of an SQLite file, big-endian
 
-/// The cells of a row one after the other. Throws std::bad_variant_access for another type, which a STRICT table does
-/// not hold.
-class Cells {
- public:
-  explicit Cells(std::span<const Value> row) : row_(row) {}
-  std::int64_t integer() { return std::get<std::int64_t>(row_[next_++]); }
-  double number() { return std::get<double>(row_[next_++]); }
-  const std::string& text() { return std::get<std::string>(row_[next_++]); }
-
- private:
-  std::span<const Value> row_;
-  std::size_t next_ = 0;
-};
-
-ScanSession session_of(Cells cells) {
-  ScanSession session;
-  session.started_t_ns = cells.integer();
-  session.realtime_offset_ns = cells.integer();
-  kicking::lob::ScannerIdentity& identity = session.identity;
-  for (std::string* text :
-       {&identity.vendor, &identity.product, &identity.serial, &identity.firmware, &identity.protocol}) {
-    *text = cells.text();
-  }
-  kicking::lob::ScanGeometry& geometry = session.geometry;
-  geometry.beams = static_cast<std::size_t>(cells.integer());
-  for (double* number : {&geometry.first_angle_rad, &geometry.step_rad, &geometry.beam_period_s,
-                         &geometry.scan_period_s, &geometry.min_range_m, &geometry.max_range_m}) {
-    *number = cells.number();
-  }
-  for (double* number : {&session.mount.x_m, &session.mount.z_m, &session.mount.front_elevation_rad}) {
-    *number = cells.number();
-  }
-  session.mount.mirrored = cells.integer() != 0;
-  session.simulated = cells.integer() != 0;
-  session.source = cells.text();
-  session.software_version = cells.text();
+/// The session of a record; none: it holds no session.
+std::optional<ScanSession> session_of(const LogFile& file) {
+  using kicking::lob::LaserMount, kicking::lob::ScanGeometry, kicking::lob::ScannerIdentity;
+  using S = ScanSession;
+  using I = ScannerIdentity;
+  using G = ScanGeometry;
+  using M = LaserMount;
+  std::vector<S> sessions =
+      file.rows<S>("SELECT started_t_ns, realtime_offset_ns, simulated, source, software_version FROM sessions",
+                   &S::started_t_ns, &S::realtime_offset_ns, &S::simulated, &S::source, &S::software_version);
+  if (sessions.empty()) return std::nullopt;
+  S& session = sessions.back();
+  session.identity = file.rows<I>("SELECT vendor, product, serial, firmware, protocol FROM sessions", &I::vendor,
+                                  &I::product, &I::serial, &I::firmware, &I::protocol)
+                         .back();
+  session.geometry = file.rows<G>(
+                             "SELECT beams, first_angle_rad, step_rad, beam_period_s, scan_period_s, min_range_m, "
+                             "max_range_m FROM sessions",
+                             &G::beams, &G::first_angle_rad, &G::step_rad, &G::beam_period_s, &G::scan_period_s,
+                             &G::min_range_m, &G::max_range_m)
+                         .back();
+  session.mount = file.rows<M>("SELECT laser_x_m, laser_z_m, front_elevation_rad, mirrored FROM sessions", &M::x_m,
+                               &M::z_m, &M::front_elevation_rad, &M::mirrored)
+                      .back();
   return session;
 }
 
@@ -63,16 +51,9 @@ struct ScanReader::Impl {
   };
 
   explicit Impl(const std::filesystem::path& path) : file(path, kScanRecord) {
-    bool found = false;
-    file.query(
-        "SELECT started_t_ns, realtime_offset_ns, vendor, product, serial, firmware, protocol, beams, first_angle_rad, "
-        "step_rad, beam_period_s, scan_period_s, min_range_m, max_range_m, laser_x_m, laser_z_m, front_elevation_rad, "
-        "mirrored, simulated, source, software_version FROM sessions",
-        [&](std::span<const Value> row) {
-          session = session_of(Cells(row));
-          found = true;
-        });
+    auto found = session_of(file);
     if (!found) throw std::runtime_error(fmt::format("the scan record {} holds no session", file.path()));
+    session = std::move(*found);
     check(session.geometry);
     refresh();
   }
@@ -94,10 +75,7 @@ struct ScanReader::Impl {
   void refresh() {
     const std::int64_t last = places.empty() ? -1 : places.back().seq;
     file.query(fmt::format("SELECT seq, t_ns FROM scans WHERE seq > {} ORDER BY seq", last),
-               [&](std::span<const Value> row) {
-                 Cells cells(row);
-                 const std::int64_t seq = cells.integer();
-                 const std::int64_t t_ns = cells.integer();
+               [&](std::int64_t seq, std::int64_t t_ns) {
                  if (!places.empty() && t_ns <= places.back().t_ns)
                    damaged(fmt::format("scan {} is not later than the one before", seq));
                  places.push_back({seq, t_ns});
@@ -128,7 +106,7 @@ kicking::lob::Scan ScanReader::scan(std::size_t i) const {
   const Impl::Place& place = impl_->places.at(i);
   std::optional<std::vector<std::uint32_t>> ranges;
   impl_->file.query(fmt::format("SELECT ranges FROM scans WHERE seq = {}", place.seq),
-                    [&](std::span<const Value> row) { ranges = decode_ranges(std::get<Blob>(row[0])); });
+                    [&](const Blob& packed) { ranges = decode_ranges(packed); });
   const std::size_t beams = impl_->session.geometry.beams;
   if (!ranges || ranges->size() != beams) {
     throw std::runtime_error(fmt::format("the scan record {} is damaged: scan {} does not hold the ranges of {} beams",
@@ -138,40 +116,24 @@ kicking::lob::Scan ScanReader::scan(std::size_t i) const {
 }
 
 std::vector<TestedSetPoint> ScanReader::set_points() const {
-  std::vector<TestedSetPoint> set_points;
-  impl_->file.query("SELECT t_ns, power, kick_id FROM set_points ORDER BY seq", [&](std::span<const Value> row) {
-    Cells cells(row);
-    TestedSetPoint& tested = set_points.emplace_back();
-    tested.t_ns = cells.integer();
-    if (const double power = cells.number(); power != 0.0) tested.power = power;
-    tested.kick_id = cells.integer();
-  });
-  return set_points;
+  return impl_->file.rows<TestedSetPoint>("SELECT t_ns, nullif(power, 0.0), kick_id FROM set_points ORDER BY seq",
+                                          &TestedSetPoint::t_ns, &TestedSetPoint::power, &TestedSetPoint::kick_id);
 }
 
 std::vector<Verdict> ScanReader::verdicts() const {
-  std::vector<Verdict> verdicts;
-  impl_->file.query("SELECT launch_t_ns, accepted, why FROM verdicts ORDER BY seq", [&](std::span<const Value> row) {
-    Cells cells(row);
-    Verdict& verdict = verdicts.emplace_back();
-    verdict.launch_t_ns = cells.integer();
-    verdict.accepted = cells.integer() != 0;
-    verdict.why = cells.text();
-  });
-  return verdicts;
+  return impl_->file.rows<Verdict>("SELECT launch_t_ns, accepted, why FROM verdicts ORDER BY seq",
+                                   &Verdict::launch_t_ns, &Verdict::accepted, &Verdict::why);
 }
 
 std::vector<std::string> ScanReader::warnings() const {
   std::vector<std::string> warnings;
-  impl_->file.query("SELECT uuid FROM sessions WHERE closed_t_ns IS NULL", [&](std::span<const Value> row) {
-    warnings.push_back(fmt::format("session {} was not closed: {}", Cells(row).text(), impl_->file.not_closed()));
+  impl_->file.query("SELECT uuid FROM sessions WHERE closed_t_ns IS NULL", [&](const std::string& uuid) {
+    warnings.push_back(fmt::format("session {} was not closed: {}", uuid, impl_->file.not_closed()));
   });
   impl_->file.query(
       "SELECT stream, overflow + nan_refused + rejected AS missing FROM losses WHERE missing > 0 ORDER BY stream",
-      [&](std::span<const Value> row) {
-        Cells cells(row);
-        const std::string stream = cells.text();
-        warnings.push_back(fmt::format("{}: {} rows are missing", stream, cells.integer()));
+      [&](const std::string& stream, std::int64_t missing) {
+        warnings.push_back(fmt::format("{}: {} rows are missing", stream, missing));
       });
   return warnings;
 }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <regex>
 
 #include "evaluator/log/before_version_4.sql.hpp"
+#include "evaluator/log/message_table.hpp"
+#include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
 #include "evaluator/log/scan_schema_version_1.sql.hpp"
 #include "evaluator/log/schema.sql.hpp"
@@ -53,18 +56,6 @@ std::string own_kicks(std::string_view schema, const std::string& name) {
   return fmt::format("CREATE TEMP VIEW {} AS{}", name, std::regex_replace(body, table, "$1 main.$2"));
 }
 
-/// Of what is left out nothing yet.
-constexpr const char* kCountedKicks = R"(
-CREATE TEMP TABLE left_out_sessions (session_id INTEGER NOT NULL PRIMARY KEY) STRICT;
-CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER NOT NULL, kick_id INTEGER NOT NULL,
-  PRIMARY KEY (session_id, robot_id, kick_id)) STRICT, WITHOUT ROWID;
-CREATE TEMP VIEW counted_kicks AS
-SELECT k.* FROM temp.kicks AS k
-WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
-  AND NOT EXISTS (SELECT 1 FROM left_out_kicks AS l
-    WHERE l.session_id = k.session_id AND l.robot_id = k.robot_id AND l.kick_id = k.kick_id);
-)";
-
 }  // namespace
 
 std::string_view schema_of(const LogKind& kind, int version) {
@@ -81,6 +72,19 @@ std::string_view schema_of(const LogKind& kind, int version) {
   }
 }
 
+std::optional<std::string> table_of_message(std::string_view type) {
+  std::string name;
+  for (const char c : type) {
+    if (std::isupper(c) != 0 && !name.empty()) name += '_';
+    name += static_cast<char>(std::tolower(c));
+  }
+  for (const char* const ending : {"", "s"}) {
+    const std::string table = name + ending;
+    if (std::string_view(kSchemaSql).find("CREATE TABLE " + table + " (") != std::string_view::npos) return table;
+  }
+  return std::nullopt;
+}
+
 void create_reading_views(SQLite::Database& database, int version) {
   const char* const kicks = version == 1 ? "kicks_of_version_1" : version < 4 ? "kicks_of_version_3" : "kicks";
   database.exec(own_kicks(schema_of(kMatchLog, version), kicks));
@@ -88,7 +92,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version == 2) database.exec(kVersion2Sql);
   if (version == 3) database.exec(kVersion3Sql);
   if (version < 4) database.exec(kBeforeVersion4Sql);
-  database.exec(kCountedKicks);
+  database.exec(kReadingViewsSql);
 }
 
 void create_tables(SQLite::Database& database) {

@@ -16,9 +16,8 @@ constexpr int kFirstWithTexts = 2;  // versions
 }
 
 void check_hashes(const LogFile& file, const std::string& pairs, const std::string& what) {
-  file.query(pairs, [&](std::span<const Value> row) {
-    const std::string& named = std::get<std::string>(row[0]);
-    if (const std::string is = sha256(std::get<std::string>(row[1])); is != named)
+  file.query(pairs, [&](const std::string& named, const std::string& text) {
+    if (const std::string is = sha256(text); is != named)
       damaged(file, fmt::format("{} named {:.64} has the SHA-256 {}", what, named, is));
   });
 }
@@ -35,12 +34,10 @@ std::vector<DigestedSession> digested_sessions(const LogFile& file) {
   file.query(
       "SELECT s.session_id, s.uuid, s.closed_t_ns IS NOT NULL, d.row_count, d.sha256 FROM main.sessions AS s "
       "LEFT JOIN main.digests AS d USING (session_id) ORDER BY s.session_id",
-      [&](std::span<const Value> row) {
-        DigestedSession& session = sessions.emplace_back();
-        session.session_id = integer(row[0]);
-        session.uuid = std::get<std::string>(row[1]);
-        session.closed = integer(row[2]) != 0;
-        if (const auto rows = integer_if_any(row[3])) session.noted = RowDigest{*rows, text_if_any(row[4])};
+      [&](std::int64_t session_id, const std::string& uuid, bool closed, std::optional<std::int64_t> row_count,
+          std::optional<std::string> sha256) {
+        DigestedSession& session = sessions.emplace_back(DigestedSession{session_id, uuid, closed, {}});
+        if (row_count) session.noted = RowDigest{*row_count, std::move(sha256).value_or("")};
       });
   return sessions;
 }
@@ -50,7 +47,7 @@ void check_that_rows_have_sessions(const LogFile& file) {
     file.query(fmt::format("SELECT session_id FROM main.{} WHERE session_id NOT IN (SELECT session_id FROM "
                            "main.sessions) LIMIT 1",
                            table),
-               [&](std::span<const Value>) { damaged(file, fmt::format("{} has rows of no session", table)); });
+               [&](std::int64_t) { damaged(file, fmt::format("{} has rows of no session", table)); });
   };
   for (const DigestedTable& table : kDigestedTables) check(table.name);
   check("digests");
@@ -68,9 +65,8 @@ void check_texts(const LogFile& file) {
   for (const char* const text : {"config_sha256", "idl_sha256"}) {
     file.query(
         fmt::format("SELECT uuid FROM main.sessions WHERE {} NOT IN (SELECT sha256 FROM main.texts) LIMIT 1", text),
-        [&](std::span<const Value> row) {
-          damaged(file, fmt::format("the text that {} of session {} names is not there", text,
-                                    std::get<std::string>(row[0])));
+        [&](const std::string& uuid) {
+          damaged(file, fmt::format("the text that {} of session {} names is not there", text, uuid));
         });
   }
 }
@@ -83,9 +79,9 @@ Verification unverified(const LogFile& file) {
           ? "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
             "session_id NOT IN (SELECT session_id FROM main.digests))"
           : "SELECT 0, count(*) FROM main.sessions",
-      [&](std::span<const Value> row) {
-        found.rows = integer(row[0]);
-        found.without_digest = integer(row[1]);
+      [&](std::int64_t rows, std::int64_t without_digest) {
+        found.rows = rows;
+        found.without_digest = without_digest;
       });
   return found;
 }

@@ -1,10 +1,11 @@
 -- What counting asks of the sessions, without their long texts.
 -- Columns: session_id, started_utc_ns, closed_utc_ns (NULL: never finalised), seed, scenario, simulated, arm,
--- kicker_table, match_id, config_sha256, uuid, continues_uuid, is_replay, paired_halves, lockstep (1: the clock is the
--- simulator's), ended_utc_ns (of the last row, where it was never finalised), row_count (that the recorder wrote; of
--- an experiment its possessions), calibration_id.
+-- kicker_table, match_id, config_sha256, uuid, continues_uuid ('' in a text: none), is_replay, paired_halves, lockstep
+-- (1: the clock is the simulator's), ended_utc_ns (of the last row, where it was never finalised), row_count (that the
+-- recorder wrote; of an experiment its possessions), calibration_id.
 SELECT session_id, started_t_ns + realtime_offset_ns AS started_utc_ns, closed_t_ns + realtime_offset_ns AS closed_utc_ns,
-  seed, scenario, simulated, arm, kicker_table, match_id, config_sha256, uuid, continues_uuid,
+  seed, scenario, simulated, coalesce(arm, '') AS arm, coalesce(kicker_table, '') AS kicker_table, match_id,
+  config_sha256, uuid, coalesce(continues_uuid, '') AS continues_uuid,
   replays_uuid IS NOT NULL AS is_replay, paired_halves, clock = 'simulated' AS lockstep,
   coalesce(closed_t_ns, (SELECT max(to_t_ns) FROM losses AS l WHERE l.session_id = s.session_id AND l.robot_id = 0),
     started_t_ns) + realtime_offset_ns AS ended_utc_ns,

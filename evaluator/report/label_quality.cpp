@@ -6,15 +6,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/kicked_tracks.sql.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
 
 namespace trivela::evaluator {
 namespace {
-
-using Cells = std::span<const log::Value>;
-using log::integer, log::number_if_any, log::text_if_any;
 
 constexpr std::int64_t kManyTurns = 4;
 constexpr std::int64_t kManySightings = 10;  // by which a block would have been seen
@@ -28,12 +24,10 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
 
 void read_labels(const log::Reader& reader, LabelQuality& quality) {
   for (const auto& [most, name] : kRows) quality.rows.push_back({.sightings = name});
-  reader.query(kLabelDoubtSql, [&](Cells row) {
-    const std::string label = text_if_any(row[1]);
-    const std::int64_t sightings = integer(row[2]);
+  const auto add = [&](const std::string& policy, const std::string& label, std::int64_t sightings,
+                       std::optional<double> p_inside, std::optional<double> p_label, std::optional<double> p_any) {
     const auto place = std::ranges::find_if(kRows, [&](const auto& r) { return sightings <= r.first; });
     SightingsRow& of = quality.rows[static_cast<std::size_t>(place - kRows.begin())];
-    const auto p_inside = number_if_any(row[3]), p_label = number_if_any(row[4]), p_any = number_if_any(row[5]);
     const bool unknown = label == "unknown";
     ++quality.kicks;
     ++of.kicks;
@@ -44,13 +38,14 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
       return;
     }
     of.expected_wrong += 1.0 - p_label.value_or(1.0);
-    stats::LabelDoubt& doubt = quality.doubts[text_if_any(row[0])];
+    stats::LabelDoubt& doubt = quality.doubts[policy];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
     } else {
       doubt.outside += p_inside.value_or(0.0);
     }
-  });
+  };
+  reader.query(kLabelDoubtSql, add);
 }
 
 /// Follows the ball after each release and notes how far forward it came where it came back.
@@ -97,15 +92,15 @@ class Turns {
 
 void read_turns(const log::Reader& reader, LabelQuality& quality) {
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
-               [&](Cells row) { quality.goal_y_m = number_if_any(row[0]); });
+               [&](std::optional<double> goal_y_m) { quality.goal_y_m = goal_y_m; });
   if (!quality.goal_y_m) return;
   Turns turns;
-  reader.query(kKickedTracksSql, [&](Cells row) {
-    const auto x_m = number_if_any(row[2]), y_m = number_if_any(row[3]);
+  reader.query(kKickedTracksSql, [&](std::int64_t session_id, std::int64_t t_ns, std::optional<double> x_m,
+                                     std::optional<double> y_m, std::optional<double> /*z_m*/) {
     if (!x_m || !y_m) {
-      turns.release(integer(row[0]), integer(row[1]));
+      turns.release(session_id, t_ns);
     } else {
-      turns.seen(integer(row[0]), integer(row[1]), *x_m, *y_m);
+      turns.seen(session_id, t_ns, *x_m, *y_m);
     }
   });
   auto away = turns.all();

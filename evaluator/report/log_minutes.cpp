@@ -7,13 +7,11 @@
 #include <tuple>
 #include <utility>
 
-#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/played_spans.sql.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
-using MinuteCells = std::span<const log::Value>;
 using Possession = std::tuple<std::uint32_t, int, std::int64_t>;  // play, half, number
 using Holders = std::set<PolicyOfRobot>;
 
@@ -65,20 +63,18 @@ class PoliciesOfHalves {
 }  // namespace
 
 void hear_play(const log::Reader& reader, const SessionPlaces& sessions, HeardPlay& heard) {
-  reader.query(kPlayedSpansSql, [&](MinuteCells row) {
-    const auto session = sessions.find(log::integer(row[0]));
-    if (session == sessions.end()) return;
-    heard.spans.push_back({session->second, static_cast<int>(log::integer_if_any(row[1]).value_or(0)),
-                           static_cast<int>(log::integer(row[2])), log::integer(row[3]), log::integer(row[4]),
-                           log::integer(row[5]), log::integer(row[6])});
-  });
-  reader.query("SELECT session_id, half, robot_id, policy FROM session_policies", [&](MinuteCells row) {
-    const auto session = sessions.find(log::integer(row[0]));
-    if (session == sessions.end()) return;
-    heard.policies.push_back({session->second,
-                              static_cast<int>(log::integer(row[1])),
-                              {static_cast<int>(log::integer(row[2])), log::text_if_any(row[3])}});
-  });
+  reader.query(
+      kPlayedSpansSql, [&](std::int64_t session_id, std::optional<int> of_robot, int half, std::int64_t possession_id,
+                           std::int64_t from_ns, std::int64_t to_ns, std::int64_t played_ns) {
+        const auto session = sessions.find(session_id);
+        if (session == sessions.end()) return;
+        heard.spans.push_back({session->second, of_robot.value_or(0), half, possession_id, from_ns, to_ns, played_ns});
+      });
+  reader.query("SELECT session_id, half, robot_id, policy FROM session_policies",
+               [&](std::int64_t session_id, int half, int robot_id, const std::string& policy) {
+                 const auto session = sessions.find(session_id);
+                 if (session != sessions.end()) heard.policies.push_back({session->second, half, {robot_id, policy}});
+               });
 }
 
 std::vector<PlayedSpan> played_spans(const HeardPlay& heard, const LoggedOpportunities& logged) {

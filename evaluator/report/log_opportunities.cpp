@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "evaluator/log/reader.hpp"
-#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
@@ -20,17 +19,9 @@
 namespace trivela::evaluator {
 namespace {
 
-using Cells = std::span<const log::Value>;
-using log::integer, log::text_if_any;
-
 Ending ending_of(const std::string& outcome) {
   if (outcome.empty() || outcome == "unknown") return Ending::kUnknown;
   return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
-}
-
-std::optional<bool> said(const log::Value& value) {
-  const auto* const number = std::get_if<std::int64_t>(&value);
-  return number != nullptr ? std::optional(*number != 0) : std::nullopt;
 }
 
 // Place of a possession in the rows: of all recordings of a play one.
@@ -75,54 +66,61 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
   // The goal's middle is the same all over a log; a log without a kick needs no distance.
   std::optional<double> goal_y_m;
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
-               [&](Cells row) { goal_y_m = log::number_if_any(row[0]); });
+               [&](std::optional<double> y_m) { goal_y_m = y_m; });
   Places places;  // with the session in the play's place
-  reader.query(kOpportunitiesSql, [&](Cells row) {
-    const auto session = sessions.find(integer(row[0]));
+  reader.query(kOpportunitiesSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
+                                      std::optional<std::string> policy, std::optional<double> probability,
+                                      std::optional<double> x_m, std::optional<double> y_m) {
+    const auto session = sessions.find(session_id);
     if (session == sessions.end()) return;
     LoggedOpportunity o;
     o.session = session->second;
-    o.robot_id = static_cast<int>(integer(row[1]));
-    o.half = static_cast<int>(integer(row[2]));
-    o.possession_id = integer(row[3]);
-    o.policy = text_if_any(row[4]);
-    o.probability = log::number_if_any(row[5]);
-    const auto x_m = log::number_if_any(row[6]), y_m = log::number_if_any(row[7]);
+    o.robot_id = robot_id;
+    o.half = half;
+    o.possession_id = possession_id;
+    o.policy = std::move(policy).value_or("");
+    o.probability = probability;
     o.start_x_m = x_m;
     if (x_m && y_m && goal_y_m) o.start_distance_m = std::hypot(*x_m, *goal_y_m - *y_m);
     places[{o.session, o.robot_id, o.half, o.possession_id}] = seen.opportunities.size();
     seen.opportunities.push_back(std::move(o));
   });
-  reader.query(kFirstDecisionsSql, [&](Cells row) {
-    const auto session = sessions.find(integer(row[0]));
-    if (session == sessions.end()) return;
-    const auto place = places.find(
-        {session->second, static_cast<int>(integer(row[1])), static_cast<int>(integer(row[2])), integer(row[3])});
-    if (place == places.end()) return;
-    seen.opportunities[place->second].first = {log::number_if_any(row[5]).value_or(0.0),
-                                               log::number_if_any(row[6]).value_or(0.0), log::number_if_any(row[7])};
-  });
+  reader.query(kFirstDecisionsSql,
+               [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id, std::int64_t /*seq*/,
+                   double distance_m, double x_m, std::optional<double> opponent_distance_m) {
+                 const auto session = sessions.find(session_id);
+                 if (session == sessions.end()) return;
+                 const auto place = places.find({session->second, robot_id, half, possession_id});
+                 if (place != places.end())
+                   seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
+               });
 }
 
 void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, bool truth, SeenRows& seen) {
-  reader.query(kComparedKicksSql, [&](Cells row) {
-    const auto session = sessions.find(integer(row[0]));
-    if (session == sessions.end()) return;
-    const bool saved = said(row[11]).value_or(false);
-    seen.kicks.push_back({.session = session->second,
-                          .robot_id = static_cast<int>(integer(row[1])),
-                          .half = static_cast<int>(integer(row[2])),
-                          .possession_id = integer(row[3]),
-                          .policy = text_if_any(row[4]),
-                          .outcome = text_if_any(row[truth ? 6 : 5]),
-                          .distance_m = log::number_if_any(row[7]),
-                          .kick_id = integer(row[12]),
-                          .p_inside = truth ? std::nullopt : log::number_if_any(row[8]),
-                          .bounced = said(row[9]),
-                          .truth_bounced = said(row[10]),
-                          .saved = saved,
-                          .goal = text_if_any(row[6]) == "on_target" && !saved});
-  });
+  reader.query(
+      kComparedKicksSql,
+      [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id, const std::string& policy,
+          std::optional<std::string> outcome, std::optional<std::string> truth_outcome, double distance_m,
+          std::optional<double> p_inside, std::optional<bool> bounced, std::optional<bool> truth_bounced,
+          std::optional<bool> truth_saved, std::int64_t kick_id) {
+        const auto session = sessions.find(session_id);
+        if (session == sessions.end()) return;
+        const bool saved = truth_saved.value_or(false);
+        const bool goal = truth_outcome == "on_target" && !saved;
+        seen.kicks.push_back({.session = session->second,
+                              .robot_id = robot_id,
+                              .half = half,
+                              .possession_id = possession_id,
+                              .policy = policy,
+                              .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
+                              .distance_m = distance_m,
+                              .kick_id = kick_id,
+                              .p_inside = truth ? std::nullopt : p_inside,
+                              .bounced = bounced,
+                              .truth_bounced = truth_bounced,
+                              .saved = saved,
+                              .goal = goal});
+      });
 }
 
 // What a recording lacks another one of the play may have.
@@ -200,7 +198,7 @@ class OpportunityReading {
     see_kicks(reader, fresh, truth_, seen_);
     hear_play(reader, fresh, seen_.play);
     reader.query("SELECT count(*) FROM assignments WHERE possession_id = 0 AND probability < 1.0",
-                 [&](Cells row) { logged_.draws_of_halves += integer(row[0]); });
+                 [&](std::int64_t draws) { logged_.draws_of_halves += draws; });
     std::int64_t missing = 0;
     for (const log::Loss& loss : reader.losses()) missing += loss.missing();
     if (missing > 0)

@@ -7,44 +7,25 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evaluator/log/value.hpp"
 #include "evaluator/metrics/compared_sessions.sql.hpp"
 #include "evaluator/metrics/kick_words.sql.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
-using SessionCells = std::span<const log::Value>;
-
 std::map<std::string, SessionSetup> setups_of(const log::Reader& reader, SetupBook& book) {
   std::map<std::string, SessionSetup> setups;
   reader.query("SELECT DISTINCT config_sha256, text FROM sessions JOIN texts ON sha256 = config_sha256",
-               [&](SessionCells row) { setups[log::text_if_any(row[0])] = book.of(log::text_if_any(row[1])); });
+               [&](const std::string& sha256, const std::string& text) { setups[sha256] = book.of(text); });
   return setups;
 }
 
-ComparedSession session_of(SessionCells row, const std::map<std::string, SessionSetup>& setups) {
-  ComparedSession session;
-  session.session_id = log::integer(row[0]);
-  session.started_utc_ns = log::integer(row[1]);
-  session.closed_utc_ns = log::integer_if_any(row[2]);
-  session.seed = log::integer_if_any(row[3]);
-  session.scenario = log::text_if_any(row[4]);
-  session.simulated = log::integer(row[5]) != 0;
-  session.arm = log::text_if_any(row[6]);
-  session.table = log::text_if_any(row[7]);
-  session.match_id = log::integer_if_any(row[8]);
-  session.config_sha256 = log::text_if_any(row[9]);
-  session.uuid = log::text_if_any(row[10]);
-  session.continues_uuid = log::text_if_any(row[11]);
-  session.is_replay = log::integer(row[12]) != 0;
-  session.paired_halves = log::integer(row[13]) != 0;
-  session.lockstep = log::integer(row[14]) != 0;
-  session.ended_utc_ns = log::integer(row[15]);
-  session.row_count = log::integer(row[16]);
-  session.calibration_id = log::integer_if_any(row[17]);
-  if (const auto setup = setups.find(session.config_sha256); setup != setups.end()) session.setup = setup->second;
-  return session;
+std::vector<ComparedSession> sessions_of(const log::Reader& reader) {
+  using S = ComparedSession;
+  return reader.rows<S>(kComparedSessionsSql, &S::session_id, &S::started_utc_ns, &S::closed_utc_ns, &S::seed,
+                        &S::scenario, &S::simulated, &S::arm, &S::table, &S::match_id, &S::config_sha256, &S::uuid,
+                        &S::continues_uuid, &S::is_replay, &S::paired_halves, &S::lockstep, &S::ended_utc_ns,
+                        &S::row_count, &S::calibration_id);
 }
 
 }  // namespace
@@ -53,30 +34,27 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
   SessionPlaces fresh;
   std::int64_t again = 0, open = 0;
   const auto setups = setups_of(reader, setups_);
-  reader.query(kComparedSessionsSql, [&](SessionCells row) {
-    ComparedSession session = session_of(row, setups);
+  for (ComparedSession& session : sessions_of(reader)) {
     if (!known_.insert(session.session_id).second) {
       ++again;
-      return;
+      continue;
     }
+    if (const auto setup = setups.find(session.config_sha256); setup != setups.end()) session.setup = setup->second;
     open += session.closed_utc_ns ? 0 : 1;
     fresh[session.session_id] = static_cast<std::uint32_t>(sessions_.size());
     sessions_.push_back(std::move(session));
     names_.push_back(name);
-  });
+  }
   reader.query("SELECT session_id, half, robot_id, policy FROM session_policies ORDER BY 1, 2, 3",
-               [&](SessionCells row) {
-                 const auto session = fresh.find(log::integer(row[0]));
+               [&](std::int64_t session_id, int half, int robot_id, const std::string& policy) {
+                 const auto session = fresh.find(session_id);
                  if (session == fresh.end()) return;
-                 sessions_[session->second].in_charge[static_cast<int>(log::integer(row[1]))] +=
-                     fmt::format("{}:{} ", log::integer(row[2]), log::text_if_any(row[3]));
+                 sessions_[session->second].in_charge[half] += fmt::format("{}:{} ", robot_id, policy);
                });
-  reader.query(kKickWordsSql, [&](SessionCells row) {
-    const auto session = fresh.find(log::integer(row[0]));
-    if (session == fresh.end()) return;
-    kicks_.push_back({session->second, static_cast<int>(log::integer(row[1])), log::integer(row[2]),
-                      log::integer(row[3]), log::integer(row[4]), static_cast<int>(log::integer(row[5])),
-                      static_cast<int>(log::integer(row[6]))});
+  reader.query(kKickWordsSql, [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns,
+                                  std::int64_t utc_ns, int words, int half) {
+    const auto session = fresh.find(session_id);
+    if (session != fresh.end()) kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half});
   });
   note_log(reader, name, again, open);
   return fresh;
@@ -92,10 +70,11 @@ void SessionBook::note_log(const log::Reader& reader, const std::string& name, s
     remarks_.push_back(fmt::format("{}: {}", name, *doubt));
   remark(open, "session was not closed, its last kicks may be missing",
          "sessions were not closed, their last kicks may be missing");
-  reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches", [&](SessionCells row) {
-    remarks_.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
-                                   log::integer(row[0]), log::integer(row[1])));
-  });
+  reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches",
+               [&](std::int64_t done, std::int64_t matches) {
+                 remarks_.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
+                                                done, matches));
+               });
 }
 
 void SessionBook::settle() {

@@ -6,12 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "evaluator/log/value.hpp"
-
 namespace trivela::evaluator {
 namespace {
 
-using LengthCells = std::span<const log::Value>;
 using Stretch = std::pair<std::int64_t, std::int64_t>;  // from, to [ns]
 
 double covered_s(std::vector<Stretch> stretches) {
@@ -38,15 +35,15 @@ std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::v
       "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END FROM sessions AS s "
       "LEFT JOIN referee AS r ON r.session_id = s.session_id WHERE planned_s IS NOT NULL GROUP BY s.session_id "
       "ORDER BY s.started_t_ns, s.session_id",
-      [&](LengthCells row) {
-        const auto [place, first] = places.try_emplace(play_of.at(log::integer(row[0])), lengths.size());
+      [&](std::int64_t session_id, double planned_s, std::optional<std::int64_t> from_ns,
+          std::optional<std::int64_t> to_ns) {
+        const auto [place, first] = places.try_emplace(play_of.at(session_id), lengths.size());
         if (first) {
-          lengths.push_back({.session_id = log::integer(row[0])});
+          lengths.push_back({.session_id = session_id});
           heard.emplace_back();
         }
         PlayedLength& length = lengths[place->second];
-        length.planned_s = std::max(length.planned_s, log::number_if_any(row[1]).value_or(0.0));
-        const auto from_ns = log::integer_if_any(row[2]), to_ns = log::integer_if_any(row[3]);
+        length.planned_s = std::max(length.planned_s, planned_s);
         if (from_ns && to_ns) heard[place->second].emplace_back(*from_ns, *to_ns);
       });
   for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i].recorded_s = covered_s(std::move(heard[i]));
@@ -59,11 +56,9 @@ std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::v
       "FROM (SELECT DISTINCT session_id, half FROM session_policies) AS p JOIN sessions AS s USING (session_id) "
       "LEFT JOIN referee AS r ON r.session_id = p.session_id AND r.half = p.half "
       "WHERE planned_s IS NOT NULL AND replays_uuid IS NULL GROUP BY p.session_id, p.half",
-      [&](LengthCells row) {
-        const std::size_t place = places.at(play_of.at(log::integer(row[0])));
-        std::vector<Stretch>& half = halves[{place, static_cast<int>(log::integer(row[1]))}];
-        const auto from_ns = log::integer_if_any(row[2]), to_ns = log::integer_if_any(row[3]);
-        if (from_ns && to_ns) half.emplace_back(*from_ns, *to_ns);
+      [&](std::int64_t session_id, int half, std::optional<std::int64_t> from_ns, std::optional<std::int64_t> to_ns) {
+        std::vector<Stretch>& stretches = halves[{places.at(play_of.at(session_id)), half}];
+        if (from_ns && to_ns) stretches.emplace_back(*from_ns, *to_ns);
       });
   std::map<std::size_t, double> planned_halves;
   for (const auto& [key, stretches] : halves) planned_halves[key.first] += 1.0;

@@ -8,9 +8,6 @@
 namespace trivela::evaluator {
 namespace {
 
-using Cells = std::span<const log::Value>;
-using log::integer;
-
 constexpr std::size_t kMostLines = 8;
 
 std::string sentence(const RecordedSilence& silence) {
@@ -43,34 +40,15 @@ std::optional<double> RecordedSilence::to_s() const {
 }
 
 std::vector<RecordedSilence> silences_of(const log::Reader& reader) {
-  std::vector<RecordedSilence> silences;
-  reader.query(kSilencesSql, [&](Cells row) {
-    RecordedSilence silence;
-    silence.session_id = integer(row[0]);
-    silence.stream = log::text_if_any(row[1]);
-    silence.robot_id = static_cast<int>(integer(row[2]));
-    silence.from_t_ns = integer(row[3]);
-    silence.to_t_ns = log::integer_if_any(row[4]);
-    silence.started_t_ns = integer(row[5]);
-    silence.counts = integer(row[6]) != 0;
-    silences.push_back(std::move(silence));
-  });
-  return silences;
+  using S = RecordedSilence;
+  return reader.rows<S>(kSilencesSql, &S::session_id, &S::stream, &S::robot_id, &S::from_t_ns, &S::to_t_ns,
+                        &S::started_t_ns, &S::counts);
 }
 
 std::vector<UnrecordedOrders> unrecorded_orders_of(const log::Reader& reader) {
-  std::vector<UnrecordedOrders> orders;
-  reader.query(kUnrecordedOrdersSql, [&](Cells row) {
-    orders.push_back({.session_id = integer(row[0]),
-                      .robot_id = static_cast<int>(integer(row[1])),
-                      .continues = integer(row[2]) != 0,
-                      .restarted_before = integer(row[3]) != 0,
-                      .orders_before = integer(row[4]),
-                      .kicks_before = integer(row[5]),
-                      .orders_within = integer(row[6]),
-                      .kicks_within = integer(row[7])});
-  });
-  return orders;
+  using U = UnrecordedOrders;
+  return reader.rows<U>(kUnrecordedOrdersSql, &U::session_id, &U::robot_id, &U::continues, &U::restarted_before,
+                        &U::orders_before, &U::kicks_before, &U::orders_within, &U::kicks_within);
 }
 
 std::vector<std::string> silence_lines(const std::vector<RecordedSilence>& silences) {

@@ -20,11 +20,6 @@
 namespace trivela::evaluator {
 namespace {
 
-using Cells = std::span<const log::Value>;
-
-using log::integer;
-const std::string& text(const log::Value& value) { return std::get<std::string>(value); }
-
 using Rows = std::map<std::string, PolicyRow, std::greater<>>;  // by reverse alphabet: "stopped" before "moving"
 
 // What sessions say of robots that they have not recorded is nobody's.
@@ -93,10 +88,12 @@ std::vector<PolicyRow> policy_rows(const log::Reader& reader, const std::vector<
     policies.erase("");
     for (const std::string& policy : policies) add_minutes(rows[policy].played_min, span.minutes);
   }
-  reader.query(kOutcomesByPolicySql,
-               [&](Cells row) { rows[text(row[0])].kicks_by_outcome[text(row[1])] = integer(row[2]); });
-  reader.query(kBouncesByPolicySql, [&](Cells row) {
-    rows[text(row[0])].bounces = {integer(row[1]), integer(row[2]), integer(row[3]), integer(row[4])};
+  reader.query(kOutcomesByPolicySql, [&](const std::string& policy, const std::string& outcome, std::int64_t kicks) {
+    rows[policy].kicks_by_outcome[outcome] = kicks;
+  });
+  reader.query(kBouncesByPolicySql, [&](const std::string& policy, std::int64_t observed, std::int64_t observed_bounced,
+                                        std::int64_t truth, std::int64_t truth_bounced) {
+    rows[policy].bounces = {observed, observed_bounced, truth, truth_bounced};
   });
   allow_for_paired_halves(logged, rows);
   std::vector<PolicyRow> result;
@@ -116,9 +113,10 @@ std::vector<RobotRow> robot_rows(const log::Reader& reader, const LoggedOpportun
       if (who.robot_id != 0) add_minutes(rows[{who.robot_id, who.policy}].played_min, span.minutes);
     }
   }
-  reader.query(kOutcomesByRobotSql, [&](Cells row) {
-    rows[{static_cast<int>(integer(row[0])), text(row[1])}].kicks_by_outcome[text(row[2])] = integer(row[3]);
-  });
+  reader.query(kOutcomesByRobotSql,
+               [&](int robot_id, const std::string& policy, const std::string& outcome, std::int64_t kicks) {
+                 rows[{robot_id, policy}].kicks_by_outcome[outcome] = kicks;
+               });
   for (auto& [key, row] : rows) {
     std::tie(row.robot_id, row.policy) = key;
     row.blocked_apart = blocked_apart;
@@ -129,6 +127,17 @@ std::vector<RobotRow> robot_rows(const log::Reader& reader, const LoggedOpportun
     if (robots.size() > 1) result.push_back(std::move(row));
   }
   return result;
+}
+
+std::vector<UnclosedKick> unclosed_kicks_of(const log::Reader& reader) {
+  using U = UnclosedKick;
+  return reader.rows<U>(kUnclosedKicksSql, &U::session_id, &U::robot_id, &U::kick_id, &U::t_ns, &U::policy,
+                        &U::has_order, &U::has_receipt, &U::has_outcome);
+}
+
+std::vector<RefusedOrders> refused_orders_of(const log::Reader& reader) {
+  using R = RefusedOrders;
+  return reader.rows<R>(kRefusedOrdersSql, &R::policy, &R::refusal, &R::orders);
 }
 
 }  // namespace
@@ -182,8 +191,8 @@ Report make_report(const log::Reader& reader, bool blocked_apart) {
                 .lengths = played_lengths(reader, logged.sessions),
                 .not_counted = logged.not_counted,
                 .losses = reader.losses(),
-                .unclosed_kicks = {},
-                .refused_orders = {},
+                .unclosed_kicks = unclosed_kicks_of(reader),
+                .refused_orders = refused_orders_of(reader),
                 .silences = silences_of(reader),
                 .unrecorded_orders = unrecorded_orders_of(reader),
                 .labels = label_quality_of(reader),
@@ -197,22 +206,9 @@ Report make_report(const log::Reader& reader, bool blocked_apart) {
     report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
                               ": the outcomes are those of the recorded kicks, whatever was ordered here");
   }
-  reader.query(kUnclosedKicksSql, [&](Cells row) {
-    report.unclosed_kicks.push_back({.session_id = integer(row[0]),
-                                     .robot_id = static_cast<int>(integer(row[1])),
-                                     .kick_id = integer(row[2]),
-                                     .t_ns = integer(row[3]),
-                                     .policy = text(row[4]),
-                                     .has_order = integer(row[5]) != 0,
-                                     .has_receipt = integer(row[6]) != 0,
-                                     .has_outcome = integer(row[7]) != 0});
-  });
-  reader.query(kRefusedOrdersSql, [&](Cells row) {
-    report.refused_orders.push_back({text(row[0]), text(row[1]), integer(row[2])});
-  });
-  reader.query(kTruthAgreementSql, [&](Cells row) {
-    report.compared_with_truth = integer(row[0]);
-    report.alike_with_truth = integer(row[1]);
+  reader.query(kTruthAgreementSql, [&](std::int64_t compared, std::int64_t alike) {
+    report.compared_with_truth = compared;
+    report.alike_with_truth = alike;
   });
   return report;
 }

@@ -162,10 +162,7 @@ std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std
   const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
   const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
     reader.query("SELECT arm, match_id, count(*) FROM sessions JOIN " + rows + " GROUP BY arm, match_id",
-                 [&](auto row) {
-                   const auto match = static_cast<std::size_t>(std::get<std::int64_t>(row[1]));
-                   arms.at(std::get<std::string>(row[0])).at(match).*field = std::get<std::int64_t>(row[2]);
-                 });
+                 [&](const std::string& arm, std::size_t match, std::int64_t n) { arms.at(arm).at(match).*field = n; });
   };
   count("possession_truths USING (session_id)", &MatchTally::opportunities);
   count("kick_receipts USING (session_id) WHERE accepted = 1", &MatchTally::kicks);

@@ -5,62 +5,37 @@
 namespace trivela::experiment {
 namespace {
 
-using evaluator::log::RowSink;
-
 template <class T>
-void fill(RowSink& row, const T& message) {
-  bus::visit_fields(message, [&](std::string_view, std::string_view, const auto& field) {
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (bus::Enumeration<Field>) {
-      row.text(bus::label(field));
-    } else if constexpr (std::is_floating_point_v<Field>) {
-      row.number(static_cast<double>(field));
-    } else if constexpr (!robot::kIsNested<Field>) {
-      row.integer(static_cast<std::int64_t>(field));
-    }
-  });
-}
-
-template <class T>
-std::size_t table_of(evaluator::log::ExperimentLog& log, const char* name) {
-  return log.table(name, robot::columns_of<T>());
-}
-
-std::vector<std::string> shadow_columns() {
-  std::vector<std::string> columns{"robot_id", "seq", "shadow_index"};
-  for (const std::string& column : robot::columns_of<msg::ShadowDecision>()) columns.push_back(column);
-  return columns;
+std::size_t add_table(evaluator::log::ExperimentLog& log) {
+  return log.table(robot::table_of<T>(), robot::columns_of<T>());
 }
 
 }  // namespace
 
 MatchTables::MatchTables(evaluator::log::ExperimentLog& log)
     : log_(log),
-      referee_(table_of<msg::Referee>(log, "referee")),
-      decisions_(table_of<msg::KickDecision>(log, "kick_decisions")),
-      shadows_(log.table("shadow_decisions", shadow_columns())),
-      orders_(table_of<msg::KickOrder>(log, "kick_orders")),
-      receipts_(table_of<msg::KickReceipt>(log, "kick_receipts")),
-      outcomes_(table_of<msg::KickOutcome>(log, "kick_outcomes")),
-      kick_truths_(table_of<msg::KickTruth>(log, "kick_truths")),
-      possession_truths_(table_of<msg::PossessionTruth>(log, "possession_truths")),
-      assignments_(log.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})) {}
+      referee_(add_table<msg::Referee>(log)),
+      decisions_(add_table<msg::KickDecision>(log)),
+      shadows_(log.table(robot::table_of<msg::ShadowDecision>(), robot::shadow_columns())),
+      orders_(add_table<msg::KickOrder>(log)),
+      receipts_(add_table<msg::KickReceipt>(log)),
+      outcomes_(add_table<msg::KickOutcome>(log)),
+      kick_truths_(add_table<msg::KickTruth>(log)),
+      possession_truths_(add_table<msg::PossessionTruth>(log)),
+      assignments_(log.table("assignments", robot::assignment_columns())) {}
 
 template <class T>
 void MatchTables::write(std::size_t table, const std::vector<T>& messages, std::int64_t session_id) {
   for (const T& message : messages) {
-    fill(log_.row(table, session_id), message);
+    robot::write_cells(log_.row(table, session_id), message);
     log_.end_row();
   }
 }
 
 void MatchTables::write_shadows(const msg::KickDecision& decision, std::int64_t session_id) {
   for (std::int64_t i = 0; i < decision.shadow_count; ++i) {
-    RowSink& row = log_.row(shadows_, session_id);
-    row.integer(decision.robot_id);
-    row.integer(static_cast<std::int64_t>(decision.seq));
-    row.integer(i);
-    fill(row, decision.shadows[i]);
+    robot::write_shadow(log_.row(shadows_, session_id), decision.robot_id, static_cast<std::int64_t>(decision.seq), i,
+                        decision.shadows[i]);
     log_.end_row();
   }
 }
@@ -75,12 +50,8 @@ void MatchTables::write(const MatchRecord& record, std::int64_t session_id) {
   write(kick_truths_, record.kick_truths, session_id);
   write(possession_truths_, record.possession_truths, session_id);
   for (const Assignment& assignment : record.assignments) {
-    RowSink& row = log_.row(assignments_, session_id);
-    row.integer(assignment.robot_id);
-    row.integer(assignment.half);
-    row.integer(assignment.possession_id);
-    row.text(kicking::name(assignment.policy));
-    row.number(assignment.probability);
+    robot::write_assignment(log_.row(assignments_, session_id), assignment.robot_id, assignment.half,
+                            assignment.possession_id, kicking::name(assignment.policy), assignment.probability);
     log_.end_row();
   }
 }

@@ -5,6 +5,7 @@
 
 #include "hal/kicker.hpp"
 #include "hal/replay/row_pages.hpp"
+#include "idl/kick.hpp"
 
 namespace trivela::hal {
 
@@ -12,7 +13,7 @@ namespace trivela::hal {
 /// as recorded, which is the arm switch while the game was on.
 class ReplayKicker final : public Kicker {
  public:
-  explicit ReplayKicker(const ReplayLog& log);
+  explicit ReplayKicker(const ReplayLog& log) : samples_(log) {}
 
   bool connected(std::chrono::nanoseconds) override { return true; }
 
@@ -21,7 +22,7 @@ class ReplayKicker final : public Kicker {
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
   void withdraw(std::int64_t kick_id) override;
   void make_safe() noexcept override { safe_ = true; }
-  bool ended() const override { return rows_.peek() == nullptr; }
+  bool ended() const override { return samples_.peek() == nullptr; }
 
   struct Fire {
     std::int64_t t_ns;
@@ -32,7 +33,7 @@ class ReplayKicker final : public Kicker {
   const std::vector<Fire>& fires() const { return fires_; }
 
  private:
-  RowPages rows_;
+  RowPages<msg::KickerStatus> samples_;
   std::vector<Fire> fires_;
   std::atomic<bool> safe_ = false;
   std::atomic<std::int64_t> now_t_ns_ = 0;  // of the last sample

@@ -1,27 +1,23 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <variant>
 
 #include "hal/replay/row_pages.hpp"
-#include "sim/sensors.hpp"
+#include "idl/robot.hpp"
 
 namespace trivela::hal {
 
 /// A recorded sample of a topic that comes from outside the robot's own graph.
-struct ReplayedSample {
-  std::int64_t seq = 0;
-  std::int64_t t_ns = 0;
-  std::variant<sim::VisionFrame, sim::FlightFrame, sim::RefereeWord> what;
-};
+using ReplayedSample = std::variant<msg::VisionFrame, msg::FlightFrame, msg::Referee>;
 
-/// What cameras and referee said in a match log (tables vision_frames, flight_frames, referee), merged by t_ns; of the
-/// same instant vision first, then flight camera, then referee.
+/// What cameras and referee said in a match log, merged by t_ns; of the same instant vision first, then flight camera,
+/// then referee.
 class ReplayTopics {
  public:
-  explicit ReplayTopics(const ReplayLog& log);
+  explicit ReplayTopics(const ReplayLog& log) : topics_(log, log, log) {}
 
   /// The instant of the next sample; none at the end.
   std::optional<std::int64_t> next_t_ns() const;
@@ -32,9 +28,7 @@ class ReplayTopics {
   bool ended() const { return !next_t_ns(); }
 
  private:
-  std::optional<std::size_t> next_table() const;
-
-  std::array<RowPages, 3> tables_;
+  std::tuple<RowPages<msg::VisionFrame>, RowPages<msg::FlightFrame>, RowPages<msg::Referee>> topics_;
 };
 
 }  // namespace trivela::hal

@@ -7,19 +7,14 @@
 
 namespace trivela::hal {
 
-ReplayWheels::ReplayWheels(const ReplayLog& log)
-    : rows_(log, "odometry",
-            {"t_ns", "wheel_0_radps", "wheel_1_radps", "wheel_2_radps", "wheel_3_radps", "gyro_radps"}) {}
-
 std::optional<WheelSample> ReplayWheels::read(std::chrono::nanoseconds) {
-  const auto row = rows_.next();
+  const auto row = samples_.next();
   if (!row) return std::nullopt;
-  WheelSample sample{.t_ns = row->integer(0), .wheel_count = 0, .wheel_radps = {}, .gyro_radps = row->number(5)};
-  for (std::size_t i = 0; i < sample.wheel_radps.size(); ++i) {
-    const auto speed = row->number(1 + i);
-    if (!speed) break;
-    sample.wheel_radps[i] = *speed;
-    ++sample.wheel_count;
+  WheelSample sample{.t_ns = row->t_ns, .wheel_count = 0, .wheel_radps = {}, .gyro_radps = {}};
+  if (!std::isnan(row->gyro_radps)) sample.gyro_radps = row->gyro_radps;
+  for (const double speed_radps : {row->wheel_0_radps, row->wheel_1_radps, row->wheel_2_radps, row->wheel_3_radps}) {
+    if (std::isnan(speed_radps)) break;
+    sample.wheel_radps[static_cast<std::size_t>(sample.wheel_count++)] = speed_radps;
   }
   if (sample.wheel_count == 0) {
     throw std::runtime_error{fmt::format("replay: the odometry at t_ns {} has no wheel", sample.t_ns)};

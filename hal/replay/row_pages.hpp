@@ -2,49 +2,74 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
+#include <type_traits>
+#include <utility>
 
 #include "hal/replay/replay_log.hpp"
+#include "idl/meta.hpp"
 
 namespace trivela::hal {
 
-/// One recorded row, its cells in the order of the columns asked for.
-class ReplayRow {
- public:
-  explicit ReplayRow(std::vector<evaluator::log::Value> cells) : cells_(std::move(cells)) {}
+/// The message whose columns_of<T>() a row holds; NaN for a number that is NULL. Throws WrongCell.
+template <bus::Message T>
+T message_of(std::span<const evaluator::log::Value> cells) {
+  using evaluator::log::cell_as;
+  T message{};
+  std::size_t column = 0;
+  bus::visit_columns(message, [&](std::string_view, auto& field) {
+    using Field = std::remove_cvref_t<decltype(field)>;
+    if constexpr (bus::Enumeration<Field>) {
+      const auto value = bus::from_label<Field>(cell_as<std::string>(cells[column], column));
+      if (!value) throw evaluator::log::WrongCell{column, "a label of its enum"};
+      field = *value;
+    } else if constexpr (std::is_floating_point_v<Field>) {
+      field = cell_as<std::optional<Field>>(cells[column], column).value_or(std::numeric_limits<Field>::quiet_NaN());
+    } else {
+      field = cell_as<Field>(cells[column], column);
+    }
+    ++column;
+  });
+  return message;
+}
 
-  std::int64_t integer(std::size_t column) const { return std::get<std::int64_t>(cells_.at(column)); }
-  bool boolean(std::size_t column) const { return integer(column) != 0; }
-  const std::string& text(std::size_t column) const { return std::get<std::string>(cells_.at(column)); }
-  /// None: NULL, there is no such quantity.
-  std::optional<double> number(std::size_t column) const;
+/// The query for a page of a message's recorded samples, from `after_seq` on.
+std::string page_sql(const ReplayLog& log, std::string_view message, const std::vector<std::string>& columns,
+                     std::int64_t after_seq);
 
- private:
-  std::vector<evaluator::log::Value> cells_;
-};
-
-/// The rows of one table in the order of seq, read a page at a time: a log may be larger than memory.
+/// The recorded samples of a message in the order of seq, read a page at a time: a log may be larger than memory.
+template <bus::Message T>
 class RowPages {
  public:
-  /// `table` must have the columns session_id, robot_id and seq. Throws std::runtime_error where it has not.
-  RowPages(ReplayLog log, std::string table, const std::vector<std::string>& columns);
+  explicit RowPages(ReplayLog log) : log_(std::move(log)) { fill(); }
 
-  /// The next row without taking it; null at the end.
-  const ReplayRow* peek() const { return page_.empty() ? nullptr : &page_.front(); }
+  /// The next sample without taking it; null at the end.
+  const T* peek() const { return page_.empty() ? nullptr : &page_.front(); }
 
-  /// Takes the next row.
-  std::optional<ReplayRow> next();
+  /// Takes the next sample.
+  std::optional<T> next() {
+    if (page_.empty()) return std::nullopt;
+    const T sample = page_.front();
+    page_.pop_front();
+    if (page_.empty()) fill();
+    return sample;
+  }
 
  private:
-  void fill();
+  void fill() {
+    log_.reader->query(page_sql(log_, bus::meta<T>::name, bus::columns_of<T>(), after_seq_),
+                       [this](std::span<const evaluator::log::Value> cells) {
+                         page_.push_back(message_of<T>(cells));
+                         after_seq_ = static_cast<std::int64_t>(page_.back().seq);
+                       });
+  }
 
   ReplayLog log_;
-  std::string table_;
-  std::string columns_;
   std::int64_t after_seq_ = -1;
-  std::deque<ReplayRow> page_;
+  std::deque<T> page_;
 };
 
 }  // namespace trivela::hal

@@ -1,5 +1,6 @@
 // idlc back-end (idlc -l): for each x.idl writes x.hpp with the C++ names of its types, a bus::meta<T> per struct
-// (name, fields with units, visitor; for topics also topic, profile and descriptor) and the labels of its enums.
+// (name, fields with units, members, visitor; for topics also topic, profile and descriptor), the labels of its enums and
+// for_each_message_of_x().
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,8 +108,18 @@ static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const
               m->key.value ? "true" : "false");
     }
   }
+  fputs("  });\n  static constexpr auto members = std::make_tuple(", out);
+  const char* separator = "";
+  IDL_FOREACH(m, type->members) {
+    IDL_FOREACH(d, m->declarators) {
+      fprintf(out, "%s&", separator);
+      print_cpp_name(out, node);
+      fprintf(out, "::%s", idl_identifier(d));
+      separator = ", ";
+    }
+  }
   fputs(
-      "  });\n  template <class Message, class F>\n"
+      ");\n  template <class Message, class F>\n"
       "  static constexpr void visit(Message& message, F& f) {\n",
       out);
   size_t index = 0;
@@ -139,6 +150,18 @@ static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const
   return IDL_RETCODE_OK;
 }
 
+static idl_retcode_t emit_call(const idl_pstate_t* pstate, bool revisit, const idl_path_t* path, const void* node,
+                               void* user_data) {
+  (void)pstate, (void)revisit, (void)path;
+  FILE* out = user_data;
+  const idl_struct_t* type = node;
+  if (type->nested.value) return IDL_RETCODE_OK;
+  fputs("  f.template operator()<", out);
+  print_cpp_name(out, node);
+  fputs(">();\n", out);
+  return IDL_RETCODE_OK;
+}
+
 int generate(const idl_pstate_t* pstate, const idlc_generator_config_t* config);
 int generate(const idl_pstate_t* pstate, const idlc_generator_config_t* config) {
   const char* source = pstate->sources->path->name;
@@ -162,6 +185,14 @@ int generate(const idl_pstate_t* pstate, const idlc_generator_config_t* config) 
   visitor.sources = sources;
   visitor.accept[IDL_ACCEPT_ENUM] = emit_enum;
   visitor.accept[IDL_ACCEPT_STRUCT] = emit_struct;
-  const idl_retcode_t result = idl_visit(pstate, pstate->root, &visitor, out);
+  idl_retcode_t result = idl_visit(pstate, pstate->root, &visitor, out);
+  fprintf(out,
+          "\nnamespace trivela::bus {\n/// Calls f.operator()<T>() for each topic's type T of %s.\n"
+          "template <class F>\nconstexpr void for_each_message_of_%.*s([[maybe_unused]] F&& f) {\n",
+          file, (int)strcspn(file, "."), file);
+  visitor.visit = IDL_STRUCT;
+  visitor.accept[IDL_ACCEPT_STRUCT] = emit_call;
+  if (result == IDL_RETCODE_OK) result = idl_visit(pstate, pstate->root, &visitor, out);
+  fputs("}\n}\n", out);
   return (fclose(out) == 0 && result == IDL_RETCODE_OK) ? 0 : -1;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <type_traits>
 #include <utility>
 
 #include "nodes/runtime/now_ns.hpp"
@@ -18,6 +19,8 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
     : context_(context),
       log_(log),
       node_(context.participant, "recorder"),
+      shadows_(log.table(robot::table_of<msg::ShadowDecision>(), robot::shadow_columns())),
+      assignments_(log.table("assignments", robot::assignment_columns())),
       step_done_(step_done_writer(context, node_)),
       state_(std::move(state)) {
   if (!context.settings.run.lockstep) {
@@ -25,19 +28,11 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
       state_->silences = std::make_shared<SilenceRecord>(context.logger, context.settings.run.cycle_s, log);
     node_.every(SilenceRecord::kStep, "silence", [this] { note_silences(); });
   }
-  record<msg::Odometry>("odometry");
-  record<msg::VisionFrame>("vision_frames");
-  record<msg::FlightFrame>("flight_frames");
-  record<msg::Referee>("referee");
-  record<msg::WorldState>("world_states");
-  record<msg::DriveCommand>("drive_commands");
-  record<msg::KickerStatus>("kicker_status");
-  record<msg::KickOrder>("kick_orders");
-  record<msg::KickReceipt>("kick_receipts");
-  record<msg::KickOutcome>("kick_outcomes");
-  record<msg::KickTruth>("kick_truths");
-  record<msg::PossessionTruth>("possession_truths");
-  record_decisions();
+  bus::for_each_message([this]<class T>() {
+    if constexpr (requires(T sample) { sample.seq; }) {
+      if (const auto table = evaluator::log::table_of_message(bus::meta<T>::name)) record<T>(*table);
+    }
+  });
 }
 
 void RecorderNode::note_silences() {
@@ -88,9 +83,11 @@ void RecorderNode::record(const std::string& table) {
   node_.on<T>(
       [this, table, id, cycle_stream, voice, &watch = state_->streams[table]](const T& sample,
                                                                               const bus::SampleInfo& info) {
-        const bool stored = store(table, id, watch, sample, info.writer).has_value();
-        if (stored && voice) state_->silences->heard(*voice, sample.robot_id, sample.t_ns);
-        if (stored && cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
+        const auto seq = store(table, id, watch, sample, info.writer);
+        if (!seq) return;
+        if constexpr (std::is_same_v<T, msg::KickDecision>) store_beside(sample, *seq);
+        if (voice) state_->silences->heard(*voice, sample.robot_id, sample.t_ns);
+        if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
 }
@@ -105,33 +102,19 @@ void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
   step_done(step_done_, context_.robot_id(), msg::STEP_RECORDER, *complete);
 }
 
-void RecorderNode::record_decisions() {
-  const TableId decisions = log_.table("kick_decisions", robot::columns_of<msg::KickDecision>());
-  std::vector<std::string> shadow_columns{"robot_id", "seq", "shadow_index"};
-  for (const std::string& column : robot::columns_of<msg::ShadowDecision>()) shadow_columns.push_back(column);
-  const TableId shadows = log_.table("shadow_decisions", shadow_columns);
-  const TableId assignments = log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"});
-  bus::ReaderOptions everything;
-  everything.keep_all = true;
-  state_->streams["kick_decisions"].events = state_->silences != nullptr;
-  node_.on<msg::KickDecision>(
-      [this, decisions, shadows, assignments, &watch = state_->streams["kick_decisions"]](
-          const msg::KickDecision& decision, const bus::SampleInfo& info) {
-        const auto seq = store("kick_decisions", decisions, watch, decision, info.writer);
-        if (!seq) return;
-        if (state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
-          log_.push(assignments,
-                    {std::int64_t{decision.robot_id}, std::int64_t{decision.half}, std::int64_t{decision.possession_id},
-                     std::string{bus::label(decision.policy)}, decision.assignment_probability});
-        }
-        const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
-        for (std::int64_t i = 0; i < count; ++i) {
-          std::vector<evaluator::log::Value> row{std::int64_t{decision.robot_id}, *seq, i};
-          for (auto& value : robot::row_of(decision.shadows[i])) row.push_back(std::move(value));
-          log_.push(shadows, std::move(row));
-        }
-      },
-      {}, everything);
+void RecorderNode::store_beside(const msg::KickDecision& decision, std::int64_t seq) {
+  if (state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
+    robot::RowCells row;
+    robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, bus::label(decision.policy),
+                            decision.assignment_probability);
+    log_.push(assignments_, std::move(row.cells));
+  }
+  const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));
+  for (std::int64_t i = 0; i < count; ++i) {
+    robot::RowCells row;
+    robot::write_shadow(row, decision.robot_id, seq, i, decision.shadows[i]);
+    log_.push(shadows_, std::move(row.cells));
+  }
 }
 
 }  // namespace trivela::nodes

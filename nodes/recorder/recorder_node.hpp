@@ -28,18 +28,21 @@ class RecorderNode {
  private:
   template <class T>
   void record(const std::string& table);
-  void record_decisions();
   /// The number that the sample is recorded with; none: it is there already, or cannot be true and is counted as
   /// rejected.
   template <class T>
   std::optional<std::int64_t> store(const std::string& table, evaluator::log::TableId id, StreamWatch& watch, T sample,
                                     std::uint64_t writer);
 
+  /// What a decision, recorded by the number `seq`, says of its possession and of who was not in charge.
+  void store_beside(const msg::KickDecision& decision, std::int64_t seq);
+
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
   NodeContext& context_;
   evaluator::log::Writer& log_;
   bus::Node node_;
+  evaluator::log::TableId shadows_, assignments_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   robot::CycleWatch cycles_;

@@ -26,7 +26,7 @@ void describe_replay(const config::Hal& hal, Session& session) {
   session.replays_uuid = sessions.front().uuid;
   session.paired_halves = sessions.front().paired_halves;
   reader.query("SELECT 1e-9 * (max(t_ns) - min(t_ns)) FROM referee",
-               [&](auto row) { session.planned_s = evaluator::log::number_if_any(row[0]); });
+               [&](std::optional<double> planned_s) { session.planned_s = planned_s; });
 }
 
 void describe_simulation(const config::Settings& settings, Session& session) {

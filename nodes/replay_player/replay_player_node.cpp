@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <stdexcept>
+#include <optional>
+#include <type_traits>
 #include <variant>
 
-#include "hal/sim/sim_messages.hpp"
 #include "nodes/runtime/progress_line.hpp"
 
 namespace trivela::nodes {
@@ -14,9 +14,7 @@ namespace {
 std::int64_t last_t_ns(const hal::ReplayLog& log) {
   std::int64_t last = 0;
   log.reader->query(fmt::format("SELECT max(t_ns) FROM referee WHERE session_id = {}", log.session_id),
-                    [&](std::span<const evaluator::log::Value> row) {
-                      if (const auto* t_ns = std::get_if<std::int64_t>(&row[0])) last = *t_ns;
-                    });
+                    [&](std::optional<std::int64_t> t_ns) { last = t_ns.value_or(0); });
   return last;
 }
 
@@ -49,21 +47,13 @@ void ReplayPlayerNode::run() {
   }
 }
 
-template <class T>
-void ReplayPlayerNode::write(bus::Writer<T>& writer, T message, std::int64_t seq) {
-  message.robot_id = context_.robot_id();
-  message.seq = static_cast<std::uint64_t>(seq);
-  writer.write(message);
-}
-
 void ReplayPlayerNode::publish(const hal::ReplayedSample& sample) {
-  if (const auto* frame = std::get_if<sim::VisionFrame>(&sample.what)) {
-    write(vision_, hal::vision_message(sample.t_ns, *frame), sample.seq);
-  } else if (const auto* flight = std::get_if<sim::FlightFrame>(&sample.what)) {
-    write(flight_, hal::flight_message(sample.t_ns, *flight), sample.seq);
-  } else {
-    write(referee_, hal::referee_message(sample.t_ns, std::get<sim::RefereeWord>(sample.what)), sample.seq);
-  }
+  const auto say = [&]<class T>(const T& message) {
+    if constexpr (std::is_same_v<T, msg::VisionFrame>) vision_.write(message);
+    if constexpr (std::is_same_v<T, msg::FlightFrame>) flight_.write(message);
+    if constexpr (std::is_same_v<T, msg::Referee>) referee_.write(message);
+  };
+  std::visit(say, sample);
 }
 
 }  // namespace trivela::nodes

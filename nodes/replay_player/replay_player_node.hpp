@@ -18,8 +18,6 @@ class ReplayPlayerNode {
 
  private:
   void publish(const hal::ReplayedSample& sample);
-  template <class T>
-  void write(bus::Writer<T>& writer, T message, std::int64_t seq);
 
   NodeContext& context_;
   hal::ReplayLog log_;

@@ -1,7 +1,9 @@
 #include "robot/decision/decision_message.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
 
 #include "idl/none.hpp"
 
@@ -12,6 +14,37 @@ static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
 static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
 static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
+
+constexpr bool wire(bool value) { return value; }
+constexpr double wire(double value) { return value; }
+constexpr double wire(const std::optional<double>& value) { return value.value_or(msg::kNone); }
+msg::DecisionReason wire(kicking::Reason reason) { return to_wire(reason); }
+
+/// Place of the message's field of that name; their number: it has none.
+template <class Message>
+constexpr std::size_t place_of(std::string_view name) {
+  std::size_t place = 0;
+  for (const bus::Field& field : bus::meta<Message>::fields) {
+    if (field.name == name) break;
+    ++place;
+  }
+  return place;
+}
+
+template <std::size_t I, class Message>
+void copy_field(const kicking::Judgement& judgement, Message& out) {
+  constexpr auto& field = std::get<I>(kicking::kRecordedFields);
+  constexpr std::size_t place = place_of<Message>(field.name);
+  if constexpr (place < bus::meta<Message>::fields.size())
+    out.*std::get<place>(bus::meta<Message>::members) = wire(std::invoke(field.get, judgement));
+}
+
+/// What the message has of the judgement, by the names of the fields.
+template <class Message>
+void copy_fields(const kicking::Judgement& judgement, Message& out) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (copy_field<I>(judgement, out), ...); }
+  (std::make_index_sequence<std::tuple_size_v<decltype(kicking::kRecordedFields)>>{});
+}
 
 }  // namespace
 
@@ -41,32 +74,13 @@ msg::KickDecision decision_message(const msg::WorldState& world, const msg::Kick
   out.half = world.half;
   out.possession_id = world.possession_id;
   out.policy = to_wire(policy);
-  out.fire = judgement.fire;
-  out.reason = to_wire(judgement.reason);
+  copy_fields(judgement, out);
   out.x_m = world.x_m;
   out.y_m = world.y_m;
   out.heading_rad = world.heading_rad;
   out.vx_mps = world.vx_mps;
   out.vy_mps = world.vy_mps;
   out.omega_radps = world.omega_radps;
-  out.target_x_m = judgement.target_x_m;
-  out.target_y_m = judgement.target_y_m;
-  out.target_z_m = judgement.target_z_m;
-  out.distance_m = judgement.distance_m;
-  out.v0_mps = judgement.v0_mps.value_or(msg::kNone);
-  out.v_kick_mps = judgement.v_kick_mps.value_or(msg::kNone);
-  out.power = judgement.power.value_or(msg::kNone);
-  out.alpha_rad = judgement.alpha_rad;
-  out.beta_rad = judgement.beta_rad;
-  out.aligned = judgement.aligned;
-  out.offset_right_m = judgement.offset_right_m.value_or(msg::kNone);
-  out.left_m = judgement.left_m;
-  out.right_m = judgement.right_m;
-  out.predicted_x_cross_m = judgement.predicted ? judgement.predicted->x_m : msg::kNone;
-  out.predicted_z_cross_m = judgement.predicted ? judgement.predicted->z_m : msg::kNone;
-  out.predicted_t_flight_s = judgement.predicted ? judgement.predicted->t_flight_s : msg::kNone;
-  out.p_on_target = judgement.p_on_target.value_or(msg::kNone);
-  out.fire_after_s = judgement.fire_after_s;
   out.assignment_probability = 1.0;
   out.opponent_distance_m = world.opponent_distance_m;
   out.charge = kicker != nullptr ? kicker->charge : 0.0;
@@ -76,16 +90,7 @@ msg::KickDecision decision_message(const msg::WorldState& world, const msg::Kick
 msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::Judgement& judgement) {
   msg::ShadowDecision out{};
   out.policy = to_wire(policy);
-  out.fire = judgement.fire;
-  out.reason = to_wire(judgement.reason);
-  out.power = judgement.power.value_or(msg::kNone);
-  out.v_kick_mps = judgement.v_kick_mps.value_or(msg::kNone);
-  out.aligned = judgement.aligned;
-  out.offset_right_m = judgement.offset_right_m.value_or(msg::kNone);
-  out.left_m = judgement.left_m;
-  out.right_m = judgement.right_m;
-  out.p_on_target = judgement.p_on_target.value_or(msg::kNone);
-  out.fire_after_s = judgement.fire_after_s;
+  copy_fields(judgement, out);
   return out;
 }
 

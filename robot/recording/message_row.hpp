@@ -1,50 +1,83 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "evaluator/log/message_table.hpp"
 #include "evaluator/log/value.hpp"
 #include "idl/messages.hpp"
 
 namespace trivela::robot {
 
-/// Fields that are structs in an array become rows of a table of their own.
-template <class Field>
-inline constexpr bool kIsNested = std::is_array_v<Field>;
+using bus::columns_of;
 
-/// The columns of a message: the names of its plain fields, in the order of the IDL.
+/// The table of a message that is recorded. Throws std::logic_error where the schema has none.
 template <bus::Struct T>
-std::vector<std::string> columns_of() {
-  std::vector<std::string> columns;
-  const T message{};
-  bus::visit_fields(message, [&](std::string_view name, std::string_view, const auto& field) {
-    if constexpr (!kIsNested<std::remove_cvref_t<decltype(field)>>) columns.emplace_back(name);
-  });
-  return columns;
+std::string table_of() {
+  if (auto table = evaluator::log::table_of_message(bus::meta<T>::name)) return *std::move(table);
+  throw std::logic_error("the match log has no table of " + std::string(bus::meta<T>::name));
 }
 
-/// One cell: enums by their label, booleans as 0 and 1.
-template <class Field>
-evaluator::log::Value cell(const Field& field) {
-  if constexpr (bus::Enumeration<Field>) {
-    return std::string{bus::label(field)};
-  } else if constexpr (std::is_floating_point_v<Field>) {
-    return static_cast<double>(field);
-  } else {
-    return static_cast<std::int64_t>(field);
-  }
+/// Gives the cells of a message in the order of columns_of<T>() to the sink's integer(), number() and text(): enums by
+/// their label, booleans as 0 and 1.
+template <bus::Struct T>
+void write_cells(auto& sink, const T& message) {
+  bus::visit_columns(message, [&](std::string_view, const auto& field) {
+    using Field = std::remove_cvref_t<decltype(field)>;
+    if constexpr (bus::Enumeration<Field>) {
+      sink.text(bus::label(field));
+    } else if constexpr (std::is_floating_point_v<Field>) {
+      sink.number(static_cast<double>(field));
+    } else {
+      sink.integer(static_cast<std::int64_t>(field));
+    }
+  });
 }
+
+/// A sink that keeps them.
+struct RowCells {
+  std::vector<evaluator::log::Value> cells;
+
+  void integer(std::int64_t value) { cells.emplace_back(value); }
+  void number(double value) { cells.emplace_back(value); }
+  void text(const char* value) { cells.emplace_back(std::string{value}); }
+};
 
 /// The cells of a message in the order of columns_of<T>().
 template <bus::Struct T>
 std::vector<evaluator::log::Value> row_of(const T& message) {
-  std::vector<evaluator::log::Value> row;
-  row.reserve(bus::meta<T>::fields.size());
-  bus::visit_fields(message, [&](std::string_view, std::string_view, const auto& field) {
-    if constexpr (!kIsNested<std::remove_cvref_t<decltype(field)>>) row.push_back(cell(field));
-  });
-  return row;
+  RowCells row;
+  row.cells.reserve(bus::meta<T>::fields.size());
+  write_cells(row, message);
+  return std::move(row.cells);
+}
+
+/// Shadows stand in a table of their own, by their decision and place.
+inline std::vector<std::string> shadow_columns() {
+  std::vector<std::string> columns{"robot_id", "seq", "shadow_index"};
+  for (std::string& column : columns_of<msg::ShadowDecision>()) columns.push_back(std::move(column));
+  return columns;
+}
+
+void write_shadow(auto& sink, std::int64_t robot_id, std::int64_t seq, std::int64_t index,
+                  const msg::ShadowDecision& shadow) {
+  for (const std::int64_t key : {robot_id, seq, index}) sink.integer(key);
+  write_cells(sink, shadow);
+}
+
+/// Who was in charge of a possession.
+inline std::vector<std::string> assignment_columns() {
+  return {"robot_id", "half", "possession_id", "policy", "probability"};
+}
+
+void write_assignment(auto& sink, std::int64_t robot_id, std::int64_t half, std::int64_t possession_id,
+                      const char* policy, double probability) {
+  for (const std::int64_t key : {robot_id, half, possession_id}) sink.integer(key);
+  sink.text(policy);
+  sink.number(probability);
 }
 
 }  // namespace trivela::robot

@@ -12,10 +12,6 @@ namespace trivela::robot {
 namespace {
 
 namespace fs = std::filesystem;
-using evaluator::log::integer;
-using evaluator::log::Value;
-
-using Cells = std::span<const Value>;
 
 // Logs that may be of the same match, the one written to last first.
 std::vector<fs::path> candidates(const fs::path& log) {
@@ -43,24 +39,21 @@ std::vector<fs::path> candidates(const fs::path& log) {
 
 std::int64_t first_number(const evaluator::log::Reader& reader, const std::string& sql) {
   std::int64_t n = 0;
-  reader.query(sql, [&](Cells row) { n = evaluator::log::integer_if_any(row[0]).value_or(0); });
+  reader.query(sql, [&](std::optional<std::int64_t> number) { n = number.value_or(0); });
   return n;
 }
 
 // Robots that said nothing in the session are where they were when it began.
 std::vector<evaluator::log::DriverCount> drivers_of(const evaluator::log::Reader& reader, std::int64_t session_id) {
-  std::vector<evaluator::log::DriverCount> drivers;
-  reader.query(fmt::format("SELECT robot_id, orders_handled, orders_refused FROM kicker_status AS k "
-                           "WHERE session_id = {0} AND seq = (SELECT max(seq) FROM kicker_status "
-                           "WHERE session_id = {0} AND robot_id = k.robot_id) "
-                           "UNION ALL SELECT robot_id, orders_handled, orders_refused FROM continued AS c "
-                           "WHERE session_id = {0} AND NOT EXISTS (SELECT 1 FROM kicker_status "
-                           "WHERE session_id = {0} AND robot_id = c.robot_id) ORDER BY robot_id",
-                           session_id),
-               [&](Cells row) {
-                 drivers.push_back({static_cast<int>(integer(row[0])), integer(row[1]), integer(row[2])});
-               });
-  return drivers;
+  using D = evaluator::log::DriverCount;
+  return reader.rows<D>(fmt::format("SELECT robot_id, orders_handled, orders_refused FROM kicker_status AS k "
+                                    "WHERE session_id = {0} AND seq = (SELECT max(seq) FROM kicker_status "
+                                    "WHERE session_id = {0} AND robot_id = k.robot_id) "
+                                    "UNION ALL SELECT robot_id, orders_handled, orders_refused FROM continued AS c "
+                                    "WHERE session_id = {0} AND NOT EXISTS (SELECT 1 FROM kicker_status "
+                                    "WHERE session_id = {0} AND robot_id = c.robot_id) ORDER BY robot_id",
+                                    session_id),
+                        &D::robot_id, &D::orders_handled, &D::orders_refused);
 }
 
 }  // namespace

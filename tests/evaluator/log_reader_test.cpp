@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <functional>
+#include <optional>
 
 #include "tests/evaluator/log_fixture.hpp"
 
@@ -98,6 +100,64 @@ TEST_F(LogReader, UnknownTablesAndColumnsAreNamed) {
   EXPECT_THROW(reader.for_each_row("wheels", {"seq"}, nothing), std::runtime_error);
   EXPECT_THROW(reader.for_each_row("referee", {"whistle"}, nothing), std::runtime_error);
   EXPECT_THROW(reader.query("SELECT whistle FROM referee", nothing), std::runtime_error);
+}
+
+std::string message_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(LogReader, GivesTheColumnsOfARowByTypeAndName) {
+  write_log(2);
+  const Reader reader(path());
+  int rows = 0;
+  reader.query("SELECT seq, 0.5, 3, 'on', NULL, NULL, 7, 1 FROM referee ORDER BY seq",
+               [&](std::int64_t seq, double number, double whole, const std::string& text, std::optional<double> none,
+                   std::optional<std::string> no_text, std::optional<int> some, bool yes) {
+                 EXPECT_EQ(seq, rows++);
+                 EXPECT_EQ(number, 0.5);
+                 EXPECT_EQ(whole, 3.0);
+                 EXPECT_EQ(text, "on");
+                 EXPECT_FALSE(none);
+                 EXPECT_FALSE(no_text);
+                 EXPECT_EQ(some, 7);
+                 EXPECT_TRUE(yes);
+               });
+  EXPECT_EQ(rows, 2);
+}
+
+TEST_F(LogReader, GivesRowsAsStructs) {
+  struct Word {
+    std::string text;
+    std::optional<double> number;
+  };
+  write_log();
+  const Reader reader(path());
+  const auto words = reader.rows<Word>("SELECT 1.5, 'a' UNION ALL SELECT NULL, 'b'", &Word::number, &Word::text);
+  ASSERT_EQ(words.size(), 2u);
+  EXPECT_EQ(words[0].text, "a");
+  EXPECT_EQ(words[0].number, 1.5);
+  EXPECT_EQ(words[1].text, "b");
+  EXPECT_FALSE(words[1].number);
+}
+
+TEST_F(LogReader, ACellOfAnotherTypeIsNamedWithItsQueryAndColumn) {
+  write_log();
+  const Reader reader(path());
+  const auto text_of_a_number =
+      message_of([&] { reader.query("SELECT seq AS word FROM referee", [](const std::string&) {}); });
+  EXPECT_THAT(text_of_a_number, HasSubstr("match.db"));
+  EXPECT_THAT(text_of_a_number, HasSubstr("column word of \"SELECT seq AS word FROM referee\" is not a text"));
+  const auto read = [&](const std::string& sql, auto fn) { return message_of([&] { reader.query(sql, fn); }); };
+  EXPECT_THAT(read("SELECT NULL AS power", [](double) {}), HasSubstr("column power"));
+  EXPECT_THAT(read("SELECT 'x' AS power", [](std::optional<double>) {}), HasSubstr("column power"));
+  EXPECT_THAT(read("SELECT 0.5 AS half", [](int) {}), HasSubstr("column half"));
+  EXPECT_THAT(read("SELECT 5000000000 AS robot_id", [](int) {}), HasSubstr("column robot_id"));
+  EXPECT_THROW(reader.query("SELECT 1, 2", [](int) {}), std::logic_error);
 }
 
 }  // namespace

@@ -1,10 +1,6 @@
-#include <SQLiteCpp/SQLiteCpp.h>
-
-#include <array>
 #include <fstream>
 #include <functional>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "evaluator/log/digest.hpp"
@@ -59,52 +55,6 @@ TEST(Schema, EveryTableIsStrictWithoutRowidAndKeyedBySession) {
     if (table.starts_with("CREATE TABLE texts") || table.starts_with("CREATE TABLE experiments")) continue;
     EXPECT_NE(table.find("session_id INTEGER NOT NULL"), std::string::npos) << table;
     EXPECT_TRUE(std::regex_search(table, std::regex(R"(PRIMARY KEY( \(session_id|,))"))) << table;
-  }
-}
-
-// Fields of the struct `name` in the IDL, arrays and strings left out.
-std::set<std::string> fields_of(const std::string& file, const std::string& name) {
-  std::ifstream idl(TRIVELA_SOURCE_DIR "/idl/" + file);
-  std::string line;
-  bool inside = false;
-  std::set<std::string> fields;
-  const std::regex field(R"(^\s+(@[a-z]+(\("[^"]*"\))? )*[A-Za-z0-9]+ ([a-z_0-9]+);)");
-  std::smatch match;
-  while (std::getline(idl, line)) {
-    if (line.find("struct " + name + " ") != std::string::npos) inside = true;
-    if (inside && std::regex_search(line, match, field)) fields.insert(match[3]);
-    if (line.find("};") != std::string::npos) inside = false;
-  }
-  return fields;
-}
-
-TEST(Schema, ColumnsAreTheFieldsOfTheMessages) {
-  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE);
-  std::ifstream schema(TRIVELA_SOURCE_DIR "/evaluator/log/schema.sql");
-  database.exec(std::string(std::istreambuf_iterator<char>(schema), {}));
-  const std::vector<std::array<std::string, 3>> pairs = {{"odometry", "robot.idl", "Odometry"},
-                                                         {"vision_frames", "robot.idl", "VisionFrame"},
-                                                         {"flight_frames", "robot.idl", "FlightFrame"},
-                                                         {"referee", "robot.idl", "Referee"},
-                                                         {"world_states", "robot.idl", "WorldState"},
-                                                         {"drive_commands", "robot.idl", "DriveCommand"},
-                                                         {"kicker_status", "kick.idl", "KickerStatus"},
-                                                         {"kick_decisions", "kick.idl", "KickDecision"},
-                                                         {"shadow_decisions", "kick.idl", "ShadowDecision"},
-                                                         {"kick_orders", "kick.idl", "KickOrder"},
-                                                         {"kick_receipts", "kick.idl", "KickReceipt"},
-                                                         {"kick_outcomes", "kick.idl", "KickOutcome"},
-                                                         {"kick_truths", "sim.idl", "KickTruth"},
-                                                         {"possession_truths", "sim.idl", "PossessionTruth"}};
-  for (const auto& [table, file, type] : pairs) {
-    std::set<std::string> columns;
-    SQLite::Statement query(database, "SELECT name FROM pragma_table_info('" + table + "')");
-    while (query.executeStep()) columns.insert(query.getColumn(0).getString());
-    columns.erase("session_id");
-    if (table == "shadow_decisions") {
-      for (const char* const key : {"robot_id", "seq", "shadow_index"}) columns.erase(key);
-    }
-    EXPECT_EQ(columns, fields_of(file, type)) << table;
   }
 }
 

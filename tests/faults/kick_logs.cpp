@@ -16,13 +16,13 @@ constexpr std::int64_t kBeside_ns = 100'000'000;
 bool earlier(const AcceptedSoFar& a, const AcceptedSoFar& b) { return a.t_ns < b.t_ns; }
 
 void read_log(const std::filesystem::path& path, KickRows& rows) {
-  using evaluator::log::integer;
   const evaluator::log::Reader log{path};
   log.query("SELECT kick_id, accepted FROM kick_receipts ORDER BY t_ns, seq",
-            [&](const auto& row) { rows.accepted[integer(row[0])] = integer(row[1]) != 0; });
-  log.query("SELECT t_ns, orders_handled - orders_refused FROM kicker_status", [&](const auto& row) {
-    rows.counters.push_back({integer(row[0]), integer(row[1])});
-  });
+            [&](std::int64_t kick_id, bool accepted) { rows.accepted[kick_id] = accepted; });
+  log.query("SELECT t_ns, orders_handled - orders_refused FROM kicker_status",
+            [&](std::int64_t t_ns, std::int64_t accepted) {
+              rows.counters.push_back({t_ns, accepted});
+            });
 }
 
 bool counted(const FireSeen& fire, const std::vector<FireSeen>& fires, const std::vector<AcceptedSoFar>& counters) {

@@ -44,31 +44,36 @@ TEST(ReplayTopics, MergesTheTablesByTime) {
   std::vector<std::pair<Int, std::size_t>> order;
   std::vector<ReplayedSample> all;
   while (!topics.ended()) {
-    EXPECT_TRUE(topics.next_t_ns());
+    const auto t_ns = topics.next_t_ns();
+    ASSERT_TRUE(t_ns);
     all.push_back(*topics.next());
-    order.emplace_back(all.back().t_ns, all.back().what.index());
+    order.emplace_back(*t_ns, all.back().index());
   }
   EXPECT_FALSE(topics.next());
   EXPECT_THAT(order, testing::ElementsAre(std::pair(20, 0U), std::pair(20, 1U), std::pair(20, 2U), std::pair(30, 1U),
                                           std::pair(40, 0U), std::pair(50, 2U)));
 
-  const auto& seen = std::get<sim::VisionFrame>(all[0].what);
+  const auto& seen = std::get<msg::VisionFrame>(all[0]);
+  EXPECT_EQ(seen.robot_id, 3);
+  EXPECT_EQ(seen.seq, 1U);
+  EXPECT_EQ(seen.t_ns, 20);
   EXPECT_EQ(seen.t_exposure_ns, 15);
-  EXPECT_EQ(seen.pose->x_m, 1.0);
-  EXPECT_EQ(seen.pose->heading_rad, 0.5);
-  EXPECT_EQ(seen.ball->y_m, 0.25);
-  EXPECT_EQ(seen.opponent->x_m, 3.0);
-  const auto& unseen = std::get<sim::VisionFrame>(all[4].what);
-  EXPECT_FALSE(unseen.pose);
-  EXPECT_TRUE(unseen.ball);
-  EXPECT_FALSE(unseen.opponent);
-  EXPECT_EQ(std::get<sim::FlightFrame>(all[1].what).ball->z_m, 0.75);
-  EXPECT_FALSE(std::get<sim::FlightFrame>(all[3].what).ball);
-  const auto& word = std::get<sim::RefereeWord>(all[5].what);
+  EXPECT_TRUE(seen.pose_seen && seen.ball_seen && seen.opponent_seen);
+  EXPECT_EQ(seen.x_m, 1.0);
+  EXPECT_EQ(seen.heading_rad, 0.5);
+  EXPECT_EQ(seen.ball_y_m, 0.25);
+  EXPECT_EQ(seen.opponent_x_m, 3.0);
+  const auto& unseen = std::get<msg::VisionFrame>(all[4]);
+  EXPECT_FALSE(unseen.pose_seen || unseen.opponent_seen);
+  EXPECT_TRUE(std::isnan(unseen.x_m) && std::isnan(unseen.opponent_y_m));
+  EXPECT_TRUE(unseen.ball_seen);
+  EXPECT_EQ(std::get<msg::FlightFrame>(all[1]).ball_z_m, 0.75);
+  EXPECT_FALSE(std::get<msg::FlightFrame>(all[3]).ball_seen);
+  const auto& word = std::get<msg::Referee>(all[5]);
   EXPECT_EQ(word.half, 2);
   EXPECT_TRUE(word.playing);
   EXPECT_EQ(word.possession_id, 17U);
-  EXPECT_EQ(all[5].seq, 2);
+  EXPECT_EQ(word.seq, 2U);
 }
 
 TEST(ReplayTopics, OfARobotThatIsNotInTheLogAreEmpty) {

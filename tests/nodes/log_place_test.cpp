@@ -63,9 +63,10 @@ TEST_F(LogPlaceTest, WhereALogExistsTheSessionGoesOnFromItInAFileOfItsOwn) {
   const Reader log{placed.path};
   EXPECT_EQ(log.sessions().at(0).continues_uuid, uuid);
   std::vector<std::int64_t> counts;
-  log.query("SELECT robot_id, orders_handled, orders_refused FROM continued", [&](auto row) {
-    for (const auto& cell : row) counts.push_back(evaluator::log::integer(cell));
-  });
+  log.query("SELECT robot_id, orders_handled, orders_refused FROM continued",
+            [&](std::int64_t robot_id, std::int64_t handled, std::int64_t refused) {
+              counts.insert(counts.end(), {robot_id, handled, refused});
+            });
   EXPECT_THAT(counts, testing::ElementsAre(1, 7, 0));
 }
 
@@ -86,7 +87,7 @@ TEST_F(LogPlaceTest, ASessionThatSaidNothingHandsOnWhereItBegan) {
   EXPECT_EQ(Reader{third.path}.sessions().at(0).continues_uuid, second_uuid);
   std::int64_t handled = 0;
   Reader{third.path}.query("SELECT orders_handled FROM continued",
-                           [&](auto row) { handled = evaluator::log::integer(row[0]); });
+                           [&](std::int64_t orders_handled) { handled = orders_handled; });
   EXPECT_EQ(handled, 7);
 }
 

@@ -234,10 +234,9 @@ std::vector<std::string> silences(const evaluator::log::Reader& reader) {
   std::vector<std::string> rows;
   reader.query(
       "SELECT stream, robot_id, from_t_ns, to_t_ns FROM losses WHERE robot_id > 0 ORDER BY from_t_ns",
-      [&](std::span<const Value> row) {
-        const auto to = evaluator::log::integer_if_any(row[3]);
-        rows.push_back(fmt::format("{} {} {} {}", evaluator::log::text_if_any(row[0]), std::get<std::int64_t>(row[1]),
-                                   std::get<std::int64_t>(row[2]), to ? std::to_string(*to) : "-"));
+      [&](const std::string& stream, int robot_id, std::int64_t from_t_ns, std::optional<std::int64_t> to_t_ns) {
+        rows.push_back(
+            fmt::format("{} {} {} {}", stream, robot_id, from_t_ns, to_t_ns ? std::to_string(*to_t_ns) : "-"));
       });
   return rows;
 }

@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <type_traits>
 
 #include "hal/kicker.hpp"
 #include "kicking/outcome/outcome.hpp"
@@ -92,58 +97,74 @@ TEST(PolicyInput, TellsThePoliciesWhatTheMessagesSay) {
 
 TEST(PolicyInput, WithoutAStatusTheKickerIsNotReady) { EXPECT_FALSE(policy_input(world(), nullptr).kicker_ready); }
 
-TEST(DecisionMessage, HasEveryNumberOfTheJudgement) {
+double number_of(bool value) { return value; }
+double number_of(double value) { return value; }
+double number_of(const std::optional<double>& value) { return *value; }
+double number_of(kicking::Reason reason) { return to_wire(reason); }
+
+/// Every part is there, each with a number of its own.
+kicking::Judgement whole_judgement() {
   kicking::Judgement j;
-  j.fire = true;
-  j.reason = kicking::Reason::kFire;
-  j.target_x_m = 1;
-  j.target_y_m = 2;
-  j.target_z_m = 3;
-  j.distance_m = 4;
-  j.v0_mps = 5;
-  j.v_kick_mps = 6;
-  j.power = 7;
-  j.alpha_rad = 8;
-  j.beta_rad = 9;
-  j.aligned = true;
-  j.offset_right_m = 10;
-  j.left_m = 11;
-  j.right_m = 12;
+  double next = 100.0;
+  const auto set = [&](auto kicking::Judgement::*part) {
+    using Part = std::remove_reference_t<decltype(j.*part)>;
+    if constexpr (std::is_same_v<Part, bool>) j.*part = true;
+    if constexpr (std::is_same_v<Part, kicking::Reason>) j.*part = kicking::Reason::kWaiting;
+    if constexpr (std::is_convertible_v<double, Part> && !std::is_same_v<Part, bool>) j.*part = ++next;
+  };
+  const auto set_member = [&](auto get) {
+    if constexpr (std::is_member_object_pointer_v<decltype(get)>) set(get);
+  };
+  std::apply([&](const auto&... field) { (set_member(field.get), ...); }, kicking::kRecordedFields);
   j.predicted = kicking::Crossing{};
-  j.predicted->x_m = 13;
-  j.predicted->z_m = 14;
-  j.predicted->t_flight_s = 15;
+  j.predicted->x_m = ++next;
+  j.predicted->z_m = ++next;
+  j.predicted->t_flight_s = ++next;
+  return j;
+}
+
+/// The numbers of a message by the names of their fields.
+template <class Message>
+std::map<std::string_view, double> numbers_of(const Message& message) {
+  std::map<std::string_view, double> numbers;
+  bus::visit_columns(message, [&](std::string_view name, const auto& field) { numbers[name] = double(field); });
+  return numbers;
+}
+
+std::map<std::string_view, double> numbers_of(const kicking::Judgement& judgement) {
+  std::map<std::string_view, double> numbers;
+  const auto add = [&](const auto& field) { numbers[field.name] = number_of(std::invoke(field.get, judgement)); };
+  std::apply([&](const auto&... field) { (add(field), ...); }, kicking::kRecordedFields);
+  return numbers;
+}
+
+TEST(DecisionMessage, HasEveryNumberOfTheJudgement) {
+  const kicking::Judgement judgement = whole_judgement();
   msg::KickerStatus kicker{};
   kicker.charge = 0.75;
-  const auto out = decision_message(world(), &kicker, kicking::PolicyName::kMoving, j);
-  EXPECT_EQ(out.t_ns, 5'000'000'000);
-  EXPECT_EQ(out.half, 2);
-  EXPECT_EQ(out.possession_id, 9u);
-  EXPECT_EQ(out.policy, msg::POLICY_MOVING);
-  EXPECT_TRUE(out.fire);
-  EXPECT_EQ(out.reason, msg::REASON_FIRE);
-  EXPECT_EQ(out.x_m, 1.0);
-  EXPECT_EQ(out.omega_radps, 0.6);
-  const double numbers[] = {out.target_x_m,
-                            out.target_y_m,
-                            out.target_z_m,
-                            out.distance_m,
-                            out.v0_mps,
-                            out.v_kick_mps,
-                            out.power,
-                            out.alpha_rad,
-                            out.beta_rad,
-                            out.offset_right_m,
-                            out.left_m,
-                            out.right_m,
-                            out.predicted_x_cross_m,
-                            out.predicted_z_cross_m,
-                            out.predicted_t_flight_s};
-  for (int i = 0; i < 15; ++i) EXPECT_EQ(numbers[i], i + 1);
-  EXPECT_TRUE(out.aligned);
-  EXPECT_EQ(out.charge, 0.75);
-  EXPECT_TRUE(std::isnan(out.opponent_distance_m));
-  EXPECT_EQ(out.shadow_count, 0);
+  auto state = world();
+  state.opponent_distance_m = 1.5;
+  const auto numbers = numbers_of(decision_message(state, &kicker, kicking::PolicyName::kMoving, judgement));
+  for (const auto& [name, number] : numbers_of(judgement)) EXPECT_EQ(numbers.at(name), number) << name;
+  for (const auto& [name, number] : numbers_of(state)) {
+    const bool of_the_node = name == "robot_id" || name == "seq";
+    if (!numbers.contains(name) || of_the_node) continue;
+    EXPECT_EQ(numbers.at(name), number) << name;
+  }
+  EXPECT_EQ(numbers.at("policy"), msg::POLICY_MOVING);
+  EXPECT_EQ(numbers.at("charge"), 0.75);
+  for (const auto& [name, number] : numbers) {
+    const bool of_the_node = name == "robot_id" || name == "seq" || name == "kick_id" || name == "shadow_count";
+    EXPECT_EQ(number == 0.0, of_the_node) << name << ": who fills it?";
+  }
+}
+
+TEST(DecisionMessage, AShadowHasWhatItsFieldsSayOfTheJudgement) {
+  const kicking::Judgement judgement = whole_judgement();
+  const auto of_judgement = numbers_of(judgement);
+  for (const auto& [name, number] : numbers_of(shadow_message(kicking::PolicyName::kMoving, judgement))) {
+    EXPECT_EQ(number, name == "policy" ? double{msg::POLICY_MOVING} : of_judgement.at(name)) << name;
+  }
 }
 
 TEST(DecisionMessage, WhatIsMissingIsNaN) {

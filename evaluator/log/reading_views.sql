@@ -1,0 +1,26 @@
+-- Tables and views of the connection that reads a match log of any version.
+-- Of what is left out nothing yet.
+CREATE TEMP TABLE left_out_sessions (session_id INTEGER NOT NULL PRIMARY KEY) STRICT;
+CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER NOT NULL, kick_id INTEGER NOT NULL,
+  PRIMARY KEY (session_id, robot_id, kick_id)) STRICT, WITHOUT ROWID;
+CREATE TEMP VIEW counted_kicks AS
+SELECT k.* FROM temp.kicks AS k
+WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
+  AND NOT EXISTS (SELECT 1 FROM left_out_kicks AS l
+    WHERE l.session_id = k.session_id AND l.robot_id = k.robot_id AND l.kick_id = k.kick_id);
+
+-- Kicks that the driver accepted: the decision with what was given to the device and what the robot saw of the flight
+-- (NULL: nothing). An order may be sent twice, an outcome corrected: the first decision, the first receipt that accepts
+-- and the latest outcome count.
+CREATE TEMP VIEW accepted_kicks AS
+SELECT d.*, r.order_t_ns, r.power AS given_power, c.outcome, c.x_cross_m, c.z_cross_m
+FROM kick_decisions AS d
+JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
+  SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
+  WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
+LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
+  SELECT max(seq) FROM main.kick_outcomes INDEXED BY kick_outcomes_kick
+  WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
+WHERE d.fire = 1 AND d.seq = (
+  SELECT min(seq) FROM main.kick_decisions INDEXED BY kick_decisions_fired
+  WHERE fire = 1 AND session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id);
