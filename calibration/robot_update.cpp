@@ -1,17 +1,13 @@
 #include "calibration/robot_update.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <fstream>
 #include <stdexcept>
 
-#include "cli/verbs.hpp"
 #include "config/error.hpp"
+#include "evaluator/report/write_file.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::calibration {
@@ -84,8 +80,6 @@ std::uint32_t kicks_behind(const config::Calibration& c) {
 
 }  // namespace
 
-std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
-
 config::FigureOrigin RobotUpdate::origin(std::size_t kicks, const std::vector<std::string>& files) const {
   return {.date = date_, .kicks = static_cast<std::uint32_t>(kicks), .files = files};
 }
@@ -111,7 +105,7 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   const std::size_t kicks = fit.residual_mps.size();
   if (choice.kind == kicking::TableKind::kTrue) {
     if (calibration().table && !robot_.true_table) {
-      throw cli::UsageError(
+      throw config::BadArgument(
           fmt::format("robot {} has a calibrated effective table, which a true one would replace: give the "
                       "true table a robot name and a file of its own",
                       robot_.name));
@@ -271,30 +265,16 @@ std::string RobotUpdate::text() const {
 }
 
 void RobotUpdate::write(const std::filesystem::path& path) const {
-  std::filesystem::path beside = path;
-  beside += fmt::format(".{}.new", getpid());
-  std::error_code failed;
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << text();
-    out.flush();
-    if (!out) failed = std::make_error_code(std::errc::io_error);
-  }
-  std::string refusal = fmt::format("cannot write the robot's file {}", path.string());
-  if (!failed) {
+  const std::string what = "the robot's file";
+  evaluator::replace_file(path, text(), what, [&](const std::filesystem::path& beside) {
     try {
       config::load_robot_of_any_table(beside);
-      std::filesystem::rename(beside, path, failed);
     } catch (const config::Error& error) {
-      failed = std::make_error_code(std::errc::invalid_argument);
-      const std::string what = error.what();
-      refusal += fmt::format(": a figure is impossible{}", what.substr(beside.string().size()));
+      const std::string why = error.what();
+      throw std::runtime_error(fmt::format("cannot write {} {}: a figure is impossible{}", what, path.string(),
+                                           why.substr(beside.string().size())));
     }
-  }
-  if (!failed) return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw std::runtime_error(refusal);
+  });
 }
 
 }  // namespace trivela::calibration

@@ -14,9 +14,6 @@
 
 namespace trivela::calibration {
 
-/// Today in UTC, YYYY-MM-DD.
-std::string today();
-
 /// How a table fit goes into the file.
 struct TableChoice {
   kicking::TableKind kind = kicking::TableKind::kEffective;
@@ -35,7 +32,8 @@ class RobotUpdate {
   // are the records and tables that it was made from.
 
   /// [table], kicker.exit_angle_deg and, where a set-point has several kicks, kicker.spreads of exit speed, exit angle
-  /// and table. @throws std::invalid_argument for a table that does not rise.
+  /// and table. @throws std::invalid_argument for a table that does not rise, config::BadArgument for a true one where
+  /// a measured effective one stands.
   void set_table(const kicking::TableFit& fit, const TableChoice& choice, const std::vector<std::string>& files);
   /// kicker.alpha_slope_deg_per_mps, and transfer_exact.lateral_ratio where the fit has it.
   void set_deflection(const kicking::DeflectionFit& fit, const std::vector<std::string>& files);

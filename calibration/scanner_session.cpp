@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "config/software_version.hpp"
 
 namespace trivela::calibration {
@@ -28,7 +28,7 @@ evaluator::log::ScanSession scanner_session(const hal::RangeFinder& finder, cons
 
 void refuse_existing(const std::filesystem::path& record) {
   if (!std::filesystem::exists(record)) return;
-  throw cli::UsageError{
+  throw config::BadArgument{
       fmt::format("{} exists already; a recorded scan is never overwritten, choose another file", record.string())};
 }
 

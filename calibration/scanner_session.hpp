@@ -13,7 +13,7 @@ namespace trivela::calibration {
 evaluator::log::ScanSession scanner_session(const hal::RangeFinder& finder, const kicking::lob::LaserMount& mount,
                                             const std::string& device);
 
-/// Throws UsageError where the file is there already: before a scanner has been waited for.
+/// Throws config::BadArgument where the file is there already: before a scanner has been waited for.
 void refuse_existing(const std::filesystem::path& record);
 
 }  // namespace trivela::calibration

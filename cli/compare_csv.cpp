@@ -124,10 +124,10 @@ std::uint32_t stratum_of(KickBook& book, const Row& row, const std::string& colu
 
 KickBook read_kicks(std::istream& in, const std::string& file, const CsvComparison& options) {
   check_stratum(options);
-  CsvReader reader(in, file);
+  config::CsvReader reader(in, file);
   const auto head = reader.next();
   if (!head) throw std::runtime_error(file + ": no header line");
-  const std::vector<std::string> header = trimmed(head->cells);
+  const std::vector<std::string> header = config::trimmed(head->cells);
   check_header(header, file, options);
   KickBook book;
   book.stratified_by = options.stratify;

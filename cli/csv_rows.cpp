@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -12,27 +11,13 @@
 
 #include "cli/open_file.hpp"
 #include "cli/write_file.hpp"
+#include "config/parse_number.hpp"
 #include "evaluator/report/json_values.hpp"
-#include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::optional<double> parse_number(const std::string& text) {
-  const std::string digits = text.starts_with('+') ? text.substr(1) : text;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
-  return value;
-}
 
 std::string to_csv(const std::string& cell) {
   if (cell.find_first_of(",\"\n\r") == std::string::npos && !cell.starts_with('#')) return cell;
@@ -56,7 +41,8 @@ Json to_json(const Value& value) {
 }
 
 Json given_to_json(const std::string& cell) {
-  if (const auto number = parse_number(trimmed(cell)); number && std::isfinite(*number)) return *number;
+  if (const auto number = config::parse_decimal(config::trimmed(cell)); number && std::isfinite(*number))
+    return *number;
   return cell.empty() ? Json(nullptr) : Json(cell);
 }
 
@@ -86,95 +72,22 @@ void check_header(const RowVerb& verb, const std::vector<std::string>& header, c
 }
 
 std::vector<Value> compute_record(const RowVerb& verb, const std::vector<std::string>& header,
-                                  const CsvRecord& record) {
+                                  const config::CsvRecord& record) {
   check_width(header, record);
   return verb.compute(Row(header, record.cells));
 }
 
 }  // namespace
 
-CellError::CellError(std::string_view column_name, const std::string& text, const std::string& reason)
-    : std::runtime_error(text.empty() ? fmt::format("column {}: {}", column_name, reason)
-                                      : fmt::format("column {}: '{}' {}", column_name, text, reason)) {}
-
-std::vector<std::string> trimmed(const std::vector<std::string>& cells) {
-  std::vector<std::string> result;
-  std::ranges::transform(cells, std::back_inserter(result), [](const std::string& cell) { return trimmed(cell); });
-  return result;
-}
-
-void check_width(const std::vector<std::string>& header, const CsvRecord& record) {
-  if (record.cells.size() < header.size()) {
-    throw CellError(header[record.cells.size()], "",
-                    fmt::format("is missing: {} cells under {} columns", record.cells.size(), header.size()));
-  }
-  if (record.cells.size() > header.size()) {
-    throw CellError(fmt::format("{}", header.size() + 1), record.cells[header.size()],
-                    fmt::format("is too much: {} cells under {} columns", record.cells.size(), header.size()));
-  }
-}
-
-bool Row::has(std::string_view column) const {
-  return std::find(header_.begin(), header_.end(), column) != header_.end();
-}
-
-std::optional<std::string> Row::word(std::string_view column) const {
-  const auto found = std::find(header_.begin(), header_.end(), column);
-  if (found == header_.end()) return std::nullopt;
-  std::string text = trimmed(cells_[static_cast<std::size_t>(found - header_.begin())]);
-  return text.empty() ? std::nullopt : std::optional(std::move(text));
-}
-
-std::optional<double> Row::number_if_any(std::string_view column) const {
-  const auto text = word(column);
-  if (!text) return std::nullopt;
-  const auto value = parse_number(*text);
-  if (!value) throw CellError(column, *text, "is not a number");
-  if (!std::isfinite(*value)) throw CellError(column, *text, "is not finite");
-  return value;
-}
-
-double Row::number(std::string_view column) const {
-  const auto value = number_if_any(column);
-  if (!value) throw CellError(column, "", "is empty");
-  return *value;
-}
-
-double Row::number_in(std::string_view column, double low, double high) const {
-  const double value = number(column);
-  if (value < low || value > high)
-    throw CellError(column, *word(column), fmt::format("is not from {} to {}", low, high));
-  return value;
-}
-
-double Row::positive(std::string_view column) const {
-  const double value = number(column);
-  if (value <= 0.0) throw CellError(column, *word(column), "is not above 0");
-  return value;
-}
-
-double Row::length_m(std::string_view column, double most_m) const {
-  const double value = positive(column);
-  if (value > most_m)
-    throw CellError(column, *word(column), fmt::format("is above {} m: lengths are in metres", most_m));
-  return value;
-}
-
-double Row::acute_angle_rad(std::string_view column) const {
-  const double angle_deg = number(column);
-  if (angle_deg <= 0.0 || angle_deg >= 90.0) throw CellError(column, *word(column), "is not between 0 and 90 degrees");
-  return kicking::radians(angle_deg);
-}
-
 ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
                   std::ostream& err) {
-  CsvReader reader(in, file);
+  config::CsvReader reader(in, file);
   const auto head = reader.next();
   if (!head) throw std::runtime_error(file + ": no header line");
-  const std::vector<std::string> header = trimmed(head->cells);
+  const std::vector<std::string> header = config::trimmed(head->cells);
   check_header(verb, header, file);
   // To the end before anything is written: a text that is no CSV gives no rows.
-  std::vector<CsvRecord> records;
+  std::vector<config::CsvRecord> records;
   while (auto record = reader.next()) records.push_back(std::move(*record));
   const auto results =
       verb.results([&](std::string_view column) { return std::count(header.begin(), header.end(), column) > 0; });
@@ -182,7 +95,7 @@ ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file
   ExitCode code = kDone;
   Json objects = Json::array();
   if (format == RowFormat::kCsv) out << csv_line(head->cells, results);
-  for (const CsvRecord& record : records) {
+  for (const config::CsvRecord& record : records) {
     try {
       const std::vector<Value> values = compute_record(verb, header, record);
       if (format == RowFormat::kCsv) {

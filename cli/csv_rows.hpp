@@ -6,17 +6,18 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
-#include "cli/csv_reader.hpp"
 #include "cli/verbs.hpp"
+#include "config/csv_row.hpp"
 
 namespace trivela::cli {
+
+using config::CellError;
+using config::Row;
 
 /// A result: none (an empty cell), a number, a truth (1 or 0) or a word.
 using Value = std::variant<std::monostate, double, bool, std::string>;
@@ -32,43 +33,6 @@ struct Column {
   bool required = true;
   std::string alias = {};
 };
-
-/// What is wrong with a cell, and in which column.
-struct CellError : std::runtime_error {
-  CellError(std::string_view column_name, const std::string& text, const std::string& reason);
-};
-
-/// The cells of one record by column name. A column that is absent or empty has no value.
-class Row {
- public:
-  Row(const std::vector<std::string>& header, const std::vector<std::string>& cells) : header_(header), cells_(cells) {}
-
-  bool has(std::string_view column) const;
-  /// The cell's text; none if it is absent or empty.
-  std::optional<std::string> word(std::string_view column) const;
-  /// The cell's finite number. @throws CellError
-  std::optional<double> number_if_any(std::string_view column) const;
-  /// The same; a missing number is an error, too. @throws CellError
-  double number(std::string_view column) const;
-  /// The number if it lies in [low, high], an error saying so otherwise. @throws CellError
-  double number_in(std::string_view column, double low, double high) const;
-  /// The number if it is above zero. @throws CellError
-  double positive(std::string_view column) const;
-  /// Above 0 and at most `most_m`: what lies beyond was written in centimetres.
-  double length_m(std::string_view column, double most_m) const;
-  /// Angle in degrees between 0 and 90, both excluded, in radians. @throws CellError
-  double acute_angle_rad(std::string_view column) const;
-
- private:
-  const std::vector<std::string>& header_;
-  const std::vector<std::string>& cells_;
-};
-
-/// Each cell without blanks around it.
-std::vector<std::string> trimmed(const std::vector<std::string>& cells);
-
-/// A record must have as many cells as the header. @throws CellError
-void check_width(const std::vector<std::string>& header, const CsvRecord& record);
 
 /// A verb that works row by row: its input columns, the result columns for what the header has, the computation.
 struct RowVerb {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "calibration/robot_update.hpp"
+#include "cli/calibrate/robot_file.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/open_file.hpp"
 #include "cli/say.hpp"
@@ -37,7 +37,7 @@ config::LearnedModelFile file_of(const LearnedFit& fit, const LearnFlags& flags)
   const HeldOutLoss& loss = fit.held_out;
   config::LearnedModelFile file{.model = fit.model, .training = {}, .held_out = {}};
   file.training = {.source = "trivela learn",
-                   .date = calibration::today(),
+                   .date = today(),
                    .files = {},
                    .matches = static_cast<std::uint32_t>(fit.matches),
                    .kicks = static_cast<std::uint32_t>(fit.kicks),

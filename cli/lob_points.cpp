@@ -6,23 +6,22 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "cli/csv_rows.hpp"
 #include "cli/open_file.hpp"
-#include "evaluator/report/json_values.hpp"
+#include "evaluator/report/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {
 namespace {
 
+using evaluator::Json;
 using kicking::Estimate;
 using kicking::lob::ForegroundReturn;
 using kicking::lob::LobRecord;
-using Json = nlohmann::ordered_json;
 
 const double kDegrees = kicking::degrees(1.0);
 
@@ -55,36 +54,22 @@ class ReturnRows {
   std::set<std::pair<std::int64_t, long>> beams_;
 };
 
-void put(Json& object, const std::string& key, const Estimate& estimate, double unit = 1.0) {
-  object[key] = estimate.value * unit;
-  object[key + "_se"] = estimate.se * unit;
-}
-
 Json to_json(const LobRecord& lob) {
-  Json effective, true_values;
-  if (const auto& fit = lob.effective) {
-    put(effective, "exit_angle_deg", fit->exit_angle_rad, kDegrees);
-    put(effective, "exit_speed_mps", fit->exit_speed_mps);
-    put(effective, "height_m", fit->height_m);
-    put(effective, "distance_m", fit->distance_m);
-    effective["residual_rms_m"] = fit->residual_rms_m;
-  }
+  Json effective = evaluator::effective_json(lob, evaluator::EstimateForm::kBeside);
+  Json true_values = evaluator::true_json(lob, evaluator::EstimateForm::kBeside);
+  if (lob.effective) effective["residual_rms_m"] = lob.effective->residual_rms_m;
   if (const auto& fit = lob.true_values) {
-    put(true_values, "exit_angle_deg", fit->exit_angle_rad, kDegrees);
-    put(true_values, "exit_speed_mps", fit->exit_speed_mps);
-    put(true_values, "Cd", fit->drag_coefficient);
     true_values["residual_rms_m"] = fit->residual_rms_m;
     true_values["misfit_chi_square"] = fit->misfit_chi_square;
     true_values["misfits"] = fit->misfits();
     true_values["lift_coefficient"] = fit->lift_coefficient;
   }
-  return {{"effective", effective},
-          {"true", true_values},
-          {"residual_rms_m", lob.true_values ? Json(lob.true_values->residual_rms_m) : Json()},
-          {"points", lob.centres.size()},
-          {"accepted", lob.refusal == kicking::lob::Refusal::kNone},
-          {"refusal", kicking::lob::name(lob.refusal)},
-          {"why", lob.why}};
+  Json json{{"effective", effective},
+            {"true", true_values},
+            {"residual_rms_m", lob.true_values ? Json(lob.true_values->residual_rms_m) : Json()},
+            {"points", lob.centres.size()}};
+  json.update(evaluator::verdict_json(lob));
+  return json;
 }
 
 std::string line(const char* what, const Estimate& estimate, const char* unit, double scale = 1.0) {

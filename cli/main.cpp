@@ -14,6 +14,7 @@
 #include "cli/nearest_word.hpp"
 #include "cli/say.hpp"
 #include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "config/software_version.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
@@ -95,7 +96,9 @@ int failed(const std::exception& error, cli::ExitCode code) {
   return code;
 }
 
-int run_or_say_why_not(int argc, char** argv) try { return run(argc, argv); } catch (const cli::UsageError& error) {
+int run_or_say_why_not(int argc, char** argv) try {
+  return run(argc, argv);
+} catch (const trivela::config::BadArgument& error) {
   return failed(error, cli::kBadUsage);
 } catch (const std::system_error& error) {
   if (!std::ferror(stdout)) return failed(error, cli::kFailed);

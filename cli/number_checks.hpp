@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "config/parse_number.hpp"
+
 namespace trivela::cli {
 
 /// Limits of a number as a flag's check, said in the words of whoever wrote them: CLI::Range writes the bounds of a
@@ -14,9 +16,8 @@ class NumberCheck : public CLI::Validator {
   template <class Holds>
   NumberCheck(const std::string& limits, Holds holds) : Validator{limits} {
     func_ = [limits, holds](const std::string& text) {
-      double value = 0.0;
-      const bool number = CLI::detail::lexical_cast(text, value);
-      return number && holds(value) ? std::string{} : fmt::format("{} is not {}", text, limits);
+      const auto value = config::parse_number(text);
+      return value && holds(*value) ? std::string{} : fmt::format("{} is not {}", text, limits);
     };
   }
 };

@@ -3,37 +3,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "config/open_file.hpp"
 
 namespace trivela::cli {
 
-/// Why a file cannot be read, and where a relative name was looked for; empty if it can.
-inline std::string why_unreadable(const std::filesystem::path& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) return "it is a folder";
-  errno = 0;
-  if (std::ifstream{path}) return "";
-  const std::string where =
-      path.is_relative() ? fmt::format(" (in {})", std::filesystem::current_path(unknown).string()) : "";
-  return std::strerror(errno) + where;
-}
+using config::open_file;
 
-/// A file to read. Throws std::runtime_error with its name and the reason.
-inline std::ifstream open_file(const std::filesystem::path& path) {
-  if (const std::string why = why_unreadable(path); !why.empty())
-    throw std::runtime_error{fmt::format("cannot read {}: {}", path.string(), why)};
-  return std::ifstream{path, std::ios::binary};
-}
-
-/// The same as a flag's check.
+/// What config::open_file() can open, as a flag's check.
 inline CLI::Validator readable_file() {
   return {[](const std::string& file) {
-            const std::string why = why_unreadable(file);
+            const std::string why = config::why_unreadable(file);
             return why.empty() ? why : fmt::format("cannot read {}: {}", file, why);
           },
           "FILE"};

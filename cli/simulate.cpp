@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
@@ -30,6 +32,17 @@ struct SimulateFlags {
   bool every_cycle = false;
 };
 
+experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const SimulateFlags& flags,
+                               SignalInbox& signals) {
+  ProgressBar bar;
+  const auto found = [&](std::int64_t matches) {
+    if (matches > 0) fmt::print("{} of {} matches are in {} already\n", matches, plan.matches, flags.out);
+  };
+  const auto progress = [&](double done, double total, const std::string& what) { bar.show(done, total, what); };
+  return experiment::run_experiment(plan, flags.jobs, flags.out,
+                                    {found, progress, [&] { return signals.stop_requested(); }});
+}
+
 int simulate(const SimulateFlags& flags) {
   experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();
@@ -39,10 +52,18 @@ int simulate(const SimulateFlags& flags) {
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
-  plan.evenings = experiment::teams_of_evenings(plan.scenario, flags.base,
-                                                {flags.calibrations, flags.matches, flags.seed, flags.jobs});
-  if (plan.evenings.empty()) experiment::warn_of_shared_robots(plan.scenario, plan.arms);
-  return experiment::run_experiment(plan, flags.jobs, flags.out);
+  plan.evenings = draw_evenings(plan.scenario, flags.base, {flags.calibrations, flags.seed, flags.jobs}, flags.matches);
+  if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
+  experiment::check_playable(plan);  // a plan that is refused leaves no log
+  SignalInbox signals;               // before the threads, which must not be interrupted
+  const experiment::ExperimentRun run = play(plan, flags, signals);
+  if (run.complete) {
+    fmt::print("{}", to_text(plan, run, flags.jobs, flags.out));
+    return kDone;
+  }
+  fmt::print(stderr, "trivela: interrupted; {} of {} matches are in {}: the same command goes on from there\n",
+             run.in_log, plan.matches, flags.out);
+  return kFailed;
 }
 
 }  // namespace

@@ -12,7 +12,26 @@ namespace trivela::cli {
 std::string Study::scenario_name() const { return world.named(std::filesystem::path{world.file}.filename().string()); }
 
 void Study::draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base) {
-  plan.evenings = experiment::teams_of_evenings(scenario, base, {calibrations, plan.matches, plan.seed, plan.jobs});
+  plan.evenings = cli::draw_evenings(scenario, base, {calibrations, plan.seed, plan.jobs}, plan.matches);
+}
+
+std::vector<experiment::Team> draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base,
+                                            const experiment::EveningPlan& plan, std::uint32_t matches) {
+  if (plan.evenings > 0 && !base.robots.empty()) {
+    throw UsageError{fmt::format(
+        "--robot and --calibrations {}: robots are those of files or of evenings; leave one out (--calibrations 0)",
+        plan.evenings)};
+  }
+  if (plan.evenings > matches)
+    throw UsageError{fmt::format("--calibrations {}: more evenings than --matches {}", plan.evenings, matches)};
+  ProgressBar bar;
+  return experiment::teams_of_evenings(scenario, plan, [&](std::size_t done, std::size_t all) {
+    bar.show(static_cast<double>(done), static_cast<double>(all), "evenings of calibration");
+  });
+}
+
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms) {
+  for (const std::string& remark : experiment::shared_robots(scenario, arms)) warn(remark);
 }
 
 void add_play_options(CLI::App& verb, Study& study) {
@@ -46,6 +65,8 @@ void add_study_options(CLI::App& verb, Study& study) {
 }
 
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
+  base.arms_called = "--arms";
+  base.set_called = "--set";
   verb.add_option("--robot", base.robots, "Robot files, one for each of the team; default: the calibrated ones");
   verb.add_option("--config", base.config, "Settings of the nodes")->capture_default_str();
   verb.add_option("--set", base.overrides, "One setting on top, e.g. --set policy.settle_s=0.5");

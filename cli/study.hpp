@@ -34,6 +34,14 @@ struct Study {
   void draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base);
 };
 
+/// The teams of the evenings of calibration, played with a progress bar on a terminal, for an experiment of so many
+/// matches. @throws UsageError where `base` names robot files, too, and where there are more evenings than matches.
+std::vector<experiment::Team> draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base,
+                                            const experiment::EveningPlan& plan, std::uint32_t matches);
+
+/// Says on standard error where an arm has fewer robot files than the scenario's team has robots.
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
+
 /// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.
 void add_play_options(CLI::App& verb, Study& study);
 

@@ -34,7 +34,7 @@ std::vector<experiment::Coordinate> space_of(const TuneFlags& flags, kicking::Po
   if (flags.settings.empty()) return all;
   std::vector<experiment::Coordinate> named;
   for (const std::string& text : flags.settings) {
-    named.push_back(experiment::coordinate_of(text, all));
+    named.push_back(experiment::coordinate_of(text, all, "--setting"));
     if (std::ranges::count(named, named.back().name, &experiment::Coordinate::name) > 1)
       throw UsageError{fmt::format("--setting {}: stands twice", named.back().name)};
   }

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
+
+#include "config/error.hpp"
 
 namespace trivela::cli {
 
 /// Exit codes of every verb.
 enum ExitCode : int { kDone = 0, kFailed = 1, kBadUsage = 2, kDoneWithLoss = 3 };
 
-/// Arguments that parse but make no sense together; `main` prints it and exits with kBadUsage.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+/// Flags that parse but make no sense together; `main` prints any BadArgument and exits with kBadUsage.
+struct UsageError : config::BadArgument {
+  using config::BadArgument::BadArgument;
 };
 
 /// Each adds its subcommand with flags, help and a callback that sets `exit_code`.

@@ -9,7 +9,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "evaluator/report/write_file.hpp"
+
 namespace trivela::cli {
+
+using evaluator::write_file;
 
 /// What a verb will write when it has computed. The verb says so first, since nobody wants to hear after half an hour
 /// that a folder is missing: throws std::runtime_error naming flag, file and reason where it cannot be written now. An
@@ -26,14 +30,6 @@ inline void require_writable(const std::string& flag, const std::filesystem::pat
   errno = 0;
   if (!std::ofstream{path, std::ios::app}) fail(std::strerror(errno));
   if (!there) std::filesystem::remove(path, unknown);
-}
-
-/// Writes a text file anew. Throws std::runtime_error naming it, and the reason, where that fails.
-inline void write_file(const std::filesystem::path& path, const std::string& text) {
-  errno = 0;
-  std::ofstream out{path};
-  if (!(out << text) || !out.flush())
-    throw std::runtime_error{fmt::format("cannot write {}: {}", path.string(), std::strerror(errno))};
 }
 
 }  // namespace trivela::cli

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "cli/csv_reader.hpp"
+#include "config/csv_reader.hpp"
 
 namespace trivela::tests {
 
 /// A row of a file in tests/vectors, by column name.
 class VectorRow {
  public:
-  VectorRow(std::vector<std::string> header, cli::CsvRecord record)
+  VectorRow(std::vector<std::string> header, config::CsvRecord record)
       : header_(std::move(header)), record_(std::move(record)) {}
 
   const std::string& text(std::string_view column) const {
@@ -32,13 +32,13 @@ class VectorRow {
 
  private:
   std::vector<std::string> header_;
-  cli::CsvRecord record_;
+  config::CsvRecord record_;
 };
 
 /// All rows of tests/vectors/NAME. Throws if the file is missing or has no row, so that no loop over it tests nothing.
 inline std::vector<VectorRow> rows(const std::string& name) {
   std::ifstream file(std::string(TRIVELA_SOURCE_DIR) + "/tests/vectors/" + name);
-  cli::CsvReader reader(file);
+  config::CsvReader reader(file);
   const auto header = reader.next();
   std::vector<VectorRow> result;
   while (auto record = reader.next()) result.emplace_back(header->cells, std::move(*record));

@@ -6,14 +6,17 @@
 #include <iterator>
 #include <sstream>
 
-#include "cli/open_file.hpp"
+#include "config/error.hpp"
+#include "config/open_file.hpp"
 
 namespace trivela::calibration {
 namespace {
 
+using config::CsvRecord;
+
 std::string text_of(const std::string& file) {
   if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream in = cli::open_file(file);
+  std::ifstream in = config::open_file(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -23,8 +26,8 @@ std::vector<std::string> words_of(const std::string& line) {
 }
 
 /// Columns apart by blanks; line numbers as in the file.
-std::vector<cli::CsvRecord> read_blanks(const std::string& text) {
-  std::vector<cli::CsvRecord> records;
+std::vector<config::CsvRecord> read_blanks(const std::string& text) {
+  std::vector<config::CsvRecord> records;
   std::istringstream in(text);
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -36,15 +39,15 @@ std::vector<cli::CsvRecord> read_blanks(const std::string& text) {
 }
 
 /// Comments after numbers too; lines keep their numbers.
-std::vector<cli::CsvRecord> read_csv(const std::string& text, const std::string& file) {
-  std::vector<cli::CsvRecord> records;
+std::vector<config::CsvRecord> read_csv(const std::string& text, const std::string& file) {
+  std::vector<config::CsvRecord> records;
   std::istringstream lines(text);
   std::stringstream in;
   for (std::string line; std::getline(lines, line);) {
     line.erase(std::min(line.find('#'), line.size()));
     in << (words_of(line).empty() ? "" : line) << '\n';
   }
-  cli::CsvReader reader(in, file);
+  config::CsvReader reader(in, file);
   while (auto record = reader.next()) records.push_back(std::move(*record));
   return records;
 }
@@ -69,14 +72,15 @@ std::string trimmed(const std::string& text) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::vector<std::string> named_columns(const std::string& columns) {
+std::vector<std::string> named_columns(const std::string& columns, const std::string& called) {
   std::vector<std::string> header;
   std::istringstream in(columns);
   for (std::string name; std::getline(in, name, ',');) header.push_back(trimmed(name));
   for (const std::string& name : header) {
-    if (name.empty()) throw cli::UsageError(fmt::format("--columns {}: a name is empty; '-' skips a column", columns));
+    if (name.empty())
+      throw config::BadArgument(fmt::format("{} {}: a name is empty; '-' skips a column", called, columns));
     if (name != "-" && std::ranges::count(header, name) > 1) {
-      throw cli::UsageError(fmt::format("--columns {}: {} stands twice", columns, name));
+      throw config::BadArgument(fmt::format("{} {}: {} stands twice", called, columns, name));
     }
   }
   return header;
@@ -84,10 +88,10 @@ std::vector<std::string> named_columns(const std::string& columns) {
 
 }  // namespace
 
-NumberTable NumberTable::read(const std::string& file, const std::string& columns) {
+NumberTable NumberTable::read(const std::string& file, const std::string& columns, const std::string& called) {
   NumberTable table;
   table.file_ = file == "-" ? "standard input" : file;
-  table.header_ = named_columns(columns);
+  table.header_ = named_columns(columns, called);
   const std::string text = text_of(file);
   table.records_ = is_csv(text) ? read_csv(text, table.file_) : read_blanks(text);
   auto& records = table.records_;
@@ -95,8 +99,8 @@ NumberTable NumberTable::read(const std::string& file, const std::string& column
   const bool numbers_first = std::ranges::any_of(records.front().cells, is_number);
   if (columns.empty()) {
     if (numbers_first) {
-      throw std::runtime_error(fmt::format("{}:{}: the first line names no columns; name them with --columns",
-                                           table.file_, records.front().line));
+      throw std::runtime_error(fmt::format("{}:{}: the first line names no columns; name them with {}", table.file_,
+                                           records.front().line, called));
     }
     for (const std::string& cell : records.front().cells) {
       table.header_.push_back(trimmed(cell));
@@ -106,7 +110,7 @@ NumberTable NumberTable::read(const std::string& file, const std::string& column
       }
     }
   }
-  if (!numbers_first) records.erase(records.begin());  // a header that --columns replaces is passed over
+  if (!numbers_first) records.erase(records.begin());  // a header that `columns` replaces is passed over
   if (records.empty()) throw std::runtime_error(table.file_ + ": a header and no rows");
   return table;
 }
@@ -119,15 +123,15 @@ void NumberTable::require_one_of(const std::vector<std::string>& columns) const 
       fmt::format("{}: no column {} (there are: {})", file_, fmt::join(columns, " or "), fmt::join(header_, ", ")));
 }
 
-void NumberTable::for_each(const std::function<void(const cli::Row&)>& fn) const {
-  for (const cli::CsvRecord& record : records_) {
+void NumberTable::for_each(const std::function<void(const config::Row&)>& fn) const {
+  for (const CsvRecord& record : records_) {
     if (record.cells.size() != header_.size()) {
       throw std::runtime_error(
           fmt::format("{}:{}: {} cells under {} columns", file_, record.line, record.cells.size(), header_.size()));
     }
     try {
-      fn(cli::Row(header_, record.cells));
-    } catch (const cli::CellError& error) {
+      fn(config::Row(header_, record.cells));
+    } catch (const config::CellError& error) {
       throw std::runtime_error(fmt::format("{}:{}: {}", file_, record.line, error.what()));
     }
   }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/csv_rows.hpp"
+#include "config/csv_row.hpp"
 
 namespace trivela::calibration {
 
@@ -20,8 +20,9 @@ class NumberTable {
  public:
   /// Reads `file`, "-" for standard input. `columns` names them in order, '-' one to skip; empty: the first line does.
   /// @throws std::runtime_error for a file that cannot be read, is empty, or whose first line names no columns;
-  /// UsageError for `columns` that name one twice or none.
-  static NumberTable read(const std::string& file, const std::string& columns = "");
+  /// config::BadArgument for `columns` that name one twice or none. Sentences on `columns` say `called`.
+  static NumberTable read(const std::string& file, const std::string& columns = "",
+                          const std::string& called = "columns");
 
   bool has(std::string_view column) const;
 
@@ -29,12 +30,12 @@ class NumberTable {
   void require_one_of(const std::vector<std::string>& columns) const;
 
   /// Calls `fn` for each row. @throws std::runtime_error naming file, line, column and value of the first bad cell.
-  void for_each(const std::function<void(const cli::Row&)>& fn) const;
+  void for_each(const std::function<void(const config::Row&)>& fn) const;
 
  private:
   std::string file_;
   std::vector<std::string> header_;
-  std::vector<cli::CsvRecord> records_;
+  std::vector<config::CsvRecord> records_;
 };
 
 }  // namespace trivela::calibration

@@ -10,10 +10,13 @@
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/number_table.hpp"
 #include "calibration/rows/verdicts_file.hpp"
+#include "config/error.hpp"
 
 namespace trivela::calibration {
 namespace {
 
+using config::BadArgument;
+using config::Row;
 using kicking::TableKind;
 
 // No kicker of the league comes near them.
@@ -26,35 +29,36 @@ const char* counted(std::size_t n) { return n == 1 ? "lob" : "lobs"; }
 /// Trials of heights and distances. Those are of the parabola, whatever the drag.
 void add_parabolas(const NumberTable& table, const std::string& file, const TrialFlags& flags, Trials& trials) {
   if (flags.kind == TableKind::kTrue) {
-    throw cli::UsageError(fmt::format("--kind true: {} has heights and distances, which give effective values", file));
+    throw BadArgument(
+        fmt::format("{} true: {} has heights and distances, which give effective values", flags.kind_called, file));
   }
   if (flags.exit_angle_rad) {
-    throw cli::UsageError(fmt::format("--exit-angle-deg: {} has heights and distances, which give the angle", file));
+    throw BadArgument(fmt::format("{}: {} has heights and distances, which give the angle", flags.angle_called, file));
   }
   table.require_one_of({"distance_m"});
-  table.for_each([&](const cli::Row& row) {
+  table.for_each([&](const config::Row& row) {
     const double power = row.positive("power");
     const double height_m = row.length_m("height_m", kHighest_m);
     trials.trials.push_back(kicking::trial_of_lob(power, height_m, row.length_m("distance_m", kFarthest_m)));
   });
 }
 
-double speed_mps(const cli::Row& row) {
+double speed_mps(const config::Row& row) {
   const double value = row.positive("exit_speed_mps");
   if (value <= kFastest_mps) return value;
-  throw cli::CellError("exit_speed_mps", *row.word("exit_speed_mps"), fmt::format("is above {} m/s", kFastest_mps));
+  throw config::CellError("exit_speed_mps", *row.word("exit_speed_mps"), fmt::format("is above {} m/s", kFastest_mps));
 }
 
 void add_speeds(const NumberTable& table, const std::string& file, const TrialFlags& flags, Trials& trials) {
   const bool with_angle = table.has("exit_angle_deg");
   if (with_angle && flags.exit_angle_rad) {
-    throw cli::UsageError(fmt::format("--exit-angle-deg: {} has a column exit_angle_deg", file));
+    throw BadArgument(fmt::format("{}: {} has a column exit_angle_deg", flags.angle_called, file));
   }
   if (!with_angle && !flags.exit_angle_rad) {
-    throw cli::UsageError(
-        fmt::format("{} has exit speeds and no column exit_angle_deg; give one angle with --exit-angle-deg", file));
+    throw BadArgument(fmt::format("{} has exit speeds and no column exit_angle_deg; give one angle with {}", file,
+                                  flags.angle_called));
   }
-  table.for_each([&](const cli::Row& row) {
+  table.for_each([&](const config::Row& row) {
     trials.trials.push_back({row.positive("power"),
                              with_angle ? row.acute_angle_rad("exit_angle_deg") : *flags.exit_angle_rad,
                              speed_mps(row)});
@@ -62,7 +66,7 @@ void add_speeds(const NumberTable& table, const std::string& file, const TrialFl
 }
 
 Trials trials_of_numbers(const std::string& file, const TrialFlags& flags) {
-  const NumberTable table = NumberTable::read(file, flags.columns);
+  const NumberTable table = NumberTable::read(file, flags.columns, flags.columns_called);
   table.require_one_of({"power"});
   table.require_one_of({"height_m", "exit_speed_mps"});
   Trials trials;
@@ -75,7 +79,8 @@ Trials trials_of_numbers(const std::string& file, const TrialFlags& flags) {
 }
 
 Trials trials_of_scans(const std::string& file, const TrialFlags& flags) {
-  if (flags.exit_angle_rad) throw cli::UsageError(fmt::format("--exit-angle-deg: the lobs of {} give the angle", file));
+  if (flags.exit_angle_rad)
+    throw BadArgument(fmt::format("{}: the lobs of {} give the angle", flags.angle_called, file));
   const evaluator::log::ScanReader scans(file);
   Trials trials = trials_of_lobs(lobs_of_scans(scans, {}, verdicts_beside(file)), flags.kind, file);
   trials.simulated = scans.session().simulated;

@@ -9,11 +9,14 @@
 
 namespace trivela::calibration {
 
-/// How to read the trials of a kicker.
+/// How to read the trials of a kicker, and what sentences call that.
 struct TrialFlags {
   kicking::TableKind kind = kicking::TableKind::kEffective;
   std::optional<double> exit_angle_rad = {};  ///< of speeds that come without an angle
   std::string columns = {};                   ///< of tables of numbers, see NumberTable
+  std::string kind_called = "kind";
+  std::string angle_called = "exit_angle_deg";
+  std::string columns_called = "columns";
 };
 
 /// Trials, and sentences on what was left out.
@@ -27,7 +30,8 @@ struct Trials {
 /// columns power, height_m, distance_m (of the ball's centre relative to the launch; effective) or power,
 /// exit_speed_mps
 /// [, exit_angle_deg].
-/// @throws std::runtime_error, std::invalid_argument naming file and line; UsageError for flags that contradict a file.
+/// @throws std::runtime_error, std::invalid_argument naming file and line; config::BadArgument for flags that
+/// contradict a file.
 Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flags);
 
 /// The same for lobs: those accepted and with a power.

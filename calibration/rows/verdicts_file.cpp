@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace trivela::calibration {
+#include "evaluator/report/write_file.hpp"
+
+namespace trivela::evaluator {
 
 namespace fs = std::filesystem;
 
@@ -38,15 +40,7 @@ void write_verdicts(const fs::path& record, std::span<const evaluator::log::Verd
   for (const evaluator::log::Verdict& verdict : verdicts) {
     list.push_back({{"launch_t_ns", verdict.launch_t_ns}, {"accepted", verdict.accepted}, {"why", verdict.why}});
   }
-  const fs::path path = verdicts_path(record);
-  fs::path fresh = path;
-  fresh += ".new";
-  std::ofstream out(fresh);
-  out << list.dump(2) << '\n';
-  out.close();
-  std::error_code refused;
-  if (out) fs::rename(fresh, path, refused);
-  if (!out || refused) throw std::runtime_error(fmt::format("cannot write the verdicts {}", path.string()));
+  replace_file(verdicts_path(record), list.dump(2) + '\n', "the verdicts");
 }
 
-}  // namespace trivela::calibration
+}  // namespace trivela::evaluator

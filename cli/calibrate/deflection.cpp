@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <memory>
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/write_file.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
@@ -21,16 +18,44 @@ using kicking::degrees;
 struct DeflectionFlags : FitFlags {
   std::optional<double> v_h_mps;
   std::optional<double> delay_s;
-  std::string plot;
 };
 
-using DeflectionRows = calibration::DriveKicks<kicking::DeflectionRow>;
+/// alpha over the lateral velocity.
+class Deflection {
+ public:
+  using Flags = DeflectionFlags;
+  using Rows = calibration::DriveKicks<kicking::DeflectionRow>;
+  using Robot = std::optional<config::Robot>;
+  static constexpr const char* kName = "deflection";
+  static constexpr bool kNeedsRobot = true;
 
-DeflectionRows rows_of_numbers(const DeflectionFlags& flags) {
-  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
+  static Rows rows(const calibration::RecordedDrives& drives, const Flags&, const Robot& robot) {
+    return calibration::lateral_kicks(drives, robot->model);
+  }
+  static Rows rows(const calibration::NumberTable& table, const Flags& flags, const Robot& robot);
+
+  Deflection(Rows kicks, const Flags& flags, const Robot& robot)
+      : kicks_(std::move(kicks)),
+        fit_(kicking::fit_deflection(kicks_.rows,
+                                     !flags.delay_s && robot ? std::optional(robot->model.delay_s) : flags.delay_s)) {}
+
+  Json to_json() const;
+  std::string to_text() const;
+  std::vector<std::string> warnings() const { return kicks_.left_out; }
+  evaluator::Chart chart(bool simulated) const;
+  void set(calibration::RobotUpdate& update, const std::vector<std::string>& files) const {
+    update.set_deflection(fit_, files);
+  }
+
+ private:
+  Rows kicks_;
+  kicking::DeflectionFit fit_;
+};
+
+Deflection::Rows Deflection::rows(const calibration::NumberTable& table, const Flags& flags, const Robot&) {
   for (const char* column : {"vx_mps", "d_m", "b_m"}) table.require_one_of({column});
-  DeflectionRows rows;
-  table.for_each([&](const Row& row) {
+  Rows rows;
+  table.for_each([&](const config::Row& row) {
     rows.rows.push_back({.vx_mps = row.number("vx_mps"),
                          .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
                          .b_m = row.number("b_m")});
@@ -41,73 +66,76 @@ DeflectionRows rows_of_numbers(const DeflectionFlags& flags) {
   return rows;
 }
 
-FitReport report_of(const DeflectionRows& kicks, const kicking::DeflectionFit& fit) {
-  FitReport report;
-  report.json = {{"kicks", fit.alpha_rad.size()},
-                 {"line",
-                  {{"slope_deg_per_mps", degrees(fit.line.slope.value)},
-                   {"slope_se_deg_per_mps", degrees(fit.line.slope.se)},
-                   {"rms_deg", degrees(fit.line.rms)}}},
-                 {"physical",
-                  {{"travel_s", fit.travel.slope.value},
-                   {"travel_se_s", fit.travel.slope.se},
-                   {"rms_deg", degrees(fit.travel_rms_rad)},
-                   {"rms_m", fit.travel.rms}}},
-                 {"transfer", nullptr},
-                 {"rows", Json::array()}};
-  if (fit.lateral) {
-    report.json["transfer"] = {{"lateral_ratio", fit.lateral->slope.value},
-                               {"lateral_ratio_se", fit.lateral->slope.se},
-                               {"rms_m", fit.lateral->rms}};
+Json Deflection::to_json() const {
+  Json json{{"kicks", fit_.alpha_rad.size()},
+            {"line",
+             {{"slope_deg_per_mps", degrees(fit_.line.slope.value)},
+              {"slope_se_deg_per_mps", degrees(fit_.line.slope.se)},
+              {"rms_deg", degrees(fit_.line.rms)}}},
+            {"physical",
+             {{"travel_s", fit_.travel.slope.value},
+              {"travel_se_s", fit_.travel.slope.se},
+              {"rms_deg", degrees(fit_.travel_rms_rad)},
+              {"rms_m", fit_.travel.rms}}},
+            {"transfer", nullptr},
+            {"rows", Json::array()}};
+  if (fit_.lateral) {
+    json["transfer"] = {{"lateral_ratio", fit_.lateral->slope.value},
+                        {"lateral_ratio_se", fit_.lateral->slope.se},
+                        {"rms_m", fit_.lateral->rms}};
   }
+  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
+    const kicking::DeflectionRow& row = kicks_.rows[i];
+    json["rows"].push_back({{"vx_mps", row.vx_mps},
+                            {"d_m", row.distance_m},
+                            {"b_m", row.b_m},
+                            {"alpha_deg", degrees(fit_.alpha_rad[i])},
+                            {"line_residual_deg", degrees(fit_.line.residuals[i])},
+                            {"physical_residual_deg", degrees(fit_.travel_residual_rad[i])}});
+  }
+  return json;
+}
+
+std::string Deflection::to_text() const {
   std::vector<std::vector<std::string>> lines{
       {"vx [m/s]", "d [m]", "b [m]", "alpha [deg]", "- line [deg]", "- physical [deg]"}};
-  for (std::size_t i = 0; i < kicks.rows.size(); ++i) {
-    const kicking::DeflectionRow& row = kicks.rows[i];
-    const double alpha = degrees(fit.alpha_rad[i]);
-    const double off_line = degrees(fit.line.residuals[i]);
-    const double off_physical = degrees(fit.travel_residual_rad[i]);
-    report.json["rows"].push_back({{"vx_mps", row.vx_mps},
-                                   {"d_m", row.distance_m},
-                                   {"b_m", row.b_m},
-                                   {"alpha_deg", alpha},
-                                   {"line_residual_deg", off_line},
-                                   {"physical_residual_deg", off_physical}});
+  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
+    const kicking::DeflectionRow& row = kicks_.rows[i];
     lines.push_back({fmt::format("{:.2f}", row.vx_mps), fmt::format("{:.2f}", row.distance_m),
-                     fmt::format("{:.3f}", row.b_m), fmt::format("{:.3f}", alpha), fmt::format("{:+.3f}", off_line),
-                     fmt::format("{:+.3f}", off_physical)});
+                     fmt::format("{:.3f}", row.b_m), fmt::format("{:.3f}", degrees(fit_.alpha_rad[i])),
+                     fmt::format("{:+.3f}", degrees(fit_.line.residuals[i])),
+                     fmt::format("{:+.3f}", degrees(fit_.travel_residual_rad[i]))});
   }
-  report.text = evaluator::text_table(lines) +
-                fmt::format(
-                    "\nline through the origin (paper): alpha = {} degrees per m/s, rms {:.3f} degrees\n"
-                    "physical: alpha = atan(vx T / d), T = {} s, rms {:.3f} degrees\n",
-                    text_of(fit.line.slope, degrees(1.0)), degrees(fit.line.rms), text_of(fit.travel.slope),
-                    degrees(fit.travel_rms_rad));
-  if (fit.lateral) {
-    report.text += fmt::format("of T, flight and delay apart: lateral transfer k_x = {}, rms {:.3f} m\n",
-                               text_of(fit.lateral->slope), fit.lateral->rms);
+  std::string text = evaluator::text_table(lines) +
+                     fmt::format(
+                         "\nline through the origin (paper): alpha = {} degrees per m/s, rms {:.3f} degrees\n"
+                         "physical: alpha = atan(vx T / d), T = {} s, rms {:.3f} degrees\n",
+                         text_of(fit_.line.slope, degrees(1.0)), degrees(fit_.line.rms), text_of(fit_.travel.slope),
+                         degrees(fit_.travel_rms_rad));
+  if (fit_.lateral) {
+    text += fmt::format("of T, flight and delay apart: lateral transfer k_x = {}, rms {:.3f} m\n",
+                        text_of(fit_.lateral->slope), fit_.lateral->rms);
   }
-  report.warnings = kicks.left_out;
-  return report;
+  return text;
 }
 
 /// Figure 8: alpha over vx, measured, line and physical model at the mean distance.
-evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::DeflectionFit& fit, bool simulated) {
+evaluator::Chart Deflection::chart(bool simulated) const {
   evaluator::ChartSeries measured{simulated ? "simulated" : "measured", {}, evaluator::ChartMark::kDots, 6, 0};
   double low = 0.0, high = 0.0, reach_m = 0.0;
-  for (std::size_t i = 0; i < kicks.rows.size(); ++i) {
-    const kicking::DeflectionRow& row = kicks.rows[i];
-    measured.points.push_back({row.vx_mps, degrees(fit.alpha_rad[i])});
+  for (std::size_t i = 0; i < kicks_.rows.size(); ++i) {
+    const kicking::DeflectionRow& row = kicks_.rows[i];
+    measured.points.push_back({row.vx_mps, degrees(fit_.alpha_rad[i])});
     low = std::min(low, row.vx_mps);
     high = std::max(high, row.vx_mps);
-    reach_m += (row.distance_m + row.lever_m) / static_cast<double>(kicks.rows.size());
+    reach_m += (row.distance_m + row.lever_m) / static_cast<double>(kicks_.rows.size());
   }
   evaluator::ChartSeries line{"line, paper", {}, evaluator::ChartMark::kLine, 0, 0};
   evaluator::ChartSeries physical{fmt::format("atan(vx T / {:.3g} m)", reach_m), {}, evaluator::ChartMark::kLine, 1, 1};
   for (int i = 0; i <= 100; ++i) {
     const double vx = low + (high - low) * i / 100.0;
-    line.points.push_back({vx, degrees(fit.line.slope.value) * vx});
-    physical.points.push_back({vx, degrees(kicking::alpha_atan_rad(vx, reach_m, fit.travel.slope.value))});
+    line.points.push_back({vx, degrees(fit_.line.slope.value) * vx});
+    physical.points.push_back({vx, degrees(kicking::alpha_atan_rad(vx, reach_m, fit_.travel.slope.value))});
   }
   return {"Deflection by the lateral velocity",
           "lateral velocity vx [m/s]",
@@ -117,40 +145,19 @@ evaluator::Chart chart_of(const DeflectionRows& kicks, const kicking::Deflection
           simulated};
 }
 
-void calibrate_deflection(const DeflectionFlags& flags) {
-  require_writable("--plot", flags.plot);
-  const auto robot = robot_of(flags);
-  const DeflectionRows kicks =
-      is_match_log(flags)
-          ? calibration::lateral_kicks(calibration::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
-          : rows_of_numbers(flags);
-  std::optional<double> delay_s = flags.delay_s;
-  if (!delay_s && robot) delay_s = robot->model.delay_s;
-  const kicking::DeflectionFit fit = kicking::fit_deflection(kicks.rows, delay_s);
-  if (!flags.plot.empty()) write_chart(chart_of(kicks, fit, is_simulated(flags)), flags.plot);
-  const std::string file = std::filesystem::path(flags.input).filename().string();
-  finish_fit(flags, "trivela calibrate deflection", robot, report_of(kicks, fit),
-             [&](calibration::RobotUpdate& update) { update.set_deflection(fit, {file}); });
-}
-
 }  // namespace
 
 void add_calibrate_deflection(CLI::App& calibrate, int& exit_code) {
-  auto* verb = calibrate.add_subcommand("deflection", "alpha over lateral velocity (Table 1, Figure 8)");
   const auto flags = std::make_shared<DeflectionFlags>();
-  verb->footer(
+  auto* verb = add_fit<Deflection>(
+      calibrate, exit_code, "alpha over lateral velocity (Table 1, Figure 8)", flags,
       "INPUT: a table with the columns vx_mps, d_m, b_m[, v_h_mps] (speed to the right, ball to goal line, how far "
       "right\n"
       "of where the robot pointed the ball crossed, the ball's horizontal speed), or a match log with lateral drives.");
-  add_fit_flags(*verb, *flags);
   verb->add_option("--v-h-mps", flags->v_h_mps, "Horizontal speed of the ball, to tell flight and delay apart")
       ->check(above_zero());
   verb->add_option("--delay-s", flags->delay_s, "Order to release; default the robot's")->check(CLI::Range(0.0, 0.5));
   verb->add_option("--plot", flags->plot, "Figure 8 as SVG")->type_name("FILE");
-  verb->callback([flags, &exit_code] {
-    calibrate_deflection(*flags);
-    exit_code = kDone;
-  });
 }
 
 }  // namespace trivela::cli

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run.hpp"
 #include "cli/verbs.hpp"
 #include "config/place.hpp"
@@ -58,6 +59,7 @@ int evenings_study(const EveningsFlags& flags) {
   options.name = "evening";
   options.seed = flags.seed;
   options.effort = flags.effort;
+  options.date = today();
   const std::vector<experiment::Evening> evenings = experiment::play_evenings(options, flags.count, flags.jobs);
   if (!flags.out_dir.empty()) write_robots(evenings, flags.out_dir);
 

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "calibration/rows/input_kind.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/say.hpp"
-#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {
@@ -39,11 +37,21 @@ bool is_simulated(const FitFlags& flags) {
   return std::ranges::any_of(reader.sessions(), &evaluator::log::RecordedSession::simulated);
 }
 
-std::optional<config::Robot> robot_of(const FitFlags& flags) {
+calibration::NumberTable number_table(const FitFlags& flags) {
+  return calibration::NumberTable::read(flags.input, flags.columns, "--columns");
+}
+
+calibration::TrialFlags trial_flags(const std::string& columns) {
+  return {
+      .columns = columns, .kind_called = "--kind", .angle_called = "--exit-angle-deg", .columns_called = "--columns"};
+}
+
+std::optional<config::Robot> robot_of(const FitFlags& flags, bool needed) {
   const bool log = is_match_log(flags);
   require_writable("--out", flags.out);
   if (flags.robot.empty()) {
-    if (log) throw UsageError(fmt::format("{} is a match log: it needs --robot", flags.input));
+    if (log && (needed || !flags.out.empty()))
+      throw UsageError(fmt::format("{} is a match log: it needs --robot", flags.input));
     if (!flags.out.empty()) throw UsageError("--out needs --robot, the robot that the figure goes into");
     return std::nullopt;
   }
@@ -51,23 +59,27 @@ std::optional<config::Robot> robot_of(const FitFlags& flags) {
   return log ? config::load_robot(path) : config::load_robot_of_any_table(path);
 }
 
-void finish_fit(const FitFlags& flags, const char* verb, const std::optional<config::Robot>& robot, FitReport report,
-                const std::function<void(calibration::RobotUpdate&)>& update) {
+void finish_fit(const FitFlags& flags, const std::string& verb, const std::optional<config::Robot>& robot,
+                FitReport report, const std::function<void(calibration::RobotUpdate&)>& update) {
   namespace fs = std::filesystem;
   if (!flags.out.empty()) {
     std::error_code ignored;
     if (fs::exists(flags.out) && !fs::equivalent(flags.out, find_robot(flags.robot), ignored)) {
       throw UsageError(fmt::format("--out {} exists already and is not the file of --robot", flags.out));
     }
-    calibration::RobotUpdate file(*robot, verb, calibration::today());
+    calibration::RobotUpdate file(*robot, verb, today());
     update(file);
     file.write(flags.out);
     report.json["file"] = flags.out;
     report.json["changes"] = file.changes();
     report.text += fmt::format("\nWritten to {}:\n  {}\n", flags.out, fmt::join(file.changes(), "\n  "));
   }
+  print_report(std::move(report), flags.json);
+}
+
+void print_report(FitReport report, bool as_json) {
   report.json["warnings"] = report.warnings;
-  if (flags.json) {
+  if (as_json) {
     fmt::print("{}", evaluator::json_text(report.json));
   } else {
     say(report.text);
@@ -82,7 +94,5 @@ Json json_of(const kicking::Estimate& estimate, double unit) {
 std::string text_of(const kicking::Estimate& estimate, double unit) {
   return fmt::format("{:.4g} +- {:.2g}", estimate.value * unit, estimate.se * unit);
 }
-
-void write_chart(const evaluator::Chart& chart, const std::string& path) { write_file(path, evaluator::to_svg(chart)); }
 
 }  // namespace trivela::cli

@@ -135,9 +135,9 @@ std::vector<std::vector<std::string>> lines_of(const std::vector<Repeatability>&
 
 void plot(const PlotFlags& flags) {
   require_writable("--out", flags.out);
-  const calibration::Trials trials = calibration::read_trials(flags.inputs, {.columns = flags.columns});
+  const calibration::Trials trials = calibration::read_trials(flags.inputs, trial_flags(flags.columns));
   const TrialsByPower powers = by_power(trials.trials);
-  write_chart(chart_of(powers, trials.simulated), flags.out);
+  write_file(flags.out, evaluator::to_svg(chart_of(powers, trials.simulated)));
   const std::vector<Repeatability> rows = repeatability(powers);
   if (flags.json) return print_json(rows, flags, trials.warnings);
   if (flags.csv) {

@@ -1,8 +1,10 @@
 #include "cli/calibrate/robot_file.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "cli/verbs.hpp"
 #include "config/place.hpp"
@@ -18,6 +20,8 @@ bool plain(const std::string& name) {
 }
 
 }  // namespace
+
+std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
 fs::path find_robot(const std::string& name_or_file) {
   if (name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml")) return name_or_file;

@@ -7,6 +7,9 @@
 
 namespace trivela::cli {
 
+/// Today in UTC, YYYY-MM-DD.
+std::string today();
+
 /// The file that --robot means: a path (with a slash or ending in .toml) as it is; of a plain name
 /// config/robots/NAME.toml or NAME.toml in the current folder, else the shipped one. @throws std::runtime_error naming
 /// all that were tried.

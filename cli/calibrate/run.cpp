@@ -144,7 +144,8 @@ int calibrate(const RunFlags& flags) {
       .name = flags.robot,
       .seed = flags.seed,
       .effort = flags.effort,
-      .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number)};
+      .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number),
+      .date = today()};
   robot_target(flags.robot, flags.out);  // refuses what is no name
   const fs::path file = robot_file(flags);
   std::error_code failed;

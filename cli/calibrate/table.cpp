@@ -36,7 +36,7 @@ Json speed_sd(const kicking::TrialMean& point) {
   return point.trials > 1 ? Json(point.exit_speed_mps.sd) : Json(nullptr);
 }
 
-Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::vector<std::string>& warnings) {
+Json to_json(const kicking::TableFit& fit, const TableFlags& flags) {
   Json json;
   Json angle_sds_deg = Json::array();
   json["setpoints"] = Json::array();
@@ -49,7 +49,7 @@ Json to_json(const kicking::TableFit& fit, const TableFlags& flags, const std::v
     angle_sds_deg.push_back(point.trials > 1 ? Json(degrees(point.exit_angle_rad.sd)) : Json(nullptr));
   }
   json["exit_angle_deg"] = degrees(fit.exit_angle_rad.value);
-  json["warnings"] = warnings;
+  json["warnings"] = nullptr;  // print_report() knows them
   json["exit_angle_sds_deg"] = angle_sds_deg;
   json["exit_angle_se_deg"] = degrees(fit.exit_angle_rad.se);
   json["exit_angle_spread_deg"] = degrees(fit.angle_spread_rad);
@@ -96,23 +96,22 @@ ExitCode calibrate_table(const TableFlags& flags) {
   require_writable("the robot's file", target);
   const calibration::TableChoice choice{
       flags.kind == "true" ? kicking::TableKind::kTrue : kicking::TableKind::kEffective, flags.angle == "per-setpoint"};
-  calibration::TrialFlags trial_flags{choice.kind, std::nullopt, flags.columns};
-  if (flags.exit_angle_deg) trial_flags.exit_angle_rad = kicking::radians(*flags.exit_angle_deg);
+  calibration::TrialFlags how = trial_flags(flags.columns);
+  how.kind = choice.kind;
+  if (flags.exit_angle_deg) how.exit_angle_rad = kicking::radians(*flags.exit_angle_deg);
   calibration::RobotUpdate update(robot_to_calibrate(flags.robot, target, flags.start), "trivela calibrate table",
-                                  calibration::today());
+                                  today());
 
-  calibration::Trials trials = calibration::read_trials(flags.inputs, trial_flags);
+  calibration::Trials trials = calibration::read_trials(flags.inputs, how);
   const kicking::TableFit fit = kicking::fit_table(trials.trials, flags.options);
-  std::vector<std::string> warnings = std::move(trials.warnings);
+  FitReport report{to_text(fit, flags), to_json(fit, flags), std::move(trials.warnings)};
   for (const std::string& warning : fit.warnings) {
     // Kept apart, angles that differ from set-point to set-point harm no more.
     const bool kept_apart = choice.angle_per_set_point && warning.starts_with("the exit angle differs");
-    if (!kept_apart) warnings.push_back(warning);
+    if (!kept_apart) report.warnings.push_back(warning);
   }
   const std::vector<std::string> falling = not_rising(fit);
-  warnings.insert(warnings.end(), falling.begin(), falling.end());
-  Json json = to_json(fit, flags, warnings);
-  std::string text = to_text(fit, flags);
+  report.warnings.insert(report.warnings.end(), falling.begin(), falling.end());
   const bool usable = fit.rises();
   if (usable) {
     std::vector<std::string> files;
@@ -120,16 +119,13 @@ ExitCode calibrate_table(const TableFlags& flags) {
     const bool replaced = std::filesystem::exists(target);
     update.set_table(fit, choice, files);
     update.write(target);
-    json["file"] = target.string();
-    json["replaced"] = replaced;
-    json["changes"] = update.changes();
-    text += fmt::format("\n{} {}:\n  {}\n", replaced ? "Brought up to date:" : "Written:", target.string(),
-                        fmt::join(update.changes(), "\n  "));
+    report.json["file"] = target.string();
+    report.json["replaced"] = replaced;
+    report.json["changes"] = update.changes();
+    report.text += fmt::format("\n{} {}:\n  {}\n", replaced ? "Brought up to date:" : "Written:", target.string(),
+                               fmt::join(update.changes(), "\n  "));
   }
-  flags.json ? fmt::print("{}", evaluator::json_text(json)) : say(text);
-  if (!flags.json) {
-    for (const std::string& warning : warnings) say(fmt::format("warning: {}\n", warning));
-  }
+  print_report(std::move(report), flags.json);
   if (usable) return kDone;
   fmt::print(stderr, "trivela: {}; nothing is written: kick these again, or pool them with --isotonic\n",
              fmt::join(falling, "; "));

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <memory>
-
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "evaluator/report/text_table.hpp"
@@ -16,18 +13,56 @@ struct TransferFlags : FitFlags {
   std::optional<double> delay_s;
 };
 
-using TransferRows = calibration::DriveKicks<kicking::TransferRow>;
-
 /// Exit angle of a row: its own, else the flag's, else the robot's at its power.
-double exit_angle_rad(const Row& row, const TransferFlags& flags, const std::optional<config::Robot>& robot) {
+double exit_angle_rad(const config::Row& row, const TransferFlags& flags, const std::optional<config::Robot>& robot) {
   if (row.word("exit_angle_deg")) return row.acute_angle_rad("exit_angle_deg");
   if (flags.exit_angle_deg) return kicking::radians(*flags.exit_angle_deg);
   if (robot) return row.word("power") ? robot->model.exit_angle_at(row.positive("power")) : robot->model.exit_angle_rad;
   throw UsageError("the exit angle is not known: a column exit_angle_deg, --exit-angle-deg or --robot");
 }
 
-TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<config::Robot>& robot) {
-  const calibration::NumberTable table = calibration::NumberTable::read(flags.input, flags.columns);
+/// How much of its own speed the robot gives to the ball.
+class Transfer {
+ public:
+  using Flags = TransferFlags;
+  using Rows = calibration::DriveKicks<kicking::TransferRow>;
+  using Robot = std::optional<config::Robot>;
+  static constexpr const char* kName = "transfer";
+  static constexpr bool kNeedsRobot = true;
+
+  static Rows rows(const calibration::RecordedDrives& drives, const Flags&, const Robot& robot) {
+    return calibration::transfer_kicks(drives, robot->model);
+  }
+  static Rows rows(const calibration::NumberTable& table, const Flags& flags, const Robot& robot);
+
+  Transfer(Rows kicks, const Flags& flags, const Robot& robot)
+      : kicks_(std::move(kicks)),
+        tracked_(!kicks_.rows.empty() && kicks_.rows.front().track.has_value()),
+        delay_s_(flags.delay_s.value_or(robot ? robot->model.delay_s : 0.0)),
+        fit_(kicking::fit_transfer(kicks_.rows, delay_s_,
+                                   (robot ? robot->model : kicking::RobotModel{}).ball.radius_m)) {}
+
+  Json to_json() const;
+  std::string to_text() const;
+  std::vector<std::string> warnings() const;
+  void set(calibration::RobotUpdate& update, const std::vector<std::string>& files) const {
+    update.set_transfer(fit_, files);
+  }
+
+ private:
+  /// What was seen of a kick: its speeds behind the robot, or where it crossed.
+  double second(const kicking::TransferRow& row) const { return tracked_ ? row.track->along_mps : row.distance_m; }
+  double third(const kicking::TransferRow& row) const { return tracked_ ? row.track->up_mps : row.z_cross_m; }
+  Json json_of_direction(const std::optional<kicking::TransferDirection>& direction) const;
+  std::string constants_of(const char* name, const std::optional<kicking::TransferDirection>& direction) const;
+
+  Rows kicks_;
+  bool tracked_;  ///< by the flight camera
+  double delay_s_;
+  kicking::TransferFit fit_;
+};
+
+Transfer::Rows Transfer::rows(const calibration::NumberTable& table, const Flags& flags, const Robot& robot) {
   for (const char* column : {"vy_mps", "d_m", "z_cross_m"}) table.require_one_of({column});
   table.require_one_of({"v0_mps", "power"});
   const bool by_power = !table.has("v0_mps");
@@ -37,8 +72,8 @@ TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<con
   if (by_power && robot->true_table) {
     throw UsageError(fmt::format("robot {} has a table of kind true; the law needs effective speeds", robot->name));
   }
-  TransferRows rows;
-  table.for_each([&](const Row& row) {
+  Rows rows;
+  table.for_each([&](const config::Row& row) {
     rows.rows.push_back(
         {.vy_mps = row.number("vy_mps"),
          .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power")) : row.positive("v0_mps"),
@@ -49,98 +84,83 @@ TransferRows rows_of_numbers(const TransferFlags& flags, const std::optional<con
   return rows;
 }
 
-Json json_of_direction(const std::optional<kicking::TransferDirection>& direction, bool tracked) {
+Json Transfer::json_of_direction(const std::optional<kicking::TransferDirection>& direction) const {
   if (!direction) return nullptr;
   return {{"kicks", direction->kicks},
           {"exact", json_of(direction->exact)},
           {"paper", json_of(direction->paper)},
-          {tracked ? "rms_mps" : "rms_m", direction->rms}};
+          {tracked_ ? "rms_mps" : "rms_m", direction->rms}};
 }
 
-FitReport report_of(const TransferRows& kicks, const kicking::TransferFit& fit, double delay_s) {
-  const bool tracked = !kicks.rows.empty() && kicks.rows.front().track.has_value();
-  FitReport report;
-  report.json = {{"delay_s", delay_s},
-                 {"standing_ratio", fit.standing_ratio ? json_of(*fit.standing_ratio) : Json(nullptr)},
-                 {"forward", json_of_direction(fit.forward, tracked)},
-                 {"backward", json_of_direction(fit.backward, tracked)},
-                 {"rows", Json::array()}};
-  std::vector<std::vector<std::string>> lines{{"vy [m/s]", "V0 [m/s]"}};
-  for (const char* column : {tracked ? "along [m/s]" : "d [m]", tracked ? "up [m/s]" : "z [m]",
-                             tracked ? "- fitted [m/s]" : "- exact law [m]"})
-    lines.front().emplace_back(column);
-  std::string constants;
-  const auto add = [&](const char* name, const std::optional<kicking::TransferDirection>& direction) {
-    if (!direction) {
-      constants += fmt::format("{}: not known, fewer than two kicks\n", name);
-      return;
+Json Transfer::to_json() const {
+  Json json{{"delay_s", delay_s_},
+            {"standing_ratio", fit_.standing_ratio ? json_of(*fit_.standing_ratio) : Json(nullptr)},
+            {"forward", json_of_direction(fit_.forward)},
+            {"backward", json_of_direction(fit_.backward)},
+            {"rows", Json::array()}};
+  for (const auto* direction : {&fit_.forward, &fit_.backward}) {
+    for (std::size_t i = 0; *direction && i < (*direction)->rows.size(); ++i) {
+      const kicking::TransferRow& row = kicks_.rows[(*direction)->rows[i]];
+      json["rows"].push_back({{"vy_mps", row.vy_mps},
+                              {"v0_mps", row.v0_mps},
+                              {tracked_ ? "along_mps" : "d_m", second(row)},
+                              {tracked_ ? "up_mps" : "z_cross_m", third(row)},
+                              {tracked_ ? "residual_mps" : "residual_m", (*direction)->residual[i]}});
     }
-    for (std::size_t i = 0; i < direction->rows.size(); ++i) {
-      const kicking::TransferRow& row = kicks.rows[direction->rows[i]];
-      const double second = tracked ? row.track->along_mps : row.distance_m;
-      const double third = tracked ? row.track->up_mps : row.z_cross_m;
-      report.json["rows"].push_back({{"vy_mps", row.vy_mps},
-                                     {"v0_mps", row.v0_mps},
-                                     {tracked ? "along_mps" : "d_m", second},
-                                     {tracked ? "up_mps" : "z_cross_m", third},
-                                     {tracked ? "residual_mps" : "residual_m", direction->residual[i]}});
-      lines.push_back({fmt::format("{:+.2f}", row.vy_mps), fmt::format("{:.3f}", row.v0_mps),
-                       fmt::format("{:.2f}", second), fmt::format("{:.3f}", third),
-                       fmt::format("{:+.3f}", direction->residual[i])});
-    }
-    constants += fmt::format("{} ({} kicks): k = {} in the exact law (rms {:.3f} {}), {} in the paper's\n", name,
-                             direction->kicks, text_of(direction->exact), direction->rms, tracked ? "m/s" : "m",
-                             text_of(direction->paper));
-  };
-  if (fit.standing_ratio)
-    constants =
-        fmt::format("kicks at rest: {} {}\n", tracked ? "effective speed over the tracked one" : "V0 of the rows' is",
-                    text_of(*fit.standing_ratio));
-  add("forward", fit.forward);
-  add("backward", fit.backward);
-  report.text = evaluator::text_table(lines) + "\n" + constants;
-  report.warnings = kicks.left_out;
-  report.warnings.insert(report.warnings.end(), fit.failed.begin(), fit.failed.end());
-  if (!fit.standing_ratio) {
-    report.warnings.push_back("fewer than two kicks at rest: an error of the table is taken for transfer");
   }
-  return report;
+  return json;
 }
 
-void calibrate_transfer(const TransferFlags& flags) {
-  const auto robot = robot_of(flags);
-  const TransferRows kicks =
-      is_match_log(flags)
-          ? calibration::transfer_kicks(calibration::recorded_drives(evaluator::log::Reader(flags.input)), robot->model)
-          : rows_of_numbers(flags, robot);
-  const double delay_s = flags.delay_s.value_or(robot ? robot->model.delay_s : 0.0);
-  const double ball_radius_m = (robot ? robot->model : kicking::RobotModel{}).ball.radius_m;
-  const kicking::TransferFit fit = kicking::fit_transfer(kicks.rows, delay_s, ball_radius_m);
-  const std::string file = std::filesystem::path(flags.input).filename().string();
-  finish_fit(flags, "trivela calibrate transfer", robot, report_of(kicks, fit, delay_s),
-             [&](calibration::RobotUpdate& update) { update.set_transfer(fit, {file}); });
+std::string Transfer::constants_of(const char* name, const std::optional<kicking::TransferDirection>& direction) const {
+  if (!direction) return fmt::format("{}: not known, fewer than two kicks\n", name);
+  return fmt::format("{} ({} kicks): k = {} in the exact law (rms {:.3f} {}), {} in the paper's\n", name,
+                     direction->kicks, text_of(direction->exact), direction->rms, tracked_ ? "m/s" : "m",
+                     text_of(direction->paper));
+}
+
+std::string Transfer::to_text() const {
+  std::vector<std::vector<std::string>> lines{{"vy [m/s]", "V0 [m/s]", tracked_ ? "along [m/s]" : "d [m]",
+                                               tracked_ ? "up [m/s]" : "z [m]",
+                                               tracked_ ? "- fitted [m/s]" : "- exact law [m]"}};
+  for (const auto* direction : {&fit_.forward, &fit_.backward}) {
+    for (std::size_t i = 0; *direction && i < (*direction)->rows.size(); ++i) {
+      const kicking::TransferRow& row = kicks_.rows[(*direction)->rows[i]];
+      lines.push_back({fmt::format("{:+.2f}", row.vy_mps), fmt::format("{:.3f}", row.v0_mps),
+                       fmt::format("{:.2f}", second(row)), fmt::format("{:.3f}", third(row)),
+                       fmt::format("{:+.3f}", (*direction)->residual[i])});
+    }
+  }
+  std::string text = evaluator::text_table(lines) + "\n";
+  if (fit_.standing_ratio) {
+    text +=
+        fmt::format("kicks at rest: {} {}\n", tracked_ ? "effective speed over the tracked one" : "V0 of the rows' is",
+                    text_of(*fit_.standing_ratio));
+  }
+  return text + constants_of("forward", fit_.forward) + constants_of("backward", fit_.backward);
+}
+
+std::vector<std::string> Transfer::warnings() const {
+  std::vector<std::string> all = kicks_.left_out;
+  all.insert(all.end(), fit_.failed.begin(), fit_.failed.end());
+  if (!fit_.standing_ratio) all.push_back("fewer than two kicks at rest: an error of the table is taken for transfer");
+  return all;
 }
 
 }  // namespace
 
 void add_calibrate_transfer(CLI::App& calibrate, int& exit_code) {
-  auto* verb = calibrate.add_subcommand("transfer", "how much of its own speed the robot gives to the ball");
   const auto flags = std::make_shared<TransferFlags>();
-  verb->footer(
+  auto* verb = add_fit<Transfer>(
+      calibrate, exit_code, "how much of its own speed the robot gives to the ball", flags,
       "INPUT: a table with the columns vy_mps, power or v0_mps, d_m, z_cross_m[, exit_angle_deg] (forward speed; "
       "set-point\n"
       "or effective exit speed; ball to goal line at the order; height of the ball's centre over the floor there), or "
       "a\n"
       "match log with straight drives.");
-  add_fit_flags(*verb, *flags);
   verb->add_option("--exit-angle-deg", flags->exit_angle_deg, "Exit angle; default the robot's")
       ->check(CLI::Range(5.0, 80.0));
   verb->add_option("--delay-s", flags->delay_s, "Order to release; default the robot's, 0 without a robot")
       ->check(CLI::Range(0.0, 0.5));
-  verb->callback([flags, &exit_code] {
-    calibrate_transfer(*flags);
-    exit_code = kDone;
-  });
 }
 
 }  // namespace trivela::cli

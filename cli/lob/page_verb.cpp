@@ -23,7 +23,7 @@ constexpr int kCheck_ms = 200;  // how often the scene is asked whether it still
 
 pages::CalibrationPlan plan_of(const PageFlags& flags) {
   pages::CalibrationPlan plan{.powers = {}, .trials = flags.trials};
-  if (!flags.plan.empty()) plan.powers = pages::parse_powers(flags.plan);
+  if (!flags.plan.empty()) plan.powers = pages::parse_powers(flags.plan, "--plan");
   if (!flags.robot.empty()) {
     const config::Robot robot = config::load_robot(flags.robot);
     for (const kicking::SetPoint& point : robot.model.table.set_points()) plan.powers.push_back(point.power);
@@ -68,7 +68,7 @@ void add_page_flags(CLI::App& verb, PageFlags& flags) {
 
 int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
                const kicking::lob::AnalyzerConfig& config) {
-  const pages::ListenAddress address = pages::parse_listen(flags.listen, flags.port);
+  const pages::ListenAddress address = pages::parse_listen(flags.listen, flags.port, "--listen");
   SignalInbox signals;  // before all threads, which must not take them
   pages::Broadcast broadcast;
   const auto scene = open_scene(flags, mount, config, broadcast);

@@ -1,123 +1,132 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
-
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/verdicts_file.hpp"
 #include "cli/say.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "evaluator/report/lob_json.hpp"
 
 namespace trivela::cli {
 namespace {
 
-using nlohmann::ordered_json;
+using evaluator::Json;
+using kicking::degrees;
+using kicking::lob::LobRecord;
 
-ordered_json json_of(const kicking::lob::LobRecord& lob) {
-  ordered_json json{{"launch_t_ns", lob.launch_t_ns},
-                    {"power", nullptr},
-                    {"centres", lob.centres.size()},
-                    {"accepted", lob.refusal == kicking::lob::Refusal::kNone},
-                    {"refusal", kicking::lob::name(lob.refusal)},
-                    {"why", lob.why},
-                    {"effective", nullptr}};
-  if (lob.power) json["power"] = *lob.power;
-  if (lob.effective) {
-    json["effective"] = {{"exit_angle_deg", kicking::degrees(lob.effective->exit_angle_rad.value)},
-                         {"exit_speed_mps", lob.effective->exit_speed_mps.value},
-                         {"height_m", lob.effective->height_m.value},
-                         {"distance_m", lob.effective->distance_m.value}};
-  }
-  return json;
-}
+/// What a scan record holds.
+struct ScanInfo {
+  std::string file;
+  evaluator::log::ScanSession session;
+  std::size_t scans = 0;
+  double duration_s = 0.0;
+  std::uintmax_t bytes = 0;
+  std::size_t set_points = 0;
+  std::vector<LobRecord> lobs;
+  std::vector<std::string> warnings;
+};
 
-ordered_json info_of(const evaluator::log::ScanReader& record, const std::filesystem::path& path) {
-  const evaluator::log::ScanSession& session = record.session();
-  const kicking::lob::ScanGeometry& geometry = session.geometry;
-  const double duration_s =
-      record.size() == 0
-          ? 0.0
-          : static_cast<double>(record.t_ns(record.size() - 1) - record.t_ns(0)) * 1e-9 + geometry.scan_period_s;
-  ordered_json info{{"file", path.string()},
-                    {"synthetic", session.simulated},
-                    {"source", session.source},
-                    {"scanner",
-                     {{"vendor", session.identity.vendor},
-                      {"product", session.identity.product},
-                      {"serial", session.identity.serial},
-                      {"firmware", session.identity.firmware},
-                      {"protocol", session.identity.protocol}}},
-                    {"geometry",
-                     {{"beams", geometry.beams},
-                      {"first_angle_deg", kicking::degrees(geometry.first_angle_rad)},
-                      {"step_deg", kicking::degrees(geometry.step_rad)},
-                      {"scan_period_s", geometry.scan_period_s},
-                      {"min_range_m", geometry.min_range_m},
-                      {"max_range_m", geometry.max_range_m}}},
-                    {"mount",
-                     {{"laser_x_m", session.mount.x_m},
-                      {"laser_z_m", session.mount.z_m},
-                      {"front_elevation_deg", kicking::degrees(session.mount.front_elevation_rad)},
-                      {"mirrored", session.mount.mirrored}}},
-                    {"software_version", session.software_version},
-                    {"scans", record.size()},
-                    {"duration_s", duration_s},
-                    {"bytes", std::filesystem::file_size(path)},
-                    {"set_points", record.set_points().size()},
-                    {"lobs", ordered_json::array()},
-                    {"warnings", record.warnings()}};
-  for (const kicking::lob::LobRecord& lob :
-       calibration::lobs_of_scans(record, {}, calibration::verdicts_beside(path))) {
-    info["lobs"].push_back(json_of(lob));
+ScanInfo info_of(const evaluator::log::ScanReader& record, const std::filesystem::path& path) {
+  ScanInfo info{.file = path.string(),
+                .session = record.session(),
+                .scans = record.size(),
+                .bytes = std::filesystem::file_size(path),
+                .set_points = record.set_points().size(),
+                .lobs = calibration::lobs_of_scans(record, {}, calibration::verdicts_beside(path)),
+                .warnings = record.warnings()};
+  if (info.scans > 0) {
+    info.duration_s =
+        static_cast<double>(record.t_ns(info.scans - 1) - record.t_ns(0)) * 1e-9 + info.session.geometry.scan_period_s;
   }
   return info;
 }
 
-void print(const ordered_json& info) {
-  const auto& scanner = info["scanner"];
-  const auto& geometry = info["geometry"];
-  const auto text = [](const ordered_json& value) { return kicking::printable(value.get<std::string>()); };
-  fmt::print("{}\n", text(info["file"]));
-  if (info["synthetic"].get<bool>()) fmt::print("  {}\n", kSyntheticNotice);
-  fmt::print("  scanner    {} {}, serial {}, firmware {}, {}\n", text(scanner["vendor"]), text(scanner["product"]),
-             text(scanner["serial"]), text(scanner["firmware"]), text(scanner["protocol"]));
-  fmt::print("  source     {}\n", text(info["source"]));
-  fmt::print("  geometry   {} beams of {:.4f} degrees from {:.2f} degrees, {:.1f} scans/s, {:.2f} to {:.1f} m\n",
-             geometry["beams"].get<int>(), geometry["step_deg"].get<double>(),
-             geometry["first_angle_deg"].get<double>(), 1.0 / geometry["scan_period_s"].get<double>(),
-             geometry["min_range_m"].get<double>(), geometry["max_range_m"].get<double>());
-  fmt::print("  mount      {:.3f} m along the kick, {:.3f} m over the floor, front at {:.2f} degrees{}\n",
-             info["mount"]["laser_x_m"].get<double>(), info["mount"]["laser_z_m"].get<double>(),
-             info["mount"]["front_elevation_deg"].get<double>(),
-             info["mount"]["mirrored"].get<bool>() ? ", mirrored" : "");
-  fmt::print("  scans      {} in {:.1f} s, {} bytes, {} set-points entered\n", info["scans"].get<std::size_t>(),
-             info["duration_s"].get<double>(), info["bytes"].get<std::size_t>(), info["set_points"].get<std::size_t>());
-  fmt::print("  lobs       {}\n", info["lobs"].size());
-  for (const auto& lob : info["lobs"]) {
-    const std::string power = lob["power"].is_null() ? "?" : fmt::format("{:g}", lob["power"].get<double>());
-    const auto& fit = lob["effective"];
-    const std::string values =
-        fit.is_null() ? "no fit"
-                      : fmt::format("{:.2f} m/s at {:.2f} degrees (effective)", fit["exit_speed_mps"].get<double>(),
-                                    fit["exit_angle_deg"].get<double>());
-    fmt::print("    power {:>4}  {}  {}\n", power, values,
-               lob["accepted"].get<bool>() ? "accepted" : "refused: " + text(lob["why"]));
-  }
-  for (const auto& warning : info["warnings"]) fmt::print("  warning    {}\n", text(warning));
+Json to_json(const LobRecord& lob) {
+  Json json{
+      {"launch_t_ns", lob.launch_t_ns}, {"power", evaluator::json_of(lob.power)}, {"centres", lob.centres.size()}};
+  json.update(evaluator::verdict_json(lob));
+  json["effective"] = evaluator::effective_json(lob, evaluator::EstimateForm::kValue);
+  return json;
+}
+
+Json to_json(const ScanInfo& info) {
+  const evaluator::log::ScanSession& session = info.session;
+  const kicking::lob::ScanGeometry& geometry = session.geometry;
+  Json json{{"file", info.file},
+            {"synthetic", session.simulated},
+            {"source", session.source},
+            {"scanner",
+             {{"vendor", session.identity.vendor},
+              {"product", session.identity.product},
+              {"serial", session.identity.serial},
+              {"firmware", session.identity.firmware},
+              {"protocol", session.identity.protocol}}},
+            {"geometry",
+             {{"beams", geometry.beams},
+              {"first_angle_deg", degrees(geometry.first_angle_rad)},
+              {"step_deg", degrees(geometry.step_rad)},
+              {"scan_period_s", geometry.scan_period_s},
+              {"min_range_m", geometry.min_range_m},
+              {"max_range_m", geometry.max_range_m}}},
+            {"mount",
+             {{"laser_x_m", session.mount.x_m},
+              {"laser_z_m", session.mount.z_m},
+              {"front_elevation_deg", degrees(session.mount.front_elevation_rad)},
+              {"mirrored", session.mount.mirrored}}},
+            {"software_version", session.software_version},
+            {"scans", info.scans},
+            {"duration_s", info.duration_s},
+            {"bytes", info.bytes},
+            {"set_points", info.set_points},
+            {"lobs", Json::array()},
+            {"warnings", info.warnings}};
+  for (const LobRecord& lob : info.lobs) json["lobs"].push_back(to_json(lob));
+  return json;
+}
+
+std::string to_text(const LobRecord& lob) {
+  const std::string values =
+      lob.effective ? fmt::format("{:.2f} m/s at {:.2f} degrees (effective)", lob.effective->exit_speed_mps.value,
+                                  degrees(lob.effective->exit_angle_rad.value))
+                    : "no fit";
+  return fmt::format(
+      "    power {:>4}  {}  {}\n", lob.power ? fmt::format("{:g}", *lob.power) : "?", values,
+      lob.refusal == kicking::lob::Refusal::kNone ? "accepted" : "refused: " + kicking::printable(lob.why));
+}
+
+std::string to_text(const ScanInfo& info) {
+  using kicking::printable;
+  const kicking::lob::ScannerIdentity& scanner = info.session.identity;
+  const kicking::lob::ScanGeometry& geometry = info.session.geometry;
+  const kicking::lob::LaserMount& mount = info.session.mount;
+  std::string text = printable(info.file) + '\n';
+  if (info.session.simulated) text += fmt::format("  {}\n", kSyntheticNotice);
+  text += fmt::format("  scanner    {} {}, serial {}, firmware {}, {}\n", printable(scanner.vendor),
+                      printable(scanner.product), printable(scanner.serial), printable(scanner.firmware),
+                      printable(scanner.protocol));
+  text += fmt::format("  source     {}\n", printable(info.session.source));
+  text +=
+      fmt::format("  geometry   {} beams of {:.4f} degrees from {:.2f} degrees, {:.1f} scans/s, {:.2f} to {:.1f} m\n",
+                  geometry.beams, degrees(geometry.step_rad), degrees(geometry.first_angle_rad),
+                  1.0 / geometry.scan_period_s, geometry.min_range_m, geometry.max_range_m);
+  text += fmt::format("  mount      {:.3f} m along the kick, {:.3f} m over the floor, front at {:.2f} degrees{}\n",
+                      mount.x_m, mount.z_m, degrees(mount.front_elevation_rad), mount.mirrored ? ", mirrored" : "");
+  text += fmt::format("  scans      {} in {:.1f} s, {} bytes, {} set-points entered\n", info.scans, info.duration_s,
+                      info.bytes, info.set_points);
+  text += fmt::format("  lobs       {}\n", info.lobs.size());
+  for (const LobRecord& lob : info.lobs) text += to_text(lob);
+  for (const std::string& warning : info.warnings) text += fmt::format("  warning    {}\n", printable(warning));
+  return text;
 }
 
 }  // namespace
 
 int show_scan_info(const std::filesystem::path& record, bool json) {
-  const evaluator::log::ScanReader reader(record);
-  const ordered_json info = info_of(reader, record);
-  if (json) {
-    fmt::print("{}", evaluator::json_text(info));
-  } else {
-    print(info);
-  }
-  return reader.warnings().empty() ? kDone : kDoneWithLoss;
+  const ScanInfo info = info_of(evaluator::log::ScanReader(record), record);
+  fmt::print("{}", json ? evaluator::json_text(to_json(info)) : to_text(info));
+  return info.warnings.empty() ? kDone : kDoneWithLoss;
 }
 
 }  // namespace trivela::cli

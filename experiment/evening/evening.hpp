@@ -21,6 +21,7 @@ struct EveningOptions {
   std::int64_t seed = 1;  ///< 0 to 1e6; every draw of the evening depends on it alone
   calibration::CalibrationEffort effort{};
   std::string flags{};  ///< of the command that makes this evening again, beside --robot and --seed: " --team ..."
+  std::string date{};   ///< ISO 8601, of its figures
 };
 
 struct Evening {

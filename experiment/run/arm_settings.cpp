@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "config/learned_model.hpp"
 
@@ -46,7 +45,7 @@ constexpr std::string_view kProbabilities = "kick_decision.random_probabilities"
 void refuse_idle(const std::string& key, const std::string& place) {
   for (const IdleKey& idle : kIdleKeys) {
     if (key != idle.key && !key.starts_with(std::string{idle.key} + ".")) continue;
-    throw cli::UsageError{fmt::format("{}: {} plays no part in process: {}", place, key, idle.instead)};
+    throw config::BadArgument{fmt::format("{}: {} plays no part in process: {}", place, key, idle.instead)};
   }
 }
 
@@ -63,12 +62,12 @@ void check_assignment(const std::vector<std::string>& given, const config::KickD
   const bool arm_says = arm.policy || !arm.random.empty();
   for (const std::string& key : given) {
     if (arm_says && contradicts(key, settings, arm)) {
-      throw cli::UsageError{fmt::format("{}: {} says who plays, and so does the arm's {}; leave one out", arm.place,
-                                        key, arm.policy ? "policy" : "random")};
+      throw config::BadArgument{fmt::format("{}: {} says who plays, and so does the arm's {}; leave one out", arm.place,
+                                            key, arm.policy ? "policy" : "random")};
     }
     if (!arm_says && key == kByHalf && settings.policy_by_half.size() > 1) {
-      throw cli::UsageError{fmt::format("{}: {} names {} halves, and a match in process is one; name one policy",
-                                        arm.place, key, settings.policy_by_half.size())};
+      throw config::BadArgument{fmt::format("{}: {} names {} halves, and a match in process is one; name one policy",
+                                            arm.place, key, settings.policy_by_half.size())};
     }
   }
   if (!arm_says) config::check_policies(settings, arm.place);
@@ -77,14 +76,11 @@ void check_assignment(const std::vector<std::string>& given, const config::KickD
 }  // namespace
 
 config::Settings arm_settings(const config::ArmFields& arm, const std::string& config,
-                              const std::vector<std::string>& overrides) {
+                              std::vector<config::SettingLine> overrides) {
   config::Settings settings = config::load_settings(config);
-  std::vector<config::SettingLine> lines;
-  lines.reserve(overrides.size() + arm.set.size());
-  for (const std::string& line : overrides) lines.push_back({line, "--set " + line});
-  lines.insert(lines.end(), arm.set.begin(), arm.set.end());
+  overrides.insert(overrides.end(), arm.set.begin(), arm.set.end());
   std::vector<std::string> given;
-  for (const config::SettingLine& line : lines) {
+  for (const config::SettingLine& line : overrides) {
     for (std::string& key : config::override_setting(settings, line)) {
       refuse_idle(key, line.place);
       if (key == kByHalf || key == kByRobot || key == kRandom || key == kProbabilities) given.push_back(std::move(key));

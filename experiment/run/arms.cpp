@@ -7,8 +7,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/say.hpp"
-#include "cli/verbs.hpp"
 #include "config/arms.hpp"
 #include "config/error.hpp"
 #include "config/place.hpp"
@@ -20,8 +18,9 @@ namespace trivela::experiment {
 namespace {
 
 namespace fs = std::filesystem;
+using config::BadArgument;
 
-config::ArmFields arm_named(const std::string& name) {
+config::ArmFields arm_named(const std::string& name, const std::string& called) {
   config::ArmFields arm;
   arm.name = name;
   arm.place = "arm " + name;
@@ -29,20 +28,20 @@ config::ArmFields arm_named(const std::string& name) {
   const std::string policy = name.substr(0, at);
   if (at != std::string::npos) arm.table = name.substr(at + 1);
   arm.policy = kicking::policy_named(policy);
-  if (!arm.policy) throw cli::UsageError{fmt::format("--arms: \"{}\" is no policy", policy)};
+  if (!arm.policy) throw BadArgument{fmt::format("{}: \"{}\" is no policy", called, policy)};
   if (arm.table != kNewTable && arm.table != kOldTable)
-    throw cli::UsageError{fmt::format("--arms: \"{}\": a table is new or old", name)};
+    throw BadArgument{fmt::format("{}: \"{}\": a table is new or old", called, name)};
   return arm;
 }
 
-std::vector<config::ArmFields> arms_named(const std::string& text) {
+std::vector<config::ArmFields> arms_named(const std::string& text, const std::string& called) {
   std::vector<config::ArmFields> arms;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto end = std::min(text.find(',', begin), text.size());
-    arms.push_back(arm_named(text.substr(begin, end - begin)));
+    arms.push_back(arm_named(text.substr(begin, end - begin), called));
     for (std::size_t i = 0; i + 1 < arms.size(); ++i) {
       if (arms[i].name == arms.back().name)
-        throw cli::UsageError{fmt::format("--arms: \"{}\" stands there twice", arms[i].name)};
+        throw BadArgument{fmt::format("{}: \"{}\" stands there twice", called, arms[i].name)};
     }
     begin = end + 1;
   }
@@ -60,14 +59,15 @@ std::vector<std::string> default_robots() {
   return files;
 }
 
-void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, const config::Settings& settings) {
+void check_policy(const config::ArmFields& arm, kicking::PolicyName policy, const config::Settings& settings,
+                  const ArmBase& base) {
   if (!facts(policy).plays()) {
-    throw cli::UsageError{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
-                                      arm.place, kicking::name(policy))};
+    throw BadArgument{fmt::format("{}: {} calibrates a robot (trivela calibrate run) and is no policy of play",
+                                  arm.place, kicking::name(policy))};
   }
   if (facts(policy).needs_model() && !settings.policy.learned) {
-    throw cli::UsageError{fmt::format("{}: the policy {} needs a model: --set 'kick_decision.learned_model=\"FILE\"'",
-                                      arm.place, kicking::name(policy))};
+    throw BadArgument{fmt::format("{}: the policy {} needs a model: {} 'kick_decision.learned_model=\"FILE\"'",
+                                  arm.place, kicking::name(policy), base.set_called)};
   }
 }
 
@@ -98,7 +98,9 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
   arm.name = fields.name;
   arm.policy = fields.policy;
   arm.table = fields.table;
-  arm.settings = arm_settings(fields, fields.config.empty() ? base.config : fields.config, base.overrides);
+  std::vector<config::SettingLine> overrides;
+  for (const std::string& line : base.overrides) overrides.push_back({line, base.set_called + ' ' + line});
+  arm.settings = arm_settings(fields, fields.config.empty() ? base.config : fields.config, std::move(overrides));
   arm.robots = load_robots(fields, base);
   arm.own_robots = !fields.robots.empty();
   for (std::size_t i = 0; i < fields.random.size(); ++i) {
@@ -106,7 +108,7 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
     arm.random.push_back(
         {fields.random[i], i < fields.random_probabilities.size() ? fields.random_probabilities[i] : alike});
   }
-  for (const kicking::PolicyName policy : policies_of(arm)) check_policy(fields, policy, arm.settings);
+  for (const kicking::PolicyName policy : policies_of(arm)) check_policy(fields, policy, arm.settings, base);
   return arm;
 }
 
@@ -114,22 +116,22 @@ Arm arm_of(const config::ArmFields& fields, const ArmBase& base) {
 
 std::vector<Arm> arms_of(const std::string& text, const ArmBase& base) {
   std::vector<Arm> arms;
-  for (const config::ArmFields& fields : text.ends_with(".toml") ? config::load_arms(text) : arms_named(text))
+  for (const config::ArmFields& fields :
+       text.ends_with(".toml") ? config::load_arms(text) : arms_named(text, base.arms_called))
     arms.push_back(arm_of(fields, base));
   return arms;
 }
 
-void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
-  std::vector<std::string> remarks;  // each once
+std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms) {
+  std::vector<std::string> remarks;
   for (const Arm& arm : arms) {
     const std::size_t files = arm.robots.size();
     if (files >= team_size(scenario)) continue;
     std::string remark = fmt::format("{} robots play with {} robot file{}: {} is taken for all further ones",
                                      team_size(scenario), files, files == 1 ? "" : "s", arm.robots.back().name);
-    if (std::ranges::find(remarks, remark) != remarks.end()) continue;
-    cli::warn(remark);
-    remarks.push_back(std::move(remark));
+    if (std::ranges::find(remarks, remark) == remarks.end()) remarks.push_back(std::move(remark));
   }
+  return remarks;
 }
 
 std::string describe(const Arm& arm) {

@@ -13,15 +13,17 @@ struct ArmBase {
   std::string config;                  ///< settings of the nodes
   std::vector<std::string> overrides;  ///< settings on top
   std::vector<std::string> robots;     ///< robot files; empty: the calibrated ones
+  std::string arms_called = "arms";    ///< in sentences on the arms' text
+  std::string set_called = "set";      ///< in sentences on the overrides
 };
 
 /// The arms that `text` names: policies such as "stopped,moving,predictive", each "@old" or "@new" where it plays with
-/// that height table, or a file of arms (ending in .toml). Throws UsageError and config::Error with the name that is
-/// none.
+/// that height table, or a file of arms (ending in .toml). Throws config::BadArgument and config::Error with the name
+/// that is none.
 std::vector<Arm> arms_of(const std::string& text, const ArmBase& base);
 
-/// Says on standard error where an arm has fewer robot files than the scenario's team has robots.
-void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms);
+/// A sentence where an arm has fewer robot files than the scenario's team has robots, each once.
+std::vector<std::string> shared_robots(const sim::Scenario& scenario, const std::vector<Arm>& arms);
 
 /// An arm as text: all that its rows depend on.
 std::string describe(const Arm& arm);

@@ -4,25 +4,12 @@
 
 #include <stdexcept>
 
-#include "cli/launch/progress_bar.hpp"
-#include "cli/verbs.hpp"
 #include "experiment/evening/evening.hpp"
 #include "experiment/run/evening_seed.hpp"
 #include "experiment/run/in_threads.hpp"
 
 namespace trivela::experiment {
 namespace {
-
-void check(const ArmBase& base, const EveningPlan& plan) {
-  if (!base.robots.empty()) {
-    throw cli::UsageError{fmt::format(
-        "--robot and --calibrations {}: robots are those of files or of evenings; leave one out (--calibrations 0)",
-        plan.evenings)};
-  }
-  if (plan.evenings > plan.matches)
-    throw cli::UsageError{
-        fmt::format("--calibrations {}: more evenings than --matches {}", plan.evenings, plan.matches)};
-}
 
 /// What the evening left behind, without the day on which it was computed: the same plan makes the same log tomorrow.
 config::Robot robot_of(const sim::Scenario& world, const EveningPlan& plan, std::uint32_t evening,
@@ -38,19 +25,15 @@ config::Robot robot_of(const sim::Scenario& world, const EveningPlan& plan, std:
 
 }  // namespace
 
-std::vector<Team> teams_of_evenings(const sim::Scenario& world, const ArmBase& base, const EveningPlan& plan) {
-  if (plan.evenings == 0) return {};
-  check(base, plan);
+std::vector<Team> teams_of_evenings(const sim::Scenario& world, const EveningPlan& plan,
+                                    const std::function<void(std::size_t done, std::size_t all)>& progress) {
   const std::uint32_t robots = team_size(world);
   std::vector<Team> teams(plan.evenings, Team(robots));
-  cli::ProgressBar bar;
   const auto play = [&](std::size_t i) {
     const auto evening = static_cast<std::uint32_t>(i / robots), robot = static_cast<std::uint32_t>(i % robots);
     teams[evening][robot] = robot_of(world, plan, evening, robot + 1);
   };
-  in_threads(std::size_t{plan.evenings} * robots, plan.jobs, play, [&](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), "evenings of calibration");
-  });
+  in_threads(std::size_t{plan.evenings} * robots, plan.jobs, play, progress);
   return teams;
 }
 

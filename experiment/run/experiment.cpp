@@ -7,9 +7,7 @@
 #include <system_error>
 #include <thread>
 
-#include "cli/launch/progress_bar.hpp"
-#include "cli/launch/signal_inbox.hpp"
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "config/scenario.hpp"
 #include "config/software_version.hpp"
 #include "evaluator/log/digest.hpp"
@@ -171,38 +169,43 @@ std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std
   return arms;
 }
 
-void print_arms(const ExperimentPlan& plan, const std::string& out, const std::vector<double>& processor_s,
-                std::int64_t matches) {
+}  // namespace
+
+std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsigned jobs, const std::string& out) {
   const auto arms = tallies_of(plan, out);
   std::size_t width = 3;
   for (const Arm& arm : plan.arms) width = std::max(width, arm.name.size());
   const bool keeper = plan.scenario.keeper.enabled;
-  fmt::print("{}", evaluator::kSimulated);
-  fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>16}{}  {:>26}\n", "arm", width, "opportunities", "kicks",
-             "on target", "on target/opportunity", "95 %", keeper ? "  goals/opportunity" : "",
-             "opportunities/s and core");
+  std::string text = evaluator::kSimulated;
+  text += fmt::format("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21}  {:>16}{}  {:>26}\n", "arm", width, "opportunities",
+                      "kicks", "on target", "on target/opportunity", "95 %", keeper ? "  goals/opportunity" : "",
+                      "opportunities/s and core");
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {
     const ArmTally& tally = arms.at(plan.arms[i].name);
     const MatchTally sum = total_of(tally);
     const Effect share = share_of(tally, Measure::kPerOpportunity);
-    const double played = static_cast<double>(matches) * plan.possessions;
+    const double played = static_cast<double>(run.matches) * plan.possessions;
     const double goals = sum.opportunities > 0 ? share_of(tally, Measure::kGoals).value : 0.0;
-    fmt::print("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>16}{}  {:>26}\n", plan.arms[i].name, width,
-               sum.opportunities, sum.kicks, sum.on_target, sum.opportunities > 0 ? share.value : 0.0,
-               has_interval(share) ? fmt::format("{:.4f} to {:.4f}", share.ci.lo, share.ci.hi) : "-",
-               keeper ? fmt::format("  {:>17.4f}", goals) : "",
-               processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / processor_s[i]) : "-");
+    text += fmt::format("{:<{}}  {:>13}  {:>8}  {:>9}  {:>21.4f}  {:>16}{}  {:>26}\n", plan.arms[i].name, width,
+                        sum.opportunities, sum.kicks, sum.on_target, sum.opportunities > 0 ? share.value : 0.0,
+                        has_interval(share) ? fmt::format("{:.4f} to {:.4f}", share.ci.lo, share.ci.hi) : "-",
+                        keeper ? fmt::format("  {:>17.4f}", goals) : "",
+                        run.processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / run.processor_s[i]) : "-");
   }
   if (plan.evenings.empty()) {
-    fmt::print("intervals by match: for these robot files, not for other evenings of calibration (--calibrations)\n");
+    text += fmt::format(
+        "intervals by match: for these robot files, not for other evenings of calibration (--calibrations)\n");
   } else {
-    fmt::print("intervals by match and evening: {} evenings of calibration, match m has evening m mod {}\n",
-               plan.evenings.size(), plan.evenings.size());
+    text += fmt::format("intervals by match and evening: {} evenings of calibration, match m has evening m mod {}\n",
+                        plan.evenings.size(), plan.evenings.size());
   }
-  if (keeper) fmt::print("goals: by the simulator's truth, on target and past its keeper\n");
+  if (keeper) text += fmt::format("goals: by the simulator's truth, on target and past its keeper\n");
+  const double opportunities =
+      static_cast<double>(run.matches) * plan.possessions * static_cast<double>(plan.arms.size());
+  return text + fmt::format("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities,
+                            run.wall_s, jobs, jobs == 1 ? "" : "s",
+                            run.wall_s > 0.0 ? opportunities / run.wall_s : 0.0);
 }
-
-}  // namespace
 
 std::string ExperimentPlan::arguments() const {
   std::string text = fmt::format("program = {}\nseed = {}\npossessions = {}\nshadows = {}\nevery_cycle = {}\n",
@@ -218,7 +221,7 @@ std::string ExperimentPlan::arguments() const {
 
 void check_playable(const ExperimentPlan& plan) {
   if (plan.arms.size() > evaluator::log::kMostArms)
-    throw cli::UsageError{
+    throw config::BadArgument{
         fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), evaluator::log::kMostArms)};
   const EveningArms evenings{plan.arms, plan.evenings};
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {
@@ -236,56 +239,46 @@ void check_playable(const ExperimentPlan& plan) {
   }
 }
 
-int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out) {
-  check_playable(plan);
-  cli::SignalInbox signals;  // before the threads, which must not be interrupted
+ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
+                             const ExperimentWatch& watch) {
   const std::string arguments = plan.arguments();
   ExperimentLog log{out, {arguments, plan.matches}};
   MatchTables tables{log};
   const EveningArms evenings{plan.arms, plan.evenings};
   Sessions sessions{plan, evenings, arguments};
   const auto first = static_cast<std::uint32_t>(log.matches_done());
-  if (first > 0) fmt::print("{} of {} matches are in {} already\n", first, plan.matches, out);
-  std::vector<double> processor_s(plan.arms.size());
+  watch.found(first);
+  ExperimentRun run{.processor_s = std::vector<double>(plan.arms.size())};
   const auto started = std::chrono::steady_clock::now();
-  bool interrupted = false;
   const auto write = [&](std::uint32_t match_id, const std::vector<Played>& played) {
     log.begin();
     for (std::size_t i = 0; i < played.size(); ++i) {
       const std::int64_t session_id = log.add_session(sessions.of(match_id, i, played[i].seed), played[i].end_t_ns);
       tables.write(played[i].record, session_id);
-      processor_s[i] += played[i].processor_s;
+      run.processor_s[i] += played[i].processor_s;
     }
     log.end_match();
   };
   {
     MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
     const Workers workers{plan, evenings, queue, jobs, write};
-    cli::ProgressBar bar;
     std::uint32_t done = first;
-    while (done < plan.matches && !(interrupted = signals.stop_requested())) {
+    while (done < plan.matches && !watch.stop()) {
       done = queue.wait(std::chrono::milliseconds{100});
       const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
       const double opportunities =
           static_cast<double>(done - first) * plan.possessions * static_cast<double>(plan.arms.size());
-      bar.show(static_cast<double>(done - first), plan.matches - first,
-               fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
+      watch.progress(static_cast<double>(done - first), plan.matches - first,
+                     fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
     }
+    run.complete = done == plan.matches;
   }
   log.commit();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-  const std::int64_t matches = log.matches_done() - first;
-  if (interrupted) {
-    fmt::print(stderr, "trivela: interrupted; {} of {} matches are in {}: the same command goes on from there\n",
-               log.matches_done(), plan.matches, out);
-    return cli::kFailed;
-  }
-  log.finish();
-  print_arms(plan, out, processor_s, matches);
-  const double opportunities = static_cast<double>(matches) * plan.possessions * static_cast<double>(plan.arms.size());
-  fmt::print("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities, wall.count(), jobs,
-             jobs == 1 ? "" : "s", wall.count() > 0.0 ? opportunities / wall.count() : 0.0);
-  return cli::kDone;
+  run.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
+  run.in_log = log.matches_done();
+  run.matches = run.in_log - first;
+  if (run.complete) log.finish();
+  return run;
 }
 
 }  // namespace trivela::experiment

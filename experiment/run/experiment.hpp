@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,32 @@ struct ExperimentPlan {
   std::string arguments() const;
 };
 
-/// Throws UsageError or std::runtime_error in a sentence that names the arm, where a match of the plan cannot be
-/// played.
+/// Throws config::BadArgument or std::runtime_error in a sentence that names the arm, where a match of the plan cannot
+/// be played.
 void check_playable(const ExperimentPlan& plan);
 
-/// Checks the plan, so that one that is refused leaves no log. Plays what is missing in the log `out` with `jobs`
-/// threads, and prints what each arm did. The rows do not depend on `jobs`, nor on how often the run was stopped.
-/// Returns the exit code.
-int run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out);
+/// Who looks on while an experiment is played.
+struct ExperimentWatch {
+  std::function<void(std::int64_t matches)> found;                                   ///< in the log already
+  std::function<void(double done, double total, const std::string& what)> progress;  ///< several times a second
+  std::function<bool()> stop;  ///< asked as often: shall no further match begin?
+};
+
+/// What a run of an experiment did.
+struct ExperimentRun {
+  std::int64_t matches = 0;         ///< played
+  std::int64_t in_log = 0;          ///< with those of earlier runs
+  double wall_s = 0.0;              ///< for them
+  std::vector<double> processor_s;  ///< of each arm
+  bool complete = false;            ///< nobody stopped it
+};
+
+/// Plays what is missing of a playable plan in the log `out` with `jobs` threads. The rows do not depend on `jobs`, nor
+/// on how often the run was stopped.
+ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
+                             const ExperimentWatch& watch);
+
+/// What each arm did in the complete experiment in the log `out`, and how fast the run was.
+std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsigned jobs, const std::string& out);
 
 }  // namespace trivela::experiment

@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "cli/verbs.hpp"
 #include "config/arms.hpp"
 #include "config/error.hpp"
 
@@ -104,16 +103,18 @@ std::vector<Coordinate> tuned_space(kicking::PolicyName policy) {
   throw std::invalid_argument{fmt::format("{} has no settings to choose", kicking::name(policy))};
 }
 
-Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space) {
+Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space, const std::string& called) {
+  const auto refuse = [&](const std::string& why) {
+    throw config::BadArgument{fmt::format("{} {}: {}", called, text, why)};
+  };
   const std::string key = text.substr(0, text.find('='));
   const auto known = config::setting_values({});
   if (!key.starts_with("policy.") || key.starts_with("policy.test_drive.") || !known.contains(key))
-    throw cli::UsageError{
-        fmt::format("--setting {}: \"{}\" is no setting of [policy] (config/default.toml)", text, key)};
+    refuse(fmt::format("\"{}\" is no setting of [policy] (config/default.toml)", key));
   if (key.size() == text.size()) {
     const auto found = std::ranges::find(space, key, &Coordinate::name);
     if (found != space.end()) return *found;
-    throw cli::UsageError{fmt::format("--setting {}: write its values, too: --setting '{}=V1|V2'", text, key)};
+    refuse(fmt::format("write its values, too: {} '{}=V1|V2'", called, key));
   }
   Coordinate made{key, {}};
   std::set<std::string> values;
@@ -123,12 +124,12 @@ Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>&
       config::Settings settings = with_choice({}, key + " = " + part);
       values.insert(config::setting_values(settings).at(key));
     } catch (const config::Error& error) {
-      throw cli::UsageError{fmt::format("--setting {}: {}", text, error.what())};
+      refuse(error.what());
     }
     made.choices.push_back(key + " = " + part);
   }
   if (values.size() < 2 || values.size() != made.choices.size())
-    throw cli::UsageError{fmt::format("--setting {}: two or more values, each once: --setting '{}=V1|V2'", text, key)};
+    refuse(fmt::format("two or more values, each once: {} '{}=V1|V2'", called, key));
   return made;
 }
 

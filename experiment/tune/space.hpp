@@ -22,9 +22,10 @@ std::vector<Coordinate> tuned_space(kicking::PolicyName policy);
 /// Names of the policies that have some.
 std::vector<std::string> tuned_policies();
 
-/// "KEY=V1|V2|V3" as a coordinate; "KEY" alone: that of the space. Throws UsageError for a key that is no setting of
-/// [policy], a value that it cannot have, and fewer than two values.
-Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space);
+/// "KEY=V1|V2|V3" as a coordinate; "KEY" alone: that of the space. Throws config::BadArgument, which calls the text
+/// `called`, for a key that is no setting of [policy], a value that it cannot have, and fewer than two values.
+Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>& space,
+                         const std::string& called = "setting");
 
 /// The settings with a choice on top. Throws config::Error.
 config::Settings with_choice(config::Settings settings, const std::string& choice);

@@ -10,7 +10,8 @@ struct ListenAddress {
   int port = 0;
 };
 
-/// "ADDRESS", "ADDRESS:PORT", "[IPV6]:PORT". Throws UsageError naming a port that is none.
-ListenAddress parse_listen(const std::string& text, int default_port);
+/// "ADDRESS", "ADDRESS:PORT", "[IPV6]:PORT". Throws config::BadArgument naming a port that is none, and the
+/// address as `called`.
+ListenAddress parse_listen(const std::string& text, int default_port, const std::string& called = "address");
 
 }  // namespace trivela::pages

@@ -3,20 +3,15 @@
 #include <cmath>
 #include <map>
 
+#include "evaluator/report/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::pages {
 namespace {
 
-using kicking::Estimate;
+using evaluator::EstimateForm;
 using kicking::lob::LobRecord;
 using nlohmann::json;
-
-json value_json(const Estimate& estimate, double unit = 1.0) {
-  return {{"value", estimate.value * unit}, {"se", estimate.se * unit}};
-}
-
-const double kDegrees = kicking::degrees(1.0);
 
 // With k known, z + k x^2 = (2 k x_a) x + (z_a - k x_a^2) is a line in x.
 json curve_json(const LobRecord& lob) {
@@ -60,28 +55,14 @@ struct Spread {
 json lob_json(const LobRecord& lob, std::int64_t start_t_ns) {
   json out{{"t_s", static_cast<double>(lob.launch_t_ns - start_t_ns) * 1e-9},
            {"launch_t_ns", std::to_string(lob.launch_t_ns)},
-           {"accepted", lob.refusal == kicking::lob::Refusal::kNone},
-           {"refusal", kicking::lob::name(lob.refusal)},
-           {"why", lob.why},
-           {"power", nullptr},
-           {"effective", nullptr},
-           {"true", nullptr},
+           {"power", evaluator::json_of(lob.power)},
+           {"effective", evaluator::effective_json(lob, EstimateForm::kObject)},
+           {"true", evaluator::true_json(lob, EstimateForm::kObject)},
            {"curve", curve_json(lob)},
            {"centres", json::array()}};
-  if (lob.power) out["power"] = *lob.power;
+  out.update(json(evaluator::verdict_json(lob)));
   for (const auto& centre : lob.centres) {
     out["centres"].push_back({std::round(centre.x_m * 1e4) * 1e-4, std::round(centre.z_m * 1e4) * 1e-4});
-  }
-  if (lob.effective) {
-    out["effective"] = {{"exit_angle_deg", value_json(lob.effective->exit_angle_rad, kDegrees)},
-                        {"exit_speed_mps", value_json(lob.effective->exit_speed_mps)},
-                        {"height_m", value_json(lob.effective->height_m)},
-                        {"distance_m", value_json(lob.effective->distance_m)}};
-  }
-  if (lob.true_values) {
-    out["true"] = {{"exit_angle_deg", value_json(lob.true_values->exit_angle_rad, kDegrees)},
-                   {"exit_speed_mps", value_json(lob.true_values->exit_speed_mps)},
-                   {"Cd", value_json(lob.true_values->drag_coefficient)}};
   }
   return out;
 }

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <thread>
 
-#include "cli/verbs.hpp"
+#include "config/parse_number.hpp"
 #include "pages/lob/page.css.hpp"
 #include "pages/lob/page.html.hpp"
 #include "pages/lob/page.js.hpp"
@@ -109,10 +109,10 @@ struct PageServer::Impl {
   }
 
   void frame(const Request& request, Response& response) {
-    std::size_t i = 0;
-    if (!CLI::detail::lexical_cast(request.get_param_value("i"), i)) return refuse(response, 400, "i must be a number");
+    const auto i = config::parse_integer(request.get_param_value("i"));
+    if (!i) return refuse(response, 400, "i must be a number");
     try {
-      response.set_content(scene.frame(i), "application/json");
+      response.set_content(scene.frame(static_cast<std::size_t>(*i)), "application/json");
     } catch (const CommandError& error) {
       refuse(response, error.status, error.what());
     }

@@ -4,18 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
+#include "config/parse_number.hpp"
 
 namespace trivela::pages {
 namespace {
 
+using config::BadArgument;
+
 constexpr std::size_t kMostPowers = 32;  // as many as a power table holds
 
+// `list`: the whole, as messages call it.
 double number_of(const std::string& text, const std::string& list) {
-  double value = 0.0;
-  if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return value;
-  throw cli::UsageError{fmt::format("--plan {}: '{}' is no power", list, text)};
+  const auto value = config::parse_number(text);
+  if (value && std::isfinite(*value) && *value > 0.0) return *value;
+  throw BadArgument{fmt::format("{}: '{}' is no power", list, text)};
 }
 
 // From the two last powers on to `end`, in their step.
@@ -23,7 +28,7 @@ void go_on(std::vector<double>& powers, double end, const std::string& list) {
   const double step = powers.size() < 2 ? 0.0 : powers.back() - powers[powers.size() - 2];
   const double steps = (end - powers.back()) / step;
   if (!(steps >= 1.0) || std::abs(steps - std::round(steps)) > 1e-9) {
-    throw cli::UsageError{fmt::format("--plan {}: the two powers before '...' do not lead to the one behind it", list)};
+    throw BadArgument{fmt::format("{}: the two powers before '...' do not lead to the one behind it", list)};
   }
   const double start = powers.back();
   const double count = std::min(std::round(steps), static_cast<double>(kMostPowers));
@@ -32,10 +37,12 @@ void go_on(std::vector<double>& powers, double end, const std::string& list) {
 
 }  // namespace
 
-std::vector<double> parse_powers(const std::string& list) {
+std::vector<double> parse_powers(const std::string& text, const std::string& called) {
+  const std::string list = called + ' ' + text;
   std::vector<double> powers;
   bool dots = false;
-  for (const std::string& part : CLI::detail::split(list, ',')) {
+  std::istringstream parts{text};
+  for (std::string part; std::getline(parts, part, ',');) {
     if (part == "..." && powers.size() >= 2 && !dots) {
       dots = true;
       continue;
@@ -45,12 +52,11 @@ std::vector<double> parse_powers(const std::string& list) {
     dots = false;
     powers.push_back(power);
   }
-  if (dots) throw cli::UsageError{fmt::format("--plan {}: a power must follow '...'", list)};
-  if (powers.size() > kMostPowers)
-    throw cli::UsageError{fmt::format("--plan {}: more than {} powers", list, kMostPowers)};
+  if (dots) throw BadArgument{fmt::format("{}: a power must follow '...'", list)};
+  if (powers.size() > kMostPowers) throw BadArgument{fmt::format("{}: more than {} powers", list, kMostPowers)};
   for (auto power = powers.begin(); power != powers.end(); ++power) {
     if (std::find(powers.begin(), power, *power) == power) continue;
-    throw cli::UsageError{fmt::format("--plan {}: {:g} stands in it twice", list, *power)};
+    throw BadArgument{fmt::format("{}: {:g} stands in it twice", list, *power)};
   }
   return powers;
 }

@@ -16,8 +16,8 @@ struct CalibrationPlan {
 };
 
 /// Powers from a list such as "15,20,...,50", where "..." goes on in the step of the two numbers before it. Throws
-/// UsageError naming what is wrong with it.
-std::vector<double> parse_powers(const std::string& list);
+/// config::BadArgument naming what is wrong with it, and the list as `called`.
+std::vector<double> parse_powers(const std::string& text, const std::string& called = "plan");
 
 /// Accepted lobs of each power of the plan.
 std::vector<int> kicks_done(const CalibrationPlan& plan, std::span<const kicking::lob::LobRecord> lobs);

@@ -10,6 +10,7 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "config/robot.hpp"
 #include "kicking/geometry/angle.hpp"
 
@@ -70,7 +71,7 @@ class CalibrateVerb : public testing::Test {
     std::string thrown;
     try {
       app.parse(arguments);
-    } catch (const UsageError& error) {
+    } catch (const config::BadArgument& error) {
       result.exit_code = kBadUsage;
       thrown = error.what();
     } catch (const CLI::ParseError& error) {
@@ -106,7 +107,7 @@ TEST_F(CalibrateVerb, TableOfLobsIsTheRobotsFile) {
   const config::Calibration& calibration = *robot.calibration;
   EXPECT_EQ(calibration.kicks, 4u);
   EXPECT_EQ(calibration.source, "trivela calibrate table");
-  EXPECT_EQ(calibration.date, calibration::today());
+  EXPECT_EQ(calibration.date, today());
   EXPECT_THAT(calibration.table->files, ElementsAre("lobs.csv"));
   EXPECT_THAT(calibration.table->trials, ElementsAre(2, 2));
   EXPECT_THAT(

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "experiment/tune/report.hpp"
 
 namespace trivela::experiment {
@@ -115,7 +115,7 @@ TEST(TunedSpace, ReadsSettingsOfTheCommandLine) {
   for (const char* refused :
        {"policy.settle_s", "policy.settle=1|2", "goal.y_m=8|9", "policy.settle_s=0.1", "policy.settle_s=0.1|0.1",
         "policy.settle_s=0.1|soon", "policy.settle_s=0.1|99", "policy.test_drive.run_up_m=1|2", ""}) {
-    EXPECT_THROW(coordinate_of(refused, space), cli::UsageError) << refused;
+    EXPECT_THROW(coordinate_of(refused, space), config::BadArgument) << refused;
   }
 }
 

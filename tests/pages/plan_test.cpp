@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -14,8 +14,8 @@ using testing::HasSubstr;
 
 std::string message_of(const std::string& list) {
   try {
-    parse_powers(list);
-  } catch (const cli::UsageError& error) {
+    parse_powers(list, "--plan");
+  } catch (const config::BadArgument& error) {
     return error.what();
   }
   return "";

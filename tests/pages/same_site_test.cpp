@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "pages/lob/listen_address.hpp"
 
 namespace trivela::pages {
@@ -49,7 +49,7 @@ TEST(ListenAddress, HasAHostAndMaybeAPort) {
   expect("[::1]:8080", "::1", 8080);
   expect("[::]", "::", 7);
   for (const char* const text : {"127.0.0.1:", "127.0.0.1:x", "127.0.0.1:-1", "127.0.0.1:65536"}) {
-    EXPECT_THROW(parse_listen(text, 7), cli::UsageError) << text;
+    EXPECT_THROW(parse_listen(text, 7), config::BadArgument) << text;
   }
 }
 

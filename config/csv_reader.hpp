@@ -12,7 +12,7 @@
 
 #include "kicking/text/printable.hpp"
 
-namespace trivela::cli {
+namespace trivela::config {
 
 /// One record of a CSV text and the line that it starts on, from 1.
 struct CsvRecord {
@@ -95,4 +95,4 @@ class CsvReader {
   std::size_t line_ = 0;
 };
 
-}  // namespace trivela::cli
+}  // namespace trivela::config

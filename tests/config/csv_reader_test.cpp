@@ -1,10 +1,10 @@
-#include "cli/csv_reader.hpp"
+#include "config/csv_reader.hpp"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-namespace trivela::cli {
+namespace trivela::config {
 namespace {
 
 using testing::ElementsAre;
@@ -84,4 +84,4 @@ TEST(CsvReader, PassesOverCommentsInOtherEncodings) { EXPECT_EQ(read_all("# caf\
 TEST(CsvReader, CountsEmptyCells) { EXPECT_THAT(read_all(",,\n").at(0).cells, ElementsAre("", "", "")); }
 
 }  // namespace
-}  // namespace trivela::cli
+}  // namespace trivela::config

@@ -1,0 +1,46 @@
+#include "evaluator/report/lob_json.hpp"
+
+#include "kicking/geometry/angle.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using kicking::Estimate;
+using kicking::lob::LobRecord;
+
+const double kDegrees = kicking::degrees(1.0);
+
+void put(Json& object, const std::string& key, const Estimate& estimate, EstimateForm form, double unit = 1.0) {
+  const double value = estimate.value * unit, se = estimate.se * unit;
+  object[key] = form == EstimateForm::kObject ? Json{{"value", value}, {"se", se}} : Json(value);
+  if (form == EstimateForm::kBeside) object[key + "_se"] = se;
+}
+
+}  // namespace
+
+Json verdict_json(const LobRecord& lob) {
+  return {{"accepted", lob.refusal == kicking::lob::Refusal::kNone},
+          {"refusal", kicking::lob::name(lob.refusal)},
+          {"why", lob.why}};
+}
+
+Json effective_json(const LobRecord& lob, EstimateForm form) {
+  Json json;
+  if (!lob.effective) return json;
+  put(json, "exit_angle_deg", lob.effective->exit_angle_rad, form, kDegrees);
+  put(json, "exit_speed_mps", lob.effective->exit_speed_mps, form);
+  put(json, "height_m", lob.effective->height_m, form);
+  put(json, "distance_m", lob.effective->distance_m, form);
+  return json;
+}
+
+Json true_json(const LobRecord& lob, EstimateForm form) {
+  Json json;
+  if (!lob.true_values) return json;
+  put(json, "exit_angle_deg", lob.true_values->exit_angle_rad, form, kDegrees);
+  put(json, "exit_speed_mps", lob.true_values->exit_speed_mps, form);
+  put(json, "Cd", lob.true_values->drag_coefficient, form);
+  return json;
+}
+
+}  // namespace trivela::evaluator
