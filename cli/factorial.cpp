@@ -52,7 +52,7 @@ void factorial(FactorialFlags flags) {
     report.cells.push_back({cell, {}});
     arms.push_back(experiment::arm_of(cell, settings, robots));
   }
-  if (evenings == 0) experiment::warn_of_shared_robots(scenario, arms);
+  if (evenings == 0) warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
 

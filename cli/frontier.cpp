@@ -34,7 +34,7 @@ void frontier(const FrontierFlags& flags) {
   }
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
-  if (study.plan.evenings.empty()) experiment::warn_of_shared_robots(scenario, arms);
+  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
   auto played = play_with_bar(scenario, arms, study.plan, "the frontier");
   experiment::FrontierReport report{.policy = flags.policy,
                                     .scenario = flags.study.scenario_name(),

@@ -80,7 +80,7 @@ void sensitivity(const SensitivityFlags& flags) {
   for (const experiment::Arm& arm : arms) report.arms.push_back(arm.name);
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
-  if (study.plan.evenings.empty()) experiment::warn_of_shared_robots(scenario, arms);
+  if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
   report.base = play_with_bar(scenario, arms, study.plan, "the scenario");
   for (const experiment::UncertainInput& input : inputs) {
     const bool setting = experiment::is_setting(input.key);

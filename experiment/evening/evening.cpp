@@ -58,11 +58,13 @@ Evening play_evening(const EveningOptions& options, calibration::DriveSource& so
   robot.calibration.reset();
   const std::string command = fmt::format("trivela calibrate run --in simulation --robot {} --seed {}{}", options.name,
                                           options.seed, options.flags);
-  CalibrationRun run{source,         options.scenario,   evening_settings(options.settings, options.scenario),
-                     options.effort, options.seed * 100, RobotUpdate{robot, command, options.date}};
-  std::vector<DriveSummary> drives;
-  for (const auto step : {&CalibrationRun::standing, &CalibrationRun::delay, &CalibrationRun::direction,
-                          &CalibrationRun::lateral, &CalibrationRun::turn, &CalibrationRun::straight}) {
+  calibration::CalibrationRun run{
+      source,         options.scenario,   evening_settings(options.settings, options.scenario),
+      options.effort, options.seed * 100, calibration::RobotUpdate{robot, command, options.date}};
+  std::vector<calibration::DriveSummary> drives;
+  for (const auto step : {&calibration::CalibrationRun::standing, &calibration::CalibrationRun::delay,
+                          &calibration::CalibrationRun::direction, &calibration::CalibrationRun::lateral,
+                          &calibration::CalibrationRun::turn, &calibration::CalibrationRun::straight}) {
     drives.push_back((run.*step)());
     if (said) said(drives.back());
   }
