@@ -6,9 +6,11 @@ import sys
 import tempfile
 import unittest
 
+import how_to_add
 from document import DocumentError, parse
 from listed import synopsis_problem
 from masks import masked, numbers, shape, stands_in
+from paths_test import dead_paths
 from rehearsal import Rehearsal
 
 
@@ -131,6 +133,29 @@ class Mechanism(unittest.TestCase):
         self.assertEqual(synopsis_problem(None, "trivela match --half moving", known), "")
         self.assertIn("no --hal", synopsis_problem(None, "trivela match --hal moving", known))
         self.assertIn("no verb mach", synopsis_problem(None, "trivela mach --half moving", known))
+
+    def test_recipes_make_the_edits_that_they_show(self):
+        page = ("## A word\n\n```diff\n+++ a.txt\n one\n+and a half\n@@\n-two\n+three\n```\n\n"
+                "```diff\n+++ b/new.txt\n+\n+text\n```\n\n    $ cat a.txt\n")
+        (self.root / "a.txt").write_text("one\ntwo\n")
+        recipes = how_to_add.recipes_of(page)
+        self.assertEqual([(recipe.title, recipe.commands) for recipe in recipes], [("A word", ["cat a.txt"])])
+        files, problems = how_to_add.apply(recipes, self.root)
+        self.assertEqual((files, problems), ({"a.txt": "one\nand a half\nthree\n", "b/new.txt": "\ntext\n"}, []))
+        for text, why in (("one\ntwo\none\n", "2 times"), ("one\n", "0 times"), ("one\n two\n", "0 times")):
+            (self.root / "a.txt").write_text(text)
+            self.assertIn(why, how_to_add.apply(recipes, self.root)[1][0])
+        (self.root / "b").mkdir()
+        (self.root / "b/new.txt").write_text("there already\n")
+        self.assertIn("b/new.txt exists", how_to_add.apply(recipes, self.root)[1][-1])
+        with self.assertRaises(ValueError):
+            how_to_add.recipes_of("## A word\n\n```diff\n+++ a.txt\none\n```\n")
+
+    def test_paths_that_are_not_there_are_named(self):
+        (self.root / "docs/x.md").write_text("there\n")
+        text = "`docs/x.md` `docs/NAME.md` `docs/*.md` [x](x.md) `sim/fire` `elsewhere/x`\n`docs/y.md`\n[y](y.md#z)\n```\n[a](b)\n```\n"
+        found = list(dead_paths(self.root, "docs/z.md", text, {"docs", "sim"}, {"sim/fire"}))
+        self.assertEqual(found, [(2, "docs/y.md"), (3, "y.md")])
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def documents(root):
     """Every document whose commands are promises: all but the history."""
-    return [root / "README.md", root / "idl/README.md", *sorted((root / "docs").glob("**/*.md"))]
+    return [root / "README.md", root / "CONTRIBUTING.md", root / "idl/README.md", *sorted((root / "docs").glob("**/*.md"))]
 
 
 def main():
