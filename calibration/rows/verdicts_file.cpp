@@ -8,7 +8,7 @@
 
 #include "evaluator/report/write_file.hpp"
 
-namespace trivela::evaluator {
+namespace trivela::calibration {
 
 namespace fs = std::filesystem;
 
@@ -43,4 +43,4 @@ void write_verdicts(const fs::path& record, std::span<const evaluator::log::Verd
   replace_file(verdicts_path(record), list.dump(2) + '\n', "the verdicts");
 }
 
-}  // namespace trivela::evaluator
+}  // namespace trivela::calibration

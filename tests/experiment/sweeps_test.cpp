@@ -106,7 +106,9 @@ TEST(UncertainInputs, OfAKeeperOrDefendersPlayWhereThereAreSome) {
 }
 
 TEST(Sensitivity, ComparesGoalsWhereAsked) {
-  SensitivityReport report{.arms = {"stopped", "moving"}, .base = {}, .inputs = {}, .measure = Measure::kGoals};
+  SensitivityReport report;
+  report.arms = {"stopped", "moving"};
+  report.measure = Measure::kGoals;
   ArmTally few(4, {10, 10, 8}), many(4, {10, 10, 8});
   for (std::size_t i = 0; i < 4; ++i) {
     few[i].goals = 1 + static_cast<std::int64_t>(i % 2);
