@@ -38,7 +38,7 @@ Ran run_vectors(const RowVerb& verb, const std::string& name) {
 
 std::vector<tests::VectorRow> parse(const std::string& text) {
   std::istringstream in(text);
-  CsvReader reader(in);
+  config::CsvReader reader(in);
   const auto header = reader.next();
   std::vector<tests::VectorRow> rows;
   while (auto record = reader.next()) rows.emplace_back(header->cells, *record);
