@@ -30,7 +30,7 @@ struct TuneFlags {
 struct Interrupted {};
 
 std::vector<experiment::Coordinate> space_of(const TuneFlags& flags, kicking::PolicyName policy) {
-  const std::vector<experiment::Coordinate> all = experiment::tuned_space(policy);
+  std::vector<experiment::Coordinate> all = experiment::tuned_space(policy);
   if (flags.settings.empty()) return all;
   std::vector<experiment::Coordinate> named;
   for (const std::string& text : flags.settings) {
@@ -145,7 +145,9 @@ void add_tune(CLI::App& app, int& exit_code) {
   flags->study.plan.seed = 1001;  // other matches than those of the studies
   flags->study.plan.possessions = 20;
   flags->study.calibrations = 20;
-  verb->add_option("policy", flags->policy, "Whose settings")->required()->check(CLI::IsMember(experiment::tuned_policies()));
+  verb->add_option("policy", flags->policy, "Whose settings")
+      ->required()
+      ->check(CLI::IsMember(experiment::tuned_policies()));
   verb->add_option("--out", flags->out, "Settings file to write, for --config and for arms")
       ->required()
       ->type_name("FILE");

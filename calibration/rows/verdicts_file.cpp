@@ -40,7 +40,7 @@ void write_verdicts(const fs::path& record, std::span<const evaluator::log::Verd
   for (const evaluator::log::Verdict& verdict : verdicts) {
     list.push_back({{"launch_t_ns", verdict.launch_t_ns}, {"accepted", verdict.accepted}, {"why", verdict.why}});
   }
-  replace_file(verdicts_path(record), list.dump(2) + '\n', "the verdicts");
+  evaluator::replace_file(verdicts_path(record), list.dump(2) + '\n', "the verdicts");
 }
 
 }  // namespace trivela::calibration

@@ -93,6 +93,7 @@ std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t co
     evenings[i] = play_evening(of_one);
   });
   std::vector<Evening> played;
+  played.reserve(count);
   for (std::optional<Evening>& evening : evenings) played.push_back(std::move(*evening));
   return played;
 }
