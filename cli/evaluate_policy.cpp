@@ -21,9 +21,8 @@ struct EvaluatePolicyArguments {
 }  // namespace
 
 void add_evaluate_policy(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand(
-      "evaluate-policy",
-      "What a policy would have had, from logs whose policy was drawn at random for each possession");
+  auto* const verb = app.add_subcommand("evaluate-policy",
+                                        "What a policy would have had, from logs whose policy was drawn by possession");
   const auto arguments = std::make_shared<EvaluatePolicyArguments>();
   verb->add_option("logs", arguments->logs, "Match logs; their sessions are taken together")
       ->type_name("DB")
