@@ -8,12 +8,16 @@ namespace {
 using kicking::Estimate;
 using kicking::lob::LobRecord;
 
-const double kDegrees = kicking::degrees(1.0);
+void put(Json& object, const std::string& key, const Estimate& estimate, EstimateForm form) {
+  object[key] =
+      form == EstimateForm::kObject ? Json{{"value", estimate.value}, {"se", estimate.se}} : Json(estimate.value);
+  if (form == EstimateForm::kBeside) object[key + "_se"] = estimate.se;
+}
 
-void put(Json& object, const std::string& key, const Estimate& estimate, EstimateForm form, double unit = 1.0) {
-  const double value = estimate.value * unit, se = estimate.se * unit;
-  object[key] = form == EstimateForm::kObject ? Json{{"value", value}, {"se", se}} : Json(value);
-  if (form == EstimateForm::kBeside) object[key + "_se"] = se;
+Estimate in_degrees(const Estimate& angle_rad, EstimateForm form) {
+  if (form == EstimateForm::kValue) return {kicking::degrees(angle_rad.value), kicking::degrees(angle_rad.se)};
+  const double unit = kicking::degrees(1.0);  // differs in the last digit, which readers may compare
+  return {angle_rad.value * unit, angle_rad.se * unit};
 }
 
 }  // namespace
@@ -27,7 +31,7 @@ Json verdict_json(const LobRecord& lob) {
 Json effective_json(const LobRecord& lob, EstimateForm form) {
   Json json;
   if (!lob.effective) return json;
-  put(json, "exit_angle_deg", lob.effective->exit_angle_rad, form, kDegrees);
+  put(json, "exit_angle_deg", in_degrees(lob.effective->exit_angle_rad, form), form);
   put(json, "exit_speed_mps", lob.effective->exit_speed_mps, form);
   put(json, "height_m", lob.effective->height_m, form);
   put(json, "distance_m", lob.effective->distance_m, form);
@@ -37,7 +41,7 @@ Json effective_json(const LobRecord& lob, EstimateForm form) {
 Json true_json(const LobRecord& lob, EstimateForm form) {
   Json json;
   if (!lob.true_values) return json;
-  put(json, "exit_angle_deg", lob.true_values->exit_angle_rad, form, kDegrees);
+  put(json, "exit_angle_deg", in_degrees(lob.true_values->exit_angle_rad, form), form);
   put(json, "exit_speed_mps", lob.true_values->exit_speed_mps, form);
   put(json, "Cd", lob.true_values->drag_coefficient, form);
   return json;
