@@ -16,9 +16,9 @@ int main(int argc, char** argv) {
   const bus::Participant participant{bus::loopback(domain, argc > 2 ? argv[2] : "trivela")};
   bus::Reader<msg::KickDecision> decisions{participant};
   const auto print = [](const msg::KickDecision& decision) {
-    fmt::print("robot {}, {:.2f} s, {}: {} ({}), power {:.2f}, {:.2f} m\n", decision.robot_id, 1e-9 * static_cast<double>(decision.t_ns),
-               msg::label(decision.policy), decision.fire ? "fire" : "hold", msg::label(decision.reason), decision.power,
-               decision.distance_m);
+    fmt::print("robot {}, {:.2f} s, {}: {} ({}), power {:.2f}, {:.2f} m\n", decision.robot_id,
+               1e-9 * static_cast<double>(decision.t_ns), msg::label(decision.policy), decision.fire ? "fire" : "hold",
+               msg::label(decision.reason), decision.power, decision.distance_m);
   };
   while (decisions.wait(std::chrono::minutes{5})) {  // Ctrl-C ends it before
     decisions.take(print);
