@@ -1,11 +1,9 @@
-// An installed Trivela: its programs in a folder that knows nothing of the sources, and another project's build with
-// it.
+// An installed Trivela, far from its sources: its programs, and another project's build with it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "bus/writer.hpp"
