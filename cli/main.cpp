@@ -72,7 +72,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
   app.require_subcommand(1);
-  app.set_version_flag("--version", fmt::format("trivela {}", trivela::config::software_version()));
+  app.set_version_flag("--version", trivela::config::version_lines("trivela"));
   app.footer(
       "On the robot itself each node is a program of its own, trivela-NODE: see docs/operations.md.\n"
       "Exit codes: 0 done, 1 failed, 2 bad usage, 3 done but a gate missed or data was lost.");

@@ -12,10 +12,16 @@ bool holds_settings(const fs::path& folder) {
   return fs::is_regular_file(folder / "default.toml", unreadable);
 }
 
+/// What TRIVELA_CONFIG names; empty: nothing.
+fs::path named() {
+  const char* folder = std::getenv("TRIVELA_CONFIG");
+  return folder == nullptr ? "" : folder;
+}
+
 }  // namespace
 
 fs::path folder() {
-  if (const char* named = std::getenv("TRIVELA_CONFIG"); named != nullptr && *named != '\0') return named;
+  if (!named().empty()) return named();
   std::error_code unknown;
   const fs::path beside = fs::read_symlink("/proc/self/exe", unknown).parent_path();
   fs::path installed = beside.parent_path() / "share/trivela/config";
@@ -24,6 +30,13 @@ fs::path folder() {
     if (holds_settings(above / "config")) return above / "config";
   }
   return installed;
+}
+
+std::string trouble_with_folder() {
+  if (holds_settings(folder())) return "";
+  return named().empty()
+             ? "the shipped configuration is neither near the program nor installed; TRIVELA_CONFIG may name its folder"
+             : "TRIVELA_CONFIG names a folder without default.toml";
 }
 
 }  // namespace trivela::config

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace trivela::config {
 
@@ -9,6 +10,9 @@ namespace trivela::config {
 /// `share/trivela/config` in the prefix that it is installed in, `config` in a folder above it (the source tree of a
 /// build). Where none does, that of the prefix, which whoever opens a file of it then finds missing.
 std::filesystem::path folder();
+
+/// Why that folder holds no default.toml, as a clause for a message; empty: it holds one.
+std::string trouble_with_folder();
 
 /// A file or folder of it, such as "robots/cambada_1.toml".
 inline std::filesystem::path shipped(const std::filesystem::path& name) { return folder() / name; }

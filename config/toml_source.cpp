@@ -11,6 +11,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "config/place.hpp"
+
 namespace trivela::config {
 namespace {
 
@@ -33,8 +35,13 @@ TomlSource parse_text(std::string_view text, std::string name) {
 
 TomlSource parse_file(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& why) {
-    const std::string looked =
-        path.is_relative() ? fmt::format(" (in {})", std::filesystem::current_path().string()) : "";
+    std::string looked;
+    if (path.is_relative()) {
+      looked = fmt::format(" (in {})", std::filesystem::current_path().string());
+    } else if (const std::string trouble = trouble_with_folder();
+               !trouble.empty() && path.string().starts_with(folder().string())) {
+      looked = fmt::format(" ({})", trouble);
+    }
     throw Error{fmt::format("{}: cannot read the configuration: {}{}", path.string(), why, looked)};
   };
   std::error_code unknown;

@@ -82,7 +82,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   secure_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
   CLI::App app{fmt::format("Trivela's {} node", name)};
-  app.set_version_flag("--version", fmt::format("trivela-{} {}", name, config::software_version()));
+  app.set_version_flag("--version", config::version_lines(fmt::format("trivela-{}", name)));
   std::string config_file;
   std::vector<std::string> overrides;
   int realtime_priority = 0;

@@ -70,8 +70,9 @@ bool ProcessWatch::ended(std::chrono::milliseconds timeout) const {
 
 Program::Program(const std::string& name, std::vector<std::string> arguments, const fs::path& folder,
                  const std::function<void()>& prepare)
-    : output_(fresh(folder, name, "out")), errors_(fresh(folder, name, "err")) {
-  const std::string program = std::string{TRIVELA_BINARY_DIR} + "/" + name;
+    : output_(fresh(folder, fs::path{name}.filename(), "out")),
+      errors_(fresh(folder, fs::path{name}.filename(), "err")) {
+  const std::string program = fs::path{TRIVELA_BINARY_DIR} / name;
   const pid_t id = fork();
   if (id < 0) throw std::runtime_error{fmt::format("cannot start {}: {}", name, std::strerror(errno))};
   if (id == 0) become(program, arguments, folder, output_, errors_, prepare);

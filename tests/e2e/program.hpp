@@ -39,7 +39,8 @@ class ProcessWatch {
 /// says is kept in files there.
 class Program {
  public:
-  /// Starts `name` of the build folder. `prepare`: what its process does last before, e.g. sets limits.
+  /// Starts `name` of the build folder, or the program of that absolute path. `prepare`: what its process does last
+  /// before, e.g. sets limits.
   Program(
       const std::string& name, std::vector<std::string> arguments, const std::filesystem::path& folder,
       const std::function<void()>& prepare = [] {});

@@ -213,12 +213,13 @@ TEST(Usage, OneKickIsDrawnAndTwoAreNot) {
   EXPECT_FALSE(exists(folder / "k.svg"));
 }
 
-TEST(Usage, EveryProgramSaysItsVersion) {
+TEST(Usage, EveryProgramSaysItsVersionAndItsConfiguration) {
   const Folder folder;
   for (const std::string name : {"trivela", "trivela-recorder", "trivela-kicker_driver", "trivela-simulator"}) {
     Program program{name, {"--version"}, folder.path()};
     EXPECT_EQ(program.wait(), 0) << program.errors();
-    EXPECT_THAT(program.output(), testing::MatchesRegex(name + " [0-9]+\\.[0-9]+\\.[0-9]+.*\n"));
+    EXPECT_THAT(program.output(), testing::MatchesRegex(name + " [0-9]+\\.[0-9]+\\.[0-9]+[^\n]*\n"
+                                                               "configuration: " TRIVELA_SOURCE_DIR "/config\n"));
   }
 }
 

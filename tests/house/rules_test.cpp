@@ -52,6 +52,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 
 /// Who may include whom, besides itself. An entry that is longer than a room's name is for the files below it as well.
 const std::map<std::string, std::vector<std::string>> kMayInclude{
+    {"include", {"kicking/"}},
     {"kicking", {}},
     {"idl", {}},
     {"sim", {"kicking/"}},
@@ -72,8 +73,9 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
 };
 
-const std::vector<std::string> kRooms{"kicking", "idl",   "sim",         "config",     "evaluator", "bus", "hal",
-                                      "robot",   "nodes", "calibration", "experiment", "pages",     "cli"};
+const std::vector<std::string> kRooms{"kicking",    "idl",   "sim",   "config",  "evaluator",
+                                      "bus",        "hal",   "robot", "nodes",   "calibration",
+                                      "experiment", "pages", "cli",   "include", "examples"};
 
 std::string room_of(const std::string& path) {
   const auto slash = path.find('/');
@@ -89,7 +91,7 @@ bool may_include(const std::string& file, const std::string& target) {
 TEST(House, RoomsIncludeOnlyWhatTheArchitectureAllows) {
   std::vector<std::string> broken;
   for (const std::string& room : kRooms) {
-    if (room == "cli") continue;
+    if (room == "cli" || room == "examples") continue;
     for (const Include& include : includes(room)) {
       const std::string other = room_of(include.target);
       const bool ours = std::ranges::find(kRooms, other) != kRooms.end();

@@ -1,0 +1,28 @@
+// Plays the same possessions with two policies, in this process, and prints their kicks as the paper's Table 2 does.
+#include <fmt/core.h>
+
+#include "evaluator/report/simulated.hpp"
+#include "evaluator/report/table2.hpp"
+#include "evaluator/report/text_table.hpp"
+#include "experiment/play/play_match.hpp"
+
+namespace evaluator = trivela::evaluator;
+namespace experiment = trivela::experiment;
+namespace kicking = trivela::kicking;
+
+int main() {
+  std::vector<std::vector<std::string>> table{{"policy", "inside", "outside", "efficiency", "Wilson 95 %"}};
+  for (const auto policy : {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving}) {
+    experiment::Arm arm;
+    arm.policy = policy;
+    const auto match = experiment::play_match(trivela::sim::Scenario{}, arm, /*seed=*/1, /*match_id=*/0, 200);
+
+    evaluator::PolicyRow row;
+    for (const auto& possession : match.possessions)
+      if (possession.kick) ++row.kicks_by_outcome[kicking::name(possession.kick->observed)];
+    table.push_back({kicking::name(policy), fmt::format("{}", row.inside()), fmt::format("{}", row.outside()),
+                     evaluator::percent(evaluator::stats::efficiency(row.counts()).value_or(0.0)),
+                     evaluator::percent(row.efficiency_ci())});
+  }
+  fmt::print("{}{}", evaluator::kSimulated, evaluator::text_table(table));
+}
