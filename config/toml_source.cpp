@@ -1,6 +1,6 @@
 #include "config/toml_source.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -55,6 +55,10 @@ const toml::node* TableReader::find(std::string_view key) {
 void TableReader::fail(std::string_view key, const toml::node& node, const std::string& what) const {
   throw Error{fmt::format("{}:{}: {}{}{} = {}: {}", file_, node.source().begin.line, section_,
                           section_.empty() ? "" : ".", key, text_of(node), what)};
+}
+
+std::string TableReader::joined(const std::vector<std::string_view>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void TableReader::check_range(std::string_view key, double value, Range range) {

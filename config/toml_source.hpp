@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "config/devices.hpp"
 #include "config/error.hpp"
 #include "config/field_types.hpp"
 
@@ -84,6 +86,21 @@ class TableReader {
     value.clear();
     for (const toml::node& element : array_of(key, *node)) value.push_back(enum_of<E>(key, element));
   }
+  /// Throws Error for a text that no backend of the device stands for, and reads the settings of the one that does.
+  template <class... Backends>
+  void operator()(std::string_view key, std::variant<Backends...>& device) {
+    if (const toml::node* node = find(key)) {
+      const auto text = node->value<std::string>();
+      const auto choose = [&](const auto& backend) { return backend.has_value() && (device = *backend, true); };
+      const bool known = text && (*text == text_of(device) || (choose(backend_of<Backends>(*text)) || ...));
+      if (!known) fail(key, *node, "expected one of: " + joined({Backends::kName...}));
+    }
+    std::visit(
+        [this](auto& backend) {
+          if constexpr (Section<std::remove_reference_t<decltype(backend)>>) (*this)(backend.kName, backend);
+        },
+        device);
+  }
   template <Section S>
   void operator()(std::string_view key, S& section) {
     const toml::node* node = find(key);
@@ -105,18 +122,19 @@ class TableReader {
   void check_range(std::string_view key, double value, Range range);
   const toml::table& table_of(std::string_view key, const toml::node& node) const;
   const toml::array& array_of(std::string_view key, const toml::node& node) const;
+  static std::string joined(const std::vector<std::string_view>& names);
   [[noreturn]] void fail(std::string_view key, const toml::node& node, const std::string& what) const;
 
   template <NamedEnum E>
   E enum_of(std::string_view key, const toml::node& node) const {
-    std::string known;
     if (const auto text = node.value<std::string>()) {
       for (const auto& [name, value] : Names<E>::entries) {
         if (name == *text) return value;
       }
     }
-    for (const auto& entry : Names<E>::entries) known += (known.empty() ? "" : ", ") + std::string{entry.first};
-    fail(key, node, "expected one of: " + known);
+    std::vector<std::string_view> known;
+    for (const auto& entry : Names<E>::entries) known.push_back(entry.first);
+    fail(key, node, "expected one of: " + joined(known));
   }
 
   const std::string& file_;

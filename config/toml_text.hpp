@@ -5,8 +5,10 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "config/devices.hpp"
 #include "config/field_types.hpp"
 
 namespace trivela::config {
@@ -46,6 +48,15 @@ class TableText {
   template <NamedEnum E>
   void operator()(std::string_view key, const std::vector<E>& value) {
     list(key, value, [](E element) { return name(element); });
+  }
+  template <class... Backends>
+  void operator()(std::string_view key, std::variant<Backends...>& device) {
+    line(key, quoted(text_of(device)));
+    std::visit(
+        [this](auto& backend) {
+          if constexpr (Section<std::remove_reference_t<decltype(backend)>>) (*this)(backend.kName, backend);
+        },
+        device);
   }
   template <Section S>
   void operator()(std::string_view key, S& section) {

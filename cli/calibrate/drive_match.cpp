@@ -53,7 +53,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   settings.simulator.max_possessions = plan.possessions;
   settings.simulator.half_minutes = plan.possessions * kLongest_s / 60.0;
   settings.scan_recorder.enabled = plan.scenario.laser.enabled;
-  settings.scan_recorder.device = "sim";
+  settings.scan_recorder.device = config::SimDevice{};
   if (plan.scenario.laser.enabled) settings.scan_recorder.file = record.scans;
   config::override_settings(settings, plan.settings);
   settings = lockstep_settings(std::move(settings), -1, record.log);
