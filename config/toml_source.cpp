@@ -62,7 +62,7 @@ std::string TableReader::joined(const std::vector<std::string_view>& names) {
 }
 
 void TableReader::check_range(std::string_view key, double value, Range range) {
-  if (value < range.min || value > range.max) {
+  if (!range.contains(value)) {
     fail(key, *table_.get(key), fmt::format("must lie in [{}, {}]", range.min, range.max));
   }
 }

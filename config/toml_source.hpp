@@ -35,32 +35,24 @@ class TableReader {
       : file_(file), table_(table), section_(std::move(section)) {}
 
   void operator()(std::string_view key, double& value) { read_number(key, value, nullptr); }
-  void operator()(std::string_view key, double& value, auto range) {
-    const Range limits{range.min, range.max};
-    read_number(key, value, &limits);
-  }
-  void operator()(std::string_view key, AngleField auto angle) { read_angle(key, angle.rad, nullptr); }
-  void operator()(std::string_view key, AngleField auto angle, auto range) {
-    const Range limits{range.min, range.max};
-    read_angle(key, angle.rad, &limits);
-  }
+  void operator()(std::string_view key, double& value, Range range) { read_number(key, value, &range); }
+  void operator()(std::string_view key, Degrees angle) { read_angle(key, angle.rad, nullptr); }
+  void operator()(std::string_view key, Degrees angle, Range range) { read_angle(key, angle.rad, &range); }
   void operator()(std::string_view key, bool& value);
   void operator()(std::string_view key, std::string& value);
   void operator()(std::string_view key, std::vector<double>& value);
-  void operator()(std::string_view key, std::vector<double>& value, auto range) {
+  void operator()(std::string_view key, std::vector<double>& value, Range range) {
     (*this)(key, value);
-    for (const double number : value) check_range(key, number, Range{range.min, range.max});
+    for (const double number : value) check_range(key, number, range);
   }
   template <std::integral I>
-  requires(!std::same_as<I, bool>) void operator()(std::string_view key, I& value, auto... range) {
-    double limits[] = {0.0, 4294967295.0};
-    ((limits[0] = range.min, limits[1] = range.max), ...);
+  requires(!std::same_as<I, bool>) void operator()(std::string_view key, I& value, Range range = {0.0, 4294967295.0}) {
     std::int64_t number = static_cast<std::int64_t>(value);
-    if (read_integer(key, number, Range{limits[0], limits[1]})) value = static_cast<I>(number);
+    if (read_integer(key, number, range)) value = static_cast<I>(number);
   }
   void operator()(std::string_view key, std::vector<std::string>& value);
   template <std::integral I>
-  void operator()(std::string_view key, std::vector<I>& value, auto range) {
+  void operator()(std::string_view key, std::vector<I>& value, Range range) {
     std::vector<double> numbers(value.begin(), value.end());
     (*this)(key, numbers, range);
     value.clear();

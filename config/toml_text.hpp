@@ -20,7 +20,7 @@ class TableText {
   explicit TableText(std::string section) : section_(std::move(section)) {}
 
   void operator()(std::string_view key, const double& value, auto...) { line(key, number(value)); }
-  void operator()(std::string_view key, AngleField auto angle, auto...) {
+  void operator()(std::string_view key, Degrees angle, auto...) {
     line(key, decimal(fmt::format("{:.12g}", angle.rad * 180.0 / std::numbers::pi)));  // rad holds no more digits
   }
   void operator()(std::string_view key, const bool& value) { line(key, value ? "true" : "false"); }
