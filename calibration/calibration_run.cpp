@@ -67,10 +67,10 @@ std::string figure(double value, double se, const char* unit) {
 
 }  // namespace
 
-CalibrationRun::CalibrationRun(DriveSource& source, const sim::Scenario& scenario, const config::Settings& settings,
+CalibrationRun::CalibrationRun(DriveSource& source, double standing_to_goal_m, const config::Settings& settings,
                                const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update)
     : source_(source),
-      scenario_(scenario),
+      standing_to_goal_m_(standing_to_goal_m),
       settings_(settings),
       effort_(effort),
       seed_(seed),
@@ -79,14 +79,13 @@ CalibrationRun::CalibrationRun(DriveSource& source, const sim::Scenario& scenari
 DriveRecord CalibrationRun::play(DriveSummary& summary, const std::string& name, kicking::PolicyName policy,
                                  double ball_to_goal_m, bool laser, std::size_t possessions,
                                  std::vector<std::string> settings) {
-  DrivePlan plan{.name = name,
-                 .policy = policy,
-                 .scenario = scenario_,
-                 .possessions = static_cast<std::uint32_t>(possessions),
-                 .seed = seed_++,
-                 .settings = std::move(settings)};
-  plan.scenario.laser.enabled = laser;
-  plan.scenario.possession.goal_distance_min_m = plan.scenario.possession.goal_distance_max_m = ball_to_goal_m;
+  const DrivePlan plan{.name = name,
+                       .policy = policy,
+                       .ball_to_goal_m = ball_to_goal_m,
+                       .laser = laser,
+                       .possessions = static_cast<std::uint32_t>(possessions),
+                       .seed = seed_++,
+                       .settings = std::move(settings)};
   DriveRecord record = source_.play(plan, update_);
   summary.logs.push_back(record.log);
   summary.played_s += record.played_s;
@@ -122,11 +121,10 @@ DriveSummary CalibrationRun::standing() {
   std::vector<LobOfKick> lobs;
   std::vector<std::string> scans;
   std::map<std::string, std::size_t> refused;
-  const double ball_to_goal_m = scenario_.possession.goal_distance_max_m;
   NextRound round{settings_.policy.test_drive.powers, effort_.kicks};
   for (std::uint32_t i = 1; i <= effort_.rounds && !round.powers.empty(); ++i) {
     standing_.push_back(play(summary, i == 1 ? "1_standing" : fmt::format("1_standing_{}", i),
-                             kicking::PolicyName::kStandingDrive, ball_to_goal_m, true,
+                             kicking::PolicyName::kStandingDrive, standing_to_goal_m_, true,
                              round.powers.size() * round.kicks,
                              {"policy.test_drive.powers = " + list_of(round.powers),
                               fmt::format("policy.test_drive.kicks_per_level = {}", round.kicks)}));

@@ -42,7 +42,8 @@ struct DriveSummary {
 class CalibrationRun {
  public:
   /// `source` outlives it. The drives have the seeds `seed`, `seed` + 1, ...
-  CalibrationRun(DriveSource& source, const sim::Scenario& scenario, const config::Settings& settings,
+  /// `standing_to_goal_m`: where the ball lies for the standing kicks.
+  CalibrationRun(DriveSource& source, double standing_to_goal_m, const config::Settings& settings,
                  const CalibrationEffort& effort, std::int64_t seed, RobotUpdate update);
 
   DriveSummary standing();   ///< laser: table and exit angle (paper, section 2)
@@ -66,7 +67,7 @@ class CalibrationRun {
                    bool laser, std::size_t possessions, std::vector<std::string> settings);
 
   DriveSource& source_;
-  sim::Scenario scenario_;
+  double standing_to_goal_m_;
   config::Settings settings_;
   CalibrationEffort effort_;
   std::int64_t seed_;

@@ -41,7 +41,8 @@ int replay(const ReplayFlags& flags) {
   const ConfigFile robot_file{section(config, "robot", flags.log)};
   config::Settings settings = config::load_settings(settings_file.path());
   settings.run.robot = robot_file.path().string();
-  settings.hal.wheels = settings.hal.kicker = "replay";
+  settings.hal.wheels = config::ReplayDevice{};
+  settings.hal.kicker = config::ReplayDevice{};
   settings.hal.replay_log = flags.log;
   config::override_settings(settings, flags.overrides);
   return record_lockstep("replay_player", settings, flags.domain, flags.out);

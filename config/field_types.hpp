@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+
+#include "kicking/range.hpp"
 
 /// How a configuration struct lists its fields, once, for reading, writing and testing:
 ///
@@ -17,22 +18,7 @@
 /// sub-table.
 namespace trivela::config {
 
-/// An angle in rad that the file shows in degrees.
-struct Degrees {
-  double& rad;
-};
-
-/// The values that a number may take, both ends included, in the unit of its key.
-struct Range {
-  double min;
-  double max;
-};
-
-/// Any wrapper with a `rad` reference is an angle shown in degrees.
-template <class T>
-concept AngleField = requires(T t) {
-  { t.rad } -> std::convertible_to<double>;
-};
+using kicking::Degrees, kicking::Range;
 
 /// The enums that a file may name, specialised beside the struct that uses one:
 /// `static constexpr std::array<std::pair<std::string_view, E>, N> entries`.

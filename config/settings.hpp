@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "config/devices.hpp"
 #include "config/field_types.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/policy/policy.hpp"
@@ -29,13 +30,6 @@ struct Domain {
   std::uint32_t domain_id = 42;
   std::string tag = "trivela";  ///< discovery tag: participants of different tags never hear each other
   std::string dds_file;         ///< a Cyclone configuration for a team network; empty: loopback
-};
-
-/// The devices.
-struct Hal {
-  std::string wheels = "sim";  ///< sim or replay
-  std::string kicker = "sim";
-  std::string replay_log;  ///< the match log that `replay` reads
 };
 
 /// Noise of the wheel odometry.
@@ -112,7 +106,7 @@ struct Recorder {
 /// Records a range finder's scans beside the match log.
 struct ScanRecorder {
   bool enabled = false;                                       ///< in lockstep the simulator waits for it
-  std::string device = "sim";                                 ///< sim, tcp://HOST:PORT or a serial device
+  RangeFinderDevice device;                                   ///< sim, tcp://HOST:PORT or a serial device
   std::string file = "scans.db";                              ///< must not exist
   double mount_x_m = 4.0;                                     ///< scanner from the ball at the launch, along the kick
   double mount_z_m = 0.05;                                    ///< over the floor

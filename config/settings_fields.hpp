@@ -2,6 +2,7 @@
 
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
+#include "kicking/kick_id.hpp"
 
 /// The keys of default.toml, each named once.
 namespace trivela::config {
@@ -141,7 +142,7 @@ template <class V>
 void fields(V& v, Run& r) {
   v("robot_id", r.robot_id, Range{1, 255});
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
-  v("session", r.session, Range{0, 32767});
+  v("session", r.session, Range{0, kicking::KickId::kLastSession});
   v("lockstep", r.lockstep);
   v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);

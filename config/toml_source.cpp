@@ -1,6 +1,6 @@
 #include "config/toml_source.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -64,8 +64,12 @@ void TableReader::fail(std::string_view key, const toml::node& node, const std::
                           section_.empty() ? "" : ".", key, text_of(node), what)};
 }
 
+std::string TableReader::joined(const std::vector<std::string_view>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void TableReader::check_range(std::string_view key, double value, Range range) {
-  if (value < range.min || value > range.max) {
+  if (!range.contains(value)) {
     fail(key, *table_.get(key), fmt::format("must lie in [{}, {}]", range.min, range.max));
   }
 }

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "config/devices.hpp"
 #include "config/error.hpp"
 #include "config/field_types.hpp"
 
@@ -33,32 +35,24 @@ class TableReader {
       : file_(file), table_(table), section_(std::move(section)) {}
 
   void operator()(std::string_view key, double& value) { read_number(key, value, nullptr); }
-  void operator()(std::string_view key, double& value, auto range) {
-    const Range limits{range.min, range.max};
-    read_number(key, value, &limits);
-  }
-  void operator()(std::string_view key, AngleField auto angle) { read_angle(key, angle.rad, nullptr); }
-  void operator()(std::string_view key, AngleField auto angle, auto range) {
-    const Range limits{range.min, range.max};
-    read_angle(key, angle.rad, &limits);
-  }
+  void operator()(std::string_view key, double& value, Range range) { read_number(key, value, &range); }
+  void operator()(std::string_view key, Degrees angle) { read_angle(key, angle.rad, nullptr); }
+  void operator()(std::string_view key, Degrees angle, Range range) { read_angle(key, angle.rad, &range); }
   void operator()(std::string_view key, bool& value);
   void operator()(std::string_view key, std::string& value);
   void operator()(std::string_view key, std::vector<double>& value);
-  void operator()(std::string_view key, std::vector<double>& value, auto range) {
+  void operator()(std::string_view key, std::vector<double>& value, Range range) {
     (*this)(key, value);
-    for (const double number : value) check_range(key, number, Range{range.min, range.max});
+    for (const double number : value) check_range(key, number, range);
   }
   template <std::integral I>
-  requires(!std::same_as<I, bool>) void operator()(std::string_view key, I& value, auto... range) {
-    double limits[] = {0.0, 4294967295.0};
-    ((limits[0] = range.min, limits[1] = range.max), ...);
+  requires(!std::same_as<I, bool>) void operator()(std::string_view key, I& value, Range range = {0.0, 4294967295.0}) {
     std::int64_t number = static_cast<std::int64_t>(value);
-    if (read_integer(key, number, Range{limits[0], limits[1]})) value = static_cast<I>(number);
+    if (read_integer(key, number, range)) value = static_cast<I>(number);
   }
   void operator()(std::string_view key, std::vector<std::string>& value);
   template <std::integral I>
-  void operator()(std::string_view key, std::vector<I>& value, auto range) {
+  void operator()(std::string_view key, std::vector<I>& value, Range range) {
     std::vector<double> numbers(value.begin(), value.end());
     (*this)(key, numbers, range);
     value.clear();
@@ -84,6 +78,21 @@ class TableReader {
     value.clear();
     for (const toml::node& element : array_of(key, *node)) value.push_back(enum_of<E>(key, element));
   }
+  /// Throws Error for a text that no backend of the device stands for, and reads the settings of the one that does.
+  template <class... Backends>
+  void operator()(std::string_view key, std::variant<Backends...>& device) {
+    if (const toml::node* node = find(key)) {
+      const auto text = node->value<std::string>();
+      const auto choose = [&](const auto& backend) { return backend.has_value() && (device = *backend, true); };
+      const bool known = text && (*text == text_of(device) || (choose(backend_of<Backends>(*text)) || ...));
+      if (!known) fail(key, *node, "expected one of: " + joined({Backends::kName...}));
+    }
+    std::visit(
+        [this](auto& backend) {
+          if constexpr (Section<std::remove_reference_t<decltype(backend)>>) (*this)(backend.kName, backend);
+        },
+        device);
+  }
   template <Section S>
   void operator()(std::string_view key, S& section) {
     const toml::node* node = find(key);
@@ -105,18 +114,19 @@ class TableReader {
   void check_range(std::string_view key, double value, Range range);
   const toml::table& table_of(std::string_view key, const toml::node& node) const;
   const toml::array& array_of(std::string_view key, const toml::node& node) const;
+  static std::string joined(const std::vector<std::string_view>& names);
   [[noreturn]] void fail(std::string_view key, const toml::node& node, const std::string& what) const;
 
   template <NamedEnum E>
   E enum_of(std::string_view key, const toml::node& node) const {
-    std::string known;
     if (const auto text = node.value<std::string>()) {
       for (const auto& [name, value] : Names<E>::entries) {
         if (name == *text) return value;
       }
     }
-    for (const auto& entry : Names<E>::entries) known += (known.empty() ? "" : ", ") + std::string{entry.first};
-    fail(key, node, "expected one of: " + known);
+    std::vector<std::string_view> known;
+    for (const auto& entry : Names<E>::entries) known.push_back(entry.first);
+    fail(key, node, "expected one of: " + joined(known));
   }
 
   const std::string& file_;

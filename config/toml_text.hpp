@@ -5,8 +5,10 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "config/devices.hpp"
 #include "config/field_types.hpp"
 
 namespace trivela::config {
@@ -18,7 +20,7 @@ class TableText {
   explicit TableText(std::string section) : section_(std::move(section)) {}
 
   void operator()(std::string_view key, const double& value, auto...) { line(key, number(value)); }
-  void operator()(std::string_view key, AngleField auto angle, auto...) {
+  void operator()(std::string_view key, Degrees angle, auto...) {
     line(key, decimal(fmt::format("{:.12g}", angle.rad * 180.0 / std::numbers::pi)));  // rad holds no more digits
   }
   void operator()(std::string_view key, const bool& value) { line(key, value ? "true" : "false"); }
@@ -46,6 +48,15 @@ class TableText {
   template <NamedEnum E>
   void operator()(std::string_view key, const std::vector<E>& value) {
     list(key, value, [](E element) { return name(element); });
+  }
+  template <class... Backends>
+  void operator()(std::string_view key, std::variant<Backends...>& device) {
+    line(key, quoted(text_of(device)));
+    std::visit(
+        [this](auto& backend) {
+          if constexpr (Section<std::remove_reference_t<decltype(backend)>>) (*this)(backend.kName, backend);
+        },
+        device);
   }
   template <Section S>
   void operator()(std::string_view key, S& section) {

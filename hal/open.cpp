@@ -6,29 +6,60 @@
 
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
+#include "hal/scip/line.hpp"
+#include "hal/scip/scip_range_finder.hpp"
 #include "hal/sim/sim_kicker.hpp"
+#include "hal/sim/sim_range_finder.hpp"
 #include "hal/sim/sim_wheels.hpp"
 
 namespace trivela::hal {
 namespace {
 
-[[noreturn]] void unknown(const char* what, std::string_view backend) {
-  throw std::runtime_error{
-      fmt::format("hal.{}: no backend is called '{}'; there are 'sim' and 'replay'", what, backend)};
+using config::Hal, config::ReplayDevice, config::ScipDevice, config::SimDevice;
+
+std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
+}
+std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
+  return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<SimKicker>(owner.participant, owner.robot_id);
+}
+std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Owner& owner) {
+  return std::make_unique<ReplayKicker>(ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+std::unique_ptr<RangeFinder> range_finder(const SimDevice&, const Owner& owner) {
+  return std::make_unique<SimRangeFinder>(owner.participant, owner.robot_id);
+}
+std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner&) {
+  return open_range_finder(scanner);
 }
 
 }  // namespace
 
-std::unique_ptr<Wheels> open_wheels(std::string_view backend, const Device& device) {
-  if (backend == "sim") return std::make_unique<SimWheels>(device.participant, device.robot_id);
-  if (backend == "replay") return std::make_unique<ReplayWheels>(ReplayLog::open(device.replay_log, device.robot_id));
-  unknown("wheels", backend);
+std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner) {
+  return std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
 }
 
-std::unique_ptr<Kicker> open_kicker(std::string_view backend, const Device& device) {
-  if (backend == "sim") return std::make_unique<SimKicker>(device.participant, device.robot_id);
-  if (backend == "replay") return std::make_unique<ReplayKicker>(ReplayLog::open(device.replay_log, device.robot_id));
-  unknown("kicker", backend);
+std::unique_ptr<Kicker> open_kicker(const Hal& devices, const Owner& owner) {
+  return std::visit([&](const auto& backend) { return kicker(backend, devices, owner); }, devices.kicker);
+}
+
+std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& device, const Owner& owner) {
+  return std::visit([&](const auto& backend) { return range_finder(backend, owner); }, device);
+}
+
+std::unique_ptr<RangeFinder> open_range_finder(const ScipDevice& scanner) {
+  return std::make_unique<scip::ScipRangeFinder>(scanner.port != 0 ? scip::tcp_line(scanner.host, scanner.port)
+                                                                   : scip::serial_line(scanner.address));
+}
+
+std::unique_ptr<RangeFinder> open_range_finder(const std::string& address) {
+  if (const auto scanner = config::backend_of<ScipDevice>(address)) return open_range_finder(*scanner);
+  throw std::runtime_error{fmt::format("range finder '{}': an address is {}", address, ScipDevice::kName)};
 }
 
 }  // namespace trivela::hal

@@ -1,29 +1,37 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <string_view>
+#include <string>
 
+#include "config/devices.hpp"
 #include "hal/kicker.hpp"
+#include "hal/range_finder.hpp"
 #include "hal/wheels.hpp"
 
 namespace trivela::bus {
 class Participant;
 }
 
+/// The one door to every device. Throws std::runtime_error with what the backend says.
 namespace trivela::hal {
 
-/// What the backends need to find their device.
-struct Device {
-  const bus::Participant& participant;  ///< sim
+/// Whose device it is.
+struct Owner {
+  const bus::Participant& participant;
   std::uint8_t robot_id = 1;
-  std::filesystem::path replay_log;  ///< replay
 };
 
-/// Opens the backend called "sim" or "replay". Throws std::runtime_error naming an unknown one, or what the backend
-/// says.
-std::unique_ptr<Wheels> open_wheels(std::string_view backend, const Device& device);
-std::unique_ptr<Kicker> open_kicker(std::string_view backend, const Device& device);
+std::unique_ptr<Wheels> open_wheels(const config::Hal& devices, const Owner& owner);
+std::unique_ptr<Kicker> open_kicker(const config::Hal& devices, const Owner& owner);
+std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& device, const Owner& owner);
+
+/// A SCIP scanner needs no bus. Nothing is opened yet: connected() and read() do, and a scanner that is not there shows
+/// in status().
+std::unique_ptr<RangeFinder> open_range_finder(const config::ScipDevice& scanner);
+
+/// The same by its address: "tcp://HOST:PORT" or the path of a serial device, as "/dev/ttyACM0". Throws
+/// std::runtime_error naming an address of another form.
+std::unique_ptr<RangeFinder> open_range_finder(const std::string& address);
 
 }  // namespace trivela::hal

@@ -15,7 +15,7 @@ struct RangeCheck {
   std::optional<Problem> problem;
 
   void operator()(std::string_view key, double& value, Range range) {
-    if (problem || (value >= range.min && value <= range.max)) return;
+    if (problem || range.contains(value)) return;
     problem = Problem{section + std::string{key}, fmt::format("{} is outside {}..{}", value, range.min, range.max)};
   }
   void operator()(std::string_view key, Degrees angle, Range range) {

@@ -3,22 +3,14 @@
 #include <optional>
 #include <string>
 
+#include "kicking/range.hpp"
 #include "sim/scenario.hpp"
 
 /// The keys of a scenario, each named once with the range it may take: `fields(visitor, struct)` calls
 /// `visitor(key, member, range)` for each member and `visitor(key, struct)` for each nested struct. Found by ADL.
 namespace trivela::sim {
 
-/// An angle in rad that a file shows in degrees.
-struct Degrees {
-  double& rad;
-};
-
-/// The values that a member may take, both ends included, in the unit of its key.
-struct Range {
-  double min;
-  double max;
-};
+using kicking::Degrees, kicking::Range;
 
 inline constexpr Range kRatio{0.0, 1.0};
 

@@ -12,6 +12,7 @@
 #include "cli/write_file.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/log/scan_log.hpp"
+#include "experiment/evening/drive_in_process.hpp"
 
 namespace trivela::cli {
 
@@ -23,8 +24,10 @@ constexpr double kLongest_s = 8.0;  // that a possession of a drive takes, stop 
 
 }  // namespace
 
-DriveMatches::DriveMatches(config::Settings settings, fs::path folder, fs::path robot_file, SignalInbox& signals)
-    : settings_(std::move(settings)),
+DriveMatches::DriveMatches(sim::Scenario world, config::Settings settings, fs::path folder, fs::path robot_file,
+                           SignalInbox& signals)
+    : world_(std::move(world)),
+      settings_(std::move(settings)),
       folder_(std::move(folder)),
       robot_file_(std::move(robot_file)),
       signals_(signals) {}
@@ -32,7 +35,7 @@ DriveMatches::DriveMatches(config::Settings settings, fs::path folder, fs::path 
 calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
   calibration::DriveRecord record;
   record.log = (folder_ / (plan.name + ".db")).string();
-  if (plan.scenario.laser.enabled) record.scans = (folder_ / (plan.name + ".scans.db")).string();
+  if (plan.laser) record.scans = (folder_ / (plan.name + ".scans.db")).string();
   const fs::path scenario_file = folder_ / (plan.name + ".scenario.toml");
   for (const fs::path& file : {fs::path{record.scans}, scenario_file}) {
     if (!file.empty() && fs::exists(file)) {
@@ -41,7 +44,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
     }
   }
   const LogClaim claim{record.log};
-  write_file(scenario_file, config::to_toml_text(plan.scenario));
+  write_file(scenario_file, config::to_toml_text(experiment::scenario_of(plan, world_)));
   robot.write(robot_file_);
 
   config::Settings settings = settings_;
@@ -52,9 +55,9 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   settings.simulator.halves = 1;
   settings.simulator.max_possessions = plan.possessions;
   settings.simulator.half_minutes = plan.possessions * kLongest_s / 60.0;
-  settings.scan_recorder.enabled = plan.scenario.laser.enabled;
-  settings.scan_recorder.device = "sim";
-  if (plan.scenario.laser.enabled) settings.scan_recorder.file = record.scans;
+  settings.scan_recorder.enabled = plan.laser;
+  settings.scan_recorder.device = config::SimDevice{};
+  if (plan.laser) settings.scan_recorder.file = record.scans;
   config::override_settings(settings, plan.settings);
   settings = lockstep_settings(std::move(settings), -1, record.log);
 

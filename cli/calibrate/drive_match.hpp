@@ -5,6 +5,7 @@
 #include "calibration/drive_source.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "config/settings.hpp"
+#include "sim/scenario.hpp"
 
 namespace trivela::cli {
 
@@ -12,16 +13,17 @@ namespace trivela::cli {
 /// NAME.scans.db, and the scenario that it played, NAME.scenario.toml, in one folder.
 class DriveMatches : public calibration::DriveSource {
  public:
-  /// `settings`: what all matches have in common. `robot_file`: where the nodes find the robot, written before each
-  /// match. `signals` outlives it.
-  DriveMatches(config::Settings settings, std::filesystem::path folder, std::filesystem::path robot_file,
-               SignalInbox& signals);
+  /// `world` and `settings`: what all matches have in common. `robot_file`: where the nodes find the robot, written
+  /// before each match. `signals` outlives it.
+  DriveMatches(sim::Scenario world, config::Settings settings, std::filesystem::path folder,
+               std::filesystem::path robot_file, SignalInbox& signals);
 
   /// Throws UsageError where a file of that name exists, std::runtime_error where somebody asked to stop, a node died
   /// or rows were lost, with what is left on the disk.
   calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
 
  private:
+  sim::Scenario world_;
   config::Settings settings_;
   std::filesystem::path folder_;
   std::filesystem::path robot_file_;

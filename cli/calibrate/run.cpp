@@ -156,24 +156,22 @@ int calibrate(const RunFlags& flags) {
   part += ".part";  // until every figure is in it
 
   SignalInbox signals;
-  std::unique_ptr<calibration::DriveSource> source;
-  if (flags.in_process) {
-    source = std::make_unique<experiment::DrivesInProcess>(settings);
-  } else {
-    source = std::make_unique<DriveMatches>(settings, fs::absolute(flags.out_dir), part, signals);
-  }
+  const auto source_in = [&](const sim::Scenario& world) -> std::unique_ptr<calibration::DriveSource> {
+    if (flags.in_process) return std::make_unique<experiment::DrivesInProcess>(world, settings);
+    return std::make_unique<DriveMatches>(world, settings, fs::absolute(flags.out_dir), part, signals);
+  };
   Report report{flags.json};
   const experiment::Evening evening = experiment::play_evening(
-      options, *source, [&](const calibration::DriveSummary& summary) { report.add(summary); });
+      options, *source_in(scenario), [&](const calibration::DriveSummary& summary) { report.add(summary); });
   evening.robot.write(file);
 
   const calibration::DrivePlan check{.name = "6_check",
                                      .policy = kicking::PolicyName::kStopped,
-                                     .scenario = noise_free,
+                                     .laser = noise_free.laser.enabled,
                                      .possessions = flags.effort.check_kicks,
                                      .seed = flags.seed,
                                      .settings = {}};
-  const calibration::DriveRecord played = source->play(check, evening.robot);
+  const calibration::DriveRecord played = source_in(noise_free)->play(check, evening.robot);
   std::error_code none;
   fs::remove(part, none);
   const experiment::AimErrors observed = experiment::observed_errors(played.kicks, settings);

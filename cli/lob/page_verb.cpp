@@ -11,7 +11,7 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
-#include "hal/open_range_finder.hpp"
+#include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/page_server.hpp"
 #include "pages/lob/replay_scene.hpp"

@@ -9,7 +9,7 @@
 #include "cli/say.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "hal/open_range_finder.hpp"
+#include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::cli {

@@ -89,15 +89,23 @@ void add_kicks(const MatchRecord& match, calibration::DriveRecord& record) {
 
 }  // namespace
 
+sim::Scenario scenario_of(const calibration::DrivePlan& plan, sim::Scenario world) {
+  world.laser.enabled = plan.laser;
+  if (plan.ball_to_goal_m)
+    world.possession.goal_distance_min_m = world.possession.goal_distance_max_m = *plan.ball_to_goal_m;
+  return world;
+}
+
 calibration::DriveRecord DrivesInProcess::play(const calibration::DrivePlan& plan,
                                                const calibration::RobotUpdate& robot) {
   const auto begun = std::chrono::steady_clock::now();
   calibration::DriveRecord record;
   record.log = plan.name + ".db";
+  const sim::Scenario scenario = scenario_of(plan, world_);
   std::optional<Laser> laser;
-  if (plan.scenario.laser.enabled) {
+  if (plan.laser) {
     record.scans = plan.name + ".scans.db";
-    laser.emplace(plan.scenario, settings_.scan_recorder);
+    laser.emplace(scenario, settings_.scan_recorder);
   }
   Arm arm;
   arm.name = plan.name;
@@ -114,7 +122,7 @@ calibration::DriveRecord DrivesInProcess::play(const calibration::DrivePlan& pla
   };
   MatchRecord match;
   const PlayedMatch played =
-      play_seeded_match(plan.scenario, arm, static_cast<std::uint64_t>(plan.seed), plan.possessions, options, &match);
+      play_seeded_match(scenario, arm, static_cast<std::uint64_t>(plan.seed), plan.possessions, options, &match);
   add_kicks(match, record);
   std::vector<evaluator::log::TestedSetPoint> set_points;
   for (const msg::KickReceipt& receipt : match.receipts) {

@@ -58,9 +58,12 @@ Evening play_evening(const EveningOptions& options, calibration::DriveSource& so
   robot.calibration.reset();
   const std::string command = fmt::format("trivela calibrate run --in simulation --robot {} --seed {}{}", options.name,
                                           options.seed, options.flags);
-  calibration::CalibrationRun run{
-      source,         options.scenario,   evening_settings(options.settings, options.scenario),
-      options.effort, options.seed * 100, calibration::RobotUpdate{robot, command, options.date}};
+  calibration::CalibrationRun run{source,
+                                  options.scenario.possession.goal_distance_max_m,
+                                  evening_settings(options.settings, options.scenario),
+                                  options.effort,
+                                  options.seed * 100,
+                                  calibration::RobotUpdate{robot, command, options.date}};
   std::vector<calibration::DriveSummary> drives;
   for (const auto step : {&calibration::CalibrationRun::standing, &calibration::CalibrationRun::delay,
                           &calibration::CalibrationRun::direction, &calibration::CalibrationRun::lateral,
@@ -72,7 +75,7 @@ Evening play_evening(const EveningOptions& options, calibration::DriveSource& so
 }
 
 Evening play_evening(const EveningOptions& options) {
-  DrivesInProcess source{evening_settings(options.settings, options.scenario)};
+  DrivesInProcess source{options.scenario, evening_settings(options.settings, options.scenario)};
   return play_evening(options, source);
 }
 

@@ -7,6 +7,7 @@
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/robot_chain.hpp"
 #include "hal/sim/sim_messages.hpp"
+#include "kicking/kick_id.hpp"
 #include "kicking/random/draws.hpp"
 #include "robot/observer/observer.hpp"
 #include "sim/match.hpp"
@@ -34,9 +35,7 @@ bool somebody_knows_the_truth(const config::KickDecision& settings, const sim::S
   return false;
 }
 
-std::uint8_t robot_of(std::int64_t kick_id) { return static_cast<std::uint8_t>(kick_id >> 40 & 0xff); }
-
-std::uint32_t session_of(std::uint64_t seed) { return static_cast<std::uint32_t>(seed % 0x7fff) + 1; }
+std::uint8_t robot_of(std::int64_t kick_id) { return kicking::KickId::of(kick_id).robot_id; }
 
 /// One match on its way.
 class Game {
@@ -50,7 +49,7 @@ class Game {
         seed_(seed),
         match_id_(match_id),
         settings_(settings_of_match(arm, seed_of_match, options)),
-        session_(session_of(seed_of_match)),
+        session_(kicking::kick_session(seed_of_match)),
         oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
         match_(scenario, seed_of_match, 1, kEndless_min, possessions),
         observer_(settings_.shot_observer, settings_.goal) {

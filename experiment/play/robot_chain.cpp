@@ -25,8 +25,9 @@ RobotChain::RobotChain(const config::Settings& settings, const config::Robot& ro
       robot_id_(robot_id),
       odometry_(robot.base, settings.odometry),
       model_(settings.world_state, robot.model.ball_offset_m),
-      decider_(settings, robot_.model, robot_id, session, std::move(oracle)),
-      desk_(settings, robot.model, robot_id) {}
+      decider_({settings.kick_decision, settings.policy, settings.goal}, robot_.model, robot_id, session,
+               std::move(oracle)),
+      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id) {}
 
 const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
                                               const std::optional<msg::KickOutcome>& outcome,

@@ -167,7 +167,7 @@ struct Finder {
     using Field = std::remove_cvref_t<T>;
     if constexpr (std::same_as<Field, double>) {
       if (is(name)) number(field, field, 1.0, limits...);
-    } else if constexpr (config::AngleField<Field>) {
+    } else if constexpr (std::same_as<Field, kicking::Degrees>) {
       if (is(name)) number(field.rad, kicking::degrees(field.rad), kicking::radians(1.0), limits...);
     } else if constexpr (config::NamedEnum<Field>) {
       if (is(name)) law(field);
@@ -183,7 +183,7 @@ struct Finder {
   void number(double& field, double shown, double unit, const auto&... limits) {
     found = shown;
     if (!set) return;
-    ((*set < limits.min || *set > limits.max ? refuse() : void()), ...);
+    ((limits.contains(*set) ? void() : refuse()), ...);
     field = *set * unit;
   }
 

@@ -6,12 +6,15 @@
 #include <stdexcept>
 
 #include "kicking/geometry/time.hpp"
+#include "kicking/kick_id.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
 namespace {
 
-std::uint32_t session_of_kicks(std::uint32_t given) { return given != 0 ? given : std::random_device{}() % 0x7fff + 1; }
+std::uint32_t session_of_kicks(std::uint32_t given) {
+  return given != 0 ? given : kicking::kick_session(std::random_device{}());
+}
 
 void refuse_oracle(const robot::PolicyAssignment& assignment) {
   for (const kicking::PolicyName policy : assignment.candidates()) {
@@ -27,8 +30,8 @@ void refuse_oracle(const robot::PolicyAssignment& assignment) {
 
 KickDecisionNode::KickDecisionNode(NodeContext& context)
     : context_(context),
-      decider_(context.settings, context.robot.model, context.robot_id(),
-               session_of_kicks(context.settings.run.session)),
+      decider_({context.settings.kick_decision, context.settings.policy, context.settings.goal}, context.robot.model,
+               context.robot_id(), session_of_kicks(context.settings.run.session)),
       node_(context.participant, "kick_decision", context.robot_id()),
       decision_out_(node_.writer<msg::KickDecision>()),
       order_out_(node_.writer<msg::KickOrder>()),

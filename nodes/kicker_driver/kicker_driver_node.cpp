@@ -8,7 +8,7 @@ namespace trivela::nodes {
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
-      desk_(context.settings, context.robot.model, context.robot_id()),
+      desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id()),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),

@@ -5,8 +5,7 @@
 int main(int argc, char** argv) {
   return trivela::nodes::node_main(argc, argv, "kicker_driver", [](trivela::nodes::NodeContext& context) {
     trivela::nodes::KickerDriverNode node{
-        context, trivela::hal::open_kicker(context.settings.hal.kicker,
-                                           {context.participant, context.robot_id(), context.settings.hal.replay_log})};
+        context, trivela::hal::open_kicker(context.settings.hal, {context.participant, context.robot_id()})};
     trivela::nodes::run(context, node.node());
   });
 }

@@ -5,8 +5,7 @@
 int main(int argc, char** argv) {
   return trivela::nodes::node_main(argc, argv, "odometry", [](trivela::nodes::NodeContext& context) {
     trivela::nodes::OdometryNode node{
-        context, trivela::hal::open_wheels(context.settings.hal.wheels,
-                                           {context.participant, context.robot_id(), context.settings.hal.replay_log})};
+        context, trivela::hal::open_wheels(context.settings.hal, {context.participant, context.robot_id()})};
     trivela::nodes::run(context, node.node());
   });
 }

@@ -56,7 +56,7 @@ std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& 
 
 Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
-  const bool simulated = settings.run.lockstep || settings.hal.wheels == "sim";
+  const bool simulated = settings.run.lockstep || std::holds_alternative<config::SimDevice>(settings.hal.wheels);
   Session session;
   session.simulated = simulated;
   session.simulated_clock = settings.run.lockstep;
@@ -64,7 +64,7 @@ Session session_of(const NodeContext& context) {
   if (!session.simulated_clock) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = realtime_ns - session.started_t_ns;
   std::optional<sim::Scenario> scenario;
-  if (settings.hal.wheels == "replay") {
+  if (std::holds_alternative<config::ReplayDevice>(settings.hal.wheels)) {
     describe_replay(settings.hal, session);
   } else if (simulated) {
     describe_simulation(settings, session);

@@ -22,12 +22,12 @@ evaluator::log::ScanSession session_of_scans(const NodeContext& context, const h
                    .front_elevation_rad = settings.mount_front_elevation_rad,
                    .mirrored = settings.mount_mirrored};
   session.started_t_ns = t_ns;
-  session.simulated = settings.device == "sim";
+  session.simulated = std::holds_alternative<config::SimDevice>(settings.device);
   const std::int64_t clock_ns = session.simulated ? t_ns : now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = now_ns(std::chrono::system_clock::now()) - clock_ns;
   session.source = session.simulated
                        ? "synthetic: scenario " + std::filesystem::path{context.settings.run.scenario}.stem().string()
-                       : settings.device;
+                       : config::text_of(settings.device);
   session.software_version = config::software_version();
   return session;
 }

@@ -39,7 +39,7 @@ sim::Scenario scenario_of(const config::Settings& settings) {
                     settings.run.scenario, scenario.team.robots)};
   }
   const config::ScanRecorder& scans = settings.scan_recorder;
-  if (scans.enabled && scans.device == "sim" && !scenario.laser.enabled) {
+  if (scans.enabled && std::holds_alternative<config::SimDevice>(scans.device) && !scenario.laser.enabled) {
     throw std::runtime_error{
         fmt::format("scan_recorder is enabled, but {} has no laser: laser.enabled = false", settings.run.scenario)};
   }

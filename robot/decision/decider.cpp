@@ -17,12 +17,6 @@ static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts
                   static_cast<std::ptrdiff_t>(std::tuple_size_v<decltype(CycleDecision::shadows)>),
               "the wire carries no more shadows");
 
-/// session (15 bit) | robot (8 bit) | counter (40 bit).
-std::int64_t kick_id_base(std::uint32_t session, std::uint8_t robot_id) {
-  return static_cast<std::int64_t>((static_cast<std::uint64_t>(session & 0x7fff) << 48) |
-                                   (static_cast<std::uint64_t>(robot_id) << 40));
-}
-
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
   if (!std::isfinite(fire_after_s) || std::abs(fire_after_s) > 1.0) return t_ns - 1;
@@ -31,17 +25,17 @@ std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
 
 }  // namespace
 
-Decider::Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
+Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
                  std::uint32_t session, std::optional<OracleSeat> oracle)
     : model_(model),
       policy_(settings.policy),
       goal_(settings.goal),
       oracle_(std::move(oracle)),
-      assignment_(settings.kick_decision, robot_id),
-      validity_ns_(static_cast<std::int64_t>(settings.kick_decision.order_validity_s * 1e9)),
+      assignment_(settings.assignment, robot_id),
+      validity_ns_(static_cast<std::int64_t>(settings.assignment.order_validity_s * 1e9)),
       robot_id_(robot_id),
-      kick_id_base_(kick_id_base(session, robot_id)) {
-  if (!settings.kick_decision.shadows) return;
+      kick_id_{session, robot_id} {
+  if (!settings.assignment.shadows) return;
   for (const PolicyName policy : kicking::kEveryPolicy) {
     if (!facts(policy).rides_along || (facts(policy).needs_model() && !settings.policy.learned)) continue;
     shadows_.push_back(policy);
@@ -119,7 +113,8 @@ msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judge
   out.robot_id = robot_id_;
   out.seq = ++orders_;
   out.t_ns = world.t_ns;
-  out.kick_id = kick_id_base_ + orders_;
+  kick_id_.counter = orders_;
+  out.kick_id = kick_id_.number();
   out.power = *judgement.power;
   out.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
   out.valid_until_t_ns = world.t_ns + validity_ns_;

@@ -7,6 +7,7 @@
 
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
+#include "kicking/kick_id.hpp"
 #include "kicking/policy/policy.hpp"
 #include "robot/decision/assignment.hpp"
 
@@ -24,6 +25,13 @@ struct OracleSeat {
   kicking::RobotModel model;
 };
 
+/// What a robot decides by.
+struct DeciderSettings {
+  const config::KickDecision& assignment;
+  const kicking::PolicyConfig& policy;
+  const kicking::Goal& goal;
+};
+
 /// What was decided in a cycle.
 struct CycleDecision {
   Judged in_charge;
@@ -39,7 +47,7 @@ class Decider {
  public:
   /// `session`: upper 15 bits of every kick_id. `model` must outlive the decider. Throws config::Error where the
   /// policies in charge make no sense together. `oracle`: only where that policy may be in charge.
-  Decider(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
+  Decider(const DeciderSettings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
           std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
 
   /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
@@ -74,7 +82,7 @@ class Decider {
   std::vector<kicking::PolicyName> shadows_;
   std::int64_t validity_ns_;
   std::uint8_t robot_id_;
-  std::int64_t kick_id_base_;
+  kicking::KickId kick_id_;  // the last order's
   CycleDecision decision_;
   std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
   std::optional<std::uint8_t> half_;

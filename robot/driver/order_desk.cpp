@@ -8,12 +8,13 @@ namespace {
 static_assert(int{msg::FAULT_NONE} == int(hal::KickerFault::kNone));
 static_assert(int{msg::FAULT_LINK} == int(hal::KickerFault::kLink));
 
-PowerRange power_range(const kicking::EffectiveTable& table) { return {table.front().power, table.back().power}; }
+kicking::Range power_range(const kicking::EffectiveTable& table) { return {table.front().power, table.back().power}; }
 
 }  // namespace
 
-OrderDesk::OrderDesk(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id)
-    : gate_(settings.kicker_driver, power_range(model.table), settings.run.cycle_s),
+OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
+                     std::uint8_t robot_id)
+    : gate_(settings, power_range(model.table), cycle_s),
       delay_ns_(static_cast<std::int64_t>(model.delay_s * 1e9)),
       robot_id_(robot_id) {}
 

@@ -16,7 +16,8 @@ namespace trivela::robot {
 /// of, and never falls behind it: the steady clock, in lockstep the sample's.
 class OrderDesk {
  public:
-  OrderDesk(const config::Settings& settings, const kicking::RobotModel& model, std::uint8_t robot_id);
+  OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
+            std::uint8_t robot_id);
 
   msg::KickerStatus status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns);
 

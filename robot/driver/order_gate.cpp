@@ -58,8 +58,7 @@ msg::Refusal OrderGate::disarmed() const {
 
 msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns) const {
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
-  if (!std::isfinite(order.power) || order.power < power_.min || order.power > power_.max || order.kick_id <= 0)
-    return msg::REFUSAL_OUT_OF_RANGE;
+  if (!power_.contains(order.power) || order.kick_id <= 0) return msg::REFUSAL_OUT_OF_RANGE;
   if (!armed()) return disarmed();
   if (seconds_from(order.t_ns, now_t_ns) > settings_.max_order_age_s) return msg::REFUSAL_STALE;
   const double ahead_s = seconds_from(now_t_ns, std::max(order.t_ns, order.fire_t_ns));

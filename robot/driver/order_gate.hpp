@@ -7,15 +7,10 @@
 #include "config/settings.hpp"
 #include "hal/kicker.hpp"
 #include "idl/messages.hpp"
+#include "kicking/range.hpp"
 #include "robot/watch/referee_watch.hpp"
 
 namespace trivela::robot {
-
-/// The set-points that a robot's kicker accepts.
-struct PowerRange {
-  double min;
-  double max;
-};
 
 /// The last word on every order: the one place that decides whether the coil may be energised.
 ///
@@ -32,7 +27,8 @@ class OrderGate {
   /// How many accepted orders, and how many refused ones, are known again.
   static constexpr std::size_t kRemembered = 64;
 
-  OrderGate(const config::KickerDriver& settings, PowerRange power, double cycle_s)
+  /// `power`: the set-points that the robot's kicker accepts.
+  OrderGate(const config::KickerDriver& settings, kicking::Range power, double cycle_s)
       : settings_(settings), power_(power), cycle_s_(cycle_s) {}
 
   void device(const hal::KickerSample& sample) { sample_ = sample; }
@@ -77,7 +73,7 @@ class OrderGate {
   msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
 
   config::KickerDriver settings_;
-  PowerRange power_;
+  kicking::Range power_;
   double cycle_s_;
   std::optional<hal::KickerSample> sample_;
   RefereeSays referee_ = RefereeSays::kNothing;

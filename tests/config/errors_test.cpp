@@ -71,6 +71,14 @@ TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
   EXPECT_THAT(settings_error("[policy]\nsettle_s = inf\n"), HasSubstr("finite"));
 }
 
+TEST(BadSettings, UnknownDeviceIsNamedWithItsLineAndTheKnownOnes) {
+  EXPECT_THAT(settings_error("[hal]\nwheels = \"can\"\n"),
+              HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: sim, replay"));
+  EXPECT_THAT(settings_error("[hal]\nkicker = \"\"\n"), HasSubstr("expected one of: sim, replay"));
+  EXPECT_THAT(settings_error("[scan_recorder]\ndevice = \"tcp://host\"\n"),
+              AllOf(HasSubstr("bad.toml:2: scan_recorder.device = 'tcp://host'"), HasSubstr("sim, tcp://HOST:PORT")));
+}
+
 TEST(BadSettings, UnknownChoiceNamesTheKnownOnes) {
   EXPECT_THAT(settings_error("[policy]\nheight_law = \"guess\"\n"),
               AllOf(HasSubstr("guess"), HasSubstr("paper, extended_range, exact")));

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hal/open_range_finder.hpp"
+#include "hal/open.hpp"
 #include "hal/scip/emulator.hpp"
 #include "hal/scip/line.hpp"
 #include "hal/scip/scip_range_finder.hpp"

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "hal/open.hpp"
+#include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
+#include "hal/sim/sim_kicker.hpp"
+#include "hal/sim/sim_range_finder.hpp"
 #include "hal/sim/sim_wheels.hpp"
 #include "tests/hal/recorded_log.hpp"
 #include "tests/hal/sim_world.hpp"
@@ -201,19 +204,18 @@ TEST(ReplayWheels, ReadLogsOfManyPages) {
   EXPECT_EQ(last, kRows * 1'000'000);
 }
 
-TEST(OpenWheels, KnowsItsBackendsByName) {
+TEST(Open, GivesTheBackendThatTheSettingsName) {
   RecordedLog log;
   log.close();
-  const Device device{bus::Participant{bus::fresh_domain()}, kRobot, log.file()};
-  EXPECT_NE(dynamic_cast<SimWheels*>(open_wheels("sim", device).get()), nullptr);
-  EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels("replay", device).get()), nullptr);
-  try {
-    open_wheels("can", device);
-    FAIL() << "was accepted";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "hal.wheels: no backend is called 'can'; there are 'sim' and 'replay'");
-  }
-  EXPECT_THROW(open_kicker("", device), std::runtime_error);
+  const bus::Participant participant{bus::fresh_domain()};
+  const Owner owner{participant, kRobot};
+  const config::Hal simulated;
+  const config::Hal replayed{config::ReplayDevice{}, config::ReplayDevice{}, log.file()};
+  EXPECT_NE(dynamic_cast<SimWheels*>(open_wheels(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<SimKicker*>(open_kicker(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"config", {"kicking/", "sim/"}},
     {"evaluator", {"kicking/"}},
     {"bus", {"idl/"}},
-    {"hal", {"kicking/", "sim/", "idl/"}},
+    {"hal", {"kicking/", "sim/", "idl/", "config/devices.hpp"}},
     {"hal/sim", {"bus/"}},
     {"hal/replay", {"evaluator/log/"}},
     {"robot", {"kicking/", "config/", "idl/", "hal/kicker.hpp", "hal/wheels.hpp", "hal/range_finder.hpp"}},

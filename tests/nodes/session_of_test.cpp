@@ -59,7 +59,8 @@ TEST_F(SessionOf, NamesTheSessionThatItReplays) {
     for (const std::int64_t seq : {1, 2, 3})
       writer.push(referee, {std::int64_t{1}, seq, seq * 10'000'000'000, std::int64_t{1}, std::int64_t{1}, seq});
   }
-  context.settings.hal.wheels = context.settings.hal.kicker = "replay";
+  context.settings.hal.wheels = config::ReplayDevice{};
+  context.settings.hal.kicker = config::ReplayDevice{};
   context.settings.hal.replay_log = log.string();
   const auto session = session_of(context);
   EXPECT_EQ(session.replays_uuid, evaluator::log::Reader{log}.sessions()[0].uuid);

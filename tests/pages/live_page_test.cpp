@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "hal/open_range_finder.hpp"
+#include "hal/open.hpp"
 #include "hal/scip/emulator.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/page_server.hpp"

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+/// Devices as a file names them: a variant of backends, which hal/open.hpp opens. A backend with settings of its own
+/// lists them in `fields`; they stand in the table that has its name, beside the device's key.
+namespace trivela::config {
+
+/// The simulator's, over the bus.
+struct SimDevice {
+  static constexpr std::string_view kName = "sim";
+};
+
+/// What hal.replay_log recorded; nothing that is ordered is done.
+struct ReplayDevice {
+  static constexpr std::string_view kName = "replay";
+};
+
+/// A scanner that speaks SCIP, by its address.
+struct ScipDevice {
+  static constexpr std::string_view kName = "tcp://HOST:PORT (Hokuyo's port is 10940) or the path of a device";
+  std::string address;     ///< as it was written; without a port the path of a serial device
+  std::string host;        ///< an IPv6 address without its brackets
+  std::uint16_t port = 0;  ///< 0: none
+};
+
+using WheelsDevice = std::variant<SimDevice, ReplayDevice>;
+using KickerDevice = std::variant<SimDevice, ReplayDevice>;
+using RangeFinderDevice = std::variant<SimDevice, ScipDevice>;
+
+/// The devices of a robot that plays.
+struct Hal {
+  WheelsDevice wheels;
+  KickerDevice kicker;
+  std::string replay_log;  ///< the match log that `replay` reads
+};
+
+/// The backend that `text` stands for, if it does.
+template <class Backend>
+std::optional<Backend> backend_of(std::string_view text) {
+  return text == Backend::kName ? std::optional{Backend{}} : std::nullopt;
+}
+template <>
+std::optional<ScipDevice> backend_of(std::string_view text);
+
+/// How a file writes it.
+template <class Backend>
+std::string text_of(const Backend&) {
+  return std::string{Backend::kName};
+}
+inline std::string text_of(const ScipDevice& scanner) { return scanner.address; }
+template <class... Backends>
+std::string text_of(const std::variant<Backends...>& device) {
+  return std::visit([](const auto& backend) { return text_of(backend); }, device);
+}
+
+}  // namespace trivela::config

@@ -1,0 +1,85 @@
+// A device is a variant of config structs: what a file may say of one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/settings_fields.hpp"
+#include "config/toml_source.hpp"
+#include "config/toml_text.hpp"
+
+namespace trivela::config {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A backend with settings of its own.
+struct CanKicker {
+  static constexpr std::string_view kName = "can";
+  double bit_rate_hz = 1e6;
+};
+
+struct Devices {
+  std::variant<SimDevice, CanKicker> kicker;
+};
+
+template <class V>
+void fields(V& v, CanKicker& c) {
+  v("bit_rate_hz", c.bit_rate_hz, Range{1e3, 1e7});
+}
+
+template <class V>
+void fields(V& v, Devices& d) {
+  v("kicker", d.kicker);
+}
+
+Devices read(const std::string& text, Devices devices = {}) {
+  read_into(parse_text(text, "devices.toml"), devices);
+  return devices;
+}
+
+std::string problem(const std::string& text) try {
+  read(text);
+  return "accepted";
+} catch (const Error& error) {
+  return error.what();
+}
+
+TEST(Device, IsTheBackendThatItsKeyNames) {
+  EXPECT_TRUE(std::holds_alternative<SimDevice>(read("").kicker));
+  EXPECT_TRUE(std::holds_alternative<CanKicker>(read("kicker = \"can\"").kicker));
+}
+
+TEST(Device, ReadsItsSettingsFromTheTableOfItsName) {
+  const Devices devices = read("kicker = \"can\"\n[can]\nbit_rate_hz = 5e5\n");
+  EXPECT_EQ(std::get<CanKicker>(devices.kicker).bit_rate_hz, 5e5);
+  EXPECT_THAT(problem("kicker = \"can\"\n[can]\nbit_rate_hz = 1.0\n"),
+              HasSubstr("devices.toml:3: can.bit_rate_hz = 1"));
+  EXPECT_THAT(problem("kicker = \"sim\"\n[can]\nbit_rate_hz = 5e5\n"), HasSubstr("unknown key"));
+}
+
+TEST(Device, KeepsItsSettingsWhereALaterFileNamesItAgain) {
+  const Devices once = read("kicker = \"can\"\n[can]\nbit_rate_hz = 5e5\n");
+  EXPECT_EQ(std::get<CanKicker>(read("kicker = \"can\"", once).kicker).bit_rate_hz, 5e5);
+}
+
+TEST(Device, IsWrittenAsItIsRead) {
+  const std::string text = to_toml(read("kicker = \"can\"\n[can]\nbit_rate_hz = 5e5\n"));
+  EXPECT_EQ(text, "kicker = \"can\"\n\n[can]\nbit_rate_hz = 500000.0\n");
+  EXPECT_EQ(to_toml(read(text)), text);
+}
+
+TEST(Scanner, IsSimulatedOrAnAddress) {
+  const auto of = [](const std::string& device) {
+    Settings settings;
+    override_settings(settings, {"scan_recorder.device = \"" + device + "\""});
+    return settings.scan_recorder.device;
+  };
+  EXPECT_TRUE(std::holds_alternative<SimDevice>(of("sim")));
+  const auto tcp = std::get<ScipDevice>(of("tcp://[fe80::1]:10940"));
+  EXPECT_EQ(tcp.host, "fe80::1");
+  EXPECT_EQ(tcp.port, 10940);
+  EXPECT_EQ(std::get<ScipDevice>(of("/dev/ttyACM0")).port, 0);
+  EXPECT_EQ(text_of(of("/dev/ttyACM0")), "/dev/ttyACM0");
+}
+
+}  // namespace
+}  // namespace trivela::config
