@@ -16,8 +16,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A reader without a period is made anew no more often than this.
+// A reader without a period is made anew no more often than this, and its predecessor heard for as long.
 constexpr std::chrono::seconds kPause{2};
+
+// Of a topic without a period silence means nothing, or that its reader alone was broken.
+constexpr std::chrono::seconds kEventSilence{10};
 
 struct DeleteListener {
   void operator()(dds_listener_t* listener) const noexcept { dds_delete_listener(listener); }
@@ -66,11 +69,12 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
       topic_(topic),
       profile_(profile),
       options_(options),
+      periodic_(period > period.zero()),
       callbacks_(new Callbacks{listener, context, options.on_liveliness}) {
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
   if (const Hearing* hearing = participant_.hearing()) {
-    if (period > period.zero()) silence_.emplace(period, Clock::now());
+    silence_.emplace(periodic_ ? RenewalPatience::of_period(period) : kEventSilence, Clock::now());
     renewals_seen_ = hearing->renewals();
   }
   reader_ = open();
@@ -102,13 +106,14 @@ bool AnyReader::time_to_renew() {
   Hearing* const hearing = participant_.hearing();
   if (hearing == nullptr) return false;
   const auto now = Clock::now();
-  if (!silence_) {
-    if (now - renewed_ < kPause || renewals_seen_ == hearing->renewals()) return false;
+  const bool due = silence_->due(now);
+  if (!periodic_) {
+    if (now - renewed_ < kPause || (!due && renewals_seen_ == hearing->renewals())) return false;
     renewed_ = now;
     renewals_seen_ = hearing->renewals();
     return true;
   }
-  if (!silence_->due(now)) return false;
+  if (!due) return false;
   const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
   const std::uint32_t alive = liveliness().alive;
   hearing->renewed(
@@ -124,13 +129,12 @@ bool AnyReader::time_to_renew() {
 
 AnyReader::Retired AnyReader::replace(Entity anew) {
   Retired old{std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
-  if (!silence_) std::swap(predecessor_, old.reader);
+  if (!periodic_) std::swap(predecessor_, old.reader);
   return old;
 }
 
 Entity AnyReader::outlived() {
-  constexpr std::chrono::seconds kOverlap{1};
-  return Clock::now() - renewed_ < kOverlap ? Entity() : std::exchange(predecessor_, Entity());
+  return Clock::now() - renewed_ < kPause ? Entity() : std::exchange(predecessor_, Entity());
 }
 
 // A reader made anew is given the last sample of each writer that still stands, and events by its predecessor as well.
@@ -144,7 +148,7 @@ bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
     return true;
   }
   const bool twice =
-      silence_ ? source_t_ns == known->source_t_ns : predecessor_.handle() != 0 && source_t_ns <= known->source_t_ns;
+      periodic_ ? source_t_ns == known->source_t_ns : predecessor_.handle() != 0 && source_t_ns <= known->source_t_ns;
   if (!twice) known->source_t_ns = source_t_ns;
   return !twice;
 }
@@ -180,7 +184,7 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
       const std::uint64_t writer = writer_of(reader, info.publication_handle);
       if (participant_.hearing() != nullptr) {
         if (!is_new(writer, info.source_timestamp)) continue;
-        if (silence_) silence_->heard(Clock::now());
+        silence_->heard(Clock::now());
       }
       sink(context, loan.sample(i), {info.source_timestamp, writer});
       ++taken;

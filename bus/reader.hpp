@@ -66,7 +66,7 @@ class AnyReader {
 
   /// A second reader like this one, and this one with that in its place; for bus/ alone. A listener may not call them:
   /// Cyclone waits for it. Of a topic without a period, whose samples nobody says again, the predecessor is heard for
-  /// another second, until every writer knows its successor; outlived() gives it away then.
+  /// two more seconds, until every writer knows its successor; outlived() gives it away then.
   Entity open() const;
   [[nodiscard]] Retired replace(Entity anew);
   [[nodiscard]] Entity outlived();
@@ -102,6 +102,7 @@ class AnyReader {
   std::string topic_;
   Profile profile_;
   ReaderOptions options_;
+  bool periodic_;
   std::unique_ptr<Callbacks, DeleteCallbacks> callbacks_;
   Entity topic_entity_;
   Entity reader_;
@@ -117,10 +118,10 @@ class AnyReader {
   std::vector<Newest> newest_;
   std::vector<std::pair<std::uint64_t, std::uint64_t>>
       writers_;                             // by Cyclone's handle, which changes when one comes back
-  std::optional<RenewalPatience> silence_;  // in real time, of a topic with a period
+  std::optional<RenewalPatience> silence_;  // in real time
   std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};
-  Entity predecessor_;  // of a topic without a period, for a second after it was made anew
+  Entity predecessor_;  // of a topic without a period, for a while after it was made anew
 };
 
 /// The period of T's topic; zero: it has none.

@@ -6,19 +6,20 @@
 
 namespace trivela::bus {
 
-/// Knows when a reader that hears nothing is to be made anew: after half a second of silence (or 25 periods, if that is
-/// longer), then each time after twice as long, up to ten seconds. Time in which nobody looked is nobody's silence:
-/// this process stood still, and what was sent to it meanwhile is on its way.
+/// Knows when a reader that hears nothing is to be made anew: after its first patience, then each time after twice as
+/// long, up to ten seconds. Time in which nobody looked is nobody's silence: this process stood still, and what was
+/// sent to it meanwhile is on its way.
 class RenewalPatience {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  RenewalPatience(std::chrono::nanoseconds period, Time now)
-      : first_(std::max<std::chrono::nanoseconds>(kFirst, 25 * period)),
-        patience_(first_),
-        since_(now),
-        heard_(now),
-        looked_(now) {}
+  /// The first patience with a topic of this period: 25 periods, at least half a second.
+  static std::chrono::nanoseconds of_period(std::chrono::nanoseconds period) {
+    return std::max<std::chrono::nanoseconds>(std::chrono::milliseconds{500}, 25 * period);
+  }
+
+  RenewalPatience(std::chrono::nanoseconds first, Time now)
+      : first_(first), patience_(first_), since_(now), heard_(now), looked_(now) {}
 
   void heard(Time now) {
     heard_ = since_ = now;
@@ -42,7 +43,6 @@ class RenewalPatience {
   std::chrono::nanoseconds silent_for(Time now) const { return now - heard_; }
 
  private:
-  static constexpr std::chrono::milliseconds kFirst{500};
   static constexpr std::chrono::milliseconds kLongestLook{300};
   static constexpr std::chrono::seconds kLongest{10};
   std::chrono::nanoseconds first_;

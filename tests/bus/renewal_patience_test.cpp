@@ -24,7 +24,7 @@ Due due_between(RenewalPatience& watch, RenewalPatience::Time from, RenewalPatie
 }
 
 TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSeconds) {
-  RenewalPatience watch{milliseconds{20}, kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
   auto now = kStart;
   for (const auto wait : {milliseconds{500}, milliseconds{1000}, milliseconds{2000}, milliseconds{4000},
                           milliseconds{8000}, milliseconds{10'000}, milliseconds{10'000}}) {
@@ -38,7 +38,7 @@ TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTe
 }
 
 TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
-  RenewalPatience watch{milliseconds{20}, kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
   EXPECT_TRUE(due_between(watch, kStart, kStart + milliseconds{500}).then);
   watch.heard(kStart + milliseconds{600});
   EXPECT_EQ(watch.attempts(), 0u);
@@ -48,14 +48,14 @@ TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
 }
 
 TEST(RenewalPatience, WaitsForManyPeriodsOfASlowTopic) {
-  RenewalPatience watch{milliseconds{200}, kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{200}), kStart};
   const Due due = due_between(watch, kStart, kStart + milliseconds{5000});
   EXPECT_FALSE(due.before);
   EXPECT_TRUE(due.then);
 }
 
 TEST(RenewalPatience, TimeInWhichThisProcessStoodStillIsNobodysSilence) {
-  RenewalPatience watch{milliseconds{20}, kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
   EXPECT_FALSE(watch.due(kStart + milliseconds{100}));
   EXPECT_FALSE(watch.due(kStart + seconds{3})) << "nobody looked for 2.9 s";
   EXPECT_TRUE(watch.due(kStart + milliseconds{3100})) << "and still nothing comes";

@@ -6,10 +6,15 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <sstream>
 
 #include "bus/library_log.hpp"
+#include "bus/renewal.hpp"
+#include "bus/writer.hpp"
+#include "idl/messages.hpp"
+#include "tests/bus/test_domain.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/faults/own_network.hpp"
 #include "tests/faults/packet_mutator.hpp"
@@ -102,6 +107,49 @@ TEST(MutatedPackets, EveryStreamIsHeardAgainSoonAfterwards) {
   for (const auto& [node, bytes] : stack.said())
     EXPECT_LT(bytes, kMostSaid + static_cast<std::size_t>(flood_s) * 4096) << node << " says too much";
   for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, 0) << node;
+}
+
+/// Says an event every 20 ms for so long, or until `enough`, asked after each; how many were heard.
+int heard_events(bus::Writer<msg::KickReceipt>& writer, bus::Reader<msg::KickReceipt>& reader,
+                 std::chrono::seconds longest, const std::function<bool(int in_a_row_unheard)>& enough) {
+  const auto until = std::chrono::steady_clock::now() + longest;
+  int heard = 0, unheard = 0;
+  static std::uint64_t seq = 0;
+  do {
+    msg::KickReceipt event{};
+    event.robot_id = 1;
+    event.seq = ++seq;
+    writer.write(event);
+    bus::renew_if_silent(reader);
+    reader.wait(std::chrono::milliseconds{20});
+    const auto now = static_cast<int>(reader.take([](const msg::KickReceipt&) {}));
+    heard += now;
+    unheard = now > 0 ? 0 : unheard + 1;
+  } while (!enough(unheard) && std::chrono::steady_clock::now() < until);
+  return heard;
+}
+
+TEST(MutatedPackets, ATopicWithoutAPeriodIsHeardAgainThoughNoOtherFellSilent) {
+  const bus::LibraryLog unheard{[](bool, std::string_view) {}};
+  const bus::WirePair pair = bus::fresh_wire_pair();
+  const bus::Participant near{pair.a}, far{pair.b, bus::RealTime{}};
+  bus::Writer<msg::KickReceipt> writer{near};
+  bus::Reader<msg::KickReceipt> reader{far};
+  ASSERT_TRUE(writer.wait_for_readers(1, std::chrono::seconds{30}));
+  constexpr int kDeaf = 50;  // a second without a word, at least
+  Mutations heartbeats;
+  heartbeats.only = {submessage_named("HEARTBEAT")};
+  heartbeats.discovery = false;
+  heartbeats.from = 12;  // firstSN and lastSN
+  heartbeats.to = 28;
+  heartbeats.most_flips = 8;
+  bool deaf = false;
+  {
+    const PacketMutator mutator{heartbeats};
+    heard_events(writer, reader, std::chrono::seconds{60}, [&](int in_a_row) { return deaf = in_a_row >= kDeaf; });
+  }
+  ASSERT_TRUE(deaf) << "no packet broke it";
+  EXPECT_GT(heard_events(writer, reader, std::chrono::seconds{30}, [](int in_a_row) { return in_a_row == 0; }), 0);
 }
 
 }  // namespace
