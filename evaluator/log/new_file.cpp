@@ -18,12 +18,13 @@ constexpr int kFoldTimeout_ms = 200;  // a reader that stays must not hold up th
 
 // True: the file was made here. An empty file is as good as none; anything else may be a recorded match.
 bool claim(const fs::path& path, const LogKind& kind) {
+  const bool left_over = fs::exists(beside(path, "-wal"));  // looked for first: who is at work fills the file before
   const bool there = fs::exists(path);
   if (there && !(fs::is_regular_file(path) && fs::file_size(path) == 0)) {
     throw FileTaken(
         fmt::format("{} exists already; {} is never overwritten, choose another file", path.string(), kind.content));
   }
-  if (fs::exists(beside(path, "-wal"))) {
+  if (left_over) {
     throw std::runtime_error(
         fmt::format("{}-wal is left over from another recording; choose another file for the log", path.string()));
   }
