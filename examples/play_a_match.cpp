@@ -15,11 +15,11 @@ int main() {
   for (const auto policy : {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving}) {
     experiment::Arm arm;
     arm.policy = policy;
-    const auto match = experiment::play_match(trivela::sim::Scenario{}, arm, /*seed=*/1, /*match_id=*/0, 200);
+    experiment::MatchRecord match;
+    experiment::play_match(trivela::sim::Scenario{}, arm, /*seed=*/1, /*match_id=*/0, 200, {}, &match);
 
     evaluator::PolicyRow row;
-    for (const auto& possession : match.possessions)
-      if (possession.kick) ++row.kicks_by_outcome[kicking::name(possession.kick->observed)];
+    for (const auto& outcome : match.outcomes) ++row.kicks_by_outcome[trivela::msg::label(outcome.outcome)];
     table.push_back({kicking::name(policy), fmt::format("{}", row.inside()), fmt::format("{}", row.outside()),
                      evaluator::percent(evaluator::stats::efficiency(row.counts()).value_or(0.0)),
                      evaluator::percent(row.efficiency_ci())});

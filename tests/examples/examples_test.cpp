@@ -78,7 +78,7 @@ TEST(Examples, TheMatchHasTheTableOfSimulate) {
   const std::string log = (folder / "ab.db").string();
   const std::string trivela = TRIVELA_BINARY_DIR "/trivela";
   output_of(trivela, {"simulate", "--arms", "stopped,moving", "--matches", "1", "--possessions", "200", "--seed", "1",
-                      "--out", log});
+                      "--robot", TRIVELA_SOURCE_DIR "/config/robots/cambada_1.toml", "--out", log});
   const auto simulated = rows_by_policy(output_of(trivela, {"report", log, "--csv"}));
   const std::string table = output_of(TRIVELA_BINARY_DIR "/examples/play_a_match");
   EXPECT_TRUE(table.starts_with("SIMULATED:"));
