@@ -65,7 +65,7 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   if (ball_.position_m.y() >= scenario_.field.goal_line_y_m) {
     double until_s = dt_s;
     ball_ = at_line(before, scenario_.field.goal_line_y_m, dt_s, until_s);
-    meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
+    meet_goal_plane(before_t_ns + kicking::nanoseconds(until_s));
     return sim::advance(ball_, scenario_.ball, dt_s - until_s);
   }
   for (const OpponentBody& body : opponents) {
@@ -130,7 +130,7 @@ void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, do
   if (before.position_m.y() >= line_y_m || ball_.position_m.y() < line_y_m) return;
   double until_s = dt_s;
   const BallMotion there = at_line(before, line_y_m, dt_s, until_s);
-  const std::int64_t t_ns = before_t_ns + std::llround(until_s * 1e9);
+  const std::int64_t t_ns = before_t_ns + kicking::nanoseconds(until_s);
   const GuardedBall ball{
       {there.position_m.x(), there.position_m.z()}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
   const Eigen::Vector3d& from = released_.position_m;

@@ -4,6 +4,7 @@
 
 #include "evaluator/metrics/silences.sql.hpp"
 #include "evaluator/metrics/unrecorded_orders.sql.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -36,7 +37,7 @@ std::string before(const UnrecordedOrders& o) {
 
 std::optional<double> RecordedSilence::to_s() const {
   if (!to_t_ns) return std::nullopt;
-  return 1e-9 * static_cast<double>(*to_t_ns - started_t_ns);
+  return kicking::seconds(*to_t_ns - started_t_ns);
 }
 
 std::vector<RecordedSilence> silences_of(const log::Reader& reader) {

@@ -7,6 +7,7 @@
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "experiment/play/play_match.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "sim/laser/field_laser.hpp"
 
@@ -131,7 +132,7 @@ calibration::DriveRecord DrivesInProcess::play(const calibration::DrivePlan& pla
     record.kicked_powers.push_back(receipt.power);
   }
   if (laser) record.lobs = laser->lobs(set_points);
-  record.played_s = 1e-9 * static_cast<double>(played.end_t_ns);
+  record.played_s = kicking::seconds(played.end_t_ns);
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return record;
 }

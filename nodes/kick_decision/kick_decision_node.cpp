@@ -60,8 +60,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (decision.order) {
     order_out_.write(*decision.order);
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
-                          static_cast<double>(world.t_ns) * 1e-9, kicking::name(decision.in_charge.policy),
-                          decision.order->power, decision.in_charge.judgement.distance_m);
+                          kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
+                          decision.in_charge.judgement.distance_m);
   }
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
   drive(world, decision.in_charge.judgement);

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/progress_line.hpp"
 
 namespace trivela::nodes {
@@ -39,11 +40,11 @@ void ReplayPlayerNode::run() {
       readers_before_stop(context_.stop, referee_, 4);   // world_state, kicker_driver, shot_observer, recorder
   if (!heard) return;
   ProgressLine progress;
-  const double total_s = static_cast<double>(last_t_ns(log_)) * 1e-9;
+  const double total_s = kicking::seconds(last_t_ns(log_));
   while (const auto t_ns = topics_.next_t_ns()) {
     while (topics_.next_t_ns() == t_ns) publish(*topics_.next());
     if (!barrier_.wait_for(*t_ns, context_.stop)) return;
-    progress.say(static_cast<double>(*t_ns) * 1e-9, total_s, topics_.ended());
+    progress.say(kicking::seconds(*t_ns), total_s, topics_.ended());
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "bus/resources.hpp"
 #include "bus/scheduling.hpp"
 #include "config/software_version.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
@@ -28,7 +28,7 @@
 namespace trivela::nodes {
 
 std::chrono::nanoseconds NodeContext::cycle() const {
-  return std::chrono::nanoseconds{std::llround(settings.run.cycle_s * 1e9)};
+  return std::chrono::nanoseconds{kicking::nanoseconds(settings.run.cycle_s)};
 }
 
 void NodeContext::idle(std::chrono::nanoseconds timeout) const {

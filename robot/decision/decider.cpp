@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "robot/decision/decision_message.hpp"
 
 namespace trivela::robot {
@@ -20,7 +21,7 @@ static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
   if (!std::isfinite(fire_after_s) || std::abs(fire_after_s) > 1.0) return t_ns - 1;
-  return t_ns + std::llround(fire_after_s * 1e9);
+  return t_ns + kicking::nanoseconds(fire_after_s);
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       goal_(settings.goal),
       oracle_(std::move(oracle)),
       assignment_(settings.assignment, robot_id),
-      validity_ns_(static_cast<std::int64_t>(settings.assignment.order_validity_s * 1e9)),
+      validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
       kick_id_{session, robot_id} {
   if (!settings.assignment.shadows) return;

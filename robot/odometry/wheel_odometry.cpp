@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::robot {
 
 std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::span<const double> wheel_radps,
@@ -27,7 +29,7 @@ std::optional<OdometryEstimate> WheelOdometry::update(std::int64_t t_ns, std::sp
   estimate_.var_v_m2ps2 = std::max(variance_.x(), variance_.y());
   estimate_.var_omega_rad2ps2 = var_omega;
   if (last_t_ns_) {
-    const double dt_s = static_cast<double>(t_ns - *last_t_ns_) * 1e-9;
+    const double dt_s = kicking::seconds(t_ns - *last_t_ns_);
     estimate_.pose = kicking::advance(estimate_.pose, mean, dt_s);
     const double path_m2 = (mean.vx_mps * mean.vx_mps + mean.vy_mps * mean.vy_mps) * dt_s * dt_s;
     const double turn_rad = mean.omega_radps * dt_s;

@@ -24,7 +24,7 @@ class Scene {
   void pass(std::int64_t duration_ns) {
     for (const std::int64_t end_ns = t_ns_ + duration_ns; t_ns_ < end_ns;) {
       const std::int64_t step_ns = std::min(kStep_ns, end_ns - t_ns_);
-      if (motion) sim::advance(*motion, ball_, static_cast<double>(step_ns) * 1e-9);
+      if (motion) sim::advance(*motion, ball_, kicking::seconds(step_ns));
       t_ns_ += step_ns;
       builder_.advance(t_ns_, motion ? std::optional(motion->position_m) : std::nullopt);
       while (auto scan = builder_.take()) scans.push_back(std::move(*scan));

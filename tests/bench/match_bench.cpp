@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/match.hpp"
 
 // The world in process, without filters and policies. `--benchmark_repetitions=9` prints the median.
@@ -20,7 +21,7 @@ struct Driver {
       possession_id = s.referee.possession_id;
       since_ns = s.t_ns;
       fired = false;
-    } else if (!fired && static_cast<double>(s.t_ns - since_ns) * 1e-9 >= after_s) {
+    } else if (!fired && kicking::seconds(s.t_ns - since_ns) >= after_s) {
       commands.fire = Fire{s.t_ns, 1, 30.0};
       fired = true;
     }

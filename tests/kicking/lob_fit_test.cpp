@@ -8,6 +8,7 @@
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/effective_fit.hpp"
 #include "kicking/lob/true_fit.hpp"
 #include "kicking/random/draws.hpp"
@@ -28,7 +29,7 @@ std::vector<BallCentre> flight(double speed, double angle_rad, double drag_coeff
                drag_per_m({}, {.drag_coefficient = 1.0}) * lift_coefficient);
   std::vector<BallCentre> centres;
   for (std::size_t i = 0; i < times.size() && states[i][1] > kLaunch_z_m; ++i)
-    centres.push_back({std::llround(times[i] * 1e9), states[i][0], states[i][1], 10, 1.0});
+    centres.push_back({nanoseconds(times[i]), states[i][0], states[i][1], 10, 1.0});
   return centres;
 }
 

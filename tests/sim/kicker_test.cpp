@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/kicker_device.hpp"
 #include "sim/kicker_table.hpp"
 #include "tests/vector_rows.hpp"
@@ -123,7 +124,7 @@ TEST(KickerDevice, HasTheNoiseThatTheScenarioNames) {
   for (std::uint32_t i = 0; i < kCount; ++i) {
     KickerDevice device{k};
     const Stroke s = stroke_of(device, 25, i);
-    const double d = static_cast<double>(s.release_t_ns) * 1e-9, v = s.exit_speed_mps / k.exit_speeds_mps[2] - 1.0;
+    const double d = kicking::seconds(s.release_t_ns), v = s.exit_speed_mps / k.exit_speeds_mps[2] - 1.0;
     delay += d, delay2 += d * d, speed += v, speed2 += v * v, turn += s.deflection_rad;
     turn2 += s.deflection_rad * s.deflection_rad;
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {
@@ -121,7 +122,7 @@ TEST(Match, TheTrueStateIsWhatNoiselessSensorsShow) {
   EXPECT_NEAR(start.opponent_distance_m, 2.0, 1e-12);
   const double free_s = (2.0 - s.opponent.dispute_distance_m) / start.opponent_closing_mps;
   const std::int64_t t_ns = match.sense().t_ns;
-  EXPECT_NEAR(static_cast<double>(start.dispute_t_ns - t_ns) * 1e-9, free_s, 1e-8);
+  EXPECT_NEAR(kicking::seconds(start.dispute_t_ns - t_ns), free_s, 1e-8);
   std::vector<PossessionTruth> ends;
   while (ends.empty()) ends = match.step({.drive = {0.0, 0.0, 1.0}, .fire = {}}).possessions;
   EXPECT_EQ(ends[0].ending, PossessionEnd::kDisputed);
