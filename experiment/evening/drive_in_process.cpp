@@ -1,12 +1,12 @@
 #include "experiment/evening/drive_in_process.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "experiment/play/play_match.hpp"
+#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "sim/laser/field_laser.hpp"
@@ -14,11 +14,10 @@
 namespace trivela::experiment {
 namespace {
 
-std::optional<double> number(double value) { return std::isnan(value) ? std::nullopt : std::optional{value}; }
-
 template <class Message>
 evaluator::log::Crossing crossing_of(const Message& message) {
-  return {std::string{bus::label(message.outcome)}, number(message.x_cross_m), number(message.z_cross_m)};
+  return {std::string{bus::label(message.outcome)}, msg::optional_of(message.x_cross_m),
+          msg::optional_of(message.z_cross_m)};
 }
 
 /// The last message of a kick.

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 #include "robot/decision/decision_message.hpp"
 
@@ -104,9 +105,7 @@ bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStat
 /// What was seen of the last order's kick, once the observer has said it.
 std::optional<kicking::SeenKick> Decider::last_kick(const std::optional<msg::KickOutcome>& outcome) const {
   if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return std::nullopt;
-  kicking::SeenKick seen{outcome->kick_id, last_order_possession_id_, std::nullopt};
-  if (std::isfinite(outcome->x_cross_m)) seen.x_cross_m = outcome->x_cross_m;
-  return seen;
+  return kicking::SeenKick{outcome->kick_id, last_order_possession_id_, msg::optional_of(outcome->x_cross_m)};
 }
 
 msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judgement& judgement) {
