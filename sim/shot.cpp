@@ -20,12 +20,12 @@ kicking::Goal goal_of(const Field& field) {
           .post_width_m = field.frame_thickness_m};
 }
 
-kicking::Ball ball_of(const Ball& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
+kicking::Ball ball_of(const BallPhysics& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
 
 bool touched_floor(const BallMotion& motion) { return motion.bounced || motion.rolling; }
 
 /// How far along y a rolling ball still goes; without end in the air, where its fall decides nothing about the line.
-double reach_y_m(const BallMotion& motion, const Ball& ball) {
+double reach_y_m(const BallMotion& motion, const BallPhysics& ball) {
   if (!motion.rolling || ball.rolling_deceleration_mps2 <= 0.0) return HUGE_VAL;
   const double speed = std::hypot(motion.velocity_mps.x(), motion.velocity_mps.y());
   return 0.5 * speed * std::abs(motion.velocity_mps.y()) / ball.rolling_deceleration_mps2;

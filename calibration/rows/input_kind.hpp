@@ -8,7 +8,7 @@ namespace trivela::calibration {
 enum class InputKind { kNumbers, kScanRecord, kMatchLog };
 
 /// By the file's first bytes and tables; "-" and whatever is no SQLite file is a table of numbers.
-/// @throws std::runtime_error naming a file that cannot be read.
+/// Throws std::runtime_error naming a file that cannot be read.
 InputKind input_kind(const std::string& file);
 
 }  // namespace trivela::calibration

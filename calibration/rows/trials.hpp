@@ -30,7 +30,7 @@ struct Trials {
 /// columns power, height_m, distance_m (of the ball's centre relative to the launch; effective) or power,
 /// exit_speed_mps
 /// [, exit_angle_deg].
-/// @throws std::runtime_error, std::invalid_argument naming file and line; config::BadArgument for flags that
+/// Throws std::runtime_error, std::invalid_argument naming file and line; config::BadArgument for flags that
 /// contradict a file.
 Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flags);
 

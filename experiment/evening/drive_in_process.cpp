@@ -15,7 +15,7 @@ namespace trivela::experiment {
 namespace {
 
 template <class Message>
-evaluator::log::Crossing crossing_of(const Message& message) {
+evaluator::log::RecordedOutcome crossing_of(const Message& message) {
   return {std::string{bus::label(message.outcome)}, msg::optional_of(message.x_cross_m),
           msg::optional_of(message.z_cross_m)};
 }

@@ -15,14 +15,14 @@ void check_lob(double apex_m, double range_m) {
 
 }  // namespace
 
-Exit exit_from_lob(double apex_m, double range_m, double gravity_mps2) {
+LobExit exit_from_lob(double apex_m, double range_m, double gravity_mps2) {
   check_lob(apex_m, range_m);
   const double angle = std::atan(4.0 * apex_m / range_m);
   const double speed = std::sqrt(range_m * gravity_mps2 / std::sin(2.0 * angle));
   return {angle, speed, 2.0 * speed * std::sin(angle) / gravity_mps2};
 }
 
-Exit exit_from_components(double apex_m, double range_m, double gravity_mps2) {
+LobExit exit_from_components(double apex_m, double range_m, double gravity_mps2) {
   check_lob(apex_m, range_m);
   const double v_z = std::sqrt(2.0 * gravity_mps2 * apex_m);
   const double t_flight = 2.0 * v_z / gravity_mps2;

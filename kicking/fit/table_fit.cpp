@@ -147,7 +147,7 @@ std::vector<std::size_t> not_rising(const std::vector<TrialMean>& points) {
 }  // namespace
 
 Trial trial_of_lob(double power, double height_m, double distance_m) {
-  const Exit exit = exit_from_lob(height_m, distance_m);
+  const LobExit exit = exit_from_lob(height_m, distance_m);
   return {power, exit.angle_rad, exit.speed_mps};
 }
 

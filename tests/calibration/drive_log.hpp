@@ -16,8 +16,8 @@ inline constexpr double kDelay_s = 0.06;
 inline constexpr double kPower = 25.0;
 
 /// Where the ball of a kick with this transfer crosses, by the forward predictor.
-inline kicking::Crossing flown(const kicking::Pose& pose, const kicking::Twist& twist,
-                               const kicking::Transfer& transfer) {
+inline kicking::PredictedCrossing flown(const kicking::Pose& pose, const kicking::Twist& twist,
+                                        const kicking::Transfer& transfer) {
   const kicking::RobotModel model;
   const kicking::KickAction kick{model.table.speed_for(kPower), model.exit_angle_rad, transfer, kDelay_s,
                                  model.ball_offset_m};
@@ -76,7 +76,7 @@ class DriveLog : public evaluator::LogTest {
 
   void kick(const std::string& policy, const kicking::Pose& pose, const kicking::Twist& twist,
             const kicking::Transfer& transfer) {
-    const kicking::Crossing crossing = flown(pose, twist, transfer);
+    const kicking::PredictedCrossing crossing = flown(pose, twist, transfer);
     kick(policy, pose, twist, crossing.x_m, crossing.z_m);
   }
 

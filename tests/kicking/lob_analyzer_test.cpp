@@ -22,7 +22,7 @@ using tests::kick;
 using tests::lobs_of;
 
 /// Effective exit of a flight with drag: what its height and distance give.
-Exit effective_exit(const sim::SyntheticKick& k) {
+LobExit effective_exit(const sim::SyntheticKick& k) {
   const DragFlight flight =
       fly_with_drag(k.exit_speed_mps, k.exit_angle_rad, drag_per_m({}, {.drag_coefficient = k.drag_coefficient}));
   return exit_from_lob(flight.apex_m, flight.range_m);
@@ -36,7 +36,7 @@ void expect_kick(const LobRecord& lob, const sim::SyntheticKick& k) {
   };
   near(lob.true_values->exit_angle_rad, k.exit_angle_rad, radians(0.15));
   near(lob.true_values->exit_speed_mps, k.exit_speed_mps, 0.03);
-  const Exit effective = effective_exit(k);
+  const LobExit effective = effective_exit(k);
   near(lob.effective->exit_angle_rad, effective.angle_rad, radians(0.15));
   near(lob.effective->exit_speed_mps, effective.speed_mps, 0.03);
 }
@@ -207,7 +207,7 @@ TEST(Analyzer, RefusesAKickBesideTheScanPlane) {
 TEST(Analyzer, WhatItAcceptsBesideTheScanPlaneIsStillRight) {
   sim::RecordPlan plan;
   plan.kicks.assign(6, kick(8.39, 36.78));
-  const Exit effective = effective_exit(plan.kicks[0]);
+  const LobExit effective = effective_exit(plan.kicks[0]);
   for (const auto& [direction_deg, lateral_m] : {std::pair{0.5, 0.0}, std::pair{-0.5, 0.0}, std::pair{0.0, 0.04}}) {
     plan.direction_error_rad = radians(direction_deg);
     plan.lateral_error_m = lateral_m;
@@ -242,7 +242,7 @@ struct Disc {
   double x_m, z_m, radius_m;
 };
 
-std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double seconds) {
+std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double duration_s) {
   const ScanGeometry geometry;
   const LaserMount mount;
   sim::ScanBuilder empty(sim::LaserModel{}, 0.11, kicking::Draws{1, 1});
@@ -253,7 +253,7 @@ std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene
   };
   take(2.0);
   const std::size_t background = scans.size();
-  take(2.0 + seconds);
+  take(2.0 + duration_s);
   for (std::size_t j = background; j < scans.size(); ++j) {
     for (std::size_t i = 0; i < geometry.beams; ++i) {
       const auto beam = static_cast<double>(i);

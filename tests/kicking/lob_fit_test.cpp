@@ -71,7 +71,7 @@ TEST(Parabola, RecoversApexRangeAngleAndSpeedOfADragFreeFlight) {
       EXPECT_NEAR(degrees(values.exit_angle_rad.value), angle_deg, 1e-4);
       EXPECT_NEAR(values.exit_speed_mps.value, speed, 1e-5);
       EXPECT_NEAR(fit->launch_x_m, 0.0, 1e-5);
-      const Exit exit = exit_from_lob(values.height_m.value, values.distance_m.value);
+      const LobExit exit = exit_from_lob(values.height_m.value, values.distance_m.value);
       EXPECT_NEAR(exit.angle_rad, values.exit_angle_rad.value, 1e-9) << "the paper's formula";
       EXPECT_NEAR(exit.speed_mps, values.exit_speed_mps.value, 1e-9);
     }
@@ -173,7 +173,7 @@ TEST(EffectiveValues, OfOneMeanAnglePutTheBallNearItsTarget) {
   int lobs = 0;
   for (double speed = 5.0; speed <= 13.0; speed += 0.5) {
     const DragFlight lob = fly_with_drag(speed, angle, k);
-    const Exit exit = exit_from_lob(lob.apex_m, lob.range_m);
+    const LobExit exit = exit_from_lob(lob.apex_m, lob.range_m);
     true_mps.push_back(speed);
     effective_mps.push_back(exit.speed_mps);
     if (speed < 6.0 || speed > 10.0) continue;

@@ -13,7 +13,7 @@ TEST(Lob, BothRoutesAgreeWithTheVectors) {
   for (const auto& row : tests::rows("calib_theta_v0.csv")) {
     SCOPED_TRACE(row.where());
     for (const auto route : {exit_from_lob, exit_from_components}) {
-      const Exit exit = route(row.number("H_m"), row.number("D_m"), kGravity_mps2);
+      const LobExit exit = route(row.number("H_m"), row.number("D_m"), kGravity_mps2);
       EXPECT_NEAR(exit.angle_rad, row.number("theta_rad"), 1e-6);
       EXPECT_NEAR(exit.speed_mps, row.number("v0_mps"), 1e-6);
       EXPECT_NEAR(exit.t_flight_s, row.number("flight_time_s"), 1e-6);

@@ -276,7 +276,7 @@ TEST(SyntheticRecord, HoldsBackgroundAndThenEachKickAsItsTruthSays) {
   for (const KickedTruth& truth : record.truth) {
     EXPECT_GE(truth.launch_t_ns, 2'600'000'000);
     // Where the ball is in the scan that sees it 0.3 s later.
-    Ball ball;
+    BallPhysics ball;
     ball.drag_coefficient = truth.kick.drag_coefficient;
     BallMotion motion{{{0.0, 0.0, 0.11},
                        {truth.kick.exit_speed_mps * std::cos(truth.kick.exit_angle_rad), 0.0,
