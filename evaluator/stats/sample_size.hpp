@@ -11,8 +11,4 @@ inline constexpr double kPower = 0.8;
 /// p1 and p2 in [0, 1]. None: p1 == p2.
 std::optional<double> kicks_per_policy(double p1, double p2, double power = kPower, double alpha = 0.05);
 
-/// How many times the present data are needed for a difference of size `difference` to be found with this power, given
-/// the standard error seen: ((z_a + z_b) standard_error / difference)^2. None: difference is 0.
-std::optional<double> data_factor(double standard_error, double difference, double power = kPower, double alpha = 0.05);
-
 }  // namespace trivela::evaluator::stats

@@ -16,7 +16,4 @@ struct LobExit {
 /// Throws std::invalid_argument unless both are positive.
 LobExit exit_from_lob(double apex_m, double range_m, double gravity_mps2 = kGravity_mps2);
 
-/// The same by components: v_z = sqrt(2 g H), T = 2 v_z / g, v_x = D / T.
-LobExit exit_from_components(double apex_m, double range_m, double gravity_mps2 = kGravity_mps2);
-
 }  // namespace trivela::kicking

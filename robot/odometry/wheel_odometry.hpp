@@ -28,8 +28,6 @@ class WheelOdometry {
   /// last one is ignored (nullopt).
   std::optional<msg::Odometry> update(const hal::WheelSample& sample);
 
-  const OmniKinematics& kinematics() const { return kinematics_; }
-
  private:
   double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }
   msg::Odometry message(const hal::WheelSample& sample, double var_omega_rad2ps2) const;

@@ -4,6 +4,7 @@
 
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {

@@ -12,6 +12,7 @@
 #include "kicking/ballistics/lob.hpp"
 #include "sim/laser/scan_builder.hpp"
 #include "tests/kicking/lob_scene.hpp"
+#include "tests/kicking/reference_laws.hpp"
 
 namespace trivela::kicking::lob {
 namespace {

@@ -12,6 +12,7 @@
 #include "kicking/lob/effective_fit.hpp"
 #include "kicking/lob/true_fit.hpp"
 #include "kicking/random/draws.hpp"
+#include "tests/kicking/reference_laws.hpp"
 
 namespace trivela::kicking::lob {
 namespace {

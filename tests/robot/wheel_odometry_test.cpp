@@ -8,11 +8,14 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/robot/wheel_speeds.hpp"
+
 namespace trivela::robot {
 namespace {
 
 using kicking::Twist;
 
+const config::WheelBase kBase{};
 constexpr std::int64_t kCycle_ns = 20'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,11 +27,11 @@ hal::WheelSample sample(std::int64_t t_ns, const std::vector<double>& wheel_radp
 
 struct Driven {
   config::Odometry noise{};
-  WheelOdometry odometry{config::WheelBase{}, noise};
+  WheelOdometry odometry{kBase, noise};
   std::int64_t t_ns = 1'000'000'000;
 
   std::optional<msg::Odometry> cycle(const Twist& twist, std::optional<double> gyro_radps = {}) {
-    const auto estimate = odometry.update(sample(t_ns, odometry.kinematics().wheel_speeds_radps(twist), gyro_radps));
+    const auto estimate = odometry.update(sample(t_ns, wheel_speeds_radps(kBase, twist), gyro_radps));
     t_ns += kCycle_ns;
     return estimate;
   }
@@ -85,7 +88,7 @@ TEST(WheelOdometry, ACircleCloses) {
 
 TEST(WheelOdometry, TheTurnRateIsTheMeanOfWheelsAndGyroByTheirVariances) {
   robot::Driven driven;
-  const double var_wheels = driven.odometry.kinematics().twist_variance(driven.noise.wheel_sd_radps).z();
+  const double var_wheels = OmniKinematics{kBase}.twist_variance(driven.noise.wheel_sd_radps).z();
   const double var_gyro = driven.noise.gyro_sd_radps * driven.noise.gyro_sd_radps;
   const auto estimate = driven.cycle({0.0, 0.0, 1.0}, 1.5);
   EXPECT_NEAR(estimate->omega_radps, (1.0 / var_wheels + 1.5 / var_gyro) / (1.0 / var_wheels + 1.0 / var_gyro), 1e-12);
@@ -99,13 +102,13 @@ TEST(WheelOdometry, WithoutAGyroTheWheelsAloneTurn) {
     const auto estimate = driven.cycle({0.0, 0.0, 1.0}, gyro);
     ASSERT_TRUE(estimate);
     EXPECT_NEAR(estimate->omega_radps, 1.0, 1e-12);
-    EXPECT_NEAR(estimate->var_omega_rad2ps2,
-                driven.odometry.kinematics().twist_variance(driven.noise.wheel_sd_radps).z(), 1e-15);
+    EXPECT_NEAR(estimate->var_omega_rad2ps2, OmniKinematics{kBase}.twist_variance(driven.noise.wheel_sd_radps).z(),
+                1e-15);
   }
 }
 
 TEST(WheelOdometry, SaysWhatItWasMadeFromAndNoneWhereThereIsNothing) {
-  WheelOdometry odometry{config::WheelBase{}, {}};
+  WheelOdometry odometry{kBase, {}};
   const auto with = odometry.update(sample(1, {1.0, 2.0, -3.0}, 0.5));
   EXPECT_EQ(with->t_ns, 1);
   EXPECT_EQ(with->wheel_2_radps, -3.0);
@@ -119,7 +122,7 @@ TEST(WheelOdometry, IgnoresSamplesThatAreNotUsable) {
   driven.cycle({0.0, 1.0, 0.0});
   const auto before = driven.cycle({0.0, 1.0, 0.0});
   const std::int64_t t_ns = driven.t_ns;
-  const auto w = driven.odometry.kinematics().wheel_speeds_radps({0.0, 1.0, 0.0});
+  const auto w = wheel_speeds_radps(kBase, {0.0, 1.0, 0.0});
   for (const double broken : {kNaN, HUGE_VAL, -HUGE_VAL}) {
     auto bad = w;
     bad[1] = broken;
