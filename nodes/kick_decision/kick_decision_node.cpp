@@ -7,6 +7,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/kick_id.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -48,9 +49,9 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
 
 void KickDecisionNode::on_world(const msg::WorldState& world) {
   first_.once([this] {
-    expect_readers(decision_out_, 1);  // recorder
-    expect_readers(order_out_, 2);     // kicker_driver, recorder
-    expect_readers(drive_out_, 2);     // odometry, recorder
+    expect_readers(context_, decision_out_);
+    expect_readers(context_, order_out_);
+    expect_readers(context_, drive_out_);
   });
   stay_alive();
   if (!context_.participant.believes(world.t_ns)) return;

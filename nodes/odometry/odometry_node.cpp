@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -38,7 +39,7 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   first_.once([this] {
     expect_device(*wheels_);
-    expect_readers(odometry_out_, 2);  // world_state, recorder
+    expect_readers(context_, odometry_out_);
   });
   auto out = odometry_.update(sample);
   if (!out) {

@@ -8,6 +8,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/progress_line.hpp"
+#include "nodes/runtime/readers.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -34,10 +35,8 @@ ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
 }
 
 void ReplayPlayerNode::run() {
-  const bool heard =
-      readers_before_stop(context_.stop, vision_, 2) &&  // world_state, recorder
-      readers_before_stop(context_.stop, flight_, 2) &&  // shot_observer, recorder
-      readers_before_stop(context_.stop, referee_, 4);   // world_state, kicker_driver, shot_observer, recorder
+  const bool heard = readers_before_stop(context_, vision_) && readers_before_stop(context_, flight_) &&
+                     readers_before_stop(context_, referee_);
   if (!heard) return;
   ProgressLine progress;
   const double total_s = kicking::seconds(last_t_ns(log_));

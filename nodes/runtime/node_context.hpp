@@ -61,21 +61,6 @@ bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& w
   return true;
 }
 
-/// Waits until `output`, a bus::Writer or bus::Output, has `n` readers; throws std::runtime_error when they do not
-/// come.
-void expect_readers(const auto& output, std::size_t n) {
-  if (output.wait_for_readers(n, kLockstepPatience)) return;
-  throw std::runtime_error{output.topic() + " has " + std::to_string(output.readers()) + " of " + std::to_string(n) +
-                           " readers after 20 s"};
-}
-
-/// The same for who feeds the nodes and starts before them: false: the stop was requested first.
-bool readers_before_stop(const bus::Stop& stop, const auto& output, std::size_t n) {
-  return ready_before_stop(
-      stop, [&](auto timeout) { return output.wait_for_readers(n, timeout); },
-      "not all of " + std::to_string(n) + " readers of " + output.topic() + " are there");
-}
-
 /// In lockstep nothing may be missed, so the first cycle waits for whoever reads the outputs and for the device.
 class FirstCycle {
  public:

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 #include "idl/none.hpp"
@@ -18,6 +19,7 @@ using kicking::PolicyName;
 static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts::rides_along) <=
                   static_cast<std::ptrdiff_t>(std::tuple_size_v<decltype(CycleDecision::shadows)>),
               "the wire carries no more shadows");
+static_assert(std::is_trivially_destructible_v<Judged>, "decide() writes over the last cycle's");
 
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
