@@ -102,7 +102,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     bus::Stop stop;
     const bus::StopOnSignals on_signals{stop};
     config::Settings settings = config::load_settings(config_file);
-    config::override_settings(settings, overrides);
+    config::override_settings(settings, overrides, "--set");
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
     if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {
