@@ -148,7 +148,7 @@ DriveSummary CalibrationRun::standing() {
     if (tally.lobs >= kFewestLobs) continue;
     throw std::runtime_error{fmt::format(
         "set-point {}: {} of the {} lobs that it needs, after {} kicks; about {} more kicks with it are needed "
-        "(--kicks, now {})",
+        "(now {} of each set-point)",
         power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, effort_.kicks)};
   }
   std::size_t seen = lobs.size();

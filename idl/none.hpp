@@ -10,11 +10,11 @@ namespace trivela::msg {
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A number of the wire that may be missing; what is not finite is none.
-inline std::optional<double> optional_of(double wire) {
+[[nodiscard]] inline std::optional<double> optional_of(double wire) {
   return std::isfinite(wire) ? std::optional{wire} : std::nullopt;
 }
 
 /// A number that may be missing, for the wire.
-constexpr double wire_of(const std::optional<double>& number) { return number.value_or(kNone); }
+[[nodiscard]] constexpr double wire_of(const std::optional<double>& number) { return number.value_or(kNone); }
 
 }  // namespace trivela::msg

@@ -56,7 +56,7 @@ std::vector<std::string> silence_lines(const std::vector<RecordedSilence>& silen
   std::vector<std::string> lines;
   for (const RecordedSilence& silence : silences) {
     if (lines.size() == kMostLines) {
-      lines.push_back(fmt::format("and {} more silences (--json has them all)", silences.size() - kMostLines));
+      lines.push_back(fmt::format("and {} more silences (JSON has them all)", silences.size() - kMostLines));
       break;
     }
     lines.push_back(sentence(silence));

@@ -69,7 +69,7 @@ std::string heading(const Report& report) {
       text += fmt::format("  it continues session {}\n", printable(session.continues_uuid));
   }
   if (shown < report.sessions.size())
-    text += fmt::format("and {} more sessions, in --json each\n", report.sessions.size() - shown);
+    text += fmt::format("and {} more sessions, in JSON each\n", report.sessions.size() - shown);
   for (const PlayedLength& length : report.lengths)
     text += fmt::format("Planned {:.0f} s, recorded {:.1f} s{}\n", length.planned_s, length.recorded_s,
                         length.cut_short() ? ": CUT SHORT" : "");

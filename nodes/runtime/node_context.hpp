@@ -51,7 +51,7 @@ inline constexpr std::chrono::seconds kLockstepPatience{20};
 
 /// Asks `ready(timeout)` again and again until it says so. False: the stop was requested first. Throws
 /// std::runtime_error with `what` when the patience is over.
-bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
+[[nodiscard]] bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
   constexpr std::chrono::milliseconds kGlance{100};  // how often the stop is looked for
   const auto deadline = std::chrono::steady_clock::now() + kLockstepPatience;
   while (!ready(kGlance)) {

@@ -48,7 +48,7 @@ void expect_readers(const NodeContext& context, const bus::Output<T>& output) {
 
 /// The same for who feeds the nodes and starts before them: false: the stop was requested first.
 template <bus::Message T>
-bool readers_before_stop(const NodeContext& context, const bus::Writer<T>& output) {
+[[nodiscard]] bool readers_before_stop(const NodeContext& context, const bus::Writer<T>& output) {
   const std::size_t n = readers_of<T>(context.settings);
   return ready_before_stop(
       context.stop, [&](auto timeout) { return output.wait_for_readers(n, timeout); },

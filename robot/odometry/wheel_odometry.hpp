@@ -26,7 +26,7 @@ class WheelOdometry {
   /// The estimate with the sample that it was made from; robot_id and seq are the caller's. The first sample sets the
   /// clock and moves nothing; one that is not finite, faster than 1000 rad/s, of too few wheels or not newer than the
   /// last one is ignored (nullopt).
-  std::optional<msg::Odometry> update(const hal::WheelSample& sample);
+  [[nodiscard]] std::optional<msg::Odometry> update(const hal::WheelSample& sample);
 
  private:
   double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }
