@@ -132,8 +132,8 @@ class Workers {
     } catch (const std::system_error& error) {
       const std::size_t started = threads_.size();
       end();
-      throw std::runtime_error{fmt::format("{} of {} threads can be started: {}; choose fewer jobs", started, jobs,
-                                           error.code().message())};
+      throw std::runtime_error{
+          fmt::format("{} of {} threads can be started: {}; choose fewer jobs", started, jobs, error.code().message())};
     }
   }
   ~Workers() { end(); }
