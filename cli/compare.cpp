@@ -5,10 +5,9 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/compare_csv.hpp"
-#include "cli/counts_argument.hpp"
+#include "cli/compare_input.hpp"
 #include "cli/open_file.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"

@@ -7,7 +7,7 @@
 #include "cli/open_file.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/factorial/report.hpp"
 
 namespace trivela::cli {

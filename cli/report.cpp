@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/render.hpp"
 

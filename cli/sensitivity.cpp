@@ -8,7 +8,7 @@
 
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/sensitivity/report.hpp"
 
 namespace trivela::cli {

@@ -9,7 +9,7 @@
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
-#include "cli/write_file.hpp"
+#include "cli/output.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "experiment/evening/drive_in_process.hpp"

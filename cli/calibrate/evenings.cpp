@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/run.hpp"
+#include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "experiment/evening/evening_study.hpp"

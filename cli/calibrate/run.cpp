@@ -1,4 +1,4 @@
-#include "cli/calibrate/run.hpp"
+#include "cli/calibrate/subcommands.hpp"
 
 #include <fmt/core.h>
 
@@ -10,9 +10,9 @@
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/open_file.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "cli/write_file.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "experiment/evening/calibration_check.hpp"

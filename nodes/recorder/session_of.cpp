@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
-#include "config/software_version.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/value.hpp"
 #include "nodes/recorder/recorder_node.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/software_version.hpp"
+#include "config/installation.hpp"
 #include "nodes/runtime/now_ns.hpp"
 #include "nodes/runtime/step_done.hpp"
 

@@ -1,17 +1,20 @@
-#include "bus/resources.hpp"
+#include "bus/process.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 
 namespace trivela::bus {
 namespace {
@@ -53,6 +56,13 @@ std::size_t free_threads(std::size_t enough) {
   return started.size();
 }
 
+/// The kernel keeps to the latency for as long as the file is open: until this process ends.
+bool keep_processors_awake() {
+  static const int file = open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+  const std::int32_t longest_wake_up_us = 0;
+  return file >= 0 && write(file, &longest_wake_up_us, sizeof longest_wake_up_us) == sizeof longest_wake_up_us;
+}
+
 }  // namespace
 
 void require_resources() {
@@ -70,6 +80,13 @@ void require_resources() {
                             free, limit(RLIMIT_NPROC), limit(RLIMIT_AS)));
   }
   there = true;
+}
+
+Realtime set_realtime(int priority) {
+  const sched_param parameters{priority};
+  return {.scheduled = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0,
+          .memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0,
+          .processors_awake = keep_processors_awake()};
 }
 
 }  // namespace trivela::bus

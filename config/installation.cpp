@@ -1,4 +1,6 @@
-#include "config/place.hpp"
+#include "config/installation.hpp"
+
+#include <fmt/core.h>
 
 #include <cstdlib>
 
@@ -37,6 +39,14 @@ std::string trouble_with_folder() {
   return named().empty()
              ? "the shipped configuration is neither near the program nor installed; TRIVELA_CONFIG may name its folder"
              : "TRIVELA_CONFIG names a folder without default.toml";
+}
+
+const char* software_version() { return TRIVELA_VERSION; }
+
+std::string version_lines(std::string_view program) {
+  const std::string trouble = trouble_with_folder();
+  return fmt::format("{} {}\nconfiguration: {}{}", program, software_version(), folder().string(),
+                     trouble.empty() ? "" : fmt::format(" ({})", trouble));
 }
 
 }  // namespace trivela::config

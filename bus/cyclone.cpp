@@ -1,7 +1,9 @@
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 
 #include <dds/dds.h>
 #include <fmt/core.h>
+
+#include <utility>
 
 namespace trivela::bus {
 
@@ -12,5 +14,19 @@ std::int32_t checked(std::int32_t result, std::string_view call, std::string_vie
   if (result < 0) throw Error(call, about, dds_strretcode(-result));
   return result;
 }
+
+Entity& Entity::operator=(Entity&& other) noexcept {
+  if (this != &other) {
+    reset();
+    handle_ = other.release();
+  }
+  return *this;
+}
+
+void Entity::reset() noexcept {
+  if (handle_ != 0) dds_delete(release());
+}
+
+std::int32_t Entity::release() noexcept { return std::exchange(handle_, 0); }
 
 }  // namespace trivela::bus
