@@ -5,7 +5,7 @@
 
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "experiment/sensitivity/report.hpp"
+#include "experiment/sensitivity/analysis.hpp"
 
 namespace trivela::cli {
 namespace {

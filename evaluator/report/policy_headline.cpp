@@ -1,10 +1,10 @@
-#include "evaluator/report/policy_headline.hpp"
+#include "evaluator/report/policy_comparison.hpp"
 
 #include <algorithm>
 
+#include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/sample_size.hpp"
-#include "evaluator/stats/square.hpp"
+#include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
 namespace {

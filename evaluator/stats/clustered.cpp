@@ -8,8 +8,8 @@
 
 #include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/cluster_variance.hpp"
+#include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

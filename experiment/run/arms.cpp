@@ -11,7 +11,6 @@
 #include "config/error.hpp"
 #include "config/installation.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/arm_settings.hpp"
 #include "robot/recording/session_text.hpp"
 
 namespace trivela::experiment {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "evaluator/log/message_table.hpp"
+#include "evaluator/log/row.hpp"
 
 namespace trivela::hal {
 

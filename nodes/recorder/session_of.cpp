@@ -5,7 +5,7 @@
 #include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/log/reader.hpp"
-#include "evaluator/log/value.hpp"
+#include "evaluator/log/row.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/now_ns.hpp"
 #include "robot/decision/assignment.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace trivela::evaluator::stats {
 
@@ -14,5 +17,16 @@ std::optional<double> kicks_per_policy(double p1, double p2, double power = kPow
 /// How many times the present data are needed for a difference of size `difference` to be found with this power, given
 /// the standard error seen: ((z_a + z_b) standard_error / difference)^2. None: difference is 0.
 std::optional<double> data_factor(double standard_error, double difference, double power = kPower, double alpha = 0.05);
+
+inline constexpr double kSampleRatioAlarm = 0.001;  ///< a smaller p: the assignment did not go as planned
+
+/// Chi-square test that counts came in the planned shares: sum((observed - expected)^2 / expected), df = groups - 1.
+/// `planned`: expected counts or shares, each > 0, in any scale, as many as counts. None: fewer than two groups or
+/// nothing counted.
+std::optional<double> sample_ratio_p(std::span<const std::int64_t> counts, std::span<const double> planned);
+
+/// p values adjusted by Holm's step-down method (Holm 1979), in the order given: the i-th smallest of m times m - i
+/// (from 0), never below a smaller one's, at most 1.
+std::vector<double> holm(std::span<const double> p_values);
 
 }  // namespace trivela::evaluator::stats

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -16,5 +18,9 @@ using Value = std::variant<std::monostate, std::int64_t, double, std::string, Bl
 
 /// Called with the cells of one row, in the order of the columns asked for.
 using RowFunction = std::function<void(std::span<const Value>)>;
+
+/// The table of a match log for messages of a type, which is named like them or the plural of it: "vision_frames" for
+/// "VisionFrame", "referee" for "Referee". None: they are not recorded.
+std::optional<std::string> table_of_message(std::string_view type);
 
 }  // namespace trivela::evaluator::log

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "evaluator/report/json_values.hpp"
 #include "experiment/effects/effects.hpp"
 
 namespace trivela::experiment {
@@ -33,6 +34,18 @@ inline std::string csv_cell(double number) { return std::isfinite(number) ? fmt:
 /// Value and both ends of the interval.
 inline std::string csv_cells(const Effect& effect) {
   return fmt::format("{},{},{}", csv_cell(effect.value), csv_cell(effect.ci.lo), csv_cell(effect.ci.hi));
+}
+
+/// {"value": ..., "ci": [lo, hi]}; null without a value, "ci" null without an interval.
+inline evaluator::Json json_of(const Effect& effect) {
+  if (!std::isfinite(effect.value)) return nullptr;
+  return {{"value", effect.value}, {"ci", has_interval(effect) ? evaluator::json_of(effect.ci) : evaluator::Json()}};
+}
+
+/// What an experiment's 95 % intervals allow for. `evenings` of calibration; 0: robot files.
+inline std::string interval_words(std::size_t evenings) {
+  if (evenings == 0) return "95 % intervals by match, for these robot files alone (--calibrations)";
+  return fmt::format("95 % intervals by match and by {} evenings of calibration", evenings);
 }
 
 }  // namespace trivela::experiment

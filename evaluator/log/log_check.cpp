@@ -1,9 +1,10 @@
-#include "evaluator/log/soundness.hpp"
+#include "evaluator/log/log_check.hpp"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
+#include "evaluator/log/log_file.hpp"
 #include "evaluator/log/row_digest.hpp"
 
 namespace trivela::evaluator::log {
