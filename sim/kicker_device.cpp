@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::sim {
 

@@ -18,7 +18,7 @@
 #include "experiment/evening/calibration_check.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/evening/evening.hpp"
-#include "sim/team.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::cli {
 namespace {

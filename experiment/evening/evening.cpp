@@ -8,7 +8,7 @@
 #include "config/scenario.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/run/in_threads.hpp"
-#include "sim/team.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::experiment {
 

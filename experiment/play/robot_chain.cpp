@@ -4,7 +4,7 @@
 
 #include "experiment/play/oracle.hpp"
 #include "hal/sim/sim_messages.hpp"
-#include "robot/odometry/odometry_message.hpp"
+#include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::experiment {
 namespace {

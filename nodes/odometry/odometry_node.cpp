@@ -4,7 +4,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/step_done.hpp"
-#include "robot/odometry/odometry_message.hpp"
+#include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::nodes {
 OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels)

@@ -7,7 +7,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row.hpp"
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "robot/decision/assignment.hpp"
 #include "robot/recording/session_text.hpp"
 

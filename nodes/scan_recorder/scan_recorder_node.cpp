@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "config/installation.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "calibration/scanner_session.hpp"
-#include "pages/lob/setup_json.hpp"
+#include "pages/lob/lob_json.hpp"
 
 namespace trivela::pages {
 namespace {

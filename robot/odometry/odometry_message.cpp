@@ -1,4 +1,4 @@
-#include "robot/odometry/odometry_message.hpp"
+#include "robot/odometry/wheel_odometry.hpp"
 
 #include "idl/none.hpp"
 

@@ -5,6 +5,8 @@
 #include <span>
 
 #include "config/settings.hpp"
+#include "hal/wheels.hpp"
+#include "idl/messages.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "robot/odometry/omni_kinematics.hpp"
 
@@ -45,5 +47,8 @@ class WheelOdometry {
   std::optional<std::int64_t> last_t_ns_;
   OdometryEstimate estimate_;
 };
+
+/// The estimate with the sample it was made from; robot_id and seq are the node's.
+msg::Odometry odometry_message(const hal::WheelSample& sample, const OdometryEstimate& estimate);
 
 }  // namespace trivela::robot

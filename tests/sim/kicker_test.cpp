@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/kicker.hpp"
 #include "sim/kicker_device.hpp"
-#include "sim/kicker_table.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::sim {

@@ -1,4 +1,4 @@
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 #include <fmt/core.h>
 
@@ -7,9 +7,25 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
 
 namespace trivela::sim {
+
+Kicker team_kicker(const Scenario& scenario, std::uint32_t robot) {
+  Kicker kicker = scenario.kicker;
+  const auto& ratios = scenario.team.speed_scale_ratios;
+  if (!ratios.empty()) kicker.speed_scale_ratio *= ratios.at(robot - 1);
+  return kicker;
+}
+
+Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t seed) {
+  Kicker kicker = team_kicker(scenario, robot);
+  const double drift =
+      kicking::Draws{seed, 0}.normal(kicking::Role::kTeam, robot);  // opportunities count from 1: 0 is the match's own
+  kicker.speed_scale_ratio *= std::max(0.5, 1.0 + kicker.drift_sd_ratio * drift);
+  return kicker;
+}
 
 Exit exit_at(const Kicker& kicker, double power) {
   const auto& powers = kicker.powers;
