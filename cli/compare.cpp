@@ -89,6 +89,16 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   }
 }
 
+void print_comparison(const CompareArguments& arguments) {
+  const auto print = [&](const auto& comparison) {
+    arguments.json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
+  };
+  check(arguments);
+  if (arguments.counts.empty()) return print(compared(arguments));
+  const auto [older, newer] = parse_two_counts(arguments.counts);
+  print(evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points));
+}
+
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
@@ -125,15 +135,7 @@ void add_compare(CLI::App& app, int& exit_code) {
       "          trivela compare --csv kicks.csv --stratify distance\n"
       "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
   verb->callback([arguments, &exit_code] {
-    check(*arguments);
-    if (!arguments->counts.empty()) {
-      const auto [older, newer] = parse_two_counts(arguments->counts);
-      const auto comparison = evaluator::compare(older, newer, 0.01 * arguments->smallest_effect_points);
-      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
-    } else {
-      const auto comparison = compared(*arguments);
-      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
-    }
+    print_comparison(*arguments);
     exit_code = kDone;
   });
 }
