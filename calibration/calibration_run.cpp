@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "calibration/rows/drive_rows.hpp"
+#include "calibration/standing_lobs.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::calibration {
@@ -17,98 +16,15 @@ namespace {
 
 using kicking::degrees;
 using kicking::lob::LobRecord;
-using kicking::lob::Refusal;
 
 constexpr std::int64_t kSameKick_ns = 300'000'000;          // from the order to the launch that the laser saw, at most
 constexpr double kLaserAngle_rad = kicking::radians(0.03);  // what all lobs of a scanner share: docs/calibration.md
-constexpr std::size_t kFewestLobs = 2;                      // of a set-point (paper, section 2.2)
-constexpr std::uint32_t kMostKicks = 40;                    // with a set-point in one more round
 
 std::vector<std::string> names(const std::vector<std::string>& files) {
   std::vector<std::string> out;
   out.reserve(files.size());
   for (const std::string& file : files) out.push_back(std::filesystem::path{file}.filename().string());
   return out;
-}
-
-/// A lob that the table is made from.
-bool is_trial(const LobRecord& lob) { return lob.refusal == Refusal::kNone && lob.effective && lob.power; }
-
-/// What the scans of one power came to.
-struct Tally {
-  std::size_t kicks = 0;
-  std::size_t lobs = 0;
-};
-
-std::map<double, Tally> tallies_of(const std::vector<double>& powers, const std::vector<DriveRecord>& records) {
-  std::map<double, Tally> tallies;
-  for (const double power : powers) tallies[power] = {};
-  for (const DriveRecord& record : records) {
-    for (const double power : record.kicked_powers) ++tallies[power].kicks;
-    for (const LobRecord& lob : record.lobs) {
-      if (is_trial(lob)) ++tallies[*lob.power].lobs;
-    }
-  }
-  return tallies;
-}
-
-/// The powers that still need lobs, and kicks with each that should bring them, going by the kicks so far.
-struct NextRound {
-  std::vector<double> powers;
-  std::uint32_t kicks = 0;
-};
-
-NextRound next_round(const std::map<double, Tally>& tallies, std::size_t wanted) {
-  NextRound next;
-  for (const auto& [power, tally] : tallies) {
-    if (tally.lobs >= wanted) continue;
-    const double share = (static_cast<double>(tally.lobs) + 0.5) / (static_cast<double>(tally.kicks) + 1.0);
-    const double kicks = std::ceil(1.2 * static_cast<double>(wanted - tally.lobs) / share);
-    next.powers.push_back(power);
-    next.kicks = std::max(next.kicks, std::min(kMostKicks, static_cast<std::uint32_t>(kicks)));
-  }
-  return next;
-}
-
-/// `kicks`: with each set-point in the first round.
-void require_lobs(const std::map<double, Tally>& tallies, std::uint32_t kicks) {
-  for (const auto& [power, tally] : tallies) {
-    if (tally.lobs >= kFewestLobs) continue;
-    throw std::runtime_error{fmt::format(
-        "set-point {}: {} of the {} lobs that it needs, after {} kicks; about {} more kicks with it are needed "
-        "(--kicks, now {})",
-        power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, kicks)};
-  }
-}
-
-/// Sentences on the standing kicks of which the laser gives no trial.
-std::vector<std::string> without_lob(const std::vector<DriveRecord>& records, std::size_t kicks) {
-  std::map<std::string, std::size_t> refused;
-  std::size_t seen = 0;
-  for (const DriveRecord& record : records) {
-    for (const LobRecord& lob : record.lobs) {
-      if (lob.refusal != Refusal::kNone) ++refused[kicking::lob::name(lob.refusal)];
-      if (lob.refusal != Refusal::kNone || is_trial(lob)) ++seen;
-    }
-  }
-  std::vector<std::string> sentences;
-  for (const auto& [why, flights] : refused)
-    sentences.push_back(fmt::format("{} flight{}: {}", flights, flights == 1 ? "" : "s", why));
-  if (const std::size_t unseen = kicks - std::min(seen, kicks); unseen > 0)
-    sentences.push_back(fmt::format("{} kick{}: no flight in the scans", unseen, unseen == 1 ? "" : "s"));
-  return sentences;
-}
-
-/// The table of the trials. Strong set-points lie within each other's errors: then the speeds are pooled, and
-/// `left_out` says so.
-kicking::TableFit fit_rising(const std::vector<kicking::Trial>& trials, std::vector<std::string>& left_out) {
-  kicking::TableFit fit = kicking::fit_table(trials);
-  if (fit.rises()) return fit;
-  for (const std::size_t i : fit.not_rising) {
-    left_out.push_back(fmt::format("order of set-point {}: {:.2f} m/s, not faster than a weaker one; pooled",
-                                   fit.set_points[i].power, fit.set_points[i].exit_speed_mps.mean));
-  }
-  return kicking::fit_table(trials, {.least_angle_power = {}, .isotonic = true});
 }
 
 std::string list_of(const std::vector<double>& values) {

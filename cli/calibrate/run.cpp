@@ -2,20 +2,17 @@
 
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/calibrate/run_report.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
 #include "config/scenario.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "experiment/evening/calibration_check.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/evening/evening.hpp"
 #include "sim/kicker.hpp"
@@ -24,7 +21,6 @@ namespace trivela::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // What a calibration is held to (medians over 3 to 8 m, stopped, without noise).
 constexpr double kHeightGate_m = 0.10;
@@ -59,73 +55,6 @@ fs::path robot_file(const RunFlags& flags) {
   }
   return fs::absolute(file);
 }
-
-Json json_of_drive(const calibration::DriveSummary& summary) {
-  return {{"drive", summary.name},        {"logs", summary.logs},         {"kicks", summary.kicks},
-          {"used", summary.used},         {"left_out", summary.left_out}, {"found", summary.found},
-          {"played_s", summary.played_s}, {"wall_s", summary.wall_s}};
-}
-
-Json json_of_aim(const experiment::AimErrors& errors) {
-  return {{"kicks", errors.kicks},
-          {"without_crossing", errors.without_crossing},
-          {"median_height_error_m", errors.median_height_m},
-          {"median_sideways_error_m", errors.median_sideways_m}};
-}
-
-std::string text_of_aim(const experiment::AimErrors& errors) {
-  return fmt::format("{} kicks, {} without a crossing; medians: height {:.3f} m, sideways {:.3f} m", errors.kicks,
-                     errors.without_crossing, errors.median_height_m, errors.median_sideways_m);
-}
-
-/// What the run says: a line a drive as it goes, and a report. With --json the lines go to standard error.
-class Report {
- public:
-  explicit Report(bool json) : json_(json) {}
-
-  void add(const calibration::DriveSummary& summary) {
-    std::FILE* const to = json_ ? stderr : stdout;
-    fmt::print(to, "{}: {} of {} kicks, {:.0f} s of play in {:.1f} s: {}\n", summary.name, summary.used, summary.kicks,
-               summary.played_s, summary.wall_s, summary.found);
-    for (const std::string& why : summary.left_out) fmt::print(to, "  left out: {}\n", why);
-    std::fflush(to);
-    document_["drives"].push_back(json_of_drive(summary));
-  }
-
-  void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
-              const experiment::AimErrors& truth, const std::vector<experiment::WorldFigure>& world) {
-    document_["file"] = file;
-    document_["robot"] = update.robot().name;
-    document_["changes"] = update.changes();
-    document_["check"] = json_of_aim(observed);
-    Json simulator{{"check", json_of_aim(truth)}, {"figures", Json::array()}};
-    for (const experiment::WorldFigure& figure : world) {
-      simulator["figures"].push_back({{"key", figure.key},
-                                      {"calibrated", figure.calibrated},
-                                      {"world", figure.world},
-                                      {"difference", figure.calibrated - figure.world}});
-    }
-    document_["simulator_truth"] = std::move(simulator);
-    if (json_) {
-      fmt::print("{}", evaluator::json_text(document_));
-      return;
-    }
-    fmt::print("\n");
-    for (const std::string& line : update.changes()) fmt::print("{}\n", line);
-    fmt::print("\ncheck, stopped and without noise, as the robot saw it: {}\n", text_of_aim(observed));
-    fmt::print("\nThe simulator's truth, which no fit has seen\ncheck: {}\n", text_of_aim(truth));
-    fmt::print("{:<26}{:>12}{:>12}{:>12}\n", "", "calibrated", "world", "difference");
-    for (const experiment::WorldFigure& figure : world) {
-      fmt::print("{:<26}{:>12.4f}{:>12.4f}{:>+12.4f}\n", figure.key, figure.calibrated, figure.world,
-                 figure.calibrated - figure.world);
-    }
-    fmt::print("\n{}\n", file);
-  }
-
- private:
-  bool json_;
-  Json document_{{"drives", Json::array()}};
-};
 
 struct Worlds {
   sim::Scenario drives;
@@ -196,7 +125,7 @@ int calibrate(const RunFlags& flags) {
     if (flags.in_process) return std::make_unique<experiment::DrivesInProcess>(world, settings);
     return std::make_unique<DriveMatches>(world, settings, fs::absolute(flags.out_dir), part, signals);
   };
-  Report report{flags.json};
+  RunReport report{flags.json};
   const experiment::Evening evening = experiment::play_evening(
       options, *source_in(worlds.drives), [&](const calibration::DriveSummary& summary) { report.add(summary); });
   evening.robot.write(file);
