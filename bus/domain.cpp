@@ -41,9 +41,4 @@ DomainConfig from_file(std::uint32_t domain_id, const std::filesystem::path& fil
   return {domain_id, text.str()};
 }
 
-DomainConfig from_environment(std::uint32_t domain_id) {
-  check_domain_id(domain_id);
-  return {domain_id, {}};
-}
-
 }  // namespace trivela::bus

@@ -24,7 +24,4 @@ DomainConfig loopback(std::uint32_t domain_id, std::string_view tag);
 /// The configuration in a Cyclone XML file. Throws Error if the id is outside 0..100 or the file cannot be read.
 DomainConfig from_file(std::uint32_t domain_id, const std::filesystem::path& file);
 
-/// Whatever CYCLONEDDS_URI says, Cyclone's defaults without it. Throws Error if the id is outside 0..100.
-DomainConfig from_environment(std::uint32_t domain_id);
-
 }  // namespace trivela::bus

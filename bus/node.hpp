@@ -40,12 +40,14 @@ class Output {
   void assert_liveliness() const { writer_->assert_liveliness(); }
   std::size_t readers() const { return writer_->readers(); }
   const std::string& topic() const { return writer_->topic(); }
-  bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
+  [[nodiscard]] bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
     return writer_->wait_for_readers(n, timeout);
   }
 
   /// Whether another node of the same name and robot writes T, looking for up to the timeout.
-  bool other_writer_exists(std::chrono::nanoseconds timeout) const { return writer_->other_writer_exists(timeout); }
+  [[nodiscard]] bool other_writer_exists(std::chrono::nanoseconds timeout) const {
+    return writer_->other_writer_exists(timeout);
+  }
 
  private:
   std::shared_ptr<Writer<T>> writer_;

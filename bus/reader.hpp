@@ -43,7 +43,7 @@ class AnyReader {
   bool wait(std::chrono::nanoseconds timeout);
 
   /// Waits until at least n writers are matched; false if the timeout came first.
-  bool wait_for_writers(std::size_t n, std::chrono::nanoseconds timeout);
+  [[nodiscard]] bool wait_for_writers(std::size_t n, std::chrono::nanoseconds timeout);
 
   /// How many writers are matched now.
   std::size_t writers() const;

@@ -23,7 +23,7 @@ class AnyWriter {
   std::size_t readers() const;
 
   /// Waits until at least n readers are matched; false if the timeout came first.
-  bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const;
+  [[nodiscard]] bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const;
 
   /// Whether another writer of this topic carries the same WriterOptions::owner, looking for up to the timeout.
   bool other_writer_exists(std::chrono::nanoseconds timeout) const;

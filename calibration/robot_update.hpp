@@ -32,7 +32,7 @@ class RobotUpdate {
   // are the records and tables that it was made from.
 
   /// [table], kicker.exit_angle_deg and, where a set-point has several kicks, kicker.spreads of exit speed, exit angle
-  /// and table. @throws std::invalid_argument for a table that does not rise, config::BadArgument for a true one where
+  /// and table. Throws std::invalid_argument for a table that does not rise, config::BadArgument for a true one where
   /// a measured effective one stands.
   void set_table(const kicking::TableFit& fit, const TableChoice& choice, const std::vector<std::string>& files);
   /// kicker.alpha_slope_deg_per_mps, and transfer_exact.lateral_ratio where the fit has it.
@@ -56,7 +56,7 @@ class RobotUpdate {
   /// The file: a comment that names the tool and what is measured, then the robot.
   std::string text() const;
 
-  /// Writes it whole or not at all. @throws std::runtime_error naming the path, and the figure that a robot cannot
+  /// Writes it whole or not at all. Throws std::runtime_error naming the path, and the figure that a robot cannot
   /// have.
   void write(const std::filesystem::path& path) const;
 

@@ -48,7 +48,7 @@ void require_lobs(const std::map<double, Tally>& tallies, std::uint32_t kicks) {
     if (tally.lobs >= kFewestLobs) continue;
     throw std::runtime_error{fmt::format(
         "set-point {}: {} of the {} lobs that it needs, after {} kicks; about {} more kicks with it are needed "
-        "(--kicks, now {})",
+        "(now {} of each set-point)",
         power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, kicks)};
   }
 }

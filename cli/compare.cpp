@@ -60,16 +60,21 @@ void check(const CompareArguments& arguments) {
   }
 }
 
+evaluator::KickBook read_logs(const CompareArguments& arguments, std::string& by) try {
+  return evaluator::read_log_kicks({arguments.logs.begin(), arguments.logs.end()},
+                                   {.by = arguments.by,
+                                    .stratify = arguments.stratify,
+                                    .truth = arguments.outcome == "truth",
+                                    .blocked_apart = arguments.blocked == "apart"},
+                                   by);
+} catch (const evaluator::BadOption& error) {
+  throw std::runtime_error(fmt::format("--{}", error.what()));
+}
+
 evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   const bool of_csv = !arguments.csv.empty();
   std::string by = arguments.by.empty() ? "policy" : arguments.by;
-  evaluator::KickBook book = of_csv ? read_csv(arguments)
-                                    : evaluator::read_log_kicks({arguments.logs.begin(), arguments.logs.end()},
-                                                                {.by = arguments.by,
-                                                                 .stratify = arguments.stratify,
-                                                                 .truth = arguments.outcome == "truth",
-                                                                 .blocked_apart = arguments.blocked == "apart"},
-                                                                by);
+  evaluator::KickBook book = of_csv ? read_csv(arguments) : read_logs(arguments, by);
   if (arguments.stratify == by) {
     throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
   }

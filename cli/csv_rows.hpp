@@ -45,7 +45,7 @@ struct RowVerb {
 enum class RowFormat { kCsv, kJson };
 
 /// Reads CSV from `in`, writes the rows with the results appended to `out`. A bad row is left out and named on `err`
-/// with file, line, column and value. @returns kDone, or kFailed after a bad row. @throws std::runtime_error, with
+/// with file, line, column and value. Returns kDone, or kFailed after a bad row. Throws std::runtime_error, with
 /// nothing written, if the header is unusable or CsvReader cannot read on.
 ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
                   std::ostream& err);
@@ -63,7 +63,7 @@ struct RowArguments {
 void add_row_flags(CLI::App& app, const RowVerb& verb, RowArguments& arguments);
 
 /// Runs the verb over the file, standard input ("-") or the one row of the flags; writes to standard output and error.
-/// The one row is drawn where --svg says so. @throws UsageError if flags and --csv are mixed, a required flag is
+/// The one row is drawn where --svg says so. Throws UsageError if flags and --csv are mixed, a required flag is
 /// missing or its value is impossible.
 ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments);
 

@@ -14,18 +14,18 @@
 #include "cli/open_file.hpp"
 #include "evaluator/report/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::cli {
 namespace {
 
 using evaluator::Json;
 using kicking::Estimate;
+using kicking::nanoseconds;
 using kicking::lob::ForegroundReturn;
 using kicking::lob::LobRecord;
 
 const double kDegrees = kicking::degrees(1.0);
-
-std::int64_t to_ns(double t_s) { return std::llround(t_s * 1e9); }
 
 /// Checks each row against those before it.
 class ReturnRows {
@@ -33,10 +33,10 @@ class ReturnRows {
   ForegroundReturn read(const Row& row) {
     const double scan = row.number_in("scan", 0.0, 1e15);
     if (scan != std::floor(scan)) throw CellError("scan", *row.word("scan"), "is not a whole number");
-    const ForegroundReturn seen{static_cast<std::int64_t>(scan), to_ns(row.number_in("t_scan_start_s", -1e9, 1e9)),
-                                to_ns(row.number_in("t_beam_s", -1e9, 1e9)),
-                                kicking::radians(row.number_in("angle_deg", -360.0, 360.0)),
-                                row.length_m("range_m", 200.0)};
+    const ForegroundReturn seen{
+        static_cast<std::int64_t>(scan), nanoseconds(row.number_in("t_scan_start_s", -1e9, 1e9)),
+        nanoseconds(row.number_in("t_beam_s", -1e9, 1e9)), kicking::radians(row.number_in("angle_deg", -360.0, 360.0)),
+        row.length_m("range_m", 200.0)};
     const auto start = starts_.try_emplace(seen.scan, seen.scan_t_ns).first->second;
     if (start != seen.scan_t_ns) {
       throw CellError("t_scan_start_s", *row.word("t_scan_start_s"),

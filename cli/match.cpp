@@ -100,7 +100,7 @@ config::Settings settings_of(const MatchFlags& flags) {
     lines.push_back(std::move(line));
   refuse_settings_of_flags(flags.overrides);
   for (const std::string& line : flags.overrides) lines.push_back(line);
-  config::override_settings(settings, lines);
+  config::override_settings(settings, lines, "--set");
   refuse_oracle(settings.kick_decision);
   nodes::scenario_of(settings);
   config::robot_for(config::load_robot(settings.run.robot), settings);

@@ -44,7 +44,7 @@ int replay(const ReplayFlags& flags) {
   settings.hal.wheels = config::ReplayDevice{};
   settings.hal.kicker = config::ReplayDevice{};
   settings.hal.replay_log = flags.log;
-  config::override_settings(settings, flags.overrides);
+  config::override_settings(settings, flags.overrides, "--set");
   return record_lockstep("replay_player", settings, flags.domain, flags.out);
 }
 

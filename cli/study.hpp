@@ -34,7 +34,7 @@ struct Study {
 };
 
 /// The teams of the evenings of calibration, played with a progress bar on a terminal, for an experiment of so many
-/// matches. @throws UsageError where `base` names robot files, too, and where there are more evenings than matches.
+/// matches. Throws UsageError where `base` names robot files, too, and where there are more evenings than matches.
 std::vector<experiment::Team> draw_evenings(const sim::Scenario& scenario, const experiment::ArmBase& base,
                                             const experiment::EveningPlan& plan, std::uint32_t matches);
 

@@ -7,7 +7,7 @@ namespace trivela::cli {
 
 sim::Scenario World::load() const {
   sim::Scenario scenario = config::load_scenario(file);
-  for (const std::string& line : changes) config::override_scenario(scenario, line);
+  for (const std::string& line : changes) config::override_scenario(scenario, line, "--world");
   return scenario;
 }
 

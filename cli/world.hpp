@@ -15,7 +15,7 @@ struct World {
   std::string file = config::shipped("scenarios/default.toml").string();
   std::vector<std::string> changes;  ///< lines of TOML, e.g. "keeper.reaction_s = 0.15"
 
-  /// @throws config::Error naming file or line, key and value.
+  /// Throws config::Error naming file or line, key and value.
   sim::Scenario load() const;
 
   /// `base`, which is the file's name with or without its ending, and the changes.

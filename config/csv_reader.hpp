@@ -26,7 +26,7 @@ class CsvReader {
  public:
   explicit CsvReader(std::istream& in, std::string file = "CSV") : in_(in), file_(std::move(file)) {}
 
-  /// The next record, none at the end. @throws std::runtime_error naming file, line and column (from 1) for a quote
+  /// The next record, none at the end. Throws std::runtime_error naming file, line and column (from 1) for a quote
   /// that is never closed or closed within a cell, a byte that is not UTF-8, and a control character.
   std::optional<CsvRecord> next() {
     std::string text;

@@ -23,17 +23,17 @@ class Row {
   bool has(std::string_view column) const;
   /// The cell's text; none if it is absent or empty.
   std::optional<std::string> word(std::string_view column) const;
-  /// The cell's finite number. @throws CellError
+  /// The cell's finite number. Throws CellError
   std::optional<double> number_if_any(std::string_view column) const;
-  /// The same; a missing number is an error, too. @throws CellError
+  /// The same; a missing number is an error, too. Throws CellError
   double number(std::string_view column) const;
-  /// The number if it lies in [low, high], an error saying so otherwise. @throws CellError
+  /// The number if it lies in [low, high], an error saying so otherwise. Throws CellError
   double number_in(std::string_view column, double low, double high) const;
-  /// The number if it is above zero. @throws CellError
+  /// The number if it is above zero. Throws CellError
   double positive(std::string_view column) const;
   /// Above 0 and at most `most_m`: what lies beyond was written in centimetres.
   double length_m(std::string_view column, double most_m) const;
-  /// Angle in degrees between 0 and 90, both excluded, in radians. @throws CellError
+  /// Angle in degrees between 0 and 90, both excluded, in radians. Throws CellError
   double acute_angle_rad(std::string_view column) const;
 
  private:
@@ -47,7 +47,7 @@ std::string trimmed(const std::string& cell);
 /// Each cell without blanks around it.
 std::vector<std::string> trimmed(const std::vector<std::string>& cells);
 
-/// A record must have as many cells as the header. @throws CellError
+/// A record must have as many cells as the header. Throws CellError
 void check_width(const std::vector<std::string>& header, const CsvRecord& record);
 
 }  // namespace trivela::config

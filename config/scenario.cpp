@@ -20,11 +20,11 @@ sim::Scenario load_scenario(const std::filesystem::path& path) {
   return scenario;
 }
 
-void override_scenario(sim::Scenario& scenario, const std::string& line) {
-  const TomlSource source = parse_text(line, "--world");
+void override_scenario(sim::Scenario& scenario, const std::string& line, const std::string& called) {
+  const TomlSource source = parse_text(line, called);
   read_into(source, scenario);
   if (const auto problem = sim::first_problem(scenario))
-    throw Error{fmt::format("--world {}: {}: {}", line, problem->key, problem->why)};
+    throw Error{fmt::format("{} {}: {}: {}", called, line, problem->key, problem->why)};
 }
 
 std::string to_toml_text(const sim::Scenario& scenario) { return to_toml(scenario); }

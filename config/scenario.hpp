@@ -10,9 +10,9 @@ namespace trivela::config {
 /// Reads config/scenarios/NAME.toml; what it does not name keeps the default of sim::Scenario. Throws Error.
 sim::Scenario load_scenario(const std::filesystem::path& path);
 
-/// Sets what a line of TOML names, e.g. "keeper.reaction_s = 0.15". Throws Error naming the line's key and value; also
-/// where the scenario could no longer be played.
-void override_scenario(sim::Scenario& scenario, const std::string& line);
+/// Sets what a line of TOML names, e.g. "keeper.reaction_s = 0.15". Throws Error naming the line's key and value
+/// after what the line is `called`; also where the scenario could no longer be played.
+void override_scenario(sim::Scenario& scenario, const std::string& line, const std::string& called = "scenario");
 
 /// Every value of the scenario as TOML that load_scenario() reads back.
 std::string to_toml_text(const sim::Scenario& scenario);

@@ -83,8 +83,8 @@ void check_policies(const KickDecision& settings, const std::string& source) {
   }
 }
 
-void override_settings(Settings& settings, const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) read_into(parse_text(line, "--set"), settings);
+void override_settings(Settings& settings, const std::vector<std::string>& lines, const std::string& called) {
+  for (const std::string& line : lines) read_into(parse_text(line, called), settings);
   settle(settings, "the settings");
 }
 

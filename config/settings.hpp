@@ -139,8 +139,9 @@ void check_policies(const KickDecision& settings, const std::string& source);
 
 /// Lines of TOML such as `run.robot_id = 2` on top, and what follows from all of them together: the cycle of the
 /// policies, their learned model. Relative file names are relative to the working directory. Throws Error naming line
-/// or key, also for policies that do not go together.
-void override_settings(Settings& settings, const std::vector<std::string>& lines);
+/// or key after what the lines are `called`, also for policies that do not go together.
+void override_settings(Settings& settings, const std::vector<std::string>& lines,
+                       const std::string& called = "settings");
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);

@@ -29,7 +29,7 @@ class Kicker {
   virtual ~Kicker() = default;
 
   /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
-  virtual bool connected(std::chrono::nanoseconds timeout) = 0;
+  [[nodiscard]] virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
   virtual std::optional<KickerSample> read(std::chrono::nanoseconds timeout) = 0;

@@ -28,7 +28,7 @@ class RangeFinder {
 
   /// The device is there and measures. Waits for it up to `timeout`, a second at most. False: not yet, status() says
   /// why.
-  virtual bool connected(std::chrono::nanoseconds timeout) = 0;
+  [[nodiscard]] virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// Who it is and how it looks; meaningful once connected() was true.
   virtual kicking::lob::ScannerIdentity identity() const = 0;

@@ -24,7 +24,7 @@ class Wheels {
   virtual ~Wheels() = default;
 
   /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
-  virtual bool connected(std::chrono::nanoseconds timeout) = 0;
+  [[nodiscard]] virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
   virtual std::optional<WheelSample> read(std::chrono::nanoseconds timeout) = 0;

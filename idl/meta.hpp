@@ -66,15 +66,6 @@ template <class T, class F>
 requires Struct<std::remove_reference_t<T>>
 constexpr void visit_fields(T&& message, F&& f) { meta<std::remove_cvref_t<T>>::visit(message, f); }
 
-/// The names of T's fields in the order of the IDL.
-template <Struct T>
-constexpr auto field_names() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    return std::array<std::string_view, sizeof...(I)>{meta<T>::fields[I].name...};
-  }
-  (std::make_index_sequence<meta<T>::fields.size()>{});
-}
-
 /// Calls f(name, field) for each field that is a value and no array: the columns of the message in a table.
 template <class T, class F>
 requires Struct<std::remove_reference_t<T>>

@@ -6,7 +6,7 @@
 namespace trivela::sim {
 namespace {
 
-void roll(BallMotion& m, const Ball& ball, double drag, double dt) {
+void roll(BallMotion& m, const BallPhysics& ball, double drag, double dt) {
   const double speed = std::hypot(m.velocity_mps.x(), m.velocity_mps.y());
   if (speed <= 0.0) return;
   const auto at = [&](double v) { return ball.rolling_deceleration_mps2 + drag * v * v; };
@@ -27,12 +27,12 @@ double time_to_height(const BallMotion& m, double height, double drag, double gr
 
 }  // namespace
 
-double drag_per_m(const Ball& ball) {
+double drag_per_m(const BallPhysics& ball) {
   return kicking::drag_per_m({.mass_kg = ball.mass_kg, .radius_m = ball.radius_m},
                              {.density_kgpm3 = ball.air_density_kgpm3, .drag_coefficient = ball.drag_coefficient});
 }
 
-void advance(BallMotion& motion, const Ball& ball, double dt_s) {
+void advance(BallMotion& motion, const BallPhysics& ball, double dt_s) {
   const double drag = drag_per_m(ball);
   while (dt_s > 0.0) {
     if (motion.rolling) return roll(motion, ball, drag, dt_s);

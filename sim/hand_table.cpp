@@ -25,7 +25,7 @@ constexpr double kLeastRise = 0.1;  // of the power from one distance to the nex
 
 /// Power at which the ball passes `height_m` over the launch at `distance_m`, fractional; none: out of reach.
 /// The exit elevation hardly depends on the power: a few rounds are enough.
-std::optional<double> power_through(const Kicker& kicker, const Ball& ball, double distance_m, double height_m,
+std::optional<double> power_through(const Kicker& kicker, const BallPhysics& ball, double distance_m, double height_m,
                                     double speed_ratio) {
   double power = 0.5 * (kicker.powers.front() + kicker.powers.back());
   for (int i = 0; i < 3; ++i) {

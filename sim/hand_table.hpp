@@ -22,7 +22,7 @@ namespace trivela::sim {
 /// do not rise, is none that anybody would play by: it is made again on another day, all numbers drawn anew.
 /// One draw for each (seed, match, robot): the same in every arm. `robot` counts from 1; `kicker` is that robot's, or
 /// the team's reference where one table serves all.
-/// @throws std::runtime_error where 100 tables in a row are no good.
+/// Throws std::runtime_error where 100 tables in a row are no good.
 kicking::DistanceTable draw_hand_table(const Scenario& scenario, const Kicker& kicker, std::uint64_t seed,
                                        std::uint32_t match, std::uint32_t robot);
 

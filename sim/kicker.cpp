@@ -38,7 +38,7 @@ Exit exit_at(const Kicker& kicker, double power) {
           std::lerp(kicker.exit_elevations_rad[i - 1], kicker.exit_elevations_rad[i], part)};
 }
 
-Exit effective_exit(const Exit& true_exit, const Ball& ball) {
+Exit effective_exit(const Exit& true_exit, const BallPhysics& ball) {
   const double elevation = true_exit.elevation_rad;
   if (!(elevation > 0.0 && elevation < std::numbers::pi / 2) || !(true_exit.speed_mps > 0.0)) {
     throw std::runtime_error{
@@ -67,7 +67,7 @@ Exit effective_exit(const Exit& true_exit, const Ball& ball) {
   }
 }
 
-Exit true_exit(const Exit& effective, const Ball& ball) {
+Exit true_exit(const Exit& effective, const BallPhysics& ball) {
   Exit exit = effective;
   for (int i = 0; i < 20; ++i) {  // drag changes little: each round gains about a digit
     const Exit seen = effective_exit(exit, ball);

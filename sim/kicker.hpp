@@ -25,9 +25,9 @@ Exit exit_at(const Kicker& kicker, double power);
 /// What the paper's calibration makes of a true exit: fly it with drag back to the height it left from, measure apex H
 /// and range D, and read theta = atan(4 H / D), v = sqrt(D g / sin 2 theta) (paper, section 2). Without drag it is the
 /// identity. Throws std::runtime_error for an elevation outside (0, pi/2) or a speed that is not positive.
-Exit effective_exit(const Exit& true_exit, const Ball& ball);
+Exit effective_exit(const Exit& true_exit, const BallPhysics& ball);
 
 /// The true exit whose effective_exit() is `effective`: how the default table of Kicker follows from the published map.
-Exit true_exit(const Exit& effective, const Ball& ball);
+Exit true_exit(const Exit& effective, const BallPhysics& ball);
 
 }  // namespace trivela::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/kicker.hpp"
 
 namespace trivela::sim {
@@ -37,7 +38,7 @@ void KickerDevice::energise_due(std::int64_t t_ns, bool live, const kicking::Dra
   const auto [speed_noise, direction_noise, delay_noise, spare] = draws.normals(kicking::Role::kKicker, attempt);
   const double delay_s = std::max(0.0, values_.delay_s + values_.delay_sd_s * delay_noise);
   stroke_ = Stroke{.kick_id = order_->kick_id,
-                   .release_t_ns = t_ns + std::llround(delay_s * 1e9),
+                   .release_t_ns = t_ns + kicking::nanoseconds(delay_s),
                    .exit_speed_mps = std::max(0.0, exit.speed_mps * strength * values_.speed_scale_ratio *
                                                        (1.0 + values_.speed_sd_ratio * speed_noise)),
                    .exit_elevation_rad = exit.elevation_rad,

@@ -225,14 +225,14 @@ Match& Match::operator=(Match&&) noexcept = default;
 
 bool Match::done() const { return state_->phase == State::Phase::kDone; }
 
-Sensors Match::sense(const Looks& looks) const {
+Sensors Match::sense(const SensorChoice& choice) const {
   const State& s = *state_;
   return {.t_ns = s.world.t_ns(),
           .carrier = s.opportunity.robot,
-          .wheels = looks.wheels ? s.sensors.wheels(s.world) : WheelSample{},
+          .wheels = choice.wheels ? s.sensors.wheels(s.world) : WheelSample{},
           .kicker = {.charge = s.world.kicker().charge()},
-          .vision = looks.vision ? s.sensors.vision(s.world) : VisionFrame{},
-          .flight = looks.flight ? s.sensors.flight(s.world) : FlightFrame{},
+          .vision = choice.vision ? s.sensors.vision(s.world) : VisionFrame{},
+          .flight = choice.flight ? s.sensors.flight(s.world) : FlightFrame{},
           .referee = {.half = s.half, .playing = s.phase == State::Phase::kPlay, .possession_id = s.possession_id},
           .scans = s.laser.scans()};
 }

@@ -43,7 +43,7 @@ class Match {
   bool done() const;
 
   /// What the sensors and the referee say now; samples that are not looked for are left at their defaults.
-  Sensors sense(const Looks& looks = {}) const;
+  Sensors sense(const SensorChoice& choice = {}) const;
 
   /// The kicker of one of our robots, counted from 1, as it is in this match. For the oracle and for tests alone.
   Kicker true_kicker(std::uint32_t robot) const;

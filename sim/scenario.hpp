@@ -14,7 +14,7 @@ struct Field {
   double frame_thickness_m = 0.125;  ///< posts: CAMBADA release 1.0 cambada.conf.xml; bar: assumption, the same
 };
 
-struct Ball {
+struct BallPhysics {
   double mass_kg = 0.43;                   ///< FIFA size 5: 0.43 +- 0.02 kg
   double radius_m = 0.11;                  ///< FIFA size 5: circumference 0.69 +- 0.01 m
   double air_density_kgpm3 = 1.2;          ///< air at 20 degrees C
@@ -203,7 +203,7 @@ struct Scenario {
   double cycle_s = 0.02;    ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
   double substep_s = 0.02;  ///< longest step of the physics; numerical choice
   Field field;
-  Ball ball;
+  BallPhysics ball;
   Robot robot;
   Kicker kicker;
   Possession possession;

@@ -24,7 +24,7 @@ void fields(V& v, Field& f) {
 }
 
 template <class V>
-void fields(V& v, Ball& b) {
+void fields(V& v, BallPhysics& b) {
   v("mass_kg", b.mass_kg, Range{0.05, 2.0});
   v("radius_m", b.radius_m, Range{0.02, 0.25});
   v("air_density_kgpm3", b.air_density_kgpm3, Range{0.0, 2.0});

@@ -56,7 +56,7 @@ struct RefereeWord {
 };
 
 /// Which samples a caller wants. Those it leaves out cost nothing; the others are the same bits with or without them.
-struct Looks {
+struct SensorChoice {
   bool wheels = true;
   bool vision = true;
   bool flight = true;

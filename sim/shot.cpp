@@ -19,12 +19,12 @@ kicking::Goal goal_of(const Field& field) {
           .post_width_m = field.frame_thickness_m};
 }
 
-kicking::Ball ball_of(const Ball& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
+kicking::Ball ball_of(const BallPhysics& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
 
 bool touched_floor(const BallMotion& motion) { return motion.bounced || motion.rolling; }
 
 /// How far along y a rolling ball still goes; without end in the air, where its fall decides nothing about the line.
-double reach_y_m(const BallMotion& motion, const Ball& ball) {
+double reach_y_m(const BallMotion& motion, const BallPhysics& ball) {
   if (!motion.rolling || ball.rolling_deceleration_mps2 <= 0.0) return HUGE_VAL;
   const double speed = std::hypot(motion.velocity_mps.x(), motion.velocity_mps.y());
   return 0.5 * speed * std::abs(motion.velocity_mps.y()) / ball.rolling_deceleration_mps2;
@@ -64,7 +64,7 @@ void Shot::step_to(std::int64_t t_ns, std::span<const OpponentBody> opponents) {
   if (ball_.position_m.y() >= scenario_.field.goal_line_y_m) {
     double until_s = dt_s;
     ball_ = at_line(before, scenario_.field.goal_line_y_m, dt_s, until_s);
-    meet_goal_plane(before_t_ns + std::llround(until_s * 1e9));
+    meet_goal_plane(before_t_ns + kicking::nanoseconds(until_s));
     return sim::advance(ball_, scenario_.ball, dt_s - until_s);
   }
   for (const OpponentBody& body : opponents) {
@@ -129,7 +129,7 @@ void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, do
   if (before.position_m.y() >= line_y_m || ball_.position_m.y() < line_y_m) return;
   double until_s = dt_s;
   const BallMotion there = at_line(before, line_y_m, dt_s, until_s);
-  const std::int64_t t_ns = before_t_ns + std::llround(until_s * 1e9);
+  const std::int64_t t_ns = before_t_ns + kicking::nanoseconds(until_s);
   const GuardedBall ball{
       {there.position_m.x(), there.position_m.z()}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
   const Eigen::Vector3d& from = released_.position_m;

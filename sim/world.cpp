@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::sim {
 
 World::World(const Scenario& scenario) : scenario_(scenario), body_(scenario.robot), kicker_(scenario.kicker) {}
@@ -55,7 +57,7 @@ void World::coil_events() {
 }
 
 void World::move(std::int64_t t_ns) {
-  const double dt_s = static_cast<double>(t_ns - t_ns_) * 1e-9;
+  const double dt_s = kicking::seconds(t_ns - t_ns_);
   t_ns_ = t_ns;
   body_.advance(dt_s);
   kicker_.recharge(dt_s);

@@ -69,7 +69,7 @@ std::optional<kicking::LaunchDirection> launch_direction(const std::vector<kicki
   constexpr double kLeastLength_m = 1.0;
   std::vector<Eigen::Vector2d> places;
   for (const kicking::Sighting& sighting : sightings) {
-    const double t_s = 1e-9 * static_cast<double>(sighting.t_ns - kick.order_t_ns);
+    const double t_s = kicking::seconds(sighting.t_ns - kick.order_t_ns);
     if (t_s < model.delay_s + kLeft_s) continue;
     if (t_s > kFlight_s || sighting.ball_m.y() >= kick.goal_line_y_m) break;
     if (!places.empty() && sighting.ball_m.y() < places.back().y() - kCarriedBack_m) break;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::calibration {
 namespace {
 
@@ -41,7 +43,7 @@ std::vector<SeenBall> in_flight(std::span<const kicking::Sighting> sightings, st
   std::vector<SeenBall> seen;
   const auto from = std::ranges::lower_bound(sightings, release_t_ns, {}, &kicking::Sighting::t_ns);
   for (auto sighting = from; sighting != sightings.end(); ++sighting) {
-    const double t_s = 1e-9 * static_cast<double>(sighting->t_ns - release_t_ns);
+    const double t_s = kicking::seconds(sighting->t_ns - release_t_ns);
     const Vector3d& ball_m = sighting->ball_m;
     if (t_s < kTrackBegin_s) continue;
     if (t_s > kTrackEnd_s || ball_m.y() >= goal_line_y_m - kTrackGoal_m) break;

@@ -18,7 +18,7 @@ void annotate(kicking::lob::LobRecord& lob, std::span<const evaluator::log::Test
 
 /// The lobs of a scan record in the order of their flights, refused ones too, each with its power and the verdicts of
 /// the record; `later_verdicts`, said of a finished record and kept beside it, come after those.
-/// @throws std::runtime_error where the record cannot be read, std::invalid_argument where its geometry makes no sense.
+/// Throws std::runtime_error where the record cannot be read, std::invalid_argument where its geometry makes no sense.
 std::vector<kicking::lob::LobRecord> lobs_of_scans(const evaluator::log::ScanReader& scans,
                                                    const kicking::lob::AnalyzerConfig& config = {},
                                                    std::span<const evaluator::log::Verdict> later_verdicts = {});

@@ -19,17 +19,17 @@ inline constexpr double kFieldLength_m = 40.0;
 class NumberTable {
  public:
   /// Reads `file`, "-" for standard input. `columns` names them in order, '-' one to skip; empty: the first line does.
-  /// @throws std::runtime_error for a file that cannot be read, is empty, or whose first line names no columns;
+  /// Throws std::runtime_error for a file that cannot be read, is empty, or whose first line names no columns;
   /// config::BadArgument for `columns` that name one twice or none. Sentences on `columns` say `called`.
   static NumberTable read(const std::string& file, const std::string& columns = "",
                           const std::string& called = "columns");
 
   bool has(std::string_view column) const;
 
-  /// @throws std::runtime_error naming file and columns unless one of them is there.
+  /// Throws std::runtime_error naming file and columns unless one of them is there.
   void require_one_of(const std::vector<std::string>& columns) const;
 
-  /// Calls `fn` for each row. @throws std::runtime_error naming file, line, column and value of the first bad cell.
+  /// Calls `fn` for each row. Throws std::runtime_error naming file, line, column and value of the first bad cell.
   void for_each(const std::function<void(const config::Row&)>& fn) const;
 
  private:

@@ -13,7 +13,7 @@ namespace trivela::calibration {
 enum class InputKind { kNumbers, kScanRecord, kMatchLog };
 
 /// By the file's first bytes and tables; "-" and whatever is no SQLite file is a table of numbers.
-/// @throws std::runtime_error naming a file that cannot be read.
+/// Throws std::runtime_error naming a file that cannot be read.
 InputKind input_kind(const std::string& file);
 
 /// How to read the trials of a kicker, and what sentences call that.
@@ -37,7 +37,7 @@ struct Trials {
 /// columns power, height_m, distance_m (of the ball's centre relative to the launch; effective) or power,
 /// exit_speed_mps
 /// [, exit_angle_deg].
-/// @throws std::runtime_error, std::invalid_argument naming file and line; config::BadArgument for flags that
+/// Throws std::runtime_error, std::invalid_argument naming file and line; config::BadArgument for flags that
 /// contradict a file.
 Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flags);
 

@@ -40,10 +40,10 @@ bool is_simulated(const FitFlags& flags);
 
 /// The robot that --robot means, none without the flag. For a match log it is needed, with an effective table; `needed`
 /// false: where --out is given only.
-/// @throws UsageError, config::Error
+/// Throws UsageError, config::Error
 std::optional<config::Robot> robot_of(const FitFlags& flags, bool needed);
 
-/// Is the input a match log? @throws std::runtime_error for a scan record.
+/// Is the input a match log? Throws std::runtime_error for a scan record.
 bool is_match_log(const FitFlags& flags);
 
 /// The input as a table of numbers.
@@ -61,7 +61,7 @@ struct FitReport {
 };
 
 /// Writes the figure into --out, if given, and prints the report.
-/// @throws UsageError for --out without --robot, std::runtime_error where it cannot be written.
+/// Throws UsageError for --out without --robot, std::runtime_error where it cannot be written.
 void finish_fit(const FitFlags& flags, const std::string& verb, const std::optional<config::Robot>& robot,
                 FitReport report, const std::function<void(calibration::RobotUpdate&)>& update);
 

@@ -8,6 +8,7 @@
 #include "cli/verbs.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/lob_json.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -38,7 +39,7 @@ ScanInfo info_of(const evaluator::log::ScanReader& record, const std::filesystem
                 .warnings = record.warnings()};
   if (info.scans > 0) {
     info.duration_s =
-        static_cast<double>(record.t_ns(info.scans - 1) - record.t_ns(0)) * 1e-9 + info.session.geometry.scan_period_s;
+        kicking::seconds(record.t_ns(info.scans - 1) - record.t_ns(0)) + info.session.geometry.scan_period_s;
   }
   return info;
 }

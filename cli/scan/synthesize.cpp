@@ -74,7 +74,7 @@ void write_truth(const std::string& path, const std::vector<sim::KickedTruth>& t
 SyntheticScans synthesize(const SyntheticFlags& flags, const MountFlags& mount) {
   const sim::LaserModel laser = laser_model(flags, mount);
   SyntheticScans made;
-  made.record = sim::synthesize_record(laser, {.kicks = kicks_of(flags)}, sim::Ball{}, flags.seed);
+  made.record = sim::synthesize_record(laser, {.kicks = kicks_of(flags)}, sim::BallPhysics{}, flags.seed);
   made.session = {.identity = {"synthetic", flags.scanner, fmt::format("seed {}", flags.seed), "", "none"},
                   .geometry = laser.geometry,
                   .mount = made.record.mount,

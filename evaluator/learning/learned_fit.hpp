@@ -54,11 +54,11 @@ struct LearnedFit {
 /// of least log loss in a cross-validation by match; the model is that of the training matches. The interval of the
 /// difference: mean of d = loss_learned - loss_predictive over kicks, variance G / (G - 1) sum_m (sum_i (d_i -
 /// mean))^2 / n^2 over the G held-out matches, Student's distribution with G - 1 degrees of freedom.
-/// @throws std::runtime_error saying what is missing: fewer than 10 matches, 5 held-out matches with kicks or 100
+/// Throws std::runtime_error saying what is missing: fewer than 10 matches, 5 held-out matches with kicks or 100
 /// training kicks, kicks of one outcome alone, or a feature that is not finite.
 LearnedFit fit_learned_model(std::span<const PredictedKick> kicks, const LearnOptions& options = {});
 
-/// The losses of a model on kicks that it has not seen. @throws std::runtime_error for fewer than 5 matches.
+/// The losses of a model on kicks that it has not seen. Throws std::runtime_error for fewer than 5 matches.
 HeldOutLoss held_out_loss(const kicking::LearnedModel& model, std::span<const PredictedKick> kicks);
 
 }  // namespace trivela::evaluator

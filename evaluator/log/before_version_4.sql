@@ -8,8 +8,8 @@ SELECT o.*, NULL AS p_on_target, NULL AS p_wide_left, NULL AS p_wide_right, NULL
   NULL AS p_post, NULL AS p_bar, NULL AS p_blocked, NULL AS bounced, NULL AS residual_sd_m
 FROM main.kick_outcomes AS o;
 
-CREATE TEMP VIEW kicks AS
-SELECT k.*, c.observations, NULL AS observed_p_on_target, NULL AS bounced, NULL AS truth_bounced, NULL AS p_on_target
+CREATE TEMP VIEW observed_kicks AS
+SELECT k.*, c.observations
 FROM kicks_of_version_3 AS k
 LEFT JOIN main.kick_outcomes AS c ON c.session_id = k.session_id AND c.robot_id = k.robot_id AND c.seq = (
   SELECT max(seq) FROM main.kick_outcomes INDEXED BY kick_outcomes_kick

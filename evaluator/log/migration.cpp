@@ -43,7 +43,7 @@ TextNames copy_texts(const Reader& reader, SQLite::Database& database) {
 
 std::int64_t rows_of(const Reader& reader) {
   std::int64_t rows = 0;
-  for (const DigestedTable& table : kDigestedTables) {
+  for (const DigestedTable& table : digested_tables()) {
     reader.query(fmt::format("SELECT count(*) FROM {}", table.name), [&](std::int64_t count) { rows += count; });
   }
   return rows;
@@ -84,7 +84,7 @@ Migrated migrate(const std::filesystem::path& from, const std::filesystem::path&
       if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
     };
     copy_rows(reader, made, "experiments", names, [] {});
-    for (const DigestedTable& table : kDigestedTables) copy_rows(reader, made, table.name, names, copied);
+    for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
     RowDigests digests(made);
     for (const RecordedSession& session : reader.sessions()) {
       if (!session.closed_t_ns) continue;

@@ -13,10 +13,10 @@
 namespace trivela::evaluator::log {
 namespace {
 
-std::optional<Crossing> crossing_of(const std::optional<std::string>& outcome, std::optional<double> x_cross_m,
-                                    std::optional<double> z_cross_m) {
+std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& outcome, std::optional<double> x_cross_m,
+                                           std::optional<double> z_cross_m) {
   if (!outcome) return std::nullopt;
-  return Crossing{*outcome, x_cross_m, z_cross_m};
+  return RecordedOutcome{*outcome, x_cross_m, z_cross_m};
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct RecordedSession : Session {
 };
 
 /// What a robot or the simulator says about the end of a kick.
-struct Crossing {
+struct RecordedOutcome {
   std::string outcome;              ///< label, e.g. "on_target"
   std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F
   std::optional<double> z_cross_m;
@@ -39,13 +39,13 @@ struct Kick {
   int half = 0;
   std::int64_t possession_id = 0;
   std::string policy;
-  bool ordered = false;                  ///< an order is in the log
-  std::optional<bool> accepted;          ///< none: no receipt
-  std::string refusal;                   ///< label of the receipt; empty: no receipt
-  std::optional<Crossing> observed;      ///< latest outcome
-  std::optional<double> sd_cross_m;      ///< of the observed crossing
-  std::optional<Crossing> truth;         ///< of the simulator
-  std::optional<double> truth_margin_m;  ///< true crossing to the nearest edge of another outcome
+  bool ordered = false;                     ///< an order is in the log
+  std::optional<bool> accepted;             ///< none: no receipt
+  std::string refusal;                      ///< label of the receipt; empty: no receipt
+  std::optional<RecordedOutcome> observed;  ///< latest outcome
+  std::optional<double> sd_cross_m;         ///< of the observed crossing
+  std::optional<RecordedOutcome> truth;     ///< of the simulator
+  std::optional<double> truth_margin_m;     ///< true crossing to the nearest edge of another outcome
 };
 
 /// A kick as a recording has it.

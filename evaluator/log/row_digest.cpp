@@ -2,18 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
+#include <map>
 
 namespace trivela::evaluator::log {
 namespace {
 
 constexpr std::size_t kPour_B = 1 << 16;
 
+std::vector<DigestedTable> tables_of_schema(int version) {
+  SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  empty.exec(std::string(schema_of(kMatchLog, version)));
+  SQLite::Statement keys(empty, R"(
+    SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
+    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
+      AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
+    ORDER BY t.rowid, k.pk)");
+  std::vector<DigestedTable> tables;
+  while (keys.executeStep()) {
+    const std::string name = keys.getColumn(0).getString(), column = keys.getColumn(1).getString();
+    if (tables.empty() || tables.back().name != name) {
+      tables.push_back({name, column});
+    } else {
+      tables.back().key += ", " + column;
+    }
+  }
+  return tables;
+}
+
 }  // namespace
 
+const std::vector<DigestedTable>& digested_tables(int version) {
+  static thread_local std::map<int, std::vector<DigestedTable>> known;
+  auto& tables = known[version];
+  if (tables.empty()) tables = tables_of_schema(version);
+  return tables;
+}
+
 RowDigests::RowDigests(SQLite::Database& database, int version) : database_(database), version_(version) {
-  for (DigestedTable table : kDigestedTables) {
-    if (version == 3 && table.name == "session_policies") table.key = "session_id, half";
+  for (const DigestedTable& table : digested_tables(version)) {
     const std::string sql =
         fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
     sqlite3_stmt* select = nullptr;

@@ -3,7 +3,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,34 +16,15 @@ namespace trivela::evaluator::log {
 
 /// A table of a match log that a digest covers, and its primary key.
 struct DigestedTable {
-  std::string_view name;
-  std::string_view key;
+  std::string name;
+  std::string key;
 };
 
-/// What is recorded of a session, in the order of the digest. Not `digests`, not `experiments`, which changes while an
-/// experiment goes on, and nothing that is said of a session afterwards. `texts` are covered by the hashes that
-/// sessions name them by. A change of this list, or of a table in it, is another version of the log.
-inline constexpr std::array kDigestedTables{
-    DigestedTable{"sessions", "session_id"},
-    DigestedTable{"session_policies", "session_id, robot_id, half"},
-    DigestedTable{"continued", "session_id, robot_id"},
-    DigestedTable{"assignments", "session_id, robot_id, half, possession_id"},
-    DigestedTable{"odometry", "session_id, robot_id, seq"},
-    DigestedTable{"vision_frames", "session_id, robot_id, seq"},
-    DigestedTable{"flight_frames", "session_id, robot_id, seq"},
-    DigestedTable{"referee", "session_id, robot_id, seq"},
-    DigestedTable{"world_states", "session_id, robot_id, seq"},
-    DigestedTable{"drive_commands", "session_id, robot_id, seq"},
-    DigestedTable{"kicker_status", "session_id, robot_id, seq"},
-    DigestedTable{"kick_decisions", "session_id, robot_id, seq"},
-    DigestedTable{"shadow_decisions", "session_id, robot_id, seq, shadow_index"},
-    DigestedTable{"kick_orders", "session_id, robot_id, seq"},
-    DigestedTable{"kick_receipts", "session_id, robot_id, seq"},
-    DigestedTable{"kick_outcomes", "session_id, robot_id, seq"},
-    DigestedTable{"kick_truths", "session_id, robot_id, seq"},
-    DigestedTable{"possession_truths", "session_id, robot_id, seq"},
-    DigestedTable{"losses", "session_id, stream, robot_id, from_t_ns"},
-};
+/// What is recorded of a session, in the order of the digest: the tables of the version's schema that have a
+/// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and nothing
+/// that is said of a session afterwards. `texts` are covered by the hashes that sessions name them by. A change of
+/// these tables, or of their order, is another version of the log.
+const std::vector<DigestedTable>& digested_tables(int version = kMatchLog.version);
 
 /// Version of a match log.
 inline constexpr int kFirstWithDigests = 3;
@@ -56,7 +36,7 @@ struct RowDigest {
 };
 
 /// The digest of a session's rows: SHA-256 of
-///   "trivela match log VERSION\n", then for each of kDigestedTables, also where it has no row of the session,
+///   "trivela match log VERSION\n", then for each of digested_tables(), also where it has no row of the session,
 ///     "table NAME COLUMN COLUMN ...\n" with the columns as schema.sql has them,
 ///     and for each row of the session, by primary key (texts by their UTF-8 bytes): "r", then for each cell
 ///       NULL "n", INTEGER "i" and 8 bytes of two's complement, REAL "f" and 8 bytes of IEEE 754 binary64,

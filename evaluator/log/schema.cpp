@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <regex>
 
@@ -56,6 +57,25 @@ std::string own_kicks(std::string_view schema, const std::string& name) {
   return fmt::format("CREATE TEMP VIEW {} AS{}", name, std::regex_replace(body, table, "$1 main.$2"));
 }
 
+/// The view `kicks` of a log before version 4: NULL where that version says nothing.
+std::string kicks_with_nulls() {
+  const auto kicks_columns = [](int version) {
+    SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    empty.exec(std::string(schema_of(kMatchLog, version)));
+    SQLite::Statement query(empty, "PRAGMA table_info(kicks)");
+    std::vector<std::string> names;
+    while (query.executeStep()) names.push_back(query.getColumn("name").getString());
+    return names;
+  };
+  std::vector<std::string> there = kicks_columns(3);
+  there.emplace_back("observations");
+  std::string sql = "CREATE TEMP VIEW kicks AS SELECT k.*";
+  for (const std::string& name : kicks_columns(kMatchLog.version)) {
+    if (std::ranges::find(there, name) == there.end()) sql += fmt::format(", NULL AS {}", name);
+  }
+  return sql + " FROM observed_kicks AS k";
+}
+
 }  // namespace
 
 std::string_view schema_of(const LogKind& kind, int version) {
@@ -91,7 +111,10 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version == 1) database.exec(kVersion1Sql);
   if (version == 2) database.exec(kVersion2Sql);
   if (version == 3) database.exec(kVersion3Sql);
-  if (version < 4) database.exec(kBeforeVersion4Sql);
+  if (version < 4) {
+    database.exec(kBeforeVersion4Sql);
+    database.exec(kicks_with_nulls());
+  }
   database.exec(kReadingViewsSql);
 }
 

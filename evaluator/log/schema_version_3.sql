@@ -31,14 +31,6 @@ CREATE TABLE sessions (                    -- one recording
 
 CREATE INDEX sessions_match ON sessions (match_id, arm);
 
-CREATE TABLE continued (                   -- the kicker driver's counters where the session ends that this one continues
-  session_id INTEGER NOT NULL,             -- sessions.session_id
-  robot_id INTEGER NOT NULL,               -- robot
-  orders_handled INTEGER NOT NULL,         -- last kicker_status.orders_handled there
-  orders_refused INTEGER NOT NULL,         -- last kicker_status.orders_refused there
-  PRIMARY KEY (session_id, robot_id)
-) STRICT, WITHOUT ROWID;
-
 CREATE TABLE digests (                     -- made when a session ends, of all its rows but this one
   session_id INTEGER NOT NULL PRIMARY KEY, -- sessions.session_id
   row_count INTEGER NOT NULL,              -- rows that it covers
@@ -59,6 +51,14 @@ CREATE TABLE session_policies (            -- the policy in charge, by half
     OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
     OR policy = 'learned' OR policy = 'oracle'), -- in charge of the kicks
   PRIMARY KEY (session_id, half)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE continued (                   -- the kicker driver's counters where the session ends that this one continues
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  orders_handled INTEGER NOT NULL,         -- last kicker_status.orders_handled there
+  orders_refused INTEGER NOT NULL,         -- last kicker_status.orders_refused there
+  PRIMARY KEY (session_id, robot_id)
 ) STRICT, WITHOUT ROWID;
 
 CREATE TABLE assignments (                 -- the policy in charge, by possession

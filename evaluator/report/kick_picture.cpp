@@ -32,7 +32,7 @@ constexpr const char* kStyle =
 
 /// What follows from the picture's kick.
 struct Flight {
-  kicking::Crossing crossing;
+  kicking::PredictedCrossing crossing;
   kicking::Pose release;
   Point kick_mps, own_mps;  ///< over the floor, in F
   double alpha_rad = 0.0;

@@ -24,7 +24,7 @@ struct KickPicture {
 /// kicker's velocity, what the robot's motion adds and their sum, the ball's way to where predict_crossing() has it
 /// cross the goal line, and the two segments of the alignment (S2 through the goal's middle); from the side the flight
 /// and the bar. Behind a first touch of the floor the way is dotted. Light or dark as the reader's system is.
-/// @throws std::invalid_argument where the ball does not fly towards the goal line.
+/// Throws std::invalid_argument where the ball does not fly towards the goal line.
 std::string to_svg(const KickPicture& picture);
 
 }  // namespace trivela::evaluator

@@ -8,6 +8,7 @@
 
 #include "evaluator/metrics/kicked_tracks.sql.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -59,11 +60,10 @@ class Turns {
   }
   void seen(std::int64_t session_id, std::int64_t t_ns, double x_m, double y_m) {
     if (!followed_) return;
-    const double apart_s = 1e-9 * static_cast<double>(t_ns - last_t_ns_);
+    const double apart_s = kicking::seconds(t_ns - last_t_ns_);
     const bool other_ball =
         sightings_ > 0 && std::hypot(x_m - last_x_m_, y_m - last_y_m_) > std::max(kJump_m, kFastest_mps * apart_s);
-    if (session_id != session_id_ || other_ball || 1e-9 * static_cast<double>(t_ns - release_t_ns_) > kFlight_s)
-      return end();
+    if (session_id != session_id_ || other_ball || kicking::seconds(t_ns - release_t_ns_) > kFlight_s) return end();
     if (sightings_++ == 0) first_y_m_ = y_m;
     farthest_y_m_ = std::max(farthest_y_m_, y_m);
     last_t_ns_ = t_ns;

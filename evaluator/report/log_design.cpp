@@ -37,7 +37,7 @@ void infer_drawn(KickBook& book, const LoggedOpportunities& logged, const std::v
   if (std::ranges::any_of(chances, [](const auto& chance) { return chance.second.size() > 1; })) {
     book.design_reason = fmt::format(
         "drawn at random, but not everywhere with the same probability: together, {} also differ in where they were "
-        "drawn; compare within it (--stratify arm), or weigh with trivela evaluate-policy",
+        "drawn; compare within it (stratified by arm), or weigh with trivela evaluate-policy",
         fmt::join(book.groups, " and "));
     return;
   }

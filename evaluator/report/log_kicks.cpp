@@ -108,11 +108,11 @@ void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::s
 void check(const LogKicks& options, const std::string& by, bool known_stratum) {
   const std::array kBy{"policy", "table", "robot", "arm"};
   if (std::ranges::find(kBy, by) == kBy.end()) {
-    throw std::runtime_error(fmt::format("--by '{}': a match log is compared by policy, table, robot or arm", by));
+    throw BadOption(fmt::format("by '{}': a match log is compared by policy, table, robot or arm", by));
   }
   if (!options.stratify.empty() && !known_stratum) {
-    throw std::runtime_error(
-        fmt::format("--stratify '{}': a match log has distance, start_distance, robot, half, "
+    throw BadOption(
+        fmt::format("stratify '{}': a match log has distance, start_distance, robot, half, "
                     "scenario, table, policy and arm",
                     options.stratify));
   }
@@ -123,8 +123,8 @@ KickBook book_of(const LoggedOpportunities& logged, const LogKicks& options, con
   KickBook book;
   book.groups = groups_of(logged, by, *name_by(logged, by));
   if (book.groups.empty() && !logged.rows.empty()) {
-    throw std::runtime_error(fmt::format("--by {0}: no session of these logs names its {0}{1}", by,
-                                         by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
+    throw BadOption(fmt::format("by {0}: no session of these logs names its {0}{1}", by,
+                                by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
   }
   book.outcome = options.truth ? "truth" : "observed";
   book.remarks = logged.remarks;
@@ -132,8 +132,7 @@ KickBook book_of(const LoggedOpportunities& logged, const LogKicks& options, con
   book.matches = logged.matches;
   book.has_matches = true;
   for (const ComparedSession& session : logged.sessions) book.simulated = book.simulated || session.simulated;
-  if (options.truth && !book.simulated)
-    throw std::runtime_error("--outcome truth: none of these matches was simulated");
+  if (options.truth && !book.simulated) throw BadOption("outcome truth: none of these matches was simulated");
   book.has_opportunities = !logged.rows.empty() && std::ranges::all_of(logged.rows, &LoggedOpportunity::has_possession);
   book.stratified_by = options.stratify;
   book.strata_of_kicks = options.stratify == "distance";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,11 @@
 #include "evaluator/report/log_opportunities.hpp"
 
 namespace trivela::evaluator {
+
+/// What was asked for by one of the options below makes no sense with these logs; the message begins with the option.
+struct BadOption : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// How to read logs for a comparison.
 struct LogKicks {
@@ -19,7 +25,7 @@ struct LogKicks {
 };
 
 /// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value
-/// where a log cannot be read, or has not what is asked for.
+/// where a log cannot be read, BadOption where the logs have not what is asked for.
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
 
 }  // namespace trivela::evaluator

@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::evaluator {
 namespace {
 
@@ -19,7 +21,7 @@ double covered_s(std::vector<Stretch> stretches) {
     covered_ns += std::max<std::int64_t>(to_ns - begin_ns, 0);
     end_ns = std::max(to_ns, end_ns);
   }
-  return 1e-9 * static_cast<double>(covered_ns);
+  return kicking::seconds(covered_ns);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "evaluator/metrics/silences.sql.hpp"
 #include "evaluator/metrics/unrecorded_orders.sql.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -36,7 +37,7 @@ std::string before(const UnrecordedOrders& o) {
 
 std::optional<double> RecordedSilence::to_s() const {
   if (!to_t_ns) return std::nullopt;
-  return 1e-9 * static_cast<double>(*to_t_ns - started_t_ns);
+  return kicking::seconds(*to_t_ns - started_t_ns);
 }
 
 std::vector<RecordedSilence> silences_of(const log::Reader& reader) {
@@ -55,7 +56,7 @@ std::vector<std::string> silence_lines(const std::vector<RecordedSilence>& silen
   std::vector<std::string> lines;
   for (const RecordedSilence& silence : silences) {
     if (lines.size() == kMostLines) {
-      lines.push_back(fmt::format("and {} more silences (--json has them all)", silences.size() - kMostLines));
+      lines.push_back(fmt::format("and {} more silences (JSON has them all)", silences.size() - kMostLines));
       break;
     }
     lines.push_back(sentence(silence));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 
@@ -15,7 +16,7 @@ struct RecordedSilence : log::Silence {
   std::int64_t started_t_ns = 0;  ///< of the session
   bool counts = false;            ///< it ended, or other streams of the robot went on for more than a second
 
-  double from_s() const { return 1e-9 * static_cast<double>(from_t_ns - started_t_ns); }
+  double from_s() const { return kicking::seconds(from_t_ns - started_t_ns); }
   std::optional<double> to_s() const;
 };
 

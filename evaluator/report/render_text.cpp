@@ -7,6 +7,7 @@
 
 #include "evaluator/report/table2.hpp"
 #include "evaluator/report/text_table.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {
@@ -68,7 +69,7 @@ std::string heading(const Report& report) {
       text += fmt::format("  it continues session {}\n", printable(session.continues_uuid));
   }
   if (shown < report.sessions.size())
-    text += fmt::format("and {} more sessions, in --json each\n", report.sessions.size() - shown);
+    text += fmt::format("and {} more sessions, in JSON each\n", report.sessions.size() - shown);
   for (const PlayedLength& length : report.lengths)
     text += fmt::format("Planned {:.0f} s, recorded {:.1f} s{}\n", length.planned_s, length.recorded_s,
                         length.cut_short() ? ": CUT SHORT" : "");
@@ -170,7 +171,7 @@ std::string quality(const Report& report) {
   if (report.unclosed_kicks.empty()) text += "  unclosed kicks: none\n";
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     text += fmt::format("  unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}\n", kick.kick_id, kick.robot_id,
-                        1e-9 * static_cast<double>(kick.t_ns), printable(kick.policy), kick.has_order ? "" : " order",
+                        kicking::seconds(kick.t_ns), printable(kick.policy), kick.has_order ? "" : " order",
                         kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome");
   }
   for (const PolicyRow& row : report.policies) {

@@ -31,7 +31,7 @@ struct Chart {
 };
 
 /// The chart as SVG of its own: ticks at round numbers, the legend beside the axes, light or dark as the reader's
-/// system is. @throws std::invalid_argument where no series has a point or a point is not finite.
+/// system is. Throws std::invalid_argument where no series has a point or a point is not finite.
 std::string to_svg(const Chart& chart);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) from at or below `low` to at or above `high`, five to eleven of

@@ -39,12 +39,4 @@ Interval paired_newcombe(const PairedCounts& pairs, double confidence) {
   return {p2 - p1 - combined(p2 - w2.lo, w1.hi - p1, phi), p2 - p1 + combined(w2.hi - p2, p1 - w1.lo, phi)};
 }
 
-double paired_standard_error(const PairedCounts& pairs) {
-  if (pairs.n() == 0) return 0.0;
-  const double n = static_cast<double>(pairs.n());
-  const double discordant = static_cast<double>(pairs.newer_only + pairs.older_only) / n;
-  const double difference = static_cast<double>(pairs.newer_only - pairs.older_only) / n;
-  return std::sqrt((discordant - difference * difference) / n);
-}
-
 }  // namespace trivela::evaluator::stats

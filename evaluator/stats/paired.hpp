@@ -27,8 +27,4 @@ double mcnemar_two_sided(const PairedCounts& pairs);
 ///   lo = d - sqrt((p2 - l2)^2 - 2 phi (p2 - l2)(u1 - p1) + (u1 - p1)^2), hi likewise. Without pairs [-1, 1].
 Interval paired_newcombe(const PairedCounts& pairs, double confidence = kConfidence);
 
-/// Standard error of the paired difference: sqrt(p_b + p_c - (p_b - p_c)^2) / sqrt(n), p_b and p_c the shares of
-/// newer_only and older_only. 0 without pairs.
-double paired_standard_error(const PairedCounts& pairs);
-
 }  // namespace trivela::evaluator::stats

@@ -24,11 +24,6 @@ std::optional<double> kicks_per_policy(double p1, double p2, double power, doubl
   return square((z_of(1.0 - alpha) * alike + z_of_power(power) * apart) / (p2 - p1));
 }
 
-std::optional<double> data_factor(double standard_error, double difference, double power, double alpha) {
-  if (difference == 0.0) return std::nullopt;
-  return square((z_of(1.0 - alpha) + z_of_power(power)) * standard_error / difference);
-}
-
 std::optional<double> sample_ratio_p(std::span<const std::int64_t> counts, std::span<const double> planned) {
   assert(counts.size() == planned.size());
   const double total = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));

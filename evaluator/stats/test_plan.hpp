@@ -14,10 +14,6 @@ inline constexpr double kPower = 0.8;
 /// p1 and p2 in [0, 1]. None: p1 == p2.
 std::optional<double> kicks_per_policy(double p1, double p2, double power = kPower, double alpha = 0.05);
 
-/// How many times the present data are needed for a difference of size `difference` to be found with this power, given
-/// the standard error seen: ((z_a + z_b) standard_error / difference)^2. None: difference is 0.
-std::optional<double> data_factor(double standard_error, double difference, double power = kPower, double alpha = 0.05);
-
 inline constexpr double kSampleRatioAlarm = 0.001;  ///< a smaller p: the assignment did not go as planned
 
 /// Chi-square test that counts came in the planned shares: sum((observed - expected)^2 / expected), df = groups - 1.

@@ -15,7 +15,7 @@
 namespace trivela::experiment {
 namespace {
 
-using evaluator::log::Crossing;
+using evaluator::log::RecordedOutcome;
 using kicking::degrees;
 
 AimErrors errors(std::span<const evaluator::log::Kick> kicks, const config::Settings& settings, auto&& crossing_of) {
@@ -24,7 +24,7 @@ AimErrors errors(std::span<const evaluator::log::Kick> kicks, const config::Sett
   for (const evaluator::log::Kick& kick : kicks) {
     if (!kick.accepted.value_or(false)) continue;
     ++result.kicks;
-    const std::optional<Crossing>& seen = crossing_of(kick);
+    const std::optional<RecordedOutcome>& seen = crossing_of(kick);
     const bool crossed = seen && seen->x_cross_m && seen->z_cross_m;
     if (!crossed) ++result.without_crossing;
     height_m.push_back(crossed ? std::abs(*seen->z_cross_m - settings.policy.target_height_m) : HUGE_VAL);

@@ -1,23 +1,23 @@
 #include "experiment/evening/drive_in_process.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "experiment/play/play_match.hpp"
+#include "idl/none.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "sim/laser/field_laser.hpp"
 
 namespace trivela::experiment {
 namespace {
 
-std::optional<double> number(double value) { return std::isnan(value) ? std::nullopt : std::optional{value}; }
-
 template <class Message>
-evaluator::log::Crossing crossing_of(const Message& message) {
-  return {std::string{bus::label(message.outcome)}, number(message.x_cross_m), number(message.z_cross_m)};
+evaluator::log::RecordedOutcome crossing_of(const Message& message) {
+  return {std::string{bus::label(message.outcome)}, msg::optional_of(message.x_cross_m),
+          msg::optional_of(message.z_cross_m)};
 }
 
 /// The last message of a kick.
@@ -131,7 +131,7 @@ calibration::DriveRecord DrivesInProcess::play(const calibration::DrivePlan& pla
     record.kicked_powers.push_back(receipt.power);
   }
   if (laser) record.lobs = laser->lobs(set_points);
-  record.played_s = 1e-9 * static_cast<double>(played.end_t_ns);
+  record.played_s = kicking::seconds(played.end_t_ns);
   record.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return record;
 }

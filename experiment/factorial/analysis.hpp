@@ -33,7 +33,7 @@ struct NamedEffect {
 /// over all levels of the other two factors; calibration_x_motion, exact_law_x_motion; prediction (predictive - moving
 /// with the exact law), averaged over tables, and calibration_x_prediction.
 /// `efficiency`: kEfficiency or, with blocked kicks apart, kUnblocked.
-/// @throws std::invalid_argument naming a cell that is missing.
+/// Throws std::invalid_argument naming a cell that is missing.
 std::vector<NamedEffect> effects_of(const std::vector<PlayedCell>& cells, Measure efficiency = Measure::kEfficiency);
 
 /// From the old table and `stopped` to the new one and `moving`, averaged over the laws: calibration and motion, each
@@ -65,7 +65,7 @@ struct SweepAnswer {
       pair_within;  ///< points at which both lie in the 95 % Wilson intervals of the paper's counts
 };
 
-/// @throws std::invalid_argument for an empty sweep.
+/// Throws std::invalid_argument for an empty sweep.
 SweepAnswer answer_of(const std::vector<SweepPoint>& sweep, Measure efficiency = Measure::kEfficiency);
 
 /// An arm lies in the 95 % Wilson interval of what the paper counted.

@@ -56,11 +56,11 @@ struct Standing {
 /// None: a policy without kicks, or no point that kicks.
 std::optional<Standing> standing_of(const FrontierReport& report, const FixedPoint& fixed);
 
-/// The point with the most shots on target per opportunity. @throws std::invalid_argument where there is none.
+/// The point with the most shots on target per opportunity. Throws std::invalid_argument where there is none.
 const FrontierPoint& best_of(const FrontierReport& report);
 
 /// Shots on target of best_of() over the oracle's, the interval from 0 on. Not finite where the oracle has
-/// none, without an interval where it has them in one match only. @throws std::invalid_argument without an oracle.
+/// none, without an interval where it has them in one match only. Throws std::invalid_argument without an oracle.
 Effect share_of_oracle(const FrontierReport& report);
 
 }  // namespace trivela::experiment

@@ -20,7 +20,7 @@ struct PlayedKick {
   double power = 0.0;
   double v_kick_mps = 0.0;
   std::optional<double> p_on_target;                       ///< predicted
-  std::optional<kicking::Crossing> predicted;              ///< crossing of the goal line
+  std::optional<kicking::PredictedCrossing> predicted;     ///< crossing of the goal line
   kicking::Outcome observed = kicking::Outcome::kUnknown;  ///< by the shot observer
   std::optional<kicking::Outcome> truth;                   ///< of the simulator; none: the ball never left
   bool truth_saved = false;                                ///< of the simulator: the keeper had it

@@ -4,7 +4,6 @@
 
 #include "experiment/play/oracle.hpp"
 #include "hal/sim/sim_messages.hpp"
-#include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -33,14 +32,12 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
                                               const std::optional<msg::KickOutcome>& outcome,
                                               const sim::TrueState* truth) {
   receipt_.reset();
-  const hal::WheelSample wheels = wheel_sample(sensors);
-  const std::span<const double> speeds{wheels.wheel_radps.data(), static_cast<std::size_t>(wheels.wheel_count)};
-  const auto estimate = odometry_.update(wheels.t_ns, speeds, wheels.gyro_radps);
-  if (!estimate) return nullptr;
+  const auto odometry = odometry_.update(wheel_sample(sensors));
+  if (!odometry) return nullptr;
   status_ = desk_.status(kicker_sample(sensors),
                          referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop, sensors.t_ns);
   const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
-  world_ = model_.update(robot::odometry_message(wheels, *estimate), &frame, &referee);
+  world_ = model_.update(*odometry, &frame, &referee);
   world_.robot_id = robot_id_;
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)

@@ -18,6 +18,7 @@
 #include "experiment/run/arms.hpp"
 #include "experiment/run/match_queue.hpp"
 #include "experiment/run/record_match.hpp"
+#include "kicking/geometry/time.hpp"
 #include "robot/decision/assignment.hpp"
 #include "robot/recording/session_text.hpp"
 
@@ -40,7 +41,7 @@ struct Played {
 double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return static_cast<double>(now.tv_sec) + kicking::seconds(now.tv_nsec);
 }
 
 std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& evenings, std::uint32_t match_id) {
@@ -131,8 +132,8 @@ class Workers {
     } catch (const std::system_error& error) {
       const std::size_t started = threads_.size();
       end();
-      throw std::runtime_error{fmt::format("{} of {} threads can be started: {}; choose fewer --jobs", started, jobs,
-                                           error.code().message())};
+      throw std::runtime_error{
+          fmt::format("{} of {} threads can be started: {}; choose fewer jobs", started, jobs, error.code().message())};
     }
   }
   ~Workers() { end(); }

@@ -26,11 +26,11 @@ bool in_force(const sim::Scenario& scenario, const UncertainInput& input);
 /// Is it a setting of the policies?
 bool is_setting(std::string_view key);
 
-/// The value of `key` in the unit of its name. @throws std::invalid_argument for a key that is no number there.
+/// The value of `key` in the unit of its name. Throws std::invalid_argument for a key that is no number there.
 double value_of(const sim::Scenario& scenario, const std::string& key);
 double value_of(const kicking::PolicyConfig& policy, const std::string& key);
 
-/// The scenario, or the settings, with another value there. @throws std::invalid_argument as value_of(), and for a
+/// The scenario, or the settings, with another value there. Throws std::invalid_argument as value_of(), and for a
 /// value that is refused there.
 sim::Scenario with(const sim::Scenario& scenario, const std::string& key, double value);
 kicking::PolicyConfig with(const kicking::PolicyConfig& policy, const std::string& key, double value);

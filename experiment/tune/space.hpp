@@ -15,7 +15,7 @@ struct Coordinate {
 };
 
 /// What `trivela tune` searches: the settings of a policy that are its own choice. Limits of the robot (speeds,
-/// accelerations), what is safe (ages of states and orders) and the goal's size are no choice. @throws
+/// accelerations), what is safe (ages of states and orders) and the goal's size are no choice. Throws
 /// std::invalid_argument for a policy without settings to choose.
 std::vector<Coordinate> tuned_space(kicking::PolicyName policy);
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +14,7 @@
 #include "evaluator/log/row.hpp"
 #include "hal/replay/replay_log.hpp"
 #include "idl/meta.hpp"
+#include "idl/none.hpp"
 
 namespace trivela::hal {
 
@@ -31,7 +31,7 @@ T message_of(std::span<const evaluator::log::Value> cells) {
       if (!value) throw evaluator::log::WrongCell{column, "a label of its enum"};
       field = *value;
     } else if constexpr (std::is_floating_point_v<Field>) {
-      field = cell_as<std::optional<Field>>(cells[column], column).value_or(std::numeric_limits<Field>::quiet_NaN());
+      field = msg::wire_of(cell_as<std::optional<Field>>(cells[column], column));
     } else {
       field = cell_as<Field>(cells[column], column);
     }

@@ -1,8 +1,9 @@
 #include "hal/scip/emulated_playback.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::scip {
 namespace {
@@ -11,14 +12,14 @@ using std::chrono::nanoseconds;
 
 constexpr nanoseconds kLongestGap = std::chrono::seconds(1);  // within a recording
 
-nanoseconds seconds(double s) { return nanoseconds{std::llround(s * 1e9)}; }
+nanoseconds span(double time_s) { return nanoseconds{kicking::nanoseconds(time_s)}; }
 
 }  // namespace
 
 EmulatedPlayback::EmulatedPlayback(const EmulatorConfig& config, ScanSource source, Time now)
     : source_(std::move(source)),
-      period_(seconds(config.geometry.scan_period_s)),
-      measuring_takes_(seconds(static_cast<double>(config.geometry.beams) * config.geometry.beam_period_s)),
+      period_(span(config.geometry.scan_period_s)),
+      measuring_takes_(span(static_cast<double>(config.geometry.beams) * config.geometry.beam_period_s)),
       switched_on_(now),
       first_stamp_ms_(config.first_stamp_ms),
       starts_(now) {}

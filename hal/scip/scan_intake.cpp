@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "hal/scip/reply.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::scip {
 namespace {
 
 // From beam 0 to the last: no reply can be here earlier.
 std::int64_t measuring_ns(const kicking::lob::ScanGeometry& geometry) {
-  return std::llround(static_cast<double>(geometry.beams) * geometry.beam_period_s * 1e9);
+  return kicking::nanoseconds(static_cast<double>(geometry.beams) * geometry.beam_period_s);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <thread>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::hal::scip {
 namespace {
 
@@ -179,7 +181,7 @@ void ScipRangeFinder::take_scan(const Reply& reply, Clock::time_point arrival) {
     return;
   }
   if (!scan_came_ && last_t_ns_ > 0) {
-    const double gap_s = static_cast<double>(scan->t_ns - last_t_ns_) * 1e-9;
+    const double gap_s = kicking::seconds(scan->t_ns - last_t_ns_);
     counters_.lost_scans += static_cast<std::uint64_t>(std::max(0L, std::lround(gap_s / geometry_.scan_period_s) - 1));
   }
   last_t_ns_ = scan->t_ns = std::max(scan->t_ns, last_t_ns_ + 1);

@@ -11,6 +11,8 @@ namespace {
 static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
 static_assert(int{msg::POSSESSION_STOPPED} == int(sim::PossessionEnd::kStopped));
 
+constexpr sim::PlanPoint kNoPoint{msg::kNone, msg::kNone};
+
 }  // namespace
 
 msg::SimWheels wheels_message(const sim::Sensors& sensors) {
@@ -36,15 +38,18 @@ msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame
   out.t_ns = t_ns;
   out.t_exposure_ns = frame.t_exposure_ns;
   out.pose_seen = frame.pose.has_value();
-  out.x_m = frame.pose ? frame.pose->x_m : msg::kNone;
-  out.y_m = frame.pose ? frame.pose->y_m : msg::kNone;
-  out.heading_rad = frame.pose ? frame.pose->heading_rad : msg::kNone;
+  const auto pose = frame.pose.value_or(kicking::Pose{msg::kNone, msg::kNone, msg::kNone});
+  out.x_m = pose.x_m;
+  out.y_m = pose.y_m;
+  out.heading_rad = pose.heading_rad;
   out.ball_seen = frame.ball.has_value();
-  out.ball_x_m = frame.ball ? frame.ball->x_m : msg::kNone;
-  out.ball_y_m = frame.ball ? frame.ball->y_m : msg::kNone;
+  const auto ball = frame.ball.value_or(kNoPoint);
+  out.ball_x_m = ball.x_m;
+  out.ball_y_m = ball.y_m;
   out.opponent_seen = frame.opponent.has_value();
-  out.opponent_x_m = frame.opponent ? frame.opponent->x_m : msg::kNone;
-  out.opponent_y_m = frame.opponent ? frame.opponent->y_m : msg::kNone;
+  const auto opponent = frame.opponent.value_or(kNoPoint);
+  out.opponent_x_m = opponent.x_m;
+  out.opponent_y_m = opponent.y_m;
   return out;
 }
 
@@ -53,9 +58,10 @@ msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame
   out.t_ns = t_ns;
   out.t_exposure_ns = frame.t_exposure_ns;
   out.ball_seen = frame.ball.has_value();
-  out.ball_x_m = frame.ball ? frame.ball->x_m : msg::kNone;
-  out.ball_y_m = frame.ball ? frame.ball->y_m : msg::kNone;
-  out.ball_z_m = frame.ball ? frame.ball->z_m : msg::kNone;
+  const auto ball = frame.ball.value_or(sim::FlightFrame::Point{msg::kNone, msg::kNone, msg::kNone});
+  out.ball_x_m = ball.x_m;
+  out.ball_y_m = ball.y_m;
+  out.ball_z_m = ball.z_m;
   return out;
 }
 
@@ -90,15 +96,16 @@ msg::KickTruth truth_message(const sim::KickTruth& truth) {
   out.half = static_cast<std::uint8_t>(truth.half);
   out.possession_id = truth.possession_id;
   out.outcome = static_cast<msg::Outcome>(truth.outcome);
-  out.x_cross_m = truth.crossing ? truth.crossing->x_m : msg::kNone;
-  out.z_cross_m = truth.crossing ? truth.crossing->z_m : msg::kNone;
+  const auto crossing = truth.crossing.value_or(sim::Crossing{msg::kNone, msg::kNone});
+  out.x_cross_m = crossing.x_m;
+  out.z_cross_m = crossing.z_m;
   out.release_t_ns = truth.release_t_ns;
   out.release_x_m = truth.release_position_m.x();
   out.release_y_m = truth.release_position_m.y();
   out.release_vx_mps = truth.release_velocity_mps.x();
   out.release_vy_mps = truth.release_velocity_mps.y();
   out.release_vz_mps = truth.release_velocity_mps.z();
-  out.margin_m = truth.margin_m.value_or(msg::kNone);
+  out.margin_m = msg::wire_of(truth.margin_m);
   out.saved = truth.saved;
   out.bounced = truth.bounced;
   return out;

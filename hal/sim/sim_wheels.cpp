@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "hal/sim/sim_streams.hpp"
+#include "idl/none.hpp"
 
 namespace trivela::hal {
 
@@ -27,9 +28,8 @@ std::optional<WheelSample> SimWheels::read(std::chrono::nanoseconds timeout) {
   WheelSample sample{.t_ns = received->t_ns,
                      .wheel_count = std::min<int>(received->wheel_count, 4),
                      .wheel_radps = {},
-                     .gyro_radps = {}};
+                     .gyro_radps = msg::optional_of(received->gyro_radps)};
   std::copy_n(std::begin(received->wheel_radps), sample.wheel_count, sample.wheel_radps.begin());
-  if (!std::isnan(received->gyro_radps)) sample.gyro_radps = received->gyro_radps;
   return sample;
 }
 

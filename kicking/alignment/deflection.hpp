@@ -29,16 +29,4 @@ double beta_paper_rad(double omega_radps, double slope_s);
 /// beta of a rotation about the robot's centre [rad]: omega tau + atan(omega r / V_h), V_h the ball's horizontal speed.
 double beta_physical_rad(double omega_radps, double delay_s, double ball_offset_m, double v_h_mps);
 
-/// Least-squares slope through the origin of y over x: sum(x y) / sum(x x).
-template <typename Points>
-double slope_through_origin(const Points& points) {
-  double xy = 0.0;
-  double xx = 0.0;
-  for (const auto& [x, y] : points) {
-    xy += x * y;
-    xx += x * x;
-  }
-  return xy / xx;
-}
-
 }  // namespace trivela::kicking

@@ -19,9 +19,6 @@ struct Aim {
   double t_flight_s = 0.0;
   double left_mps = 0.0;    ///< of the kick's own velocity: away from the line, against the carry
   double toward_mps = 0.0;  ///< and along it, > 0
-
-  /// Where the kicker points at the release: delta.
-  double left_of_target_rad() const { return std::atan2(left_mps, toward_mps); }
 };
 
 /// Joint solution of direction and height, without drag, with T the time of flight and delta the angle to the left:

@@ -20,10 +20,6 @@ bool descends_through(const FlightPoint& point, const Elevation& exit_angle) {
   return point.height_m < 0.5 * point.distance_m * exit_angle.tangent();
 }
 
-double range_speed(double range_m, double exit_angle_rad, double gravity_mps2) {
-  return std::sqrt(range_m * gravity_mps2 / std::sin(2.0 * exit_angle_rad));
-}
-
 double extended_range(const FlightPoint& point, const Elevation& exit_angle) {
   return point.distance_m + point.height_m / exit_angle.tangent();
 }

@@ -25,10 +25,6 @@ std::optional<double> crossing_speed(const FlightPoint& point, const Elevation& 
 /// Does that flight pass the point on its way down: h < d tan(theta) / 2?
 bool descends_through(const FlightPoint& point, const Elevation& exit_angle);
 
-/// The paper's range law (section 2.2) [m/s]: V0 = sqrt(D g / sin(2 theta)), the ball lands at the launch's height
-/// after D.
-double range_speed(double range_m, double exit_angle_rad, double gravity_mps2 = kGravity_mps2);
-
 /// Landing distance by which the released CAMBADA code brings a height into the range law [m]: d + h / tan(theta).
 /// First order in h only: the ball crosses d at h / (1 + h / (d tan(theta))).
 double extended_range(const FlightPoint& point, const Elevation& exit_angle);

@@ -12,41 +12,14 @@ namespace {
 using PlaneState = Eigen::Vector4d;
 
 /// d/dt of the state with drag, gravity and lift.
-auto plane_rate(double drag_per_m, double gravity_mps2, double lift_per_m = 0.0) {
+auto plane_rate(double drag_per_m, double lift_per_m) {
   return [=](const PlaneState& s) {
     const double speed = std::hypot(s[2], s[3]), damping = drag_per_m * speed, turning = lift_per_m * speed;
-    return PlaneState(s[2], s[3], -damping * s[2] - turning * s[3], -gravity_mps2 - damping * s[3] + turning * s[2]);
+    return PlaneState(s[2], s[3], -damping * s[2] - turning * s[3], -kGravity_mps2 - damping * s[3] + turning * s[2]);
   };
 }
 
 }  // namespace
-
-DragFlight fly_with_drag(double v0_mps, double exit_angle_rad, double drag_per_m, double gravity_mps2) {
-  using State = PlaneState;
-  constexpr double kStep_s = 2e-3;
-  const auto rate = plane_rate(drag_per_m, gravity_mps2);
-  // Steps on while the component of the state is positive, then goes back to its zero within the last step.
-  const auto fly_to_zero = [&](State state, double t, int component, double& t_zero) {
-    while (true) {
-      const State next = runge_kutta(state, kStep_s, rate);
-      if (next[component] <= 0.0) break;
-      state = next;
-      t += kStep_s;
-    }
-    const auto below = [&](double step) { return -runge_kutta(state, step, rate)[component]; };
-    const double step = bracketed_root(below, 0.0, kStep_s).value_or(0.0);
-    t_zero = t + step;
-    return runge_kutta(state, step, rate);
-  };
-
-  const State launch(0.0, 0.0, v0_mps * std::cos(exit_angle_rad), v0_mps * std::sin(exit_angle_rad));
-  if (!(launch[3] > 0.0)) return {};
-  double t_apex = 0.0;
-  const State apex = fly_to_zero(launch, 0.0, 3, t_apex);
-  double t_landing = 0.0;
-  const State landing = fly_to_zero(apex, t_apex, 1, t_landing);
-  return {landing[0], t_landing, apex[1], apex[0]};
-}
 
 DragCrossing cross_with_drag(double distance_m, double v0_mps, double exit_angle_rad, double drag_per_m,
                              double gravity_mps2) {
@@ -64,7 +37,7 @@ DragCrossing cross_with_drag(double distance_m, double v0_mps, double exit_angle
 void fly_at_times(const Eigen::Vector4d& start, double drag_per_m, std::span<const double> times_s,
                   std::vector<Eigen::Vector4d>& states, double lift_per_m) {
   constexpr double kLongestStep_s = 0.025;
-  const auto rate = plane_rate(drag_per_m, kGravity_mps2, lift_per_m);
+  const auto rate = plane_rate(drag_per_m, lift_per_m);
   states.clear();
   PlaneState state = start;
   double t_s = 0.0;

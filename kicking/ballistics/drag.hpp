@@ -9,24 +9,14 @@
 
 namespace trivela::kicking {
 
-/// A lob with quadratic drag, from the launch back to its height.
-struct DragFlight {
-  double range_m = 0.0;
-  double t_flight_s = 0.0;
-  double apex_m = 0.0;
-  double apex_x_m = 0.0;
-};
-
 /// Where a flight with drag crosses a distance; height over the launch, negative: below it.
 struct DragCrossing {
   double height_m = 0.0;
   double t_flight_s = 0.0;
 };
 
-/// Flight with a = -k |v| v - g, integrated by Runge-Kutta of fourth order. The speed is a true one; k by drag_per_m.
-DragFlight fly_with_drag(double v0_mps, double exit_angle_rad, double drag_per_m, double gravity_mps2 = kGravity_mps2);
-
-/// The same flight at a horizontal distance (integrated over x, so no event has to be found).
+/// The flight with a = -k |v| v - g at a horizontal distance, by Runge-Kutta of fourth order over x, so that no event
+/// has to be found. The speed is a true one; k by drag_per_m.
 DragCrossing cross_with_drag(double distance_m, double v0_mps, double exit_angle_rad, double drag_per_m,
                              double gravity_mps2 = kGravity_mps2);
 

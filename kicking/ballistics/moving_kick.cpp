@@ -22,12 +22,6 @@ std::optional<double> moving_kick_exact(const FlightPoint& point, const Elevatio
   return linear > 0.0 ? 2.0 * constant / (root + linear) : (root - linear) / (2.0 * quadratic);
 }
 
-double k_geometric(const FlightPoint& point, double exit_angle_rad) {
-  const double epsilon = point.height_m / (point.distance_m * std::tan(exit_angle_rad));
-  const double c = std::cos(exit_angle_rad);
-  return (1.0 - 2.0 * epsilon) / (2.0 * c * c * (1.0 - epsilon));
-}
-
 std::optional<DirectedKick> directed_kick(const LineAhead& line, double height_m, const Elevation& exit_angle,
                                           double gravity_mps2) {
   if (!(line.toward_ratio > 0.0)) return std::nullopt;

@@ -31,10 +31,6 @@ double moving_kick_paper(double v0_mps, double u_mps, const Elevation& exit_angl
 std::optional<double> moving_kick_exact(const FlightPoint& point, const Elevation& exit_angle, double u_mps,
                                         double gravity_mps2 = kGravity_mps2);
 
-/// The k that makes the paper's law right to first order if the ball takes over all of the robot's velocity:
-/// (1 - 2 e) / (2 cos^2(theta) (1 - e)) with e = h / (d tan(theta)); 1 / (2 cos^2(theta)) at infinite distance.
-double k_geometric(const FlightPoint& point, double exit_angle_rad);
-
 /// The way to a line in front: its distance D straight ahead, the share of the kick's direction that points there (cos
 /// of the angle between them), and what the robot's motion adds towards it.
 struct LineAhead {

@@ -36,7 +36,7 @@ struct DeflectionFit {
 };
 
 /// Least squares over the kicks (Figure 8). `delay_s`: order to release.
-/// @throws std::invalid_argument for fewer than two kicks, vx all zero, a distance that is not above zero, or a value
+/// Throws std::invalid_argument for fewer than two kicks, vx all zero, a distance that is not above zero, or a value
 /// that is not finite.
 DeflectionFit fit_deflection(std::span<const DeflectionRow> rows, std::optional<double> delay_s = std::nullopt);
 

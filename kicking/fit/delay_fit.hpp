@@ -20,7 +20,7 @@ struct DelayFit {
 
 /// A reading farther from the median than 3.5 scales is left out; scale = 1.4826 MAD, but no less than `least_scale_s`.
 /// The default, 6 ms, is the standard deviation of a uniform control cycle of 20 ms.
-/// @throws std::invalid_argument for fewer than two readings or one that is not finite.
+/// Throws std::invalid_argument for fewer than two readings or one that is not finite.
 DelayFit fit_delay(std::span<const double> delays_s, double least_scale_s = 0.006);
 
 }  // namespace trivela::kicking

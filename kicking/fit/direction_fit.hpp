@@ -21,7 +21,7 @@ struct DirectionFit {
 
 /// The robot stands in one place in one direction for all kicks; how well it does so is part of the scatter.
 /// se of the standard deviation: s^2 / (sd sqrt(2 (n - 1))), that of a normal sample.
-/// @throws std::invalid_argument for fewer than two kicks or a value that is not finite.
+/// Throws std::invalid_argument for fewer than two kicks or a value that is not finite.
 DirectionFit fit_direction(std::span<const LaunchDirection> kicks);
 
 }  // namespace trivela::kicking

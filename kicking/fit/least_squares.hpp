@@ -17,7 +17,7 @@ struct Spread {
   double sd = kNotKnown;  ///< with n - 1
 };
 
-/// @throws std::invalid_argument for an empty sample or a value that is not finite.
+/// Throws std::invalid_argument for an empty sample or a value that is not finite.
 Spread spread_of(std::span<const double> values);
 
 /// A fitted one-parameter model: y = slope x + residual.
@@ -29,7 +29,7 @@ struct OriginLine {
 
 /// Least squares through the origin: slope = sum(x y) / sum(x^2), se^2 = sum(residual^2) / ((n - 1) sum(x^2)).
 /// `what` names the points in errors.
-/// @throws std::invalid_argument for columns of different length, fewer than two points, a value that is not finite, or
+/// Throws std::invalid_argument for columns of different length, fewer than two points, a value that is not finite, or
 /// x all zero.
 OriginLine line_through_origin(std::span<const double> x, std::span<const double> y, const char* what);
 

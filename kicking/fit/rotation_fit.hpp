@@ -33,7 +33,7 @@ struct RotationFit {
 };
 
 /// Least squares over the rows (Figures 9 and 10).
-/// @throws std::invalid_argument for fewer than two rows, omega all zero, a distance or V_h that is not above zero, or
+/// Throws std::invalid_argument for fewer than two rows, omega all zero, a distance or V_h that is not above zero, or
 /// a value that is not finite.
 RotationFit fit_rotation(std::span<const RotationRow> rows, std::optional<RotationLever> lever = std::nullopt);
 

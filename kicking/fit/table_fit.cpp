@@ -85,8 +85,8 @@ void fit_angle(const TrialsByPower& by_power, const TableOptions& options, Table
   fit.angle_spread_rad = most - least;
   if (fit.angle_spread_rad > kAngleSpread_rad) {
     fit.warnings.push_back("the exit angle differs by " + in_degrees(fit.angle_spread_rad) +
-                           " from set-point to set-point: one mean angle is wrong for some; keep them apart "
-                           "(--angle per-setpoint)");
+                           " from set-point to set-point: one mean angle is wrong for some; "
+                           "give each set-point its own");
   }
 }
 
@@ -146,7 +146,7 @@ std::vector<std::size_t> not_rising(const std::vector<TrialMean>& points) {
 }  // namespace
 
 Trial trial_of_lob(double power, double height_m, double distance_m) {
-  const Exit exit = exit_from_lob(height_m, distance_m);
+  const LobExit exit = exit_from_lob(height_m, distance_m);
   return {power, exit.angle_rad, exit.speed_mps};
 }
 

@@ -19,7 +19,7 @@ struct Trial {
 };
 
 /// Trial of a lob of height H and distance D, both of the ball's centre relative to the launch (paper, section 2.2).
-/// @throws std::invalid_argument unless both are positive.
+/// Throws std::invalid_argument unless both are positive.
 Trial trial_of_lob(double power, double height_m, double distance_m);
 
 /// All trials of one power.
@@ -56,12 +56,12 @@ struct TableFit {
 
   /// Does each speed lie above its predecessor?
   bool rises() const;
-  /// @throws std::invalid_argument naming the set-point unless it rises.
+  /// Throws std::invalid_argument naming the set-point unless it rises.
   std::vector<SetPoint> table() const;
 };
 
 /// Averages the trials of each power.
-/// @throws std::invalid_argument for fewer than two powers or more than PowerTable holds, and for a power, angle or
+/// Throws std::invalid_argument for fewer than two powers or more than PowerTable holds, and for a power, angle or
 /// speed that is not finite and positive, or an angle of 90 degrees or more.
 TableFit fit_table(std::span<const Trial> trials, const TableOptions& options = {});
 

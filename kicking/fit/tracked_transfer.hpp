@@ -17,7 +17,7 @@ namespace trivela::kicking {
 ///
 /// The constants of `exact` are those of the drag-free law, in whose speeds everything is smaller than over ground by
 /// e = mean(V0 cos(theta)) / (c mean(up)) over the kicks at rest: k e. Full transfer comes out as about 0.95 at 6 m.
-/// @throws as fit_transfer(), and std::invalid_argument for fewer than two kicks at rest.
+/// Throws as fit_transfer(), and std::invalid_argument for fewer than two kicks at rest.
 TransferFit fit_tracked_transfer(std::span<const TransferRow> rows, double delay_s, double gravity_mps2);
 
 }  // namespace trivela::kicking

@@ -25,7 +25,7 @@ struct TrackedTrials {
 /// angle = e + f s^2, least squares: drag takes more from a faster ball, and of one that flies at an angle s to its
 /// plane the laser sees a smaller circle, which it takes for another place. Every kick then has V = up (a + b up^2),
 /// every angle is taken to the plane. A set-point's mean rests on all its kicks: where the laser keeps one in four, its
-/// standard error is half as large. @throws std::invalid_argument for fewer than four kicks that both saw.
+/// standard error is half as large. Throws std::invalid_argument for fewer than four kicks that both saw.
 TrackedTrials tracked_trials(std::span<const TrackedTrial> kicks);
 
 }  // namespace trivela::kicking

@@ -85,7 +85,7 @@ class ExactFit {
     return sum;
   }
 
-  /// Sum of (dz/dk)^2 [m2]. @throws std::invalid_argument where no height depends on k.
+  /// Sum of (dz/dk)^2 [m2]. Throws std::invalid_argument where no height depends on k.
   double information(double k) const {
     double sum = 0.0;
     for (const Kick& kick : kicks_) sum += std::pow(kick.slope_m(k, gravity_mps2_), 2);

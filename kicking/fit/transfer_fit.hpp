@@ -58,7 +58,7 @@ struct TransferFit {
 /// they say what the V0 of the rows really were, so that an error of the table is not taken for transfer (at 1 m/s and
 /// 4 m one per cent of speed is worth 0.17 of k). Standard errors contain the reference's. `delay_s`: order to release.
 /// A direction that fails leaves the other one standing. Where every row has a track: fit_tracked_transfer().
-/// @throws std::invalid_argument where no direction has a fit, and for a value that is not finite or positive where it
+/// Throws std::invalid_argument where no direction has a fit, and for a value that is not finite or positive where it
 /// must be.
 TransferFit fit_transfer(std::span<const TransferRow> rows, double delay_s, double ball_radius_m = Ball{}.radius_m,
                          double gravity_mps2 = kGravity_mps2);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/assessment.hpp"
 #include "kicking/lob/background.hpp"
 #include "kicking/lob/candidates.hpp"
@@ -27,7 +28,7 @@ std::vector<BeamReturn> beams_of(const ScanGeometry& geometry, const LaserMount&
     const auto beam = static_cast<double>(i);
     const double angle = geometry.first_angle_rad + beam * geometry.step_rad;
     const double elevation = mount.front_elevation_rad + (mount.mirrored ? -angle : angle);
-    beams.push_back({static_cast<int>(i), std::llround(beam * geometry.beam_period_s * 1e9), 0.0, std::cos(elevation),
+    beams.push_back({static_cast<int>(i), nanoseconds(beam * geometry.beam_period_s), 0.0, std::cos(elevation),
                      std::sin(elevation)});
   }
   return beams;

@@ -26,14 +26,14 @@ struct ScanView {
 /// The paper says that points matched to the background are the ball; it is the others.
 class Analyzer {
  public:
-  /// @throws std::invalid_argument for a geometry without beams or with a step or period that is not positive.
+  /// Throws std::invalid_argument for a geometry without beams or with a step or period that is not positive.
   Analyzer(const ScanGeometry& geometry, const LaserMount& mount, const AnalyzerConfig& config = {});
   ~Analyzer();
   Analyzer(Analyzer&&) noexcept;
   Analyzer& operator=(Analyzer&&) noexcept;
 
   /// Takes the next scan; a flight that has just ended comes back with its fits or the reason for refusing it.
-  /// @throws std::invalid_argument for a scan with another number of beams.
+  /// Throws std::invalid_argument for a scan with another number of beams.
   std::optional<LobRecord> add(const Scan& scan);
 
   /// Ends the flight under way, as at the end of a record.

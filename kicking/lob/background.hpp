@@ -16,7 +16,7 @@ namespace trivela::kicking::lob {
 /// the others.
 class Background {
  public:
-  /// @throws std::invalid_argument for a configuration that learns from no scan.
+  /// Throws std::invalid_argument for a configuration that learns from no scan.
   Background(const ScanGeometry& geometry, const AnalyzerConfig& config);
 
   /// Takes a scan to learn from. True: it was the last one, and the background is known.

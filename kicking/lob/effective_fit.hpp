@@ -18,7 +18,7 @@ struct Parabola {
   EffectiveFit values;
 };
 
-/// @returns none for fewer than 4 centres or a curve that is no arch over z_0.
+/// Returns none for fewer than 4 centres or a curve that is no arch over z_0.
 std::optional<Parabola> fit_parabola(std::span<const BallCentre> centres, double launch_z_m);
 
 }  // namespace trivela::kicking::lob

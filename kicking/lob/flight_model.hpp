@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer_config.hpp"
 #include "kicking/lob/lob_record.hpp"
 
@@ -21,7 +22,7 @@ class FlightModel {
 
   std::size_t size() const { return centres_.size(); }
   int free() const { return free_; }
-  double t_s(std::size_t i) const { return static_cast<double>(centres_[i].t_ns - centres_[0].t_ns) * 1e-9; }
+  double t_s(std::size_t i) const { return seconds(centres_[i].t_ns - centres_[0].t_ns); }
 
   /// Centre minus flight at each instant [m].
   void errors(const Parameters& p, std::vector<Eigen::Vector2d>& errors_m);

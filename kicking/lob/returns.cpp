@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/assessment.hpp"
 #include "kicking/lob/candidates.hpp"
 #include "kicking/lob/tracker.hpp"
@@ -54,7 +55,7 @@ double scan_period_s(const Scans& scans) {
   std::int64_t shortest_ns = 100'000'000;
   for (std::size_t i = 1; i < scans.size(); ++i)
     shortest_ns = std::min(shortest_ns, scans[i].front().scan_t_ns - scans[i - 1].front().scan_t_ns);
-  return static_cast<double>(shortest_ns) * 1e-9;
+  return seconds(shortest_ns);
 }
 
 }  // namespace

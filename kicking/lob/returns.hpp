@@ -26,7 +26,7 @@ struct ScannerPlace {
 /// One lob from its foreground returns alone, in any order: clusters, centres, track and fits as Analyzer has them. The
 /// step of the beams is the smallest difference of two elevations in a scan. Of several flights the one with the most
 /// centres; without any a record refused as too few points.
-/// @throws std::invalid_argument where a scan has two starts or two returns in a beam.
+/// Throws std::invalid_argument where a scan has two starts or two returns in a beam.
 LobRecord analyse_returns(std::span<const ForegroundReturn> returns, const ScannerPlace& place,
                           const AnalyzerConfig& config = {});
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/robust_descent.hpp"
 
 namespace trivela::kicking::lob {
@@ -84,7 +85,7 @@ TrueFit FittedFlight::values() const {
   return {.exit_angle_rad = {std::atan2(v_z, std::abs(v_x)), se(by_angle)},
           .exit_speed_mps = {speed, se(by_speed)},
           .drag_coefficient = {parameters[4], std::sqrt(std::max(0.0, covariance(4, 4)))},
-          .launch_t_ns = t0_ns + std::llround(parameters[1] * 1e9),
+          .launch_t_ns = t0_ns + nanoseconds(parameters[1]),
           .residual_rms_m = residual_rms_m,
           .misfit_chi_square = misfit_chi_square,
           .lift_coefficient = lift_coefficient};

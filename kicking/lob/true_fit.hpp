@@ -40,7 +40,7 @@ struct FittedFlight {
 ///
 /// Where the flight tells little about drag (standard error above 0.1, or C_d outside -0.1 to 1), the nominal C_d =
 /// 0.25 is taken, with se 0.
-/// @returns none for fewer than 5 centres, for a path that never rises above launch_z_m, and if it does not converge.
+/// Returns none for fewer than 5 centres, for a path that never rises above launch_z_m, and if it does not converge.
 std::optional<FittedFlight> fit_flight(std::span<const BallCentre> centres, double launch_z_m,
                                        const AnalyzerConfig& config);
 

@@ -27,7 +27,7 @@ class AngleTable {
   static constexpr std::size_t kCapacity = EffectiveTable::kCapacity;
 
   /// Two to kCapacity points, powers positive and strictly increasing, angles between 0 and 90 degrees.
-  /// @throws std::invalid_argument naming the index and the value.
+  /// Throws std::invalid_argument naming the index and the value.
   explicit AngleTable(std::span<const AnglePoint> points) : size_(points.size()) {
     if (size_ < 2 || size_ > kCapacity) {
       throw std::invalid_argument("angle table: " + std::to_string(size_) + " set-points, need 2 to " +

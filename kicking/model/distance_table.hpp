@@ -25,7 +25,7 @@ struct DistanceTable {
 /// asks for from that distance, at the robot's exit angle, for the centre of the ball at `target_height_m` over the
 /// floor. A robot at rest that decides by the same law and height then kicks with exactly the table's power; in motion
 /// the laws correct the power as they would with any table.
-/// @throws std::invalid_argument for fewer than 2 or more than PowerTable::kCapacity points, distances or powers that
+/// Throws std::invalid_argument for fewer than 2 or more than PowerTable::kCapacity points, distances or powers that
 /// are not finite and rising, and a distance from which no speed reaches the height or at which it does not rise.
 EffectiveTable effective_table(const DistanceTable& table, HeightLaw law, double target_height_m,
                                const RobotModel& robot);

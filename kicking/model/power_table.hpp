@@ -41,7 +41,7 @@ class PowerTable {
   static constexpr TableKind kKind = kind;
 
   /// Two to kCapacity set-points, finite, positive, both columns strictly increasing.
-  /// @throws std::invalid_argument naming the index and the value.
+  /// Throws std::invalid_argument naming the index and the value.
   explicit PowerTable(std::span<const SetPoint> set_points) : size_(set_points.size()) {
     if (size_ < 2 || size_ > kCapacity) {
       throw std::invalid_argument("power table: " + std::to_string(size_) + " set-points, need 2 to " +

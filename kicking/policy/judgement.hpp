@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/rule.hpp"
 #include "kicking/policy/shot.hpp"
 
@@ -28,7 +29,7 @@ inline void set_alignment(Judgement& judgement, const Alignment& alignment) {
 
 /// Does an order of this possession still have its time?
 inline bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PossessionMemory& memory) {
-  return memory.fired_t_ns && 1e-9 * static_cast<double>(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
+  return memory.fired_t_ns && seconds(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;
 }
 
 }  // namespace trivela::kicking

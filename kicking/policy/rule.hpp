@@ -75,14 +75,14 @@ struct Judgement {
   std::optional<double> offset_right_m;
   double left_m = 0.0;
   double right_m = 0.0;
-  std::optional<Crossing> predicted;  ///< of an order that goes out now
+  std::optional<PredictedCrossing> predicted;  ///< of an order that goes out now
   std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
   double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
   Twist drive{};                      ///< command until the next cycle, in R
 };
 
 /// A number of the predicted crossing.
-template <double Crossing::*number>
+template <double PredictedCrossing::*number>
 std::optional<double> predicted(const Judgement& judgement) {
   return judgement.predicted ? std::optional((*judgement.predicted).*number) : std::nullopt;
 }
@@ -96,26 +96,27 @@ struct RecordedField {
 template <class Get>
 RecordedField(std::string_view, Get) -> RecordedField<Get>;
 
-inline constexpr std::tuple kRecordedFields{RecordedField{"fire", &Judgement::fire},
-                                            RecordedField{"reason", &Judgement::reason},
-                                            RecordedField{"target_x_m", &Judgement::target_x_m},
-                                            RecordedField{"target_y_m", &Judgement::target_y_m},
-                                            RecordedField{"target_z_m", &Judgement::target_z_m},
-                                            RecordedField{"distance_m", &Judgement::distance_m},
-                                            RecordedField{"v0_mps", &Judgement::v0_mps},
-                                            RecordedField{"v_kick_mps", &Judgement::v_kick_mps},
-                                            RecordedField{"power", &Judgement::power},
-                                            RecordedField{"alpha_rad", &Judgement::alpha_rad},
-                                            RecordedField{"beta_rad", &Judgement::beta_rad},
-                                            RecordedField{"aligned", &Judgement::aligned},
-                                            RecordedField{"offset_right_m", &Judgement::offset_right_m},
-                                            RecordedField{"left_m", &Judgement::left_m},
-                                            RecordedField{"right_m", &Judgement::right_m},
-                                            RecordedField{"predicted_x_cross_m", predicted<&Crossing::x_m>},
-                                            RecordedField{"predicted_z_cross_m", predicted<&Crossing::z_m>},
-                                            RecordedField{"predicted_t_flight_s", predicted<&Crossing::t_flight_s>},
-                                            RecordedField{"p_on_target", &Judgement::p_on_target},
-                                            RecordedField{"fire_after_s", &Judgement::fire_after_s}};
+inline constexpr std::tuple kRecordedFields{
+    RecordedField{"fire", &Judgement::fire},
+    RecordedField{"reason", &Judgement::reason},
+    RecordedField{"target_x_m", &Judgement::target_x_m},
+    RecordedField{"target_y_m", &Judgement::target_y_m},
+    RecordedField{"target_z_m", &Judgement::target_z_m},
+    RecordedField{"distance_m", &Judgement::distance_m},
+    RecordedField{"v0_mps", &Judgement::v0_mps},
+    RecordedField{"v_kick_mps", &Judgement::v_kick_mps},
+    RecordedField{"power", &Judgement::power},
+    RecordedField{"alpha_rad", &Judgement::alpha_rad},
+    RecordedField{"beta_rad", &Judgement::beta_rad},
+    RecordedField{"aligned", &Judgement::aligned},
+    RecordedField{"offset_right_m", &Judgement::offset_right_m},
+    RecordedField{"left_m", &Judgement::left_m},
+    RecordedField{"right_m", &Judgement::right_m},
+    RecordedField{"predicted_x_cross_m", predicted<&PredictedCrossing::x_m>},
+    RecordedField{"predicted_z_cross_m", predicted<&PredictedCrossing::z_m>},
+    RecordedField{"predicted_t_flight_s", predicted<&PredictedCrossing::t_flight_s>},
+    RecordedField{"p_on_target", &Judgement::p_on_target},
+    RecordedField{"fire_after_s", &Judgement::fire_after_s}};
 
 /// What every policy remembers of a possession. One that remembers more derives from it.
 struct PossessionMemory {

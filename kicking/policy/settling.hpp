@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/rule.hpp"
 
 namespace trivela::kicking {
@@ -17,7 +18,7 @@ inline Reason settle(const PolicyConfig& config, const PolicyInput& input,
     return Reason::kApproaching;
   }
   if (!settling_since_t_ns) settling_since_t_ns = input.t_ns;
-  const double settled_s = 1e-9 * static_cast<double>(input.t_ns - *settling_since_t_ns);
+  const double settled_s = seconds(input.t_ns - *settling_since_t_ns);
   return settled_s >= rule.settle_s ? Reason::kFire : Reason::kSettling;
 }
 

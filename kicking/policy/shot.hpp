@@ -14,10 +14,10 @@ struct Shot {
   std::optional<double> v0_mps;      ///< for a robot at rest
   std::optional<double> v_kick_mps;  ///< for this robot
   std::optional<double> power;
-  Elevation exit_angle{};             ///< that v0 and v_kick hold for: the power's own
-  bool too_far = false;               ///< no set-point is fast enough
-  bool reachable = false;             ///< a set-point reaches the height, or the least one still passes below the bar
-  std::optional<Crossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
+  Elevation exit_angle{};  ///< that v0 and v_kick hold for: the power's own
+  bool too_far = false;    ///< no set-point is fast enough
+  bool reachable = false;  ///< a set-point reaches the height, or the least one still passes below the bar
+  std::optional<PredictedCrossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
 };
 
 /// Aim point on the goal line, in F.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/drive.hpp"
 #include "kicking/policy/judgement.hpp"
 
@@ -26,7 +27,7 @@ Reason stopped_phase(const PolicyConfig& config, const PolicyInput& input, doubl
     return Reason::kTurning;
   }
   if (!settling) memory.settling_since_t_ns = input.t_ns;
-  const double settled_s = 1e-9 * static_cast<double>(input.t_ns - *memory.settling_since_t_ns);
+  const double settled_s = seconds(input.t_ns - *memory.settling_since_t_ns);
   return settled_s >= config.settle_s && std::abs(heading_error_rad) <= config.aim_tolerance_rad ? Reason::kFire
                                                                                                  : Reason::kSettling;
 }

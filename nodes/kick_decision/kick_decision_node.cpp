@@ -7,6 +7,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/kick_id.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -48,9 +49,9 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
 
 void KickDecisionNode::on_world(const msg::WorldState& world) {
   first_.once([this] {
-    expect_readers(decision_out_, 1);  // recorder
-    expect_readers(order_out_, 2);     // kicker_driver, recorder
-    expect_readers(drive_out_, 2);     // odometry, recorder
+    expect_readers(context_, decision_out_);
+    expect_readers(context_, order_out_);
+    expect_readers(context_, drive_out_);
   });
   stay_alive();
   if (!context_.participant.believes(world.t_ns)) return;
@@ -60,8 +61,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (decision.order) {
     order_out_.write(*decision.order);
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
-                          static_cast<double>(world.t_ns) * 1e-9, kicking::name(decision.in_charge.policy),
-                          decision.order->power, decision.in_charge.judgement.distance_m);
+                          kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
+                          decision.in_charge.judgement.distance_m);
   }
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
   drive(world, decision.in_charge.judgement);

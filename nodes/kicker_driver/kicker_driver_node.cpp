@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -49,9 +50,8 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   first_.once([this] {
     expect_device(*kicker_);
-    expect_readers(status_out_, 2);  // kick_decision, recorder
-    const bool scans = context_.settings.scan_recorder.enabled;
-    expect_readers(receipt_out_, scans ? 3 : 2);  // shot_observer, recorder, scan_recorder
+    expect_readers(context_, status_out_);
+    expect_readers(context_, receipt_out_);
   });
   std::optional<msg::Referee> word;
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);

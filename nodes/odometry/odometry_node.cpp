@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
-#include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::nodes {
 OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels)
@@ -39,18 +39,16 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   first_.once([this] {
     expect_device(*wheels_);
-    expect_readers(odometry_out_, 2);  // world_state, recorder
+    expect_readers(context_, odometry_out_);
   });
-  const std::span<const double> speeds{sample.wheel_radps.data(), static_cast<std::size_t>(sample.wheel_count)};
-  const auto estimate = odometry_.update(sample.t_ns, speeds, sample.gyro_radps);
-  if (!estimate) {
+  auto out = odometry_.update(sample);
+  if (!out) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);
     return;
   }
-  msg::Odometry out = robot::odometry_message(sample, *estimate);
-  out.robot_id = context_.robot_id();
-  out.seq = ++seq_;
-  odometry_out_.write(out);
+  out->robot_id = context_.robot_id();
+  out->seq = ++seq_;
+  odometry_out_.write(*out);
   stop_without_commands();
 }
 

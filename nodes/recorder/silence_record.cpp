@@ -3,7 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::nodes {
 
@@ -13,7 +14,7 @@ std::size_t SilenceRecord::add(const std::string& table, double period_s) {
   const auto known = std::ranges::find(tables_, table);
   if (known != tables_.end()) return static_cast<std::size_t>(known - tables_.begin());
   tables_.push_back(table);
-  return watch_.add(static_cast<std::int64_t>(std::llround(longest_s * 1e9)));
+  return watch_.add(kicking::nanoseconds(longest_s));
 }
 
 void SilenceRecord::heard(std::size_t stream, std::uint8_t robot_id, std::int64_t t_ns) {

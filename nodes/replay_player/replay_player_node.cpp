@@ -6,7 +6,9 @@
 #include <type_traits>
 #include <variant>
 
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/progress_line.hpp"
+#include "nodes/runtime/readers.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -33,17 +35,15 @@ ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
 }
 
 void ReplayPlayerNode::run() {
-  const bool heard =
-      readers_before_stop(context_.stop, vision_, 2) &&  // world_state, recorder
-      readers_before_stop(context_.stop, flight_, 2) &&  // shot_observer, recorder
-      readers_before_stop(context_.stop, referee_, 4);   // world_state, kicker_driver, shot_observer, recorder
+  const bool heard = readers_before_stop(context_, vision_) && readers_before_stop(context_, flight_) &&
+                     readers_before_stop(context_, referee_);
   if (!heard) return;
   ProgressLine progress;
-  const double total_s = static_cast<double>(last_t_ns(log_)) * 1e-9;
+  const double total_s = kicking::seconds(last_t_ns(log_));
   while (const auto t_ns = topics_.next_t_ns()) {
     while (topics_.next_t_ns() == t_ns) publish(*topics_.next());
     if (!barrier_.wait_for(*t_ns, context_.stop)) return;
-    progress.say(static_cast<double>(*t_ns) * 1e-9, total_s, topics_.ended());
+    progress.say(kicking::seconds(*t_ns), total_s, topics_.ended());
   }
 }
 

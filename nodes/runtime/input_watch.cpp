@@ -1,8 +1,8 @@
 #include "nodes/runtime/input_watch.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
@@ -33,14 +33,14 @@ void InputWatch::add(const bus::Input& input) {
     return;
   }
   const double period_s = std::max(device ? kDevicePeriod_s : input.period_s, context_.settings.run.cycle_s);
-  const auto period_ns = static_cast<std::int64_t>(std::llround(period_s * 1e9));
+  const auto period_ns = kicking::nanoseconds(period_s);
   inputs_.push_back({name, watch_.add(period_ns), period_ns, {input.heard_ns}});
 }
 
 void InputWatch::look(std::int64_t now_ns) {
   if (!started_ns_) started_ns_ = looked_ns_ = now_ns;
   if (now_ns - *looked_ns_ > kStoodStill_ns)
-    context_.logger->warn("this process stood still for {:.2f} s", static_cast<double>(now_ns - *looked_ns_) * 1e-9);
+    context_.logger->warn("this process stood still for {:.2f} s", kicking::seconds(now_ns - *looked_ns_));
   looked_ns_ = now_ns;
   const std::uint8_t robot_id = context_.robot_id();
   for (Watched& input : inputs_) {

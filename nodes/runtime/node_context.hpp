@@ -55,7 +55,7 @@ inline constexpr std::chrono::seconds kLockstepPatience{20};
 
 /// Asks `ready(timeout)` again and again until it says so. False: the stop was requested first. Throws
 /// std::runtime_error with `what` when the patience is over.
-bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
+[[nodiscard]] bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
   constexpr std::chrono::milliseconds kGlance{100};  // how often the stop is looked for
   const auto deadline = std::chrono::steady_clock::now() + kLockstepPatience;
   while (!ready(kGlance)) {
@@ -63,21 +63,6 @@ bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& w
     if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error{what + " after 20 s"};
   }
   return true;
-}
-
-/// Waits until `output`, a bus::Writer or bus::Output, has `n` readers; throws std::runtime_error when they do not
-/// come.
-void expect_readers(const auto& output, std::size_t n) {
-  if (output.wait_for_readers(n, kLockstepPatience)) return;
-  throw std::runtime_error{output.topic() + " has " + std::to_string(output.readers()) + " of " + std::to_string(n) +
-                           " readers after 20 s"};
-}
-
-/// The same for who feeds the nodes and starts before them: false: the stop was requested first.
-bool readers_before_stop(const bus::Stop& stop, const auto& output, std::size_t n) {
-  return ready_before_stop(
-      stop, [&](auto timeout) { return output.wait_for_readers(n, timeout); },
-      "not all of " + std::to_string(n) + " readers of " + output.topic() + " are there");
 }
 
 /// In lockstep nothing may be missed, so the first cycle waits for whoever reads the outputs and for the device.

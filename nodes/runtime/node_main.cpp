@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include "bus/library_log.hpp"
 #include "bus/process.hpp"
 #include "config/installation.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
@@ -27,7 +27,7 @@
 namespace trivela::nodes {
 
 std::chrono::nanoseconds NodeContext::cycle() const {
-  return std::chrono::nanoseconds{std::llround(settings.run.cycle_s * 1e9)};
+  return std::chrono::nanoseconds{kicking::nanoseconds(settings.run.cycle_s)};
 }
 
 void NodeContext::idle(std::chrono::nanoseconds timeout) const {
@@ -101,7 +101,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     bus::Stop stop;
     const bus::StopOnSignals on_signals{stop};
     config::Settings settings = config::load_settings(config_file);
-    config::override_settings(settings, overrides);
+    config::override_settings(settings, overrides, "--set");
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
     if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {

@@ -1,5 +1,6 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 
+#include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -25,9 +26,7 @@ void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
-  first_.once([this] {
-    expect_readers(outcome_out_, 2);  // kick_decision, recorder
-  });
+  first_.once([this] { expect_readers(context_, outcome_out_); });
   auto referee = input_of_cycle(context_, *referee_, frame.t_ns);
   if (!context_.participant.believes(frame.t_exposure_ns)) return;
   if (referee && !context_.participant.believes(referee->t_ns)) referee.reset();

@@ -11,6 +11,7 @@
 #include "config/scenario.hpp"
 #include "hal/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "sim/laser/field_laser.hpp"
 
 namespace trivela::nodes {
@@ -86,14 +87,9 @@ void SimulatorNode::run() {
 bool SimulatorNode::nodes_are_here() {
   const bus::Stop& stop = context_.stop;
   const bool scans = scan_ && context_.settings.scan_recorder.enabled;
-  return (!scans || readers_before_stop(stop, *scan_, 1)) &&  // scan_recorder
-         readers_before_stop(stop, wheels_, 1) &&             // odometry
-         readers_before_stop(stop, kicker_, 1) &&             // kicker_driver
-         readers_before_stop(stop, vision_, 2) &&             // world_state, recorder
-         readers_before_stop(stop, flight_, 2) &&             // shot_observer, recorder
-         readers_before_stop(stop, referee_, 4) &&            // world_state, kicker_driver, shot_observer, recorder
-         readers_before_stop(stop, kick_truth_, 1) &&         // recorder
-         readers_before_stop(stop, possession_truth_, 1) &&   // recorder
+  const auto heard = [this](const auto&... outputs) { return (readers_before_stop(context_, outputs) && ...); };
+  return (!scans || heard(*scan_)) &&
+         heard(wheels_, kicker_, vision_, flight_, referee_, kick_truth_, possession_truth_) &&
          ready_before_stop(
              stop, [this](auto timeout) { return fire_.wait_for_writers(1, timeout); }, "no kicker_driver is there");
 }

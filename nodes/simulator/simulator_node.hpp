@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/lockstep_barrier.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/progress_line.hpp"
@@ -27,7 +28,7 @@ class SimulatorNode {
   void run();
 
   /// Simulated time played so far.
-  double played_s() const { return static_cast<double>(t_ns_) * 1e-9; }
+  double played_s() const { return kicking::seconds(t_ns_); }
 
  private:
   bool nodes_are_here();

@@ -1,5 +1,7 @@
 #include "nodes/world_state/world_state_node.hpp"
 
+#include "nodes/runtime/readers.hpp"
+
 namespace trivela::nodes {
 
 WorldStateNode::WorldStateNode(NodeContext& context)
@@ -20,9 +22,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
 }
 
 void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
-  first_.once([this] {
-    expect_readers(world_out_, 2);  // kick_decision, recorder
-  });
+  first_.once([this] { expect_readers(context_, world_out_); });
   if (!context_.participant.believes(odometry.t_ns)) return;
   auto frame = input_of_cycle(context_, *vision_, odometry.t_ns);
   // It would make all pictures old that follow.

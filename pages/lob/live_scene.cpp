@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibration/scanner_session.hpp"
+#include "kicking/geometry/time.hpp"
 #include "pages/lob/lob_json.hpp"
 
 namespace trivela::pages {
@@ -103,7 +104,7 @@ void LiveScene::take(const kicking::lob::Scan& scan) {
   auto lob = analyzer_->add(scan);
   views_.push_back(scene_of(analyzer_->view()));
   const std::size_t i = views_.size() - 1;
-  const double t_s = static_cast<double>(scan.t_ns - start_t_ns()) * 1e-9;
+  const double t_s = kicking::seconds(scan.t_ns - start_t_ns());
   broadcast_.publish(Channel::kFrame, frame_json(i, t_s, scan.range_mm, max_range_m_, views_.back()));
   if (!lob) return;
   book_.add(std::move(*lob), i);
@@ -156,7 +157,7 @@ std::string LiveScene::frame(std::size_t i) {
     const std::lock_guard lock(mutex_);
     if (i >= views_.size()) throw CommandError{404, fmt::format("there is no scan {} among {}", i, views_.size())};
     view = views_[i];
-    t_s = static_cast<double>(view.t_ns - start_t_ns()) * 1e-9;
+    t_s = kicking::seconds(view.t_ns - start_t_ns());
   }
   const std::lock_guard lock(back_mutex_);
   if (!back_) back_.emplace(options_.record);

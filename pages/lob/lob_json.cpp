@@ -5,6 +5,7 @@
 
 #include "evaluator/report/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -74,7 +75,7 @@ nlohmann::json setup_json(const std::string& mode, const std::string& file, cons
 }
 
 json lob_json(const LobRecord& lob, std::int64_t start_t_ns) {
-  json out{{"t_s", static_cast<double>(lob.launch_t_ns - start_t_ns) * 1e-9},
+  json out{{"t_s", kicking::seconds(lob.launch_t_ns - start_t_ns)},
            {"launch_t_ns", std::to_string(lob.launch_t_ns)},
            {"power", evaluator::json_of(lob.power)},
            {"effective", evaluator::effective_json(lob, EstimateForm::kObject)},

@@ -1,7 +1,8 @@
 #include "pages/lob/player.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::pages {
 
@@ -17,15 +18,15 @@ void Player::play() {
 void Player::seek(std::int64_t position) {
   position_ =
       static_cast<std::size_t>(std::clamp<std::int64_t>(position, 0, static_cast<std::int64_t>(t_ns_.size()) - 1));
-  now_s_ = static_cast<double>(t_ns_[position_] - t_ns_.front()) * 1e-9;
+  now_s_ = kicking::seconds(t_ns_[position_] - t_ns_.front());
 }
 
 void Player::advance(double passed_s) {
   if (!playing_) return;
-  const double end_s = static_cast<double>(t_ns_.back() - t_ns_.front()) * 1e-9;
+  const double end_s = kicking::seconds(t_ns_.back() - t_ns_.front());
   now_s_ = std::clamp(now_s_ + passed_s * speed_, 0.0, end_s);
   // Rounded: the start of a scan, in seconds and back, is that scan.
-  const std::int64_t now_ns = t_ns_.front() + std::llround(now_s_ * 1e9);
+  const std::int64_t now_ns = t_ns_.front() + kicking::nanoseconds(now_s_);
   position_ = static_cast<std::size_t>(std::upper_bound(t_ns_.begin(), t_ns_.end(), now_ns) - t_ns_.begin()) - 1;
   const bool at_end = now_ns == (speed_ > 0.0 ? t_ns_.back() : t_ns_.front());
   if (at_end) playing_ = false;

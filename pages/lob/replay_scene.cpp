@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calibration/rows/verdicts_file.hpp"
+#include "kicking/geometry/time.hpp"
 #include "pages/lob/lob_json.hpp"
 
 namespace trivela::pages {
@@ -105,7 +106,7 @@ json ReplayScene::status() const {
 }
 
 std::string ReplayScene::frame_now(std::size_t i) const {
-  const double t_s = static_cast<double>(views_[i].t_ns - views_.front().t_ns) * 1e-9;
+  const double t_s = kicking::seconds(views_[i].t_ns - views_.front().t_ns);
   return frame_json(i, t_s, record_.scan(i).range_mm, record_.session().geometry.max_range_m, views_[i]);
 }
 

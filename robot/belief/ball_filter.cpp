@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::robot {
 namespace {
 
@@ -17,13 +19,13 @@ bool BallFilter::in_handler() const {
 
 void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m) {
   if (ball_m && ball_m->allFinite()) {
-    const double dt_s = static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9;
+    const double dt_s = kicking::seconds(t_exposure_ns - seen_t_ns_);
     const bool anew = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kNewBall_m;
     const double gain = anew ? 1.0 : decay_.gain(dt_s);
     position_m_ = anew ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
     seen_t_ns_ = t_exposure_ns;
   }
-  const double unseen_s = static_cast<double>(t_exposure_ns - seen_t_ns_) * 1e-9;
+  const double unseen_s = kicking::seconds(t_exposure_ns - seen_t_ns_);
   if (unseen_s > settings_.ball_forget_s) position_m_.reset();
   if (unseen_s > settings_.possession_forget_s) possession_ = false;
   if (in_handler() == possession_ || unseen_s > settings_.possession_forget_s) {
@@ -31,7 +33,7 @@ void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::
     return;
   }
   if (!differs_since_ns_) differs_since_ns_ = t_exposure_ns;
-  if (static_cast<double>(t_exposure_ns - *differs_since_ns_) * 1e-9 >= settings_.possession_debounce_s) {
+  if (kicking::seconds(t_exposure_ns - *differs_since_ns_) >= settings_.possession_debounce_s) {
     possession_ = !possession_;
     differs_since_ns_.reset();
   }

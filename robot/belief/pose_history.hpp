@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/geometry/turned_pose.hpp"
 
 namespace trivela::robot {
@@ -11,7 +12,7 @@ namespace trivela::robot {
 /// The odometry poses of the last `span_s`, to look up any instant in between.
 class PoseHistory {
  public:
-  explicit PoseHistory(double span_s) : span_ns_(static_cast<std::int64_t>(span_s * 1e9)) {}
+  explicit PoseHistory(double span_s) : span_ns_(kicking::nanoseconds(span_s)) {}
 
   /// Appends; an instant that is not newer than the last one starts the history anew.
   void add(std::int64_t t_ns, const kicking::Pose& pose);

@@ -4,8 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <new>
+#include <type_traits>
 #include <utility>
 
+#include "idl/none.hpp"
+#include "kicking/geometry/time.hpp"
 #include "robot/decision/decision_message.hpp"
 
 namespace trivela::robot {
@@ -16,11 +19,12 @@ using kicking::PolicyName;
 static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts::rides_along) <=
                   static_cast<std::ptrdiff_t>(std::tuple_size_v<decltype(CycleDecision::shadows)>),
               "the wire carries no more shadows");
+static_assert(std::is_trivially_destructible_v<Judged>, "decide() writes over the last cycle's");
 
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
   if (!std::isfinite(fire_after_s) || std::abs(fire_after_s) > 1.0) return t_ns - 1;
-  return t_ns + std::llround(fire_after_s * 1e9);
+  return t_ns + kicking::nanoseconds(fire_after_s);
 }
 
 }  // namespace
@@ -32,7 +36,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       goal_(settings.goal),
       oracle_(std::move(oracle)),
       assignment_(settings.assignment, robot_id),
-      validity_ns_(static_cast<std::int64_t>(settings.assignment.order_validity_s * 1e9)),
+      validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
       kick_id_{session, robot_id} {
   if (!settings.assignment.shadows) return;
@@ -103,9 +107,7 @@ bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStat
 /// What was seen of the last order's kick, once the observer has said it.
 std::optional<kicking::SeenKick> Decider::last_kick(const std::optional<msg::KickOutcome>& outcome) const {
   if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return std::nullopt;
-  kicking::SeenKick seen{outcome->kick_id, last_order_possession_id_, std::nullopt};
-  if (std::isfinite(outcome->x_cross_m)) seen.x_cross_m = outcome->x_cross_m;
-  return seen;
+  return kicking::SeenKick{outcome->kick_id, last_order_possession_id_, msg::optional_of(outcome->x_cross_m)};
 }
 
 msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judgement& judgement) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "idl/none.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -17,7 +18,7 @@ static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
 
 constexpr bool wire(bool value) { return value; }
 constexpr double wire(double value) { return value; }
-constexpr double wire(const std::optional<double>& value) { return value.value_or(msg::kNone); }
+constexpr double wire(const std::optional<double>& value) { return msg::wire_of(value); }
 msg::DecisionReason wire(kicking::Reason reason) { return to_wire(reason); }
 
 /// Place of the message's field of that name; their number: it has none.
@@ -60,10 +61,10 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
   in.possession = world.possession;
   in.possession_id = world.possession_id;
   in.kicker_ready = kicker != nullptr && kicker->ready;
-  if (kicker != nullptr) in.state_age_s = std::abs(static_cast<double>(world.t_ns - kicker->t_ns)) * 1e-9;
+  if (kicker != nullptr) in.state_age_s = std::abs(kicking::seconds(world.t_ns - kicker->t_ns));
   in.sd_position_m = world.sd_position_m;
   in.sd_heading_rad = world.sd_heading_rad;
-  if (std::isfinite(world.opponent_distance_m)) in.opponent_distance_m = world.opponent_distance_m;
+  in.opponent_distance_m = msg::optional_of(world.opponent_distance_m);
   return in;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::robot {
 namespace {
 
@@ -15,7 +17,7 @@ kicking::Range power_range(const kicking::EffectiveTable& table) { return {table
 OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
                      std::uint8_t robot_id)
     : gate_(settings, power_range(model.table), cycle_s),
-      delay_ns_(static_cast<std::int64_t>(model.delay_s * 1e9)),
+      delay_ns_(kicking::nanoseconds(model.delay_s)),
       robot_id_(robot_id) {}
 
 msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kicking/constants.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -88,7 +89,7 @@ class Stories {
  private:
   static constexpr double kFar_s = 10.0;
 
-  double time_s(std::size_t i) const { return 1e-9 * static_cast<double>(seen_[i].t_ns - track_.release_t_ns); }
+  double time_s(std::size_t i) const { return kicking::seconds(seen_[i].t_ns - track_.release_t_ns); }
 
   FlightFilter start() const {
     const Eigen::Vector3d& first = seen_.front().ball_m;
@@ -184,7 +185,7 @@ class Stories {
 
 std::optional<FlightStories> flight_stories(const ShotTrack& track, double goal_y_m) {
   const auto left = std::find_if(track.sightings.begin(), track.sightings.end(), [&](const kicking::Sighting& s) {
-    return 1e-9 * static_cast<double>(s.t_ns - track.release_t_ns) >= kReleaseDoubt_s;
+    return kicking::seconds(s.t_ns - track.release_t_ns) >= kReleaseDoubt_s;
   });
   const std::span<const kicking::Sighting> seen{left, track.sightings.end()};
   if (seen.size() < kFewestInFlight) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "kicking/constants.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/outcome/p_inside.hpp"
 #include "robot/observer/flight_stories.hpp"
 
@@ -75,14 +76,14 @@ double reached(const FlightStories& stories, const ShotTrack& track) {
   if (!stories.crossing) return 0.0;
   if (stories.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
     return 1.0;
-  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  const double end_s = kicking::seconds(track.end_t_ns - track.release_t_ns);
   return kicking::normal_below(end_s - stories.crossing->t_s, stories.crossing->sd_t_s);
 }
 
 Weights weigh(const FlightStories& stories, const ShotTrack& track, const kicking::Goal& goal,
               const config::ShotObserver& settings) {
   Weights weights;
-  const double end_s = 1e-9 * static_cast<double>(track.end_t_ns - track.release_t_ns);
+  const double end_s = kicking::seconds(track.end_t_ns - track.release_t_ns);
   const double there = reached(stories, track);
   double log_passed = stories.log_passed, log_back = stories.log_thrown_back;
   if (track.end == FlightEnd::kBeyondLine) log_back += std::log(kAgainstTheEnd);

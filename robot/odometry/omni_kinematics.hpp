@@ -2,14 +2,13 @@
 
 #include <Eigen/Core>
 #include <span>
-#include <vector>
 
 #include "config/robot.hpp"
 #include "kicking/geometry/frames.hpp"
 
 namespace trivela::robot {
 
-/// Wheel speeds to body twist and back, for 3 or 4 wheels.
+/// Wheel speeds to body twist, for 3 or 4 wheels.
 ///
 ///     wheel_radius w_i = -sin(angle_i) vx + cos(angle_i) vy + wheel_distance omega        (rad/s, m/s)
 ///
@@ -19,20 +18,16 @@ class OmniKinematics {
   /// Throws std::invalid_argument unless the base has 3 or 4 wheels, positive lengths and spans the plane.
   explicit OmniKinematics(const config::WheelBase& base);
 
-  int wheel_count() const { return static_cast<int>(forward_.rows()); }
+  int wheel_count() const { return static_cast<int>(backward_.cols()); }
 
   /// Body twist in R of the first wheel_count() speeds.
   kicking::Twist twist(std::span<const double> wheel_radps) const;
-
-  /// Wheel speeds that give `twist`; the inverse of twist().
-  std::vector<double> wheel_speeds_radps(const kicking::Twist& twist) const;
 
   /// Variances (vx, vy, omega) that independent wheel noise of standard deviation `wheel_sd_radps` leaves in twist().
   Eigen::Vector3d twist_variance(double wheel_sd_radps) const;
 
  private:
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> forward_;   // twist -> wheel speeds
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> backward_;  // its pseudo-inverse
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> backward_;  // wheel speeds -> twist, least squares
 };
 
 }  // namespace trivela::robot

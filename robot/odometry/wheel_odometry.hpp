@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "config/settings.hpp"
 #include "hal/wheels.hpp"
@@ -11,16 +11,6 @@
 #include "robot/odometry/omni_kinematics.hpp"
 
 namespace trivela::robot {
-
-/// What wheel odometry knows after a sample: twist in R, pose integrated in the frame where it started, variances.
-struct OdometryEstimate {
-  kicking::Twist twist{};
-  kicking::Pose pose{};
-  double var_v_m2ps2 = 0.0;
-  double var_omega_rad2ps2 = 0.0;
-  double var_position_m2 = 0.0;
-  double var_heading_rad2 = 0.0;
-};
 
 /// Integrates wheel and gyro samples.
 ///
@@ -33,22 +23,23 @@ class WheelOdometry {
   WheelOdometry(const config::WheelBase& base, const config::Odometry& noise)
       : kinematics_(base), noise_(noise), variance_(kinematics_.twist_variance(noise.wheel_sd_radps)) {}
 
-  /// Takes the samples of instant `t_ns`; the first one sets the clock and moves nothing. Samples that are not finite,
-  /// faster than 1000 rad/s or not newer than the last one are ignored (nullopt).
-  std::optional<OdometryEstimate> update(std::int64_t t_ns, std::span<const double> wheel_radps,
-                                         const std::optional<double>& gyro_radps);
-
-  const OmniKinematics& kinematics() const { return kinematics_; }
+  /// The estimate with the sample that it was made from; robot_id and seq are the caller's. The first sample sets the
+  /// clock and moves nothing; one that is not finite, faster than 1000 rad/s, of too few wheels or not newer than the
+  /// last one is ignored (nullopt).
+  [[nodiscard]] std::optional<msg::Odometry> update(const hal::WheelSample& sample);
 
  private:
+  double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }
+  msg::Odometry message(const hal::WheelSample& sample, double var_omega_rad2ps2) const;
+
   OmniKinematics kinematics_;
   config::Odometry noise_;
   Eigen::Vector3d variance_;  // of a twist by wheels alone
   std::optional<std::int64_t> last_t_ns_;
-  OdometryEstimate estimate_;
+  kicking::Twist twist_{};
+  kicking::Pose pose_{};  // in the frame where it started
+  double var_position_m2_ = 0.0;
+  double var_heading_rad2_ = 0.0;
 };
-
-/// The estimate with the sample it was made from; robot_id and seq are the node's.
-msg::Odometry odometry_message(const hal::WheelSample& sample, const OdometryEstimate& estimate);
 
 }  // namespace trivela::robot

@@ -7,6 +7,7 @@
 
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/reader.hpp"
+#include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -77,7 +78,7 @@ std::optional<Predecessor> find_predecessor(const fs::path& log, const evaluator
             reader,
             fmt::format("SELECT max(to_t_ns) FROM losses WHERE session_id = {} AND robot_id = 0", recorded.session_id));
         const std::int64_t last_utc_ns = std::max(last_t_ns, recorded.started_t_ns) + recorded.realtime_offset_ns;
-        if (static_cast<double>(now_utc_ns - last_utc_ns) * 1e-9 > kLongestPause_s) continue;
+        if (kicking::seconds(now_utc_ns - last_utc_ns) > kLongestPause_s) continue;
         newest = Predecessor{recorded.uuid, path, drivers_of(reader, recorded.session_id)};
         newest_start_utc_ns = start_utc_ns;
       }

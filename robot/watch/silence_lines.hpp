@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
 #include "robot/watch/silence_watch.hpp"
 
 namespace trivela::robot {
@@ -25,7 +26,7 @@ class SilenceLines {
       return;
     }
     if (voice.said) {
-      ready_.push_back(fmt::format("{} back after {:.2f} s", name, seconds(*edge.to_ns - edge.from_ns)));
+      ready_.push_back(fmt::format("{} back after {:.2f} s", name, kicking::seconds(*edge.to_ns - edge.from_ns)));
     } else if (voice.silent_from_ns) {
       ++voice.unsaid;
     }
@@ -40,7 +41,8 @@ class SilenceLines {
       if (voice.said_ns && now_ns - *voice.said_ns < kPause_ns) continue;
       const std::string more =
           voice.unsaid > 0 ? fmt::format(", and {} shorter silences before", voice.unsaid) : std::string{};
-      ready_.push_back(fmt::format("no {} for {:.2f} s{}", voice.name, seconds(now_ns - *voice.silent_from_ns), more));
+      ready_.push_back(
+          fmt::format("no {} for {:.2f} s{}", voice.name, kicking::seconds(now_ns - *voice.silent_from_ns), more));
       voice.said = true;
       voice.said_ns = now_ns;
       voice.unsaid = 0;
@@ -57,7 +59,6 @@ class SilenceLines {
     int unsaid = 0;                         // silences since then that nothing was said of
   };
   static constexpr std::int64_t kPause_ns = 1'000'000'000;
-  static double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
   std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;
   std::vector<std::string> ready_;

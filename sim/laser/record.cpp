@@ -17,14 +17,14 @@ constexpr std::int64_t kStep_ns = 1'000'000;
 /// The scanner and the ball in front of it, step by step.
 class Scene {
  public:
-  Scene(const LaserModel& laser, const Ball& ball, std::uint64_t seed)
+  Scene(const LaserModel& laser, const BallPhysics& ball, std::uint64_t seed)
       : ball_(ball), builder_(laser, ball.radius_m, kicking::Draws{seed, 0}) {}
 
   /// Lets `duration_ns` pass; the ball, if there is one, moves by advance().
   void pass(std::int64_t duration_ns) {
     for (const std::int64_t end_ns = t_ns_ + duration_ns; t_ns_ < end_ns;) {
       const std::int64_t step_ns = std::min(kStep_ns, end_ns - t_ns_);
-      if (motion) sim::advance(*motion, ball_, static_cast<double>(step_ns) * 1e-9);
+      if (motion) sim::advance(*motion, ball_, kicking::seconds(step_ns));
       t_ns_ += step_ns;
       builder_.advance(t_ns_, motion ? std::optional(motion->position_m) : std::nullopt);
       while (auto scan = builder_.take()) scans.push_back(std::move(*scan));
@@ -38,14 +38,14 @@ class Scene {
   std::vector<kicking::lob::Scan> scans;
 
  private:
-  Ball ball_;
+  BallPhysics ball_;
   ScanBuilder builder_;
   std::int64_t t_ns_ = 0;
 };
 
 }  // namespace
 
-SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const Ball& ball,
+SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const BallPhysics& ball,
                                   std::uint64_t seed) {
   const double heading = laser.heading_rad + plan.direction_error_rad;
   const Eigen::Vector3d launch{-plan.lateral_error_m * std::cos(laser.heading_rad),

@@ -45,7 +45,7 @@ struct SyntheticRecord {
 
 /// Scans of balls flown by advance(), kicked along the scan plane from F's origin, at z = r. Pure: the same arguments
 /// give the same scans. Not a measurement: synthetic.
-SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const Ball& ball,
+SyntheticRecord synthesize_record(const LaserModel& laser, const RecordPlan& plan, const BallPhysics& ball,
                                   std::uint64_t seed);
 
 }  // namespace trivela::sim

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::sim {
 namespace {
 
@@ -45,7 +47,7 @@ ScanBuilder::ScanBuilder(const LaserModel& laser, double ball_radius_m, const ki
 }
 
 std::int64_t ScanBuilder::beam_t_ns(std::size_t i) const {
-  return scan_.t_ns + std::llround(static_cast<double>(i) * laser_.geometry.beam_period_s * 1e9);
+  return scan_.t_ns + kicking::nanoseconds(static_cast<double>(i) * laser_.geometry.beam_period_s);
 }
 
 Eigen::Vector3d ScanBuilder::in_plane(const Eigen::Vector3d& ball) const {
@@ -70,7 +72,7 @@ void ScanBuilder::advance(std::int64_t t_ns, const std::optional<Eigen::Vector3d
     if (++next_beam_ < beams_.size()) continue;
     complete_.push_back(std::exchange(scan_, {0, std::vector<std::uint32_t>(beams_.size())}));
     ++scan_index_;
-    scan_.t_ns = first_t_ns_ + std::llround(scan_index_ * laser_.geometry.scan_period_s * 1e9);
+    scan_.t_ns = first_t_ns_ + kicking::nanoseconds(scan_index_ * laser_.geometry.scan_period_s);
     next_beam_ = 0;
     edge_m_.reset();
   }

@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/match.hpp"
 
 // The world in process, without filters and policies. `--benchmark_repetitions=9` prints the median.
@@ -20,7 +21,7 @@ struct Driver {
       possession_id = s.referee.possession_id;
       since_ns = s.t_ns;
       fired = false;
-    } else if (!fired && static_cast<double>(s.t_ns - since_ns) * 1e-9 >= after_s) {
+    } else if (!fired && trivela::kicking::seconds(s.t_ns - since_ns) >= after_s) {
       commands.fire = Fire{s.t_ns, 1, 30.0};
       fired = true;
     }
@@ -29,20 +30,21 @@ struct Driver {
 };
 
 /// Cameras and wheels as a robot in play needs them: the goal camera only for a ball in the air, the rest only without.
-Looks needed(const Match& match) {
+SensorChoice needed(const Match& match) {
   const bool held = match.true_state().ball_held;
   return {.wheels = held, .vision = held, .flight = !held};
 }
 
 template <class Policy>
 void play(
-    benchmark::State& state, Policy policy, Looks (*looks)(const Match&) = [](const Match&) { return Looks{}; }) {
+    benchmark::State& state, Policy policy,
+    SensorChoice (*choice)(const Match&) = [](const Match&) { return SensorChoice{}; }) {
   std::int64_t cycles = 0, possessions = 0;
   std::uint64_t seed = 0;
   for (auto _ : state) {
     Match match{Scenario{}, ++seed, 1, 600.0, 100};
     while (!match.done()) {
-      const Sensors sensors = match.sense(looks(match));
+      const Sensors sensors = match.sense(choice(match));
       benchmark::DoNotOptimize(sensors);
       possessions += static_cast<std::int64_t>(match.step(policy(sensors)).possessions.size());
       ++cycles;

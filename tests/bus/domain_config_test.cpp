@@ -36,7 +36,7 @@ TEST(DomainConfig, ADomainWhosePortsMayBeTakenIsRefused) {
   EXPECT_NO_THROW(loopback(0, "t"));
   EXPECT_NO_THROW(loopback(100, "t"));
   EXPECT_THAT(message_of([] { loopback(101, "t"); }), HasSubstr("domain id 101): must be 0..100"));
-  EXPECT_THAT(message_of([] { from_environment(230); }), HasSubstr("domain id 230"));
+  EXPECT_THAT(message_of([] { from_file(230, "x.xml"); }), HasSubstr("domain id 230"));
 }
 
 TEST(DomainConfig, ATagThatWouldChangeTheConfigurationIsRefused) {

@@ -9,6 +9,15 @@
 namespace trivela::bus {
 namespace {
 
+/// The names of T's fields in the order of the IDL.
+template <Struct T>
+constexpr auto field_names() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::array<std::string_view, sizeof...(I)>{meta<T>::fields[I].name...};
+  }
+  (std::make_index_sequence<meta<T>::fields.size()>{});
+}
+
 using ::testing::Contains;
 using ::testing::ElementsAre;
 

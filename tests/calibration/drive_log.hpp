@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kicking/alignment/release_predictor.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/model/robot_model.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
@@ -15,8 +16,8 @@ inline constexpr double kDelay_s = 0.06;
 inline constexpr double kPower = 25.0;
 
 /// Where the ball of a kick with this transfer crosses, by the forward predictor.
-inline kicking::Crossing flown(const kicking::Pose& pose, const kicking::Twist& twist,
-                               const kicking::Transfer& transfer) {
+inline kicking::PredictedCrossing flown(const kicking::Pose& pose, const kicking::Twist& twist,
+                                        const kicking::Transfer& transfer) {
   const kicking::RobotModel model;
   const kicking::KickAction kick{model.table.speed_for(kPower), model.exit_angle_rad, transfer, kDelay_s,
                                  model.ball_offset_m};
@@ -75,7 +76,7 @@ class DriveLog : public evaluator::LogTest {
 
   void kick(const std::string& policy, const kicking::Pose& pose, const kicking::Twist& twist,
             const kicking::Transfer& transfer) {
-    const kicking::Crossing crossing = flown(pose, twist, transfer);
+    const kicking::PredictedCrossing crossing = flown(pose, twist, transfer);
     kick(policy, pose, twist, crossing.x_m, crossing.z_m);
   }
 
@@ -89,7 +90,7 @@ class DriveLog : public evaluator::LogTest {
     Eigen::Vector3d velocity(-std::sin(0.02) * all_mps, std::cos(0.02) * all_mps, up_mps);
     for (int i = 0; i < 9000; ++i) {
       if (i % 200 == 0) {
-        const Int t_ns = kicks_ * 1'000'000'000 + std::llround((kDelay_s + i * kStep_s) * 1e9);
+        const Int t_ns = kicks_ * 1'000'000'000 + kicking::nanoseconds(kDelay_s + i * kStep_s);
         writer_.push(frames_, {Int{1}, ++seq_, t_ns, t_ns, Int{1}, place.x(), place.y(), place.z()});
       }
       velocity += kStep_s * (Eigen::Vector3d(0, 0, -kicking::kGravity_mps2) - k * velocity.norm() * velocity);

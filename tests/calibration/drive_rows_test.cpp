@@ -9,6 +9,7 @@
 #include "calibration/rows/launch_track.hpp"
 #include "calibration/rows/recorded_drives.hpp"
 #include "kicking/fit/delay_fit.hpp"
+#include "kicking/geometry/time.hpp"
 #include "tests/calibration/drive_log.hpp"
 
 namespace trivela::calibration {
@@ -96,7 +97,7 @@ std::vector<kicking::Sighting> seen_release(Int order_t_ns, double delay_s, doub
     const double t_s = -0.3 + kStep_s * i;
     if (i % 200 == 70) {
       const double sign = frame++ % 2 == 0 ? 1.0 : -1.0;
-      sightings.push_back({order_t_ns + std::llround(t_s * 1e9), ball + sign * noise_m * Eigen::Vector3d(1, 1, 1)});
+      sightings.push_back({order_t_ns + kicking::nanoseconds(t_s), ball + sign * noise_m * Eigen::Vector3d(1, 1, 1)});
     }
     if (!released && t_s + 0.5 * kStep_s >= delay_s) {
       released = true;

@@ -159,7 +159,7 @@ TEST(ChangedWorld, ABadLineIsNamedWithItsKeyAndValue) {
   const auto said = [](const std::string& line) -> std::string {
     sim::Scenario scenario;
     try {
-      override_scenario(scenario, line);
+      override_scenario(scenario, line, "--world");
     } catch (const Error& error) {
       return error.what();
     }

@@ -9,6 +9,7 @@
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
 #include "evaluator/report/table2.hpp"
+#include "kicking/geometry/time.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/merged_log.hpp"
@@ -27,7 +28,7 @@ class OnePlay : public LogTest {
     auto real = session();
     real.simulated = real.simulated_clock = false;
     real.seed.reset();
-    real.started_t_ns = static_cast<std::int64_t>(started_s * 1e9);
+    real.started_t_ns = kicking::nanoseconds(started_s);
     real.realtime_offset_ns = 1'000'000'000'000'000'000;
     return real;
   }

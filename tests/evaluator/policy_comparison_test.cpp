@@ -298,7 +298,7 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
   EXPECT_THAT(message_of({.truth = true}), HasSubstr("none of these matches was simulated"));
   for (const std::string by : {"table", "arm"}) {
     EXPECT_EQ(message_of({.by = by}),
-              "--by " + by + ": no session of these logs names its " + by + "; those of trivela simulate do");
+              "by " + by + ": no session of these logs names its " + by + "; those of trivela simulate do");
   }
 }
 

@@ -80,7 +80,7 @@ TEST_F(DigestOfRows, CoversEveryTableOfSessionsButItself) {
   record();
   SQLite::Database database(path().string());
   std::set<std::string> covered;
-  for (const auto& table : log::kDigestedTables) covered.insert(std::string(table.name));
+  for (const auto& table : log::digested_tables()) covered.insert(table.name);
   for (const std::string& table : log::tables_of(database)) {
     if (table == "digests" || table.starts_with("sqlite_")) continue;
     const auto columns = *log::columns_of(database, table);

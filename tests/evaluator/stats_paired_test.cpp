@@ -83,10 +83,5 @@ TEST(PairedNewcombe, HoldsItsEstimateStaysInRangeAndMirrors) {
   EXPECT_EQ(paired_newcombe({}).lo, -1.0);
 }
 
-TEST(PairedStandardError, IsThatOfTheDifferences) {
-  EXPECT_NEAR(paired_standard_error({40, 30, 10, 20}), std::sqrt((0.4 - 0.04) / 100.0), 1e-15);
-  EXPECT_EQ(paired_standard_error({}), 0.0);
-}
-
 }  // namespace
 }  // namespace trivela::evaluator::stats

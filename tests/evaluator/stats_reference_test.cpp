@@ -43,12 +43,6 @@ TEST(KicksPerPolicy, AreThoseOfRsPowerPropTest) {
   EXPECT_FALSE(kicks_per_policy(0.5, 0.5));
 }
 
-TEST(DataFactor, IsOneWhereTheTestHasThePower) {
-  EXPECT_NEAR(*data_factor(1.0, 1.959963984540054 + 0.8416212335729143), 1.0, 1e-12);
-  EXPECT_NEAR(*data_factor(1.0, 0.5 * (1.959963984540054 + 0.8416212335729143)), 4.0, 1e-12);
-  EXPECT_FALSE(data_factor(1.0, 0.0));
-}
-
 TEST(Holm, AdjustsAsRDoes) {
   const std::array p{0.0047, 0.03, 0.002, 0.2};
   const std::array wanted{0.0141, 0.0600, 0.0080, 0.2000};

@@ -10,9 +10,12 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::faults {
 namespace {
 
+using kicking::seconds;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
@@ -27,7 +30,6 @@ constexpr std::int64_t kFresh_ns = 300'000'000;    // a periodic topic that live
 constexpr std::chrono::milliseconds kCommit{150};  // a recorder that lives writes within
 
 std::int64_t now_ns() { return Clock::now().time_since_epoch().count(); }
-double seconds(std::int64_t from_ns, std::int64_t to_ns) { return static_cast<double>(to_ns - from_ns) * 1e-9; }
 
 std::chrono::nanoseconds nanoseconds(double time_s) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds{time_s});

@@ -8,6 +8,8 @@
 #include <initializer_list>
 #include <limits>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::faults {
 namespace {
 
@@ -65,7 +67,7 @@ std::string circumstances(const Verdict& verdict, std::int64_t at_ns) {
   const auto after = std::find_if(verdict.trials.rbegin(), verdict.trials.rend(),
                                   [&](const Trial& trial) { return trial.began_ns <= at_ns; });
   if (after == verdict.trials.rend()) return "before any fault";
-  return fmt::format("{:.3f} s after the start of \"{}\"", static_cast<double>(at_ns - after->began_ns) * 1e-9,
+  return fmt::format("{:.3f} s after the start of \"{}\"", kicking::seconds(at_ns - after->began_ns),
                      text(after->fault));
 }
 

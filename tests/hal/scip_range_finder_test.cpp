@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "tests/hal/scip_link.hpp"
 
 namespace trivela::hal::scip {
@@ -99,7 +100,7 @@ TEST_P(EveryWay, TimesAreThoseOfTheFirstBeam) {
         std::chrono::duration<double>(Clock::now() - Clock::time_point{std::chrono::nanoseconds{scan.t_ns}});
     EXPECT_GE(age.count(), 1081 * 0.025 / 1440 - 0.0011);  // the scan takes that long; a stamp is to the millisecond
     EXPECT_GT(scan.t_ns, last_t_ns);
-    if (std::abs(static_cast<double>(scan.t_ns - last_t_ns) * 1e-9 - 0.025) < 0.0011) ++punctual;
+    if (std::abs(kicking::seconds(scan.t_ns - last_t_ns) - 0.025) < 0.0011) ++punctual;
     last_t_ns = scan.t_ns;
   }
   EXPECT_EQ(link.finder().counters().reconnects, 0U);

@@ -11,6 +11,11 @@
 namespace trivela::kicking {
 namespace {
 
+/// The paper's range law (section 2.2) [m/s]: V0 = sqrt(D g / sin(2 theta)).
+double range_speed(double range_m, double exit_angle_rad) {
+  return std::sqrt(range_m * kGravity_mps2 / std::sin(2.0 * exit_angle_rad));
+}
+
 TEST(CrossingSpeed, AgreesWithTheVectors) {
   for (const auto& row : tests::rows("v0_for_crossing.csv")) {
     SCOPED_TRACE(row.where());

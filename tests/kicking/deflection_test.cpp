@@ -12,6 +12,17 @@
 namespace trivela::kicking {
 namespace {
 
+/// Least-squares slope through the origin of y over x: sum(x y) / sum(x x).
+double slope_through_origin(const std::vector<std::pair<double, double>>& points) {
+  double xy = 0.0;
+  double xx = 0.0;
+  for (const auto& [x, y] : points) {
+    xy += x * y;
+    xx += x * x;
+  }
+  return xy / xx;
+}
+
 TEST(Alpha, LineOfTable1ComesFromItsRows) {
   std::vector<std::pair<double, double>> alphas;
   std::vector<std::pair<double, double>> displacements;  // b = (v / d) T d: tan(alpha) over vx / d

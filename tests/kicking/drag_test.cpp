@@ -4,6 +4,7 @@
 
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {
@@ -22,7 +23,7 @@ TEST(Drag, FlightsAgreeWithTheVectors) {
     EXPECT_NEAR(flight.t_flight_s, row.number("time_s"), 1e-5);
     EXPECT_NEAR(flight.apex_m, row.number("apex_m"), 1e-5);
     EXPECT_NEAR(flight.apex_x_m, row.number("x_apex_m"), 1e-5);
-    const Exit effective = exit_from_lob(flight.apex_m, flight.range_m);
+    const LobExit effective = exit_from_lob(flight.apex_m, flight.range_m);
     EXPECT_NEAR(degrees(effective.angle_rad), row.number("theta_effective_from_HD_deg"), 1e-4);
     EXPECT_NEAR(effective.speed_mps, row.number("v0_effective_from_HD_mps"), 1e-5);
   }

@@ -1,3 +1,4 @@
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
 
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 #include "kicking/ballistics/lob.hpp"
 #include "sim/laser/scan_builder.hpp"
 #include "tests/kicking/lob_scene.hpp"
+#include "tests/kicking/reference_laws.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
@@ -21,7 +23,7 @@ using tests::kick;
 using tests::lobs_of;
 
 /// Effective exit of a flight with drag: what its height and distance give.
-Exit effective_exit(const sim::SyntheticKick& k) {
+LobExit effective_exit(const sim::SyntheticKick& k) {
   const DragFlight flight =
       fly_with_drag(k.exit_speed_mps, k.exit_angle_rad, drag_per_m({}, {.drag_coefficient = k.drag_coefficient}));
   return exit_from_lob(flight.apex_m, flight.range_m);
@@ -35,7 +37,7 @@ void expect_kick(const LobRecord& lob, const sim::SyntheticKick& k) {
   };
   near(lob.true_values->exit_angle_rad, k.exit_angle_rad, radians(0.15));
   near(lob.true_values->exit_speed_mps, k.exit_speed_mps, 0.03);
-  const Exit effective = effective_exit(k);
+  const LobExit effective = effective_exit(k);
   near(lob.effective->exit_angle_rad, effective.angle_rad, radians(0.15));
   near(lob.effective->exit_speed_mps, effective.speed_mps, 0.03);
 }
@@ -50,7 +52,7 @@ TEST(Analyzer, FindsEachLobOfARecordAndNoBounce) {
   for (std::size_t i = 0; i < 3; ++i) {
     SCOPED_TRACE(i);
     expect_kick(lobs[i], plan.kicks[i]);
-    EXPECT_NEAR(1e-9 * static_cast<double>(lobs[i].launch_t_ns - record.truth[i].launch_t_ns), 0.0, 0.003);
+    EXPECT_NEAR(seconds(lobs[i].launch_t_ns - record.truth[i].launch_t_ns), 0.0, 0.003);
   }
 }
 
@@ -206,7 +208,7 @@ TEST(Analyzer, RefusesAKickBesideTheScanPlane) {
 TEST(Analyzer, WhatItAcceptsBesideTheScanPlaneIsStillRight) {
   sim::RecordPlan plan;
   plan.kicks.assign(6, kick(8.39, 36.78));
-  const Exit effective = effective_exit(plan.kicks[0]);
+  const LobExit effective = effective_exit(plan.kicks[0]);
   for (const auto& [direction_deg, lateral_m] : {std::pair{0.5, 0.0}, std::pair{-0.5, 0.0}, std::pair{0.0, 0.04}}) {
     plan.direction_error_rad = radians(direction_deg);
     plan.lateral_error_m = lateral_m;
@@ -241,22 +243,22 @@ struct Disc {
   double x_m, z_m, radius_m;
 };
 
-std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double seconds) {
+std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene, double duration_s) {
   const ScanGeometry geometry;
   const LaserMount mount;
   sim::ScanBuilder empty(sim::LaserModel{}, 0.11, kicking::Draws{1, 1});
   std::vector<Scan> scans;
   const auto take = [&](double t_s) {
-    empty.advance(std::llround(t_s * 1e9), std::nullopt);
+    empty.advance(nanoseconds(t_s), std::nullopt);
     while (auto scan = empty.take()) scans.push_back(std::move(*scan));
   };
   take(2.0);
   const std::size_t background = scans.size();
-  take(2.0 + seconds);
+  take(2.0 + duration_s);
   for (std::size_t j = background; j < scans.size(); ++j) {
     for (std::size_t i = 0; i < geometry.beams; ++i) {
       const auto beam = static_cast<double>(i);
-      const double t_s = 1e-9 * static_cast<double>(scans[j].t_ns) - 2.0 + beam * geometry.beam_period_s;
+      const double t_s = seconds(scans[j].t_ns) - 2.0 + beam * geometry.beam_period_s;
       const double angle = mount.front_elevation_rad + geometry.first_angle_rad + beam * geometry.step_rad;
       for (const Disc& disc : scene(t_s)) {
         const double x = disc.x_m - mount.x_m, z = disc.z_m - mount.z_m;
@@ -365,14 +367,14 @@ TEST(Analyzer, ShowsBackgroundForegroundBallAndTrack) {
     EXPECT_EQ(analyzer.background_m().empty(), i < 39);
     ASSERT_EQ(view.ball.size(), scan.range_mm.size());
     for (std::size_t beam = 0; beam < view.ball.size(); ++beam) EXPECT_LE(view.ball[beam], view.foreground[beam]);
-    const double flown_s = 1e-9 * static_cast<double>(scan.t_ns - launch);
+    const double flown_s = seconds(scan.t_ns - launch);
     EXPECT_TRUE(flown_s > -0.1 || view.track == nullptr);
     if (flown_s < 0.2 || flown_s > 0.9) continue;
     ASSERT_TRUE(view.centre);
     ASSERT_NE(view.track, nullptr);
     EXPECT_EQ(view.track->back().t_ns, view.centre->t_ns);
     EXPECT_NEAR(std::count(view.ball.begin(), view.ball.end(), 1), view.centre->returns, 2);
-    const double at_s = 1e-9 * static_cast<double>(view.centre->t_ns - launch);
+    const double at_s = seconds(view.centre->t_ns - launch);
     EXPECT_NEAR(view.centre->x_m, 8.39 * std::cos(radians(36.78)) * at_s, 0.35);
   }
   EXPECT_TRUE(ended);

@@ -8,9 +8,11 @@
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/effective_fit.hpp"
 #include "kicking/lob/true_fit.hpp"
 #include "kicking/random/draws.hpp"
+#include "tests/kicking/reference_laws.hpp"
 
 namespace trivela::kicking::lob {
 namespace {
@@ -28,7 +30,7 @@ std::vector<BallCentre> flight(double speed, double angle_rad, double drag_coeff
                drag_per_m({}, {.drag_coefficient = 1.0}) * lift_coefficient);
   std::vector<BallCentre> centres;
   for (std::size_t i = 0; i < times.size() && states[i][1] > kLaunch_z_m; ++i)
-    centres.push_back({std::llround(times[i] * 1e9), states[i][0], states[i][1], 10, 1.0});
+    centres.push_back({nanoseconds(times[i]), states[i][0], states[i][1], 10, 1.0});
   return centres;
 }
 
@@ -70,7 +72,7 @@ TEST(Parabola, RecoversApexRangeAngleAndSpeedOfADragFreeFlight) {
       EXPECT_NEAR(degrees(values.exit_angle_rad.value), angle_deg, 1e-4);
       EXPECT_NEAR(values.exit_speed_mps.value, speed, 1e-5);
       EXPECT_NEAR(fit->launch_x_m, 0.0, 1e-5);
-      const Exit exit = exit_from_lob(values.height_m.value, values.distance_m.value);
+      const LobExit exit = exit_from_lob(values.height_m.value, values.distance_m.value);
       EXPECT_NEAR(exit.angle_rad, values.exit_angle_rad.value, 1e-9) << "the paper's formula";
       EXPECT_NEAR(exit.speed_mps, values.exit_speed_mps.value, 1e-9);
     }
@@ -172,7 +174,7 @@ TEST(EffectiveValues, OfOneMeanAnglePutTheBallNearItsTarget) {
   int lobs = 0;
   for (double speed = 5.0; speed <= 13.0; speed += 0.5) {
     const DragFlight lob = fly_with_drag(speed, angle, k);
-    const Exit exit = exit_from_lob(lob.apex_m, lob.range_m);
+    const LobExit exit = exit_from_lob(lob.apex_m, lob.range_m);
     true_mps.push_back(speed);
     effective_mps.push_back(exit.speed_mps);
     if (speed < 6.0 || speed > 10.0) continue;

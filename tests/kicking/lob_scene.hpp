@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "kicking/geometry/angle.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "kicking/lob/returns.hpp"
 #include "sim/laser/record.hpp"
@@ -17,10 +17,10 @@ namespace trivela::tests {
 /// The returns of a vector file.
 inline std::vector<kicking::lob::ForegroundReturn> returns_of(const std::string& file) {
   std::vector<kicking::lob::ForegroundReturn> returns;
-  const auto ns = [](double t_s) { return std::llround(t_s * 1e9); };
   for (const auto& row : rows(file)) {
-    returns.push_back({std::stoll(row.text("scan")), ns(row.number("t_scan_start_s")), ns(row.number("t_beam_s")),
-                       kicking::radians(row.number("angle_deg")), row.number("range_m")});
+    returns.push_back({std::stoll(row.text("scan")), kicking::nanoseconds(row.number("t_scan_start_s")),
+                       kicking::nanoseconds(row.number("t_beam_s")), kicking::radians(row.number("angle_deg")),
+                       row.number("range_m")});
   }
   return returns;
 }

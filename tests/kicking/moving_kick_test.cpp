@@ -6,6 +6,7 @@
 
 #include "kicking/ballistics/aim_exact.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {
@@ -79,7 +80,7 @@ TEST(AimExact, AgreesWithTheVectors) {
                                {row.number("w_along_mps"), row.number("w_right_mps")});
     ASSERT_TRUE(aim);
     EXPECT_NEAR(aim->v_kick_mps, row.number("vk_mps"), 1e-6);
-    EXPECT_NEAR(degrees(aim->left_of_target_rad()), row.number("heading_left_of_target_deg"), 1e-6);
+    EXPECT_NEAR(degrees(left_of_target_rad(*aim)), row.number("heading_left_of_target_deg"), 1e-6);
     EXPECT_NEAR(aim->t_flight_s, row.number("flight_time_s"), 1e-6);
   }
 }
@@ -92,12 +93,12 @@ TEST(AimExact, HitsThePointAndMirrors) {
         const auto aim = aim_exact({d, 0.59}, angle, {along, right});
         ASSERT_TRUE(aim);
         const double v_h = aim->v_kick_mps * std::cos(angle);
-        EXPECT_NEAR(v_h * std::sin(aim->left_of_target_rad()), right, 1e-9);
-        const double towards = v_h * std::cos(aim->left_of_target_rad()) + along;
+        EXPECT_NEAR(v_h * std::sin(left_of_target_rad(*aim)), right, 1e-9);
+        const double towards = v_h * std::cos(left_of_target_rad(*aim)) + along;
         EXPECT_NEAR(height_at(d, towards, aim->v_kick_mps * std::sin(angle)), 0.59, 1e-9);
         const auto mirrored = aim_exact({d, 0.59}, angle, {along, -right});
         EXPECT_NEAR(mirrored->v_kick_mps, aim->v_kick_mps, 1e-12);
-        EXPECT_NEAR(mirrored->left_of_target_rad(), -aim->left_of_target_rad(), 1e-12);
+        EXPECT_NEAR(left_of_target_rad(*mirrored), -left_of_target_rad(*aim), 1e-12);
         if (right == 0.0) {
           EXPECT_NEAR(aim->v_kick_mps, *moving_kick_exact({d, 0.59}, angle, along), 1e-9);
         }

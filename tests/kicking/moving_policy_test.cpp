@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "tests/kicking/play.hpp"
 
@@ -30,7 +31,7 @@ TEST(MovingPolicy, FiresOnEnteringTheExtendedSegmentAndNotInItsMiddle) {
   PolicyMemory memory;
   const auto turning_at = [](double heading_deg, double t_s) {
     PolicyInput input = ready_at({0, 3, radians(heading_deg)}, {0, 0, 1.0});  // beta 0.12 rad: 6.9 degrees
-    input.t_ns = std::llround(t_s * 1e9);
+    input.t_ns = nanoseconds(t_s);
     return input;
   };
   const auto reason = [&](const PolicyInput& input) {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::kicking::tests {
@@ -60,7 +60,7 @@ inline Played play(PolicyName policy, const PolicyConfig& config, const RobotMod
                    follow(input.twist.vy_mps, judgement.drive.vy_mps, dv),
                    follow(input.twist.omega_radps, judgement.drive.omega_radps, dw)};
     input.pose = advance(input.pose, input.twist, config.cycle_s);
-    input.t_ns += std::llround(config.cycle_s * 1e9);
+    input.t_ns += nanoseconds(config.cycle_s);
   }
   return played;
 }

@@ -7,6 +7,7 @@
 
 #include "kicking/ballistics/aim_exact.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::kicking {
@@ -54,7 +55,7 @@ TEST(ReleasePredictor, ConfirmsTheJointAim) {
     const Eigen::Vector2d carry = rotate({twist.vx_mps, twist.vy_mps}, heading);
     const Eigen::Vector2d t = line.normalized();
     aim = aim_exact({line.norm(), 0.59}, radians(36.78), {carry.dot(t), carry.x() * t.y() - carry.y() * t.x()}).value();
-    heading = bearing(ball, {0, 9}) + aim.left_of_target_rad();
+    heading = bearing(ball, {0, 9}) + left_of_target_rad(aim);
   }
   const auto crossing = predict_crossing({1, 3, heading}, twist, {aim.v_kick_mps, radians(36.78), {}, 0.06, 0.27}, 9.0);
   EXPECT_NEAR(crossing->x_m, 0.0, 1e-6);

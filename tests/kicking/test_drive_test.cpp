@@ -4,6 +4,7 @@
 #include <random>
 
 #include "kicking/alignment/deflection.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/shot.hpp"
 #include "tests/kicking/play.hpp"
 
@@ -67,7 +68,7 @@ TEST(StandingDrive, WaitsUntilItHasBeenAtRestForAWhile) {
   PolicyMemory memory;
   const auto reason = [&](double seconds, const Twist& twist) {
     PolicyInput input = ready_at({0, 0, 0}, twist);
-    input.t_ns = std::llround(1e9 * seconds);
+    input.t_ns = nanoseconds(seconds);
     return judge(PolicyName::kStandingDrive, {}, {}, {}, input, memory).reason;
   };
   EXPECT_EQ(reason(0.0, {0.0, 1.0, 0.0}), Reason::kApproaching);

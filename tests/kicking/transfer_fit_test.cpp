@@ -9,6 +9,7 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/kicking/reference_laws.hpp"
 
 namespace trivela::kicking {
 namespace {

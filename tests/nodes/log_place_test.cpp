@@ -1,4 +1,5 @@
 #include "nodes/recorder/log_place.hpp"
+#include "kicking/geometry/time.hpp"
 
 #include <gmock/gmock.h>
 
@@ -32,7 +33,7 @@ class LogPlaceTest : public NodeTest {
   /// A recording of the fixture's set-up, with the driver's last counters.
   std::string record(const std::filesystem::path& path, std::int64_t handled, double ago_s = 0.0) {
     Session session = session_of(context);
-    session.realtime_offset_ns -= static_cast<std::int64_t>(ago_s * 1e9);
+    session.realtime_offset_ns -= kicking::nanoseconds(ago_s);
     Writer log{path, session, {}};
     const auto statuses =
         log.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id",

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/nodes/node_fixture.hpp"
+#include "tests/robot/wheel_speeds.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -20,12 +21,11 @@ class OdometryNodeTest : public NodeTest {
   hal::WheelSample sample(const Twist& twist) {
     hal::WheelSample out{
         .t_ns = t_ns += kCycle_ns, .wheel_count = 3, .wheel_radps = {}, .gyro_radps = twist.omega_radps};
-    const auto speeds = kinematics.wheel_speeds_radps(twist);
+    const auto speeds = robot::wheel_speeds_radps(context.robot.base, twist);
     std::copy(speeds.begin(), speeds.end(), out.wheel_radps.begin());
     return out;
   }
 
-  robot::OmniKinematics kinematics{context.robot.base};
   std::int64_t t_ns = 0;
 };
 
@@ -43,7 +43,7 @@ TEST_F(OdometryNodeTest, TurnsWheelSamplesIntoOdometry) {
     EXPECT_NEAR(out.vy_mps, 1.0, 1e-9);
     EXPECT_NEAR(out.omega_radps, 0.5, 1e-9);
     EXPECT_NEAR(out.heading_rad, 0.01 * static_cast<double>(i), 1e-9);
-    EXPECT_EQ(out.wheel_1_radps, kinematics.wheel_speeds_radps({0.0, 1.0, 0.5})[1]);
+    EXPECT_EQ(out.wheel_1_radps, robot::wheel_speeds_radps(context.robot.base, {0.0, 1.0, 0.5})[1]);
     EXPECT_TRUE(std::isnan(out.wheel_3_radps)) << "there is no fourth wheel";
     EXPECT_EQ(out.gyro_radps, 0.5);
   }

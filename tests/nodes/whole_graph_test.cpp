@@ -1,5 +1,7 @@
 // All nodes of a robot in one process.
+#include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "bus/graph.hpp"
 #include "evaluator/log/reader.hpp"
@@ -7,6 +9,7 @@
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 #include "nodes/odometry/odometry_node.hpp"
 #include "nodes/recorder/recorder_node.hpp"
+#include "nodes/runtime/readers.hpp"
 #include "nodes/shot_observer/shot_observer_node.hpp"
 #include "nodes/world_state/world_state_node.hpp"
 #include "tests/nodes/node_fixture.hpp"
@@ -49,6 +52,19 @@ class WholeGraphTest : public NodeTest {
   std::optional<ShotObserverNode> shot_observer;
   std::optional<RecorderNode> recorder;
 };
+
+TEST_F(WholeGraphTest, WritersWaitForThoseWhoRead) {
+  const auto nodes = whole();
+  bus::for_each_message([&]<class T>() {
+    const auto reads = [](const bus::Node* node) {
+      const auto& inputs = node->inputs();
+      return std::ranges::find(inputs, bus::meta<T>::topic, &bus::Input::name) != inputs.end();
+    };
+    // Here the devices that read these are fakes.
+    constexpr bool device = std::is_same_v<T, msg::SimWheels> || std::is_same_v<T, msg::SimKicker>;
+    EXPECT_EQ(readers_of<T>(context.settings), std::ranges::count_if(nodes, reads) + device) << bus::meta<T>::topic;
+  });
+}
 
 TEST_F(WholeGraphTest, HasNoCycle) {
   std::vector<bus::Reaction> reactions;

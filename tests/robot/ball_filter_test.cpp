@@ -1,4 +1,5 @@
 #include "robot/belief/ball_filter.hpp"
+#include "kicking/geometry/time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -84,7 +85,7 @@ TEST(BallFilter, ABallOutOfSightIsHeldForAWhileThenNotHeldThenUnknown) {
   bool held_once = false, known_but_not_held = false;
   for (int i = 0; i < 40; ++i) {
     frames.show({});
-    const double unseen_s = static_cast<double>(frames.t_ns - seen) * 1e-9;
+    const double unseen_s = kicking::seconds(frames.t_ns - seen);
     EXPECT_EQ(frames.filter.possession(), unseen_s <= frames.settings.possession_forget_s) << unseen_s;
     EXPECT_EQ(frames.filter.position_m().has_value(), unseen_s <= frames.settings.ball_forget_s) << unseen_s;
     held_once = held_once || frames.filter.possession();

@@ -116,7 +116,7 @@ kicking::Judgement whole_judgement() {
     if constexpr (std::is_member_object_pointer_v<decltype(get)>) set(get);
   };
   std::apply([&](const auto&... field) { (set_member(field.get), ...); }, kicking::kRecordedFields);
-  j.predicted = kicking::Crossing{};
+  j.predicted = kicking::PredictedCrossing{};
   j.predicted->x_m = ++next;
   j.predicted->z_m = ++next;
   j.predicted->t_flight_s = ++next;

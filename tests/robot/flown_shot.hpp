@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/shot.hpp"
 
 namespace trivela::robot {
@@ -60,7 +61,7 @@ inline FlownShot fly(const Kick& kick, const sim::Scenario& scenario, unsigned s
   std::array<sim::OpponentBody, 1> opponents;
   opponents[0].place(kick.from_m, {std::hypot(opponent_x, opponent_y), std::atan2(-opponent_x, opponent_y), 0.0});
   std::int64_t end_ns = 4'000'000'000;
-  const auto tail_ns = static_cast<std::int64_t>((scenario.possession.after_crossing_s + watch_on_s) * 1e9);
+  const auto tail_ns = kicking::nanoseconds(scenario.possession.after_crossing_s + watch_on_s);
   for (std::int64_t t_ns = 0; t_ns <= end_ns; t_ns += kSubstep_ns) {
     if (t_ns == flown.release_t_ns)
       shot.emplace(scenario, sim::BallMotion{{kick.from_m, kick.velocity_mps}, kick.rolling}, t_ns);

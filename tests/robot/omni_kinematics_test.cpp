@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "kicking/geometry/angle.hpp"
+#include "tests/robot/wheel_speeds.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -20,8 +21,7 @@ const config::WheelBase kFour{{radians(45), radians(135), radians(225), radians(
 
 // Wheels at 0, 90, 180 and 270 degrees push along +y, -x, -y and +x.
 TEST(OmniKinematics, GivesEachWheelItsShareOfTheMotionByHand) {
-  const OmniKinematics cross{{{0.0, radians(90), radians(180), radians(270)}, 0.2, 0.05}};
-  const auto w = cross.wheel_speeds_radps({0.3, 1.0, 2.0});
+  const auto w = wheel_speeds_radps({{0.0, radians(90), radians(180), radians(270)}, 0.2, 0.05}, {0.3, 1.0, 2.0});
   ASSERT_EQ(w.size(), 4u);
   EXPECT_NEAR(w[0], (1.0 + 0.4) / 0.05, 1e-12);
   EXPECT_NEAR(w[1], (-0.3 + 0.4) / 0.05, 1e-12);
@@ -37,7 +37,7 @@ TEST(OmniKinematics, TwistUndoesWheelSpeeds) {
     EXPECT_EQ(kinematics.wheel_count(), static_cast<int>(base.wheel_angles_rad.size()));
     for (int i = 0; i < 200; ++i) {
       const Twist twist{speed(random), speed(random), speed(random)};
-      const Twist back = kinematics.twist(kinematics.wheel_speeds_radps(twist));
+      const Twist back = kinematics.twist(wheel_speeds_radps(base, twist));
       EXPECT_NEAR(back.vx_mps, twist.vx_mps, 1e-12);
       EXPECT_NEAR(back.vy_mps, twist.vy_mps, 1e-12);
       EXPECT_NEAR(back.omega_radps, twist.omega_radps, 1e-12);
@@ -47,7 +47,7 @@ TEST(OmniKinematics, TwistUndoesWheelSpeeds) {
 
 TEST(OmniKinematics, AFourthWheelSpreadsAnErrorInsteadOfPassingItOn) {
   const OmniKinematics kinematics{kFour};
-  auto w = kinematics.wheel_speeds_radps({0.0, 1.0, 0.0});
+  auto w = wheel_speeds_radps(kFour, {0.0, 1.0, 0.0});
   w[0] += 4.0;  // slips
   const Twist twist = kinematics.twist(w);
   // Each wheel's quarter: 4 rad/s * 0.04 m / 4 over the lever.
@@ -61,7 +61,7 @@ TEST(OmniKinematics, TwistVarianceIsWhatNoisyWheelsScatter) {
   constexpr int kRuns = 20000;
   for (const auto& base : {kThree, kFour}) {
     const OmniKinematics kinematics{base};
-    const auto still = kinematics.wheel_speeds_radps({0.5, -0.2, 1.0});
+    const auto still = wheel_speeds_radps(base, {0.5, -0.2, 1.0});
     Eigen::Vector3d squares = Eigen::Vector3d::Zero();
     for (int i = 0; i < kRuns; ++i) {
       auto w = still;

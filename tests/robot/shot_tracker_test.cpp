@@ -1,4 +1,5 @@
 #include "robot/observer/shot_tracker.hpp"
+#include "kicking/geometry/time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -193,7 +194,7 @@ TEST(ShotTracker, ABallLostInFlightIsUnknown) {
     if (frame.t_ns > shot.release_t_ns + 300'000'000) frame.ball_m.reset();
   const auto tracked = only(watch(shot, shot.release_t_ns, false));
   EXPECT_EQ(tracked.verdict.outcome, Outcome::kUnknown);
-  EXPECT_NEAR(static_cast<double>(tracked.t_ns - shot.release_t_ns) * 1e-9, 0.3 + kSettings.lost_s, 0.05);
+  EXPECT_NEAR(kicking::seconds(tracked.t_ns - shot.release_t_ns), 0.3 + kSettings.lost_s, 0.05);
 }
 
 TEST(ShotTracker, AShotThatNobodySawIsUnknown) {
@@ -220,9 +221,9 @@ TEST(ShotTracker, ABallCarriedOnByTheRobotIsShortWhenTimeIsUp) {
   std::vector<TrackedShot> settled = tracker.release(7, 0, 6.0);
   std::int64_t t_ns = 0;
   for (; t_ns <= 5'000'000'000 && settled.empty(); t_ns += kFrame_ns)
-    settled = tracker.frame(t_ns, Eigen::Vector3d{1.0 * static_cast<double>(t_ns) * 1e-9, 0.0, 0.11});
+    settled = tracker.frame(t_ns, Eigen::Vector3d{kicking::seconds(t_ns), 0.0, 0.11});
   EXPECT_EQ(only(settled).verdict.outcome, Outcome::kShort);
-  EXPECT_NEAR(static_cast<double>(t_ns) * 1e-9, kSettings.time_out_s, 0.1);
+  EXPECT_NEAR(kicking::seconds(t_ns), kSettings.time_out_s, 0.1);
 }
 
 TEST(ShotTracker, ASecondReleaseEndsAnOpenShotAsUnknown) {

@@ -15,13 +15,13 @@ BallMotion launch(double speed, double elevation, double z = 0.11) {
   return {{{0.0, 0.0, z}, {0.0, speed * std::cos(elevation), speed * std::sin(elevation)}}};
 }
 
-double energy(const BallMotion& m, const Ball& ball) {
+double energy(const BallMotion& m, const BallPhysics& ball) {
   const Eigen::Vector3d& v = m.velocity_mps;
   return 0.5 * (v.x() * v.x() + v.y() * v.y() + v.z() * v.z()) + ball.gravity_mps2 * m.position_m.z();
 }
 
 TEST(Flight, WithoutDragFollowsTheParabola) {
-  Ball ball;
+  BallPhysics ball;
   ball.drag_coefficient = 0.0;
   BallMotion m = launch(8.0, 0.7, 1.0);
   const Eigen::Vector3d v = m.velocity_mps;
@@ -36,7 +36,7 @@ TEST(Flight, WithoutDragFollowsTheParabola) {
 TEST(Flight, LandsWhereTheDragVectorsSay) {
   for (const auto& row : tests::rows("drag_trajectory.csv")) {
     SCOPED_TRACE(row.where());
-    Ball ball;
+    BallPhysics ball;
     ball.drag_coefficient = row.number("Cd");
     EXPECT_NEAR(drag_per_m(ball), row.number("k_per_m"), 1e-6);
     BallMotion m = launch(row.number("v0_mps"), row.number("theta_deg") * M_PI / 180.0, 50.0);
@@ -58,7 +58,7 @@ TEST(Flight, LandsWhereTheDragVectorsSay) {
 
 TEST(Flight, NeverGainsEnergyAndComesToRest) {
   for (const double elevation : {0.0, 0.1, 0.64, 1.2, 1.57}) {
-    const Ball ball;
+    const BallPhysics ball;
     BallMotion m = launch(9.0, elevation);
     double last = energy(m, ball) + 1e-9;
     int steps = 0;
@@ -76,7 +76,7 @@ TEST(Flight, NeverGainsEnergyAndComesToRest) {
 }
 
 TEST(Flight, BouncesWithRestitutionAndRetention) {
-  Ball ball;
+  BallPhysics ball;
   ball.drag_coefficient = 0.0;
   BallMotion m{{{0.0, 0.0, 0.61}, {1.0, 2.0, 0.0}}};
   const double impact = std::sqrt(2.0 * 9.81 * 0.5), fall = impact / 9.81;
@@ -90,7 +90,7 @@ TEST(Flight, BouncesWithRestitutionAndRetention) {
 }
 
 TEST(Flight, RollsAsFarAsItsDecelerationLets) {
-  Ball ball;
+  BallPhysics ball;
   ball.drag_coefficient = 0.0;
   BallMotion m{{{0.0, 0.0, ball.radius_m}, {0.6, 0.8, 0.0}}, true};
   while (!at_rest(m)) advance(m, ball, kStep_s);
@@ -99,7 +99,7 @@ TEST(Flight, RollsAsFarAsItsDecelerationLets) {
 }
 
 TEST(Flight, IsItsOwnMirrorImage) {
-  const Ball ball;
+  const BallPhysics ball;
   BallMotion right{{{0.5, 0.0, 0.11}, {1.3, 5.0, 4.0}}}, left{{{-0.5, 0.0, 0.11}, {-1.3, 5.0, 4.0}}};
   for (int i = 0; i < 2500; ++i) {
     advance(right, ball, kStep_s);
@@ -111,7 +111,7 @@ TEST(Flight, IsItsOwnMirrorImage) {
 }
 
 TEST(Flight, DoesNotDependOnTheStep) {
-  const Ball ball;
+  const BallPhysics ball;
   BallMotion coarse = launch(8.0, 0.64), fine = coarse;
   for (int i = 0; i < 2000; ++i) advance(coarse, ball, 1e-3);
   for (int i = 0; i < 20000; ++i) advance(fine, ball, 1e-4);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/kicker.hpp"
 #include "sim/kicker_device.hpp"
 #include "tests/vector_rows.hpp"
@@ -32,10 +33,10 @@ TEST(KickerTable, DefaultIsTheTrueTableBehindThePublishedEffectiveOne) {
   const Kicker kicker;
   for (std::size_t i = 0; i < kicker.powers.size(); ++i) {
     EXPECT_DOUBLE_EQ(kicker.powers[i], 15.0 + 5.0 * static_cast<double>(i));
-    const Exit seen = effective_exit({kicker.exit_speeds_mps[i], kicker.exit_elevations_rad[i]}, Ball{});
+    const Exit seen = effective_exit({kicker.exit_speeds_mps[i], kicker.exit_elevations_rad[i]}, BallPhysics{});
     EXPECT_NEAR(seen.speed_mps, published_mps[i], 1e-3);
     EXPECT_NEAR(seen.elevation_rad, 36.78 * kDegree_rad, 1e-3);
-    const Exit exit = true_exit({published_mps[i], 36.78 * kDegree_rad}, Ball{});
+    const Exit exit = true_exit({published_mps[i], 36.78 * kDegree_rad}, BallPhysics{});
     EXPECT_NEAR(exit.speed_mps, kicker.exit_speeds_mps[i], 1e-3);
     EXPECT_NEAR(exit.elevation_rad, kicker.exit_elevations_rad[i], 1e-3);
   }
@@ -44,7 +45,7 @@ TEST(KickerTable, DefaultIsTheTrueTableBehindThePublishedEffectiveOne) {
 TEST(KickerTable, ApexAndRangeGiveTheEffectiveExitOfTheVectors) {
   for (const auto& row : tests::rows("drag_trajectory.csv")) {
     SCOPED_TRACE(row.where());
-    Ball ball;
+    BallPhysics ball;
     ball.drag_coefficient = row.number("Cd");
     const Exit seen = effective_exit({row.number("v0_mps"), row.number("theta_deg") * kDegree_rad}, ball);
     EXPECT_NEAR(seen.speed_mps, row.number("v0_effective_from_HD_mps"), 1e-4);
@@ -53,8 +54,8 @@ TEST(KickerTable, ApexAndRangeGiveTheEffectiveExitOfTheVectors) {
 }
 
 TEST(KickerTable, RefusesALobThatIsNone) {
-  EXPECT_THROW(effective_exit({8.0, 0.0}, Ball{}), std::runtime_error);
-  EXPECT_THROW(effective_exit({0.0, 0.6}, Ball{}), std::runtime_error);
+  EXPECT_THROW(effective_exit({8.0, 0.0}, BallPhysics{}), std::runtime_error);
+  EXPECT_THROW(effective_exit({0.0, 0.6}, BallPhysics{}), std::runtime_error);
 }
 
 TEST(KickerTable, IsLinearBetweenItsSetPointsAndEndsAtThem) {
@@ -123,7 +124,7 @@ TEST(KickerDevice, HasTheNoiseThatTheScenarioNames) {
   for (std::uint32_t i = 0; i < kCount; ++i) {
     KickerDevice device{k};
     const Stroke s = stroke_of(device, 25, i);
-    const double d = static_cast<double>(s.release_t_ns) * 1e-9, v = s.exit_speed_mps / k.exit_speeds_mps[2] - 1.0;
+    const double d = kicking::seconds(s.release_t_ns), v = s.exit_speed_mps / k.exit_speeds_mps[2] - 1.0;
     delay += d, delay2 += d * d, speed += v, speed2 += v * v, turn += s.deflection_rad;
     turn2 += s.deflection_rad * s.deflection_rad;
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/flight.hpp"
 #include "sim/laser/record.hpp"
 #include "sim/laser/scan_builder.hpp"
@@ -32,7 +33,7 @@ std::vector<Scan> scans_of(const LaserModel& laser, double seconds,
   const auto steps = std::lround(seconds / step_s);
   for (long i = 0; i <= steps; ++i) {
     const double t_s = static_cast<double>(i) * step_s;
-    builder.advance(std::llround(t_s * 1e9), place(t_s));
+    builder.advance(kicking::nanoseconds(t_s), place(t_s));
     while (auto scan = builder.take()) scans.push_back(std::move(*scan));
   }
   return scans;
@@ -85,7 +86,7 @@ TEST(ScanBuilder, MeasuresTheBallWhereItIsAtEachBeamsTime) {
   int seen = 0;
   for (const Scan& scan : scans) {
     for (std::size_t i = 0; i < scan.range_mm.size(); ++i) {
-      const double t = 1e-9 * static_cast<double>(scan.t_ns) + static_cast<double>(i) * laser.geometry.beam_period_s;
+      const double t = kicking::seconds(scan.t_ns) + static_cast<double>(i) * laser.geometry.beam_period_s;
       const Eigen::Vector3d ball = *place(t);
       const double x = ball.x() - laser.x_m, z = ball.z() - laser.z_m, distance = std::hypot(x, z);
       const double off = elevation(laser, i) - std::atan2(z, x), q = distance * std::sin(off);
@@ -227,7 +228,7 @@ TEST(ScanBuilder, LyingOnItsOtherSideItLooksTheOtherWayRound) {
 TEST(ScanBuilder, GivesAScanWhenItsLastBeamWasMeasured) {
   const LaserModel laser = noiseless();
   ScanBuilder builder(laser, kRadius_m, kDraws, 7'000'000);
-  const auto last_ns = 7'000'000 + std::llround(1080 * laser.geometry.beam_period_s * 1e9);
+  const auto last_ns = 7'000'000 + kicking::nanoseconds(1080 * laser.geometry.beam_period_s);
   builder.advance(last_ns - 1, std::nullopt);
   EXPECT_FALSE(builder.take());
   builder.advance(last_ns, std::nullopt);
@@ -275,7 +276,7 @@ TEST(SyntheticRecord, HoldsBackgroundAndThenEachKickAsItsTruthSays) {
   for (const KickedTruth& truth : record.truth) {
     EXPECT_GE(truth.launch_t_ns, 2'600'000'000);
     // Where the ball is in the scan that sees it 0.3 s later.
-    Ball ball;
+    BallPhysics ball;
     ball.drag_coefficient = truth.kick.drag_coefficient;
     BallMotion motion{{{0.0, 0.0, 0.11},
                        {truth.kick.exit_speed_mps * std::cos(truth.kick.exit_angle_rad), 0.0,

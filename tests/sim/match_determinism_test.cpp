@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
 #include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {
@@ -87,19 +88,19 @@ TEST(Match, SamplesAreTheSameBitsWhateverElseIsLookedFor) {
   const Policy same = fire_at_once(25);
   for (int cycle = 0; !all.done(); ++cycle) {
     // Each in turns, with pauses longer than any filter: what was not asked for does not matter later.
-    const Looks looks{cycle % 3 == 0, cycle % 5 == 0, cycle % 70 > 50};
-    const Sensors full = all.sense(), part = some.sense(looks);
+    const SensorChoice choice{cycle % 3 == 0, cycle % 5 == 0, cycle % 70 > 50};
+    const Sensors full = all.sense(), part = some.sense(choice);
     ASSERT_EQ(part.t_ns, full.t_ns);
     ASSERT_EQ(part.kicker.charge, full.kicker.charge);
     ASSERT_EQ(part.referee.possession_id, full.referee.possession_id);
-    if (looks.wheels) {
+    if (choice.wheels) {
       ASSERT_EQ(part.wheels.wheel_radps, full.wheels.wheel_radps);
       ASSERT_EQ(part.wheels.gyro_radps, full.wheels.gyro_radps);
     } else {
       ASSERT_EQ(part.wheels.wheel_count, 0);
     }
-    ASSERT_TRUE(same_bits(part.vision.pose, looks.vision ? full.vision.pose : std::nullopt));
-    ASSERT_EQ(part.flight.ball.has_value(), looks.flight && full.flight.ball);
+    ASSERT_TRUE(same_bits(part.vision.pose, choice.vision ? full.vision.pose : std::nullopt));
+    ASSERT_EQ(part.flight.ball.has_value(), choice.flight && full.flight.ball);
     if (part.flight.ball) {
       ASSERT_EQ(part.flight.ball->z_m, full.flight.ball->z_m);
     }
@@ -121,7 +122,7 @@ TEST(Match, TheTrueStateIsWhatNoiselessSensorsShow) {
   EXPECT_NEAR(start.opponent_distance_m, 2.0, 1e-12);
   const double free_s = (2.0 - s.opponent.dispute_distance_m) / start.opponent_closing_mps;
   const std::int64_t t_ns = match.sense().t_ns;
-  EXPECT_NEAR(static_cast<double>(start.dispute_t_ns - t_ns) * 1e-9, free_s, 1e-8);
+  EXPECT_NEAR(kicking::seconds(start.dispute_t_ns - t_ns), free_s, 1e-8);
   std::vector<PossessionTruth> ends;
   while (ends.empty()) ends = match.step({.drive = {0.0, 0.0, 1.0}, .fire = {}}).possessions;
   EXPECT_EQ(ends[0].ending, PossessionEnd::kDisputed);

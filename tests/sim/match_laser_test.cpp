@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/match.hpp"
 
 namespace trivela::sim {
@@ -74,7 +75,7 @@ TEST(MatchLaser, SeesTheBallFlyOverIt) {
   const double height_m = 0.11 + kick.release_velocity_mps.z() * over_s - 0.5 * 9.81 * over_s * over_s;
   std::uint32_t nearest_mm = 100'000;
   for (const auto& scan : watched.scans) {
-    const double age_s = 1e-9 * static_cast<double>(scan.t_ns - kick.release_t_ns);
+    const double age_s = kicking::seconds(scan.t_ns - kick.release_t_ns);
     if (std::abs(age_s - over_s) < 0.05)
       for (std::size_t beam = 520; beam <= 560; ++beam)  // within 5 degrees of straight up
         if (scan.range_mm[beam] >= kicking::lob::kFirstRange_mm) nearest_mm = std::min(nearest_mm, scan.range_mm[beam]);

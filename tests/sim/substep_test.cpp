@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kicking/geometry/time.hpp"
 #include "sim/robot_body.hpp"
 #include "sim/shot.hpp"
 #include "tests/sim/played_match.hpp"
@@ -42,7 +43,7 @@ Policy clockwork(double power, double after_s) {
       fired = false;
       return Commands{};
     }
-    const double t_s = static_cast<double>(s.t_ns - start) * 1e-9;
+    const double t_s = kicking::seconds(s.t_ns - start);
     Commands commands{.drive = wild(t_s), .fire = {}};
     if (!fired && t_s >= after_s) {
       commands.fire = Fire{s.t_ns + 7'300'000, static_cast<std::int64_t>(s.referee.possession_id), power};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/outcome/p_inside.hpp"
 
 namespace trivela::kicking {
@@ -14,7 +15,7 @@ constexpr double kLeastHeld = 1e-3;
 
 void OpponentWatch::update(const PredictiveConfig& config, std::int64_t now_ns, bool playing,
                            std::optional<double> observed_m, std::optional<double> known_closing_mps) {
-  const double dt_s = std::clamp(1e-9 * static_cast<double>(now_ns - t_ns), 0.0, 0.2);
+  const double dt_s = std::clamp(seconds(now_ns - t_ns), 0.0, 0.2);
   t_ns = now_ns;
   if (observed_m && !(std::isfinite(*observed_m) && *observed_m >= 0.0)) observed_m.reset();
   if (known_closing_mps) {

@@ -25,8 +25,8 @@ StateSpread spread_of(const PredictiveConfig& config, const PolicyInput& input, 
 
 }  // namespace
 
-Lookout::Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                 const PredictiveMemory& memory, const LearnedModel* learned)
+LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                 const PolicyInput& input, const PredictiveMemory& memory, const LearnedModel* learned)
     : config_(config),
       robot_(robot),
       goal_(goal),
@@ -40,13 +40,13 @@ Lookout::Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal
   ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
 }
 
-Twist Lookout::command_at(DrivePlan plan, const DriveMotion& base) const {
+Twist LookaheadSearch::command_at(DrivePlan plan, const DriveMotion& base) const {
   return command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral,
                     ball_speed_mps_);
 }
 
 /// Cycle by cycle, as the policy itself will steer.
-void Lookout::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const {
+void LookaheadSearch::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const {
   while (time_s > 1e-6) {
     const double step_s = std::min(time_s, config_.cycle_s);
     base.step(command_at(plan, base), config_, step_s);
@@ -55,23 +55,23 @@ void Lookout::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const 
 }
 
 /// What a log has of a kick ordered then: as believed now for one of this cycle, as predicted for a later one.
-ShotFeatures Lookout::features(const DriveMotion& base, const Prospect& prospect) const {
-  const bool now = prospect.fire_after_s <= config_.cycle_s;
-  const Eigen::Vector2d ball = now ? held_ball(input_.pose, robot_) : prospect.release.ball_m;
+ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedShot& planned) const {
+  const bool now = planned.fire_after_s <= config_.cycle_s;
+  const Eigen::Vector2d ball = now ? held_ball(input_.pose, robot_) : planned.release.ball_m;
   const Twist twist = now ? input_.twist : base.twist();
-  ShotFeatures shot{.p_on_target = prospect.p_on_target,
+  ShotFeatures shot{.p_on_target = planned.p_on_target,
                     .distance_m = (target_on_line(config_, goal_) - ball).norm(),
                     .vx_mps = twist.vx_mps,
                     .vy_mps = twist.vy_mps,
                     .omega_radps = twist.omega_radps,
-                    .power = prospect.shot.power,
+                    .power = planned.shot.power,
                     .opponent_distance_m = input_.opponent_distance_m};
-  if (!now && opponent_.seen) shot.opponent_distance_m = opponent_.distance_after_m(prospect.fire_after_s);
+  if (!now && opponent_.seen) shot.opponent_distance_m = opponent_.distance_after_m(planned.fire_after_s);
   return shot;
 }
 
-Prospect Lookout::prospect(const DriveMotion& base, double fire_after_s) {
-  Prospect out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
+PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
+  PlannedShot out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
   if (!(out.shot.p > 0.0)) return out;
@@ -83,25 +83,25 @@ Prospect Lookout::prospect(const DriveMotion& base, double fire_after_s) {
   return out;
 }
 
-double Lookout::value(const Prospect& prospect, double survival) const {
-  return prospect.p_on_target >= config_.predictive.threshold ? survival * prospect.p_on_target : 0.0;
+double LookaheadSearch::value(const PlannedShot& planned, double survival) const {
+  return planned.p_on_target >= config_.predictive.threshold ? survival * planned.p_on_target : 0.0;
 }
 
 /// The plans part where their commands do.
-void Lookout::go_on(Ways& ways, double time_s) const {
+void LookaheadSearch::go_on(Ways& ways, double time_s) const {
   std::array<Twist, kDrivePlans.size()> commands;
   for (std::size_t i = 0; i < kDrivePlans.size(); ++i) {
     commands[i] = command_at(kDrivePlans[i], ways.bases[std::min(i, ways.count - 1)]);
     if (i < ways.count || commands[i].omega_radps == commands[0].omega_radps) continue;
     ways.bases[i] = ways.bases[0];
-    ways.outlooks[i] = ways.outlooks[0];
-    ways.outlooks[i].plan = kDrivePlans[i];
+    ways.candidates[i] = ways.candidates[0];
+    ways.candidates[i].plan = kDrivePlans[i];
     ways.count = i + 1;
   }
   for (std::size_t i = 0; i < ways.count; ++i) ways.bases[i].step(commands[i], config_, time_s);
 }
 
-void Lookout::look_at_this_cycle(Ways& ways) {
+void LookaheadSearch::look_at_this_cycle(Ways& ways) {
   for (double left_s = robot_.delay_s; left_s > 1e-6; left_s -= config_.cycle_s)
     go_on(ways, std::min(left_s, config_.cycle_s));
   const double half_s = 0.5 * config_.cycle_s;
@@ -109,29 +109,29 @@ void Lookout::look_at_this_cycle(Ways& ways) {
     const double fire_after_s = static_cast<double>(instant) * half_s;
     if (instant > 0) go_on(ways, half_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
-      const Prospect shot = prospect(ways.bases[i], fire_after_s);
-      ways.outlooks[i].values[instant] = value(shot, survival_(fire_after_s));
-      if (instant == 0) ways.outlooks[i].now = shot;
+      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s);
+      ways.candidates[i].values[instant] = value(shot, survival_(fire_after_s));
+      if (instant == 0) ways.candidates[i].now = shot;
     }
   }
-  for (Outlook& outlook : ways.outlooks) {
-    outlook.value_now = std::max({outlook.values[0], outlook.values[1], outlook.values[2]});
-    outlook.value_later = outlook.values[2];
+  for (CandidatePlan& candidate : ways.candidates) {
+    candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
+    candidate.value_later = candidate.values[2];
   }
 }
 
 /// Until nothing can be worth more than the best any more.
-void Lookout::look_ahead(Ways& ways) {
+void LookaheadSearch::look_ahead(Ways& ways) {
   const PredictiveConfig& settings = config_.predictive;
-  double best = std::max(ways.outlooks[0].value(), ways.outlooks[ways.count - 1].value());
+  double best = std::max(ways.candidates[0].value(), ways.candidates[ways.count - 1].value());
   for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= settings.horizon_s;
        fire_after_s += settings.step_s) {
     const double survival = survival_(fire_after_s);
     if (survival <= best) return;
     go_on(ways, settings.step_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
-      double& later = ways.outlooks[i].value_later;
-      later = std::max(later, value(prospect(ways.bases[i], fire_after_s), survival));
+      double& later = ways.candidates[i].value_later;
+      later = std::max(later, value(planned_shot(ways.bases[i], fire_after_s), survival));
       best = std::max(best, later);
     }
   }
@@ -139,27 +139,27 @@ void Lookout::look_ahead(Ways& ways) {
 
 /// The vertex of the parabola through the three values, where there is one; the end of the cycle belongs to the next
 /// decision.
-void Lookout::schedule(Outlook& outlook) {
-  const auto [first, middle, last] = outlook.values;
+void LookaheadSearch::schedule(CandidatePlan& candidate) {
+  const auto [first, middle, last] = candidate.values;
   const double bend = first - 2.0 * middle + last;
   double share = first >= last ? 0.0 : 1.0;
   if (bend < 0.0) share = std::clamp(0.5 - 0.25 * (last - first) / bend, 0.0, 1.0);
   const double fire_after_s = std::min(share, kLastShare) * config_.cycle_s;
   DriveMotion base = start_;
-  drive_for(outlook.plan, base, robot_.delay_s + fire_after_s);
-  outlook.now = prospect(base, fire_after_s);
-  outlook.value_now = value(outlook.now, survival_(fire_after_s));
+  drive_for(candidate.plan, base, robot_.delay_s + fire_after_s);
+  candidate.now = planned_shot(base, fire_after_s);
+  candidate.value_now = value(candidate.now, survival_(fire_after_s));
 }
 
-Outlook Lookout::best() {
+CandidatePlan LookaheadSearch::best() {
   Ways ways{{start_, start_}};
   look_at_this_cycle(ways);
   look_ahead(ways);
   std::size_t best = 0;
   for (std::size_t i = 1; i < ways.count; ++i) {
-    if (ways.outlooks[i].value() > ways.outlooks[best].value() + kBetter) best = i;
+    if (ways.candidates[i].value() > ways.candidates[best].value() + kBetter) best = i;
   }
-  Outlook& chosen = ways.outlooks[best];
+  CandidatePlan& chosen = ways.candidates[best];
   if (chosen.value_now > 0.0 && chosen.value_now >= chosen.value_later) schedule(chosen);
   return chosen;
 }

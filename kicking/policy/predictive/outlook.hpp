@@ -10,7 +10,7 @@
 namespace trivela::kicking {
 
 /// A shot at one instant of a plan.
-struct Prospect {
+struct PlannedShot {
   double fire_after_s = 0.0;
   ShotChance shot{};
   ReleaseState release{};
@@ -18,9 +18,9 @@ struct Prospect {
 };
 
 /// What a plan promises: the best shot of this cycle and the best later one.
-struct Outlook {
+struct CandidatePlan {
   DrivePlan plan = DrivePlan::kOnto;
-  Prospect now{};                  ///< at the beginning of the cycle, or where schedule() put it
+  PlannedShot now{};               ///< at the beginning of the cycle, or where schedule() put it
   std::array<double, 3> values{};  ///< S P of a shot at the beginning, middle and end of the cycle
   double value_now = 0.0;          ///< of firing within this cycle: S P, nothing below the threshold
   double value_later = 0.0;        ///< of the best later instant, weighed with keeping the ball until then
@@ -28,14 +28,14 @@ struct Outlook {
 };
 
 /// Looks ahead from one cycle.
-class Lookout {
+class LookaheadSearch {
  public:
   /// `learned`: corrects the probability; nullptr: the physical one stands.
-  Lookout(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-          const PredictiveMemory& memory, const LearnedModel* learned);
+  LookaheadSearch(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                  const PredictiveMemory& memory, const LearnedModel* learned);
 
   /// The plan that promises most, with its shot of this cycle at its best instant, where it is to be fired now.
-  Outlook best();
+  CandidatePlan best();
 
   /// The plan's drive command now.
   Twist command(DrivePlan plan) const { return command_at(plan, start_); }
@@ -44,19 +44,19 @@ class Lookout {
   /// The ways of both plans, one as long as they do not part.
   struct Ways {
     std::array<DriveMotion, kDrivePlans.size()> bases;
-    std::array<Outlook, kDrivePlans.size()> outlooks{};
+    std::array<CandidatePlan, kDrivePlans.size()> candidates{};
     std::size_t count = 1;
   };
 
   Twist command_at(DrivePlan plan, const DriveMotion& base) const;
   void drive_for(DrivePlan plan, DriveMotion& base, double time_s) const;
   void go_on(Ways& ways, double time_s) const;
-  ShotFeatures features(const DriveMotion& base, const Prospect& prospect) const;
-  Prospect prospect(const DriveMotion& base, double fire_after_s);
-  double value(const Prospect& prospect, double survival) const;
+  ShotFeatures features(const DriveMotion& base, const PlannedShot& planned) const;
+  PlannedShot planned_shot(const DriveMotion& base, double fire_after_s);
+  double value(const PlannedShot& planned, double survival) const;
   void look_at_this_cycle(Ways& ways);
   void look_ahead(Ways& ways);
-  void schedule(Outlook& outlook);
+  void schedule(CandidatePlan& candidate);
 
   const PolicyConfig& config_;
   const RobotModel& robot_;

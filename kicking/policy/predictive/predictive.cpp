@@ -21,7 +21,7 @@ double speed_jump(const PolicyConfig& config, const PolicyInput& input, const Pr
   return std::max(0.0, change - possible);
 }
 
-void describe_shot(Judgement& judgement, const Prospect& now, const RobotModel& robot, const Goal& goal) {
+void describe_shot(Judgement& judgement, const PlannedShot& now, const RobotModel& robot, const Goal& goal) {
   if (!(now.shot.exit.v_kick_mps > 0.0)) return;
   const CrossingSpread& crossing = now.shot.crossing;
   judgement.target_z_m = now.shot.aim_height_m;
@@ -32,16 +32,17 @@ void describe_shot(Judgement& judgement, const Prospect& now, const RobotModel& 
   judgement.p_on_target = now.p_on_target;
   judgement.fire_after_s = now.fire_after_s;
   if (!std::isfinite(crossing.x_m)) return;
-  judgement.predicted = Crossing{.x_m = crossing.x_m,
-                                 .z_m = crossing.z_m,
-                                 .t_flight_s = crossing.t_flight_s,
-                                 .release_m = now.release.ball_m,
-                                 .release_heading_rad = std::atan2(-now.release.forward.x(), now.release.forward.y())};
+  judgement.predicted =
+      PredictedCrossing{.x_m = crossing.x_m,
+                        .z_m = crossing.z_m,
+                        .t_flight_s = crossing.t_flight_s,
+                        .release_m = now.release.ball_m,
+                        .release_heading_rad = std::atan2(-now.release.forward.x(), now.release.forward.y())};
   judgement.offset_right_m = crossing.x_m - judgement.target_x_m;
   judgement.aligned = std::abs(crossing.x_m) < goal.clean_half_width_m(robot.ball);
 }
 
-Reason reason_of(const Outlook& best) {
+Reason reason_of(const CandidatePlan& best) {
   if (best.now.shot.out_of_range && !(best.value_later > 0.0)) return Reason::kOutOfRange;
   if (best.value_now > 0.0 && best.value_now >= best.value_later) return Reason::kFire;
   return best.value_later > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
@@ -49,20 +50,20 @@ Reason reason_of(const Outlook& best) {
 
 Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                    const PolicyInput& input, PredictiveMemory& own) {
-  Lookout lookout(config, robot, goal, input, own, learned);
+  LookaheadSearch search(config, robot, goal, input, own, learned);
   const bool pending = order_pending(config, input, own);
-  Outlook best{};
+  CandidatePlan best{};
   if (pending) {
     best.plan = own.plan;  // the kick was reckoned with this way of driving
   } else {
-    best = lookout.best();
+    best = search.best();
     own.plan = best.plan;
   }
   Judgement judgement = describe(config, goal, {});
   judgement.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
   judgement.left_m = judgement.right_m = goal.clean_half_width_m(robot.ball);
   describe_shot(judgement, best.now, robot, goal);
-  judgement.drive = lookout.command(best.plan);
+  judgement.drive = search.command(best.plan);
   own.command = judgement.drive;
   judgement.reason = pending ? Reason::kOrderPending : reason_of(best);
   return judgement;

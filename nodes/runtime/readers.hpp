@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "idl/messages.hpp"
+#include "nodes/runtime/node_context.hpp"
+
+namespace trivela::nodes {
+
+/// What a node of a match takes or stores; in lockstep a first sample waits for all of its readers.
+template <bus::Message... In>
+struct Inputs {
+  template <class T>
+  static constexpr std::size_t of() {
+    return (std::size_t{std::is_same_v<T, In>} + ... + 0);
+  }
+};
+
+using OdometryInputs = Inputs<msg::SimWheels, msg::DriveCommand>;
+using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee>;
+using KickDecisionInputs = Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome>;
+using KickerDriverInputs = Inputs<msg::SimKicker, msg::KickOrder, msg::Referee>;
+using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;
+using ScanRecorderInputs = Inputs<msg::SimScan, msg::KickReceipt>;  // where it is enabled
+
+/// What the recorder leaves out: the simulated devices' own.
+using NotRecorded = Inputs<msg::SimWheels, msg::SimDrive, msg::SimKicker, msg::SimFire, msg::SimScan, msg::StepDone>;
+
+/// How many nodes of a match read T.
+template <bus::Message T>
+std::size_t readers_of(const config::Settings& settings) {
+  constexpr std::size_t always = OdometryInputs::of<T>() + WorldStateInputs::of<T>() + KickDecisionInputs::of<T>() +
+                                 KickerDriverInputs::of<T>() + ShotObserverInputs::of<T>() + (1 - NotRecorded::of<T>());
+  return always + (settings.scan_recorder.enabled ? ScanRecorderInputs::of<T>() : 0);
+}
+
+/// Waits until all are there that read `output`; throws std::runtime_error when they do not come.
+template <bus::Message T>
+void expect_readers(const NodeContext& context, const bus::Output<T>& output) {
+  const std::size_t n = readers_of<T>(context.settings);
+  if (output.wait_for_readers(n, kLockstepPatience)) return;
+  throw std::runtime_error{output.topic() + " has " + std::to_string(output.readers()) + " of " + std::to_string(n) +
+                           " readers after 20 s"};
+}
+
+/// The same for who feeds the nodes and starts before them: false: the stop was requested first.
+template <bus::Message T>
+[[nodiscard]] bool readers_before_stop(const NodeContext& context, const bus::Writer<T>& output) {
+  const std::size_t n = readers_of<T>(context.settings);
+  return ready_before_stop(
+      context.stop, [&](auto timeout) { return output.wait_for_readers(n, timeout); },
+      "not all of " + std::to_string(n) + " readers of " + output.topic() + " are there");
+}
+
+}  // namespace trivela::nodes
