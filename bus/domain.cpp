@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/loopback_xml.hpp"
 
 namespace trivela::bus {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/participant.hpp"
 
 namespace trivela::bus {

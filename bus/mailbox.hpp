@@ -6,7 +6,7 @@
 #include <mutex>
 #include <optional>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/last_heard.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"

@@ -7,10 +7,9 @@
 #include <map>
 #include <mutex>
 
-#include "bus/entity.hpp"
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/hearing.hpp"
-#include "bus/resources.hpp"
+#include "bus/process.hpp"
 
 namespace trivela::bus {
 

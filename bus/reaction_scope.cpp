@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 
 namespace trivela::bus {
 namespace {

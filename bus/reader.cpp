@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/hearing.hpp"
 #include "bus/qos.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/entity.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/options.hpp"
 #include "bus/participant.hpp"
 #include "bus/renewal_patience.hpp"

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 
 namespace trivela::bus {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <dds/dds.h>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 
 namespace trivela::bus {
 

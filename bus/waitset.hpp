@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bus/entity.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/participant.hpp"
 
 namespace trivela::bus {

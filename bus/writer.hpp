@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "bus/entity.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/options.hpp"
 #include "bus/participant.hpp"
 #include "idl/meta.hpp"

@@ -5,52 +5,26 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "calibration/rows/drive_rows.hpp"
+#include "calibration/standing_lobs.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::calibration {
 namespace {
 
 using kicking::degrees;
+using kicking::lob::LobRecord;
 
 constexpr std::int64_t kSameKick_ns = 300'000'000;          // from the order to the launch that the laser saw, at most
 constexpr double kLaserAngle_rad = kicking::radians(0.03);  // what all lobs of a scanner share: docs/calibration.md
-constexpr std::size_t kFewestLobs = 2;                      // of a set-point (paper, section 2.2)
-constexpr std::uint32_t kMostKicks = 40;                    // with a set-point in one more round
 
 std::vector<std::string> names(const std::vector<std::string>& files) {
   std::vector<std::string> out;
   out.reserve(files.size());
   for (const std::string& file : files) out.push_back(std::filesystem::path{file}.filename().string());
   return out;
-}
-
-/// What the scans of one power came to.
-struct Tally {
-  std::size_t kicks = 0;
-  std::size_t lobs = 0;
-};
-
-/// The powers that still need lobs, and kicks with each that should bring them, going by the kicks so far.
-struct NextRound {
-  std::vector<double> powers;
-  std::uint32_t kicks = 0;
-};
-
-NextRound next_round(const std::map<double, Tally>& tallies, std::size_t wanted) {
-  NextRound next;
-  for (const auto& [power, tally] : tallies) {
-    if (tally.lobs >= wanted) continue;
-    const double share = (static_cast<double>(tally.lobs) + 0.5) / (static_cast<double>(tally.kicks) + 1.0);
-    const double kicks = std::ceil(1.2 * static_cast<double>(wanted - tally.lobs) / share);
-    next.powers.push_back(power);
-    next.kicks = std::max(next.kicks, std::min(kMostKicks, static_cast<std::uint32_t>(kicks)));
-  }
-  return next;
 }
 
 std::string list_of(const std::vector<double>& values) {
@@ -93,7 +67,7 @@ DriveRecord CalibrationRun::play(DriveSummary& summary, const std::string& name,
   return record;
 }
 
-std::vector<kicking::TrackedTrial> CalibrationRun::followed(const std::vector<LobOfKick>& lobs) const {
+std::vector<kicking::TrackedTrial> CalibrationRun::followed() const {
   std::vector<double> delays_s;
   for (const DriveRecord& record : standing_) {
     const auto rows = release_delays(record.drives).rows;
@@ -102,73 +76,47 @@ std::vector<kicking::TrackedTrial> CalibrationRun::followed(const std::vector<Lo
   kicking::RobotModel model = update_.robot().model;
   model.delay_s = kicking::fit_delay(delays_s).mean_s.value;
   std::vector<kicking::TrackedTrial> kicks;
-  for (std::size_t i = 0; i < standing_.size(); ++i) {
-    for (const TrackedSpeed& kick : standing_kicks(standing_[i].drives, model).rows) {
+  for (const DriveRecord& record : standing_) {
+    for (const TrackedSpeed& kick : standing_kicks(record.drives, model).rows) {
       kicks.push_back({.power = kick.power, .up_mps = kick.up_mps, .sideways_rad = kick.sideways_rad});
-      for (const LobOfKick& lob : lobs) {
-        if (lob.record == i && std::abs(lob.launch_t_ns - kick.order_t_ns) < kSameKick_ns) kicks.back().lob = lob.trial;
+      for (const LobRecord& lob : record.lobs) {
+        if (is_trial(lob) && std::abs(lob.launch_t_ns - kick.order_t_ns) < kSameKick_ns)
+          kicks.back().lob = kicking::Trial{.power = *lob.power,
+                                            .exit_angle_rad = lob.effective->exit_angle_rad.value,
+                                            .exit_speed_mps = lob.effective->exit_speed_mps.value};
       }
     }
   }
   return kicks;
 }
 
-DriveSummary CalibrationRun::standing() {
-  DriveSummary summary;
-  summary.name = "standing";
-  std::map<double, Tally> tallies;
-  for (const double power : settings_.policy.test_drive.powers) tallies[power] = {};
-  std::vector<LobOfKick> lobs;
-  std::vector<std::string> scans;
-  std::map<std::string, std::size_t> refused;
-  NextRound round{settings_.policy.test_drive.powers, effort_.kicks};
+void CalibrationRun::play_standing(DriveSummary& summary) {
+  const std::vector<double>& powers = settings_.policy.test_drive.powers;
+  NextRound round{powers, effort_.kicks};
   for (std::uint32_t i = 1; i <= effort_.rounds && !round.powers.empty(); ++i) {
     standing_.push_back(play(summary, i == 1 ? "1_standing" : fmt::format("1_standing_{}", i),
                              kicking::PolicyName::kStandingDrive, standing_to_goal_m_, true,
                              round.powers.size() * round.kicks,
                              {"policy.test_drive.powers = " + list_of(round.powers),
                               fmt::format("policy.test_drive.kicks_per_level = {}", round.kicks)}));
-    const DriveRecord& record = standing_.back();
+    summary.kicks += standing_.back().kicked_powers.size();
+    round = next_round(tallies_of(powers, standing_), effort_.lobs);
+  }
+  require_lobs(tallies_of(powers, standing_), effort_.kicks);
+}
+
+DriveSummary CalibrationRun::standing() {
+  DriveSummary summary;
+  summary.name = "standing";
+  play_standing(summary);
+  std::vector<std::string> scans;
+  for (const DriveRecord& record : standing_) {
     scans.push_back(record.scans);
-    for (const double power : record.kicked_powers) ++tallies[power].kicks;
-    summary.kicks += record.kicked_powers.size();
-    for (const auto& lob : record.lobs) {
-      if (lob.refusal != kicking::lob::Refusal::kNone) ++refused[kicking::lob::name(lob.refusal)];
-      if (lob.refusal != kicking::lob::Refusal::kNone || !lob.effective || !lob.power) continue;
-      ++tallies[*lob.power].lobs;
-      lobs.push_back({standing_.size() - 1,
-                      lob.launch_t_ns,
-                      {.power = *lob.power,
-                       .exit_angle_rad = lob.effective->exit_angle_rad.value,
-                       .exit_speed_mps = lob.effective->exit_speed_mps.value}});
-    }
-    round = next_round(tallies, effort_.lobs);
+    summary.used += static_cast<std::size_t>(std::ranges::count_if(record.lobs, is_trial));
   }
-  for (const auto& [power, tally] : tallies) {
-    if (tally.lobs >= kFewestLobs) continue;
-    throw std::runtime_error{fmt::format(
-        "set-point {}: {} of the {} lobs that it needs, after {} kicks; about {} more kicks with it are needed "
-        "(now {} of each set-point)",
-        power, tally.lobs, kFewestLobs, tally.kicks, next_round({{power, tally}}, kFewestLobs).kicks, effort_.kicks)};
-  }
-  std::size_t seen = lobs.size();
-  for (const auto& [why, flights] : refused) {
-    summary.left_out.push_back(fmt::format("{} flight{}: {}", flights, flights == 1 ? "" : "s", why));
-    seen += flights;
-  }
-  if (const std::size_t unseen = summary.kicks - std::min(seen, summary.kicks); unseen > 0)
-    summary.left_out.push_back(fmt::format("{} kick{}: no flight in the scans", unseen, unseen == 1 ? "" : "s"));
-  summary.used = lobs.size();
-  const kicking::TrackedTrials tracked = kicking::tracked_trials(followed(lobs));
-  kicking::TableFit fit = kicking::fit_table(tracked.trials);
-  if (!fit.rises()) {
-    // Strong set-points lie within each other's errors: the speeds are pooled, and the file says so.
-    for (const std::size_t i : fit.not_rising) {
-      summary.left_out.push_back(fmt::format("order of set-point {}: {:.2f} m/s, not faster than a weaker one; pooled",
-                                             fit.set_points[i].power, fit.set_points[i].exit_speed_mps.mean));
-    }
-    fit = kicking::fit_table(tracked.trials, {.least_angle_power = {}, .isotonic = true});
-  }
+  summary.left_out = without_lob(standing_, summary.kicks);
+  const kicking::TrackedTrials tracked = kicking::tracked_trials(followed());
+  kicking::TableFit fit = fit_rising(tracked.trials, summary.left_out);
   fit.exit_angle_rad = tracked.exit_angle_rad;
   fit.exit_angle_rad.se = std::hypot(fit.exit_angle_rad.se, kLaserAngle_rad);
   summary.left_out.insert(summary.left_out.end(), fit.warnings.begin(), fit.warnings.end());

@@ -56,13 +56,10 @@ class CalibrationRun {
   const RobotUpdate& robot() const { return update_; }
 
  private:
-  struct LobOfKick {
-    std::size_t record = 0;  ///< of standing_
-    std::int64_t launch_t_ns = 0;
-    kicking::Trial trial;
-  };
+  /// Rounds of standing kicks until each set-point has its lobs.
+  void play_standing(DriveSummary& summary);
   /// The standing kicks that the flight camera followed, with the lobs that the laser saw of them.
-  std::vector<kicking::TrackedTrial> followed(const std::vector<LobOfKick>& lobs) const;
+  std::vector<kicking::TrackedTrial> followed() const;
   DriveRecord play(DriveSummary& summary, const std::string& name, kicking::PolicyName policy, double ball_to_goal_m,
                    bool laser, std::size_t possessions, std::vector<std::string> settings);
 

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "config/error.hpp"
-#include "config/software_version.hpp"
+#include "config/installation.hpp"
 
 namespace trivela::calibration {
 

@@ -1,4 +1,3 @@
-#include "cli/calibrate/run.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
 

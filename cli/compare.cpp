@@ -5,10 +5,9 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/compare_csv.hpp"
-#include "cli/counts_argument.hpp"
+#include "cli/compare_input.hpp"
 #include "cli/open_file.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
@@ -95,6 +94,16 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   }
 }
 
+void print_comparison(const CompareArguments& arguments) {
+  const auto print = [&](const auto& comparison) {
+    arguments.json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
+  };
+  check(arguments);
+  if (arguments.counts.empty()) return print(compared(arguments));
+  const auto [older, newer] = parse_two_counts(arguments.counts);
+  print(evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points));
+}
+
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
@@ -131,15 +140,7 @@ void add_compare(CLI::App& app, int& exit_code) {
       "          trivela compare --csv kicks.csv --stratify distance\n"
       "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
   verb->callback([arguments, &exit_code] {
-    check(*arguments);
-    if (!arguments->counts.empty()) {
-      const auto [older, newer] = parse_two_counts(arguments->counts);
-      const auto comparison = evaluator::compare(older, newer, 0.01 * arguments->smallest_effect_points);
-      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
-    } else {
-      const auto comparison = compared(*arguments);
-      arguments->json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
-    }
+    print_comparison(*arguments);
     exit_code = kDone;
   });
 }

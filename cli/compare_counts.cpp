@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "cli/counts_argument.hpp"
+#include "cli/compare_input.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/text/printable.hpp"
 

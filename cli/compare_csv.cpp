@@ -1,4 +1,4 @@
-#include "cli/compare_csv.hpp"
+#include "cli/compare_input.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

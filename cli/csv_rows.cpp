@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "cli/open_file.hpp"
-#include "cli/write_file.hpp"
+#include "cli/output.hpp"
 #include "config/parse_number.hpp"
 #include "evaluator/report/json_values.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/policy_value.hpp"
 

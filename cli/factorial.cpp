@@ -7,7 +7,7 @@
 #include "cli/open_file.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/factorial/report.hpp"
 
 namespace trivela::cli {
@@ -24,43 +24,39 @@ struct FactorialFlags {
   std::string blocked = "outside";
 };
 
-void factorial(FactorialFlags flags) {
-  require_writable(flags.study);
-  const sim::Scenario scenario = flags.study.world.load();
-  const config::Settings settings = config::load_settings(flags.config);
-  experiment::FactorialReport report{
-      .scenario = flags.study.scenario_name(),
-      .seed = flags.study.plan.seed,
-      .matches = flags.study.plan.matches,
-      .possessions = flags.study.plan.possessions,
-      .hand_eye_sd_m = scenario.hand_table.eye_height_sd_m,
-      .hand_day_sd_ratio = scenario.hand_table.day_sd_ratio,
-      .opponent_median_m = scenario.opponent.distance_median_m,
-      .sweep_law = flags.law,
-      .efficiency = flags.blocked == "apart" ? experiment::Measure::kUnblocked : experiment::Measure::kEfficiency,
-      .keeper = scenario.keeper.enabled};
-  std::vector<config::Robot> robots;
-  for (const std::string& robot : flags.robots) {
-    robots.push_back(config::load_robot(find_robot(robot)));
-    report.robots.push_back(robots.back().name);
-  }
-  flags.study.draw_evenings(scenario, {flags.config, {}, {}});
-  const std::size_t evenings = flags.study.plan.evenings.size();
-  if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
+experiment::FactorialReport empty_report(const FactorialFlags& flags, const sim::Scenario& scenario) {
+  return {.scenario = flags.study.scenario_name(),
+          .seed = flags.study.plan.seed,
+          .matches = flags.study.plan.matches,
+          .possessions = flags.study.plan.possessions,
+          .hand_eye_sd_m = scenario.hand_table.eye_height_sd_m,
+          .hand_day_sd_ratio = scenario.hand_table.day_sd_ratio,
+          .opponent_median_m = scenario.opponent.distance_median_m,
+          .sweep_law = flags.law,
+          .efficiency = flags.blocked == "apart" ? experiment::Measure::kUnblocked : experiment::Measure::kEfficiency,
+          .keeper = scenario.keeper.enabled};
+}
+
+/// Plays every cell, on the same opportunities.
+void play_cells(experiment::FactorialReport& report, const FactorialFlags& flags, const sim::Scenario& scenario,
+                const config::Settings& settings, const std::vector<config::Robot>& robots) {
   std::vector<experiment::Arm> arms;
   for (const experiment::Cell& cell : experiment::factorial_cells()) {
     report.cells.push_back({cell, {}});
     arms.push_back(experiment::arm_of(cell, settings, robots));
   }
-  if (evenings == 0) warn_of_shared_robots(scenario, arms);
+  if (flags.study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
   auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
   for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
+}
 
+/// Plays old and stopped against new and moving, by the opponents' distance and by the eye of the table's maker.
+void play_sweeps(experiment::FactorialReport& report, const FactorialFlags& flags, const sim::Scenario& scenario,
+                 const config::Settings& settings, const std::vector<config::Robot>& robots) {
   const std::vector<experiment::Arm> pair{
       experiment::arm_of({"old", kicking::PolicyName::kStopped, flags.law}, settings, robots),
       experiment::arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
-  const auto points_of = [&](std::vector<double> values) {
-    if (flags.no_sweep) values.clear();
+  const auto points_of = [](std::vector<double> values) {
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
     return values;
@@ -77,6 +73,23 @@ void factorial(FactorialFlags flags) {
     auto two = play_with_bar(world, pair, flags.study.plan, fmt::format("an eye off by {:g} m", bias_m));
     report.biases.push_back({bias_m, std::move(two[0]), std::move(two[1])});
   }
+}
+
+void factorial(FactorialFlags flags) {
+  require_writable(flags.study);
+  const sim::Scenario scenario = flags.study.world.load();
+  const config::Settings settings = config::load_settings(flags.config);
+  experiment::FactorialReport report = empty_report(flags, scenario);
+  std::vector<config::Robot> robots;
+  for (const std::string& robot : flags.robots) {
+    robots.push_back(config::load_robot(find_robot(robot)));
+    report.robots.push_back(robots.back().name);
+  }
+  flags.study.draw_evenings(scenario, {flags.config, {}, {}});
+  const std::size_t evenings = flags.study.plan.evenings.size();
+  if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
+  play_cells(report, flags, scenario, settings, robots);
+  if (!flags.no_sweep) play_sweeps(report, flags, scenario, settings, robots);
   give(flags.study, report);
 }
 

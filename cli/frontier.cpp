@@ -3,7 +3,7 @@
 
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/frontier/report.hpp"
 
 namespace trivela::cli {

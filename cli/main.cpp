@@ -12,10 +12,10 @@
 
 #include "cli/finite_numbers.hpp"
 #include "cli/nearest_word.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
-#include "config/software_version.hpp"
+#include "config/installation.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace cli = trivela::cli;

@@ -7,7 +7,7 @@
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 #include "nodes/simulator/simulator_node.hpp"

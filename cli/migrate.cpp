@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/launch/progress_bar.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/migration.hpp"
 #include "evaluator/log/reader.hpp"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
-#include "experiment/sensitivity/report.hpp"
+#include "config/installation.hpp"
+#include "experiment/sensitivity/analysis.hpp"
 
 namespace trivela::cli {
 namespace {

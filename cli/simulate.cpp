@@ -11,7 +11,7 @@
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "cli/world.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/experiment.hpp"
 

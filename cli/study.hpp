@@ -9,9 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/world.hpp"
-#include "cli/write_file.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "experiment/factorial/play.hpp"
 #include "experiment/run/arms.hpp"

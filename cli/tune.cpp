@@ -9,7 +9,7 @@
 #include "cli/number_checks.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "experiment/tune/report.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::cli {

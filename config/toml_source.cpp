@@ -11,7 +11,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "config/place.hpp"
+#include "config/installation.hpp"
 
 namespace trivela::config {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::sim {
 

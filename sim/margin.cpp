@@ -1,4 +1,4 @@
-#include "sim/margin.hpp"
+#include "sim/shot.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
+#include "sim/kicker.hpp"
 #include "sim/laser/field_laser.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
 #include "sim/sensor_suite.hpp"
-#include "sim/team.hpp"
 #include "sim/world.hpp"
 
 namespace trivela::sim {

@@ -6,7 +6,6 @@
 
 #include "kicking/geometry/time.hpp"
 #include "sim/guard.hpp"
-#include "sim/margin.hpp"
 
 namespace trivela::sim {
 namespace {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "kicking/geometry/goal.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
@@ -63,5 +64,9 @@ class Shot {
   double farthest_y_m_;
   std::optional<ShotResult> result_;
 };
+
+/// Distance of a crossing from the nearest edge beyond which kicking::classify() says something else [m]. The edges are
+/// those of the bands in which the ball overlaps posts and bar, and the floor has none.
+double margin_m(const Crossing& crossing, const kicking::Goal& goal, const kicking::Ball& ball);
 
 }  // namespace trivela::sim

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 
-#include "calibration/rows/input_kind.hpp"
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/number_table.hpp"
 #include "calibration/rows/verdicts_file.hpp"
 #include "config/error.hpp"
+#include "config/open_file.hpp"
+#include "evaluator/log/scan_log.hpp"
 
 namespace trivela::calibration {
 namespace {
@@ -129,6 +132,16 @@ Trials read_trials(const std::vector<std::string>& files, const TrialFlags& flag
                                          all.warnings.empty() ? "" : ": ", fmt::join(all.warnings, "; ")));
   }
   return all;
+}
+
+InputKind input_kind(const std::string& file) {
+  if (file == "-") return InputKind::kNumbers;
+  std::ifstream in = config::open_file(file);
+  const std::string magic = "SQLite format 3";
+  std::string start(magic.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != magic) return InputKind::kNumbers;
+  return evaluator::log::is_scan_log(file) ? InputKind::kScanRecord : InputKind::kMatchLog;
 }
 
 }  // namespace trivela::calibration

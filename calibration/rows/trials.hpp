@@ -9,6 +9,13 @@
 
 namespace trivela::calibration {
 
+/// What a calibration is made from.
+enum class InputKind { kNumbers, kScanRecord, kMatchLog };
+
+/// By the file's first bytes and tables; "-" and whatever is no SQLite file is a table of numbers.
+/// Throws std::runtime_error naming a file that cannot be read.
+InputKind input_kind(const std::string& file);
+
 /// How to read the trials of a kicker, and what sentences call that.
 struct TrialFlags {
   kicking::TableKind kind = kicking::TableKind::kEffective;

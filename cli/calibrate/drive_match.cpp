@@ -9,7 +9,7 @@
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
-#include "cli/write_file.hpp"
+#include "cli/output.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "experiment/evening/drive_in_process.hpp"
@@ -21,6 +21,40 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongest_s = 8.0;  // that a possession of a drive takes, stop included; for the progress bar
+
+void refuse_written(const fs::path& file) {
+  if (file.empty() || !fs::exists(file)) return;
+  throw UsageError{
+      fmt::format("{} exists already; a record is never overwritten, choose another --out-dir", file.string())};
+}
+
+/// The settings of the drive's nodes, but for the files of world and robot.
+config::Settings settings_of_drive(const calibration::DrivePlan& plan, const calibration::DriveRecord& record,
+                                   config::Settings settings) {
+  settings.kick_decision.policy_by_half = {plan.policy};
+  settings.simulator.seed = plan.seed;
+  settings.simulator.halves = 1;
+  settings.simulator.max_possessions = plan.possessions;
+  settings.simulator.half_minutes = plan.possessions * kLongest_s / 60.0;
+  settings.scan_recorder.enabled = plan.laser;
+  settings.scan_recorder.device = config::SimDevice{};
+  if (plan.laser) settings.scan_recorder.file = record.scans;
+  config::override_settings(settings, plan.settings);
+  return lockstep_settings(std::move(settings), -1, record.log);
+}
+
+/// Takes what the drive's log and scans hold into its record.
+void read_back(calibration::DriveRecord& record) {
+  const evaluator::log::Reader reader{record.log};
+  record.kicks = reader.kicks();
+  record.drives = calibration::recorded_drives(reader);
+  if (record.scans.empty()) return;
+  const evaluator::log::ScanReader scans{record.scans};
+  for (const auto& tested : scans.set_points()) {
+    if (tested.power) record.kicked_powers.push_back(*tested.power);
+  }
+  record.lobs = calibration::lobs_of_scans(scans);
+}
 
 }  // namespace
 
@@ -37,12 +71,8 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   record.log = (folder_ / (plan.name + ".db")).string();
   if (plan.laser) record.scans = (folder_ / (plan.name + ".scans.db")).string();
   const fs::path scenario_file = folder_ / (plan.name + ".scenario.toml");
-  for (const fs::path& file : {fs::path{record.scans}, scenario_file}) {
-    if (!file.empty() && fs::exists(file)) {
-      throw UsageError{
-          fmt::format("{} exists already; a record is never overwritten, choose another --out-dir", file.string())};
-    }
-  }
+  refuse_written(record.scans);
+  refuse_written(scenario_file);
   const LogClaim claim{record.log};
   write_file(scenario_file, config::to_toml_text(experiment::scenario_of(plan, world_)));
   robot.write(robot_file_);
@@ -50,17 +80,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   config::Settings settings = settings_;
   settings.run.robot = robot_file_.string();
   settings.run.scenario = scenario_file.string();
-  settings.kick_decision.policy_by_half = {plan.policy};
-  settings.simulator.seed = plan.seed;
-  settings.simulator.halves = 1;
-  settings.simulator.max_possessions = plan.possessions;
-  settings.simulator.half_minutes = plan.possessions * kLongest_s / 60.0;
-  settings.scan_recorder.enabled = plan.laser;
-  settings.scan_recorder.device = config::SimDevice{};
-  if (plan.laser) settings.scan_recorder.file = record.scans;
-  config::override_settings(settings, plan.settings);
-  settings = lockstep_settings(std::move(settings), -1, record.log);
-
+  settings = settings_of_drive(plan, record, std::move(settings));
   const ConfigFile config{config::to_toml_text(settings)};
   const MatchResult result = run_match("simulator", config.path(), signals_, more_nodes(settings), true);
   record.played_s = result.played_s;
@@ -71,15 +91,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
                     claim.recorded() ? "what was recorded until then is in " + record.log : "nothing was recorded")};
   }
   if (lost_rows(record.log) > 0) throw std::runtime_error{plan.name + ": rows were lost"};
-  const evaluator::log::Reader reader{record.log};
-  record.kicks = reader.kicks();
-  record.drives = calibration::recorded_drives(reader);
-  if (record.scans.empty()) return record;
-  const evaluator::log::ScanReader scans{record.scans};
-  for (const auto& tested : scans.set_points()) {
-    if (tested.power) record.kicked_powers.push_back(*tested.power);
-  }
-  record.lobs = calibration::lobs_of_scans(scans);
+  read_back(record);
   return record;
 }
 

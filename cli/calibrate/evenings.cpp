@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/calibrate/run.hpp"
+#include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "experiment/evening/evening_study.hpp"
@@ -52,7 +52,14 @@ std::size_t kicks_of(const experiment::Evening& evening) {
   return kicks;
 }
 
-int evenings_study(const EveningsFlags& flags) {
+struct EveningsReport {
+  double mean_kicks = 0.0;  // an evening
+  double most_kicks = 0.0;
+  std::vector<experiment::StudiedFigure> figures;
+  std::vector<double> rates;  // on target per opportunity, policy moving; none: no matches
+};
+
+EveningsReport play_study(const EveningsFlags& flags) {
   const sim::Scenario world = config::load_scenario(flags.world);
   experiment::EveningOptions options = experiment::default_evening();
   options.scenario = experiment::evening_scenario(options.scenario, world);
@@ -65,17 +72,22 @@ int evenings_study(const EveningsFlags& flags) {
 
   std::vector<double> kicks;
   for (const experiment::Evening& evening : evenings) kicks.push_back(static_cast<double>(kicks_of(evening)));
-  const auto figures = experiment::study_figures(evenings, options);
-  std::vector<double> rates;
+  EveningsReport report{
+      .mean_kicks = std::accumulate(kicks.begin(), kicks.end(), 0.0) / static_cast<double>(kicks.size()),
+      .most_kicks = *std::max_element(kicks.begin(), kicks.end()),
+      .figures = experiment::study_figures(evenings, options),
+      .rates = {}};
   if (flags.matches > 0) {
-    rates = experiment::study_policy(evenings, world, options.settings, kicking::PolicyName::kMoving, flags.matches,
-                                     static_cast<std::uint64_t>(flags.matches_seed), flags.jobs);
+    report.rates = experiment::study_policy(evenings, world, options.settings, kicking::PolicyName::kMoving,
+                                            flags.matches, static_cast<std::uint64_t>(flags.matches_seed), flags.jobs);
   }
-  const double mean_kicks = std::accumulate(kicks.begin(), kicks.end(), 0.0) / static_cast<double>(kicks.size());
-  const double most_kicks = *std::max_element(kicks.begin(), kicks.end());
+  return report;
+}
+
+Json json_of_evenings(const EveningsReport& report, const EveningsFlags& flags) {
   Json json{{"simulated", true}, {"evenings", flags.count}, {"seed", flags.seed}, {"figures", Json::array()}};
-  json["kicks"] = {{"mean", mean_kicks}, {"most", most_kicks}};
-  for (const experiment::StudiedFigure& figure : figures) {
+  json["kicks"] = {{"mean", report.mean_kicks}, {"most", report.most_kicks}};
+  for (const experiment::StudiedFigure& figure : report.figures) {
     json["figures"].push_back({{"key", figure.key},
                                {"evenings", figure.evenings},
                                {"world", figure.world},
@@ -84,27 +96,34 @@ int evenings_study(const EveningsFlags& flags) {
                                {"standard_error", figure.mean_se},
                                {"covered", figure.covered}});
   }
-  if (!rates.empty()) json["moving_on_target"] = rates;
-  if (flags.json) {
-    fmt::print("{}", evaluator::json_text(json));
-    return kDone;
-  }
+  if (!report.rates.empty()) json["moving_on_target"] = report.rates;
+  return json;
+}
+
+void print_evenings(const EveningsReport& report, const EveningsFlags& flags) {
   fmt::print("SIMULATED: {} evenings, seeds {} to {}, {:.0f} kicks each on average, {:.0f} at most\n\n", flags.count,
-             flags.seed, flags.seed + flags.count - 1, mean_kicks, most_kicks);
+             flags.seed, flags.seed + flags.count - 1, report.mean_kicks, report.most_kicks);
   fmt::print("{:<26}{:>10}{:>10}{:>11}{:>11}{:>9}\n", "", "world", "mean", "rms error", "std error", "covered");
-  for (const experiment::StudiedFigure& figure : figures) {
+  for (const experiment::StudiedFigure& figure : report.figures) {
     fmt::print("{:<26}{:>10.4f}{:>10.4f}{:>11.4f}{:>11.4f}{:>8.0f}%\n", figure.key, figure.world, figure.mean,
                figure.rms, figure.mean_se, 100.0 * figure.covered);
   }
-  if (!rates.empty()) {
-    const kicking::Spread spread = kicking::spread_of(rates);
-    fmt::print(
-        "\nmoving, {} matches of 20 possessions with each robot: on target per opportunity {:.1f} to {:.1f} %, mean "
-        "{:.1f} %, sd between evenings {:.2f} points\n",
-        flags.matches, 100.0 * *std::min_element(rates.begin(), rates.end()),
-        100.0 * *std::max_element(rates.begin(), rates.end()), 100.0 * spread.mean, 100.0 * spread.sd);
+  if (report.rates.empty()) return;
+  const auto [least, most] = std::ranges::minmax(report.rates);
+  const kicking::Spread spread = kicking::spread_of(report.rates);
+  fmt::print(
+      "\nmoving, {} matches of 20 possessions with each robot: on target per opportunity {:.1f} to {:.1f} %, mean "
+      "{:.1f} %, sd between evenings {:.2f} points\n",
+      flags.matches, 100.0 * least, 100.0 * most, 100.0 * spread.mean, 100.0 * spread.sd);
+}
+
+void evenings_study(const EveningsFlags& flags) {
+  const EveningsReport report = play_study(flags);
+  if (flags.json) {
+    fmt::print("{}", evaluator::json_text(json_of_evenings(report, flags)));
+  } else {
+    print_evenings(report, flags);
   }
-  return kDone;
 }
 
 }  // namespace
@@ -136,7 +155,10 @@ void add_calibrate_evenings(CLI::App& calibrate_verb, int& exit_code) {
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   verb->add_flag("--json", flags->json, "as JSON");
-  verb->callback([flags, &exit_code] { exit_code = evenings_study(*flags); });
+  verb->callback([flags, &exit_code] {
+    evenings_study(*flags);
+    exit_code = kDone;
+  });
 }
 
 }  // namespace trivela::cli

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "calibration/rows/input_kind.hpp"
+#include "calibration/rows/trials.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "evaluator/report/json_values.hpp"
 
 namespace trivela::cli {

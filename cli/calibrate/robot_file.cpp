@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "cli/verbs.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 
 namespace trivela::cli {
 namespace {

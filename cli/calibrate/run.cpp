@@ -1,30 +1,26 @@
-#include "cli/calibrate/run.hpp"
+#include "cli/calibrate/subcommands.hpp"
 
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/calibrate/run_report.hpp"
 #include "cli/open_file.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "cli/write_file.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "experiment/evening/calibration_check.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/evening/evening.hpp"
-#include "sim/team.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // What a calibration is held to (medians over 3 to 8 m, stopped, without noise).
 constexpr double kHeightGate_m = 0.10;
@@ -60,98 +56,67 @@ fs::path robot_file(const RunFlags& flags) {
   return fs::absolute(file);
 }
 
-Json json_of_drive(const calibration::DriveSummary& summary) {
-  return {{"drive", summary.name},        {"logs", summary.logs},         {"kicks", summary.kicks},
-          {"used", summary.used},         {"left_out", summary.left_out}, {"found", summary.found},
-          {"played_s", summary.played_s}, {"wall_s", summary.wall_s}};
-}
-
-Json json_of_aim(const experiment::AimErrors& errors) {
-  return {{"kicks", errors.kicks},
-          {"without_crossing", errors.without_crossing},
-          {"median_height_error_m", errors.median_height_m},
-          {"median_sideways_error_m", errors.median_sideways_m}};
-}
-
-std::string text_of_aim(const experiment::AimErrors& errors) {
-  return fmt::format("{} kicks, {} without a crossing; medians: height {:.3f} m, sideways {:.3f} m", errors.kicks,
-                     errors.without_crossing, errors.median_height_m, errors.median_sideways_m);
-}
-
-/// What the run says: a line a drive as it goes, and a report. With --json the lines go to standard error.
-class Report {
- public:
-  explicit Report(bool json) : json_(json) {}
-
-  void add(const calibration::DriveSummary& summary) {
-    std::FILE* const to = json_ ? stderr : stdout;
-    fmt::print(to, "{}: {} of {} kicks, {:.0f} s of play in {:.1f} s: {}\n", summary.name, summary.used, summary.kicks,
-               summary.played_s, summary.wall_s, summary.found);
-    for (const std::string& why : summary.left_out) fmt::print(to, "  left out: {}\n", why);
-    std::fflush(to);
-    document_["drives"].push_back(json_of_drive(summary));
-  }
-
-  void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
-              const experiment::AimErrors& truth, const std::vector<experiment::WorldFigure>& world) {
-    document_["file"] = file;
-    document_["robot"] = update.robot().name;
-    document_["changes"] = update.changes();
-    document_["check"] = json_of_aim(observed);
-    Json simulator{{"check", json_of_aim(truth)}, {"figures", Json::array()}};
-    for (const experiment::WorldFigure& figure : world) {
-      simulator["figures"].push_back({{"key", figure.key},
-                                      {"calibrated", figure.calibrated},
-                                      {"world", figure.world},
-                                      {"difference", figure.calibrated - figure.world}});
-    }
-    document_["simulator_truth"] = std::move(simulator);
-    if (json_) {
-      fmt::print("{}", evaluator::json_text(document_));
-      return;
-    }
-    fmt::print("\n");
-    for (const std::string& line : update.changes()) fmt::print("{}\n", line);
-    fmt::print("\ncheck, stopped and without noise, as the robot saw it: {}\n", text_of_aim(observed));
-    fmt::print("\nThe simulator's truth, which no fit has seen\ncheck: {}\n", text_of_aim(truth));
-    fmt::print("{:<26}{:>12}{:>12}{:>12}\n", "", "calibrated", "world", "difference");
-    for (const experiment::WorldFigure& figure : world) {
-      fmt::print("{:<26}{:>12.4f}{:>12.4f}{:>+12.4f}\n", figure.key, figure.calibrated, figure.world,
-                 figure.calibrated - figure.world);
-    }
-    fmt::print("\n{}\n", file);
-  }
-
- private:
-  bool json_;
-  Json document_{{"drives", Json::array()}};
+struct Worlds {
+  sim::Scenario drives;
+  sim::Scenario check;  // without noise
 };
 
-int calibrate(const RunFlags& flags) {
-  sim::Scenario scenario = config::load_scenario(flags.scenario);
-  sim::Scenario noise_free = config::load_scenario(flags.check);
+/// The worlds of drives and check, with a kicker as fast as the team's robot where one is named.
+Worlds worlds_of(const RunFlags& flags) {
+  Worlds worlds{config::load_scenario(flags.scenario), config::load_scenario(flags.check)};
   if (!flags.team.empty()) {
     const sim::Kicker kicker = sim::team_kicker(config::load_scenario(flags.team), flags.number);
-    scenario.kicker.speed_scale_ratio = noise_free.kicker.speed_scale_ratio = kicker.speed_scale_ratio;
+    worlds.drives.kicker.speed_scale_ratio = worlds.check.kicker.speed_scale_ratio = kicker.speed_scale_ratio;
   }
+  return worlds;
+}
+
+experiment::EveningOptions options_of(const RunFlags& flags, const sim::Scenario& world) {
   config::Settings settings = config::load_settings(flags.config);
   settings.run.log_level = flags.log_level;
-  settings = experiment::evening_settings(std::move(settings), scenario);
-  const experiment::EveningOptions options{
-      .scenario = scenario,
-      .settings = settings,
-      .start = config::load_robot(flags.start),
-      .name = flags.robot,
-      .seed = flags.seed,
-      .effort = flags.effort,
-      .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number),
-      .date = today()};
+  return {.scenario = world,
+          .settings = experiment::evening_settings(std::move(settings), world),
+          .start = config::load_robot(flags.start),
+          .name = flags.robot,
+          .seed = flags.seed,
+          .effort = flags.effort,
+          .flags = flags.team.empty() ? "" : fmt::format(" --team {} --number {}", flags.team, flags.number),
+          .date = today()};
+}
+
+/// Where the robot's file can be written and is not yet. Makes --out-dir.
+fs::path place_of(const RunFlags& flags) {
   robot_target(flags.robot, flags.out);  // refuses what is no name
-  const fs::path file = robot_file(flags);
+  fs::path file = robot_file(flags);
   std::error_code failed;
   fs::create_directories(flags.out_dir, failed);
   if (failed) throw std::runtime_error{fmt::format("cannot make --out-dir {}: {}", flags.out_dir, failed.message())};
   require_writable("the robot's file", file);
+  return file;
+}
+
+calibration::DrivePlan check_plan(const RunFlags& flags, const sim::Scenario& world) {
+  return {.name = "6_check",
+          .policy = kicking::PolicyName::kStopped,
+          .laser = world.laser.enabled,
+          .possessions = flags.effort.check_kicks,
+          .seed = flags.seed,
+          .settings = {}};
+}
+
+/// Does the calibration hold what it is held to? If not, says so.
+bool passes_gate(const experiment::AimErrors& observed) {
+  if (observed.median_height_m <= kHeightGate_m && observed.median_sideways_m <= kSidewaysGate_m) return true;
+  fmt::print(stderr, "trivela: the check missed its gate: {} m in height and {} m sideways\n", kHeightGate_m,
+             kSidewaysGate_m);
+  return false;
+}
+
+int calibrate(const RunFlags& flags) {
+  const Worlds worlds = worlds_of(flags);
+  const experiment::EveningOptions options = options_of(flags, worlds.drives);
+  const config::Settings& settings = options.settings;
+  const fs::path file = place_of(flags);
   fs::path part = file;
   part += ".part";  // until every figure is in it
 
@@ -160,29 +125,52 @@ int calibrate(const RunFlags& flags) {
     if (flags.in_process) return std::make_unique<experiment::DrivesInProcess>(world, settings);
     return std::make_unique<DriveMatches>(world, settings, fs::absolute(flags.out_dir), part, signals);
   };
-  Report report{flags.json};
+  RunReport report{flags.json};
   const experiment::Evening evening = experiment::play_evening(
-      options, *source_in(scenario), [&](const calibration::DriveSummary& summary) { report.add(summary); });
+      options, *source_in(worlds.drives), [&](const calibration::DriveSummary& summary) { report.add(summary); });
   evening.robot.write(file);
 
-  const calibration::DrivePlan check{.name = "6_check",
-                                     .policy = kicking::PolicyName::kStopped,
-                                     .laser = noise_free.laser.enabled,
-                                     .possessions = flags.effort.check_kicks,
-                                     .seed = flags.seed,
-                                     .settings = {}};
-  const calibration::DriveRecord played = source_in(noise_free)->play(check, evening.robot);
+  const calibration::DriveRecord played = source_in(worlds.check)->play(check_plan(flags, worlds.check), evening.robot);
   std::error_code none;
   fs::remove(part, none);
   const experiment::AimErrors observed = experiment::observed_errors(played.kicks, settings);
   report.finish(evening.robot, file.string(), observed, experiment::true_errors(played.kicks, settings),
-                experiment::against_world(evening.robot.robot(), scenario, settings));
-  const bool met = observed.median_height_m <= kHeightGate_m && observed.median_sideways_m <= kSidewaysGate_m;
-  if (!met) {
-    fmt::print(stderr, "trivela: the check missed its gate: {} m in height and {} m sideways\n", kHeightGate_m,
-               kSidewaysGate_m);
-  }
-  return met ? kDone : kDoneWithLoss;
+                experiment::against_world(evening.robot.robot(), worlds.drives, settings));
+  return passes_gate(observed) ? kDone : kDoneWithLoss;
+}
+
+void add_place_options(CLI::App& verb, RunFlags& flags) {
+  verb.add_option("--in", flags.in, "the world: simulation")->required()->check(CLI::IsMember({"simulation"}));
+  verb.add_option("--robot", flags.robot, "name of the calibrated robot")->capture_default_str();
+  verb.add_option("--seed", flags.seed, "same seed, same drives")->check(CLI::Range(0, 1000000))->capture_default_str();
+  verb.add_option("--out-dir", flags.out_dir, "folder of the records")->capture_default_str();
+  verb.add_option("--out", flags.out, "the robot's file; default NAME.toml in --out-dir");
+}
+
+void add_drive_options(CLI::App& verb, RunFlags& flags) {
+  verb.add_option("--start", flags.start, "the robot's file to start from")->capture_default_str();
+  verb.add_option("--scenario", flags.scenario, "world of the drives")->capture_default_str();
+  verb.add_option("--check-scenario", flags.check, "world of the check")->capture_default_str();
+  verb.add_option("--team", flags.team,
+                  "scenario of the matches: the drives have a kicker as fast as one of its robots")
+      ->check(readable_file());
+  verb.add_option("--number", flags.number, "which robot of the team")->check(CLI::Range(1, 5))->capture_default_str();
+  verb.add_option("--config", flags.config, "configuration of the nodes")->capture_default_str();
+}
+
+void add_effort_options(CLI::App& verb, calibration::CalibrationEffort& effort) {
+  verb.add_option("--kicks", effort.kicks, "standing kicks with each set-point, a round")
+      ->check(CLI::Range(2, 200))
+      ->capture_default_str();
+  verb.add_option("--lobs", effort.lobs, "accepted lobs that each set-point shall have")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  verb.add_option("--drive-kicks", effort.drive_kicks, "lateral and straight kicks with each velocity")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  verb.add_option("--turn-kicks", effort.turn_kicks, "kicks with each step of the turn drive's bisection")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -196,35 +184,9 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
       "passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,\n"
       "scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m\n"
       "sideways (medians).");
-  verb->add_option("--in", flags->in, "the world: simulation")->required()->check(CLI::IsMember({"simulation"}));
-  verb->add_option("--robot", flags->robot, "name of the calibrated robot")->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same drives")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  verb->add_option("--out-dir", flags->out_dir, "folder of the records")->capture_default_str();
-  verb->add_option("--out", flags->out, "the robot's file; default NAME.toml in --out-dir");
-  verb->add_option("--start", flags->start, "the robot's file to start from")->capture_default_str();
-  verb->add_option("--scenario", flags->scenario, "world of the drives")->capture_default_str();
-  verb->add_option("--check-scenario", flags->check, "world of the check")->capture_default_str();
-  verb->add_option("--team", flags->team,
-                   "scenario of the matches: the drives have a kicker as fast as one of its robots")
-      ->check(readable_file());
-  verb->add_option("--number", flags->number, "which robot of the team")
-      ->check(CLI::Range(1, 5))
-      ->capture_default_str();
-  verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
-  verb->add_option("--kicks", flags->effort.kicks, "standing kicks with each set-point, a round")
-      ->check(CLI::Range(2, 200))
-      ->capture_default_str();
-  verb->add_option("--lobs", flags->effort.lobs, "accepted lobs that each set-point shall have")
-      ->check(CLI::Range(2, 100))
-      ->capture_default_str();
-  verb->add_option("--drive-kicks", flags->effort.drive_kicks, "lateral and straight kicks with each velocity")
-      ->check(CLI::Range(1, 200))
-      ->capture_default_str();
-  verb->add_option("--turn-kicks", flags->effort.turn_kicks, "kicks with each step of the turn drive's bisection")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  add_place_options(*verb, *flags);
+  add_drive_options(*verb, *flags);
+  add_effort_options(*verb, flags->effort);
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();

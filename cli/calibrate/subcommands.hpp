@@ -13,4 +13,11 @@ void add_calibrate_transfer(CLI::App& calibrate, int& exit_code);
 void add_calibrate_delay(CLI::App& calibrate, int& exit_code);
 void add_calibrate_plot(CLI::App& calibrate, int& exit_code);
 
+/// `trivela calibrate run --in simulation`: every test drive through the real nodes, from an uncalibrated robot to a
+/// finished robot file. The simulator's truth is read once, for a report at the end.
+void add_calibrate_run(CLI::App& calibrate, int& exit_code);
+
+/// `trivela calibrate evenings`: many of them in process, beside the world's truth.
+void add_calibrate_evenings(CLI::App& calibrate, int& exit_code);
+
 }  // namespace trivela::cli

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "hal/scip/emulator.hpp"

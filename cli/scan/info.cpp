@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/verdicts_file.hpp"
-#include "cli/say.hpp"
+#include "cli/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/json_values.hpp"

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "cli/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "cli/write_file.hpp"
+#include "config/installation.hpp"
 #include "config/robot.hpp"
-#include "config/software_version.hpp"
 #include "kicking/random/draws.hpp"
 
 namespace trivela::cli {

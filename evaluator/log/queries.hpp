@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "evaluator/log/value.hpp"
+#include "evaluator/log/row.hpp"
 
 namespace trivela::evaluator::log {
 

@@ -1,4 +1,4 @@
-#include "evaluator/log/range_codec.hpp"
+#include "evaluator/log/scan_log.hpp"
 
 namespace trivela::evaluator::log {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "evaluator/log/log_check.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/row_digest.hpp"
-#include "evaluator/log/soundness.hpp"
 
 namespace trivela::evaluator::log {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/value.hpp"
+#include "evaluator/log/row.hpp"
 
 namespace trivela::evaluator::log {
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "evaluator/log/log_file.hpp"
-#include "evaluator/log/range_codec.hpp"
 #include "evaluator/log/scan_log.hpp"
 
 namespace trivela::evaluator::log {

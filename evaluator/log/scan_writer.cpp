@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
-#include "evaluator/log/range_codec.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
 #include "evaluator/log/session_writer.hpp"

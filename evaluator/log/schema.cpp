@@ -7,8 +7,8 @@
 #include <regex>
 
 #include "evaluator/log/before_version_4.sql.hpp"
-#include "evaluator/log/message_table.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
+#include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
 #include "evaluator/log/scan_schema_version_1.sql.hpp"
 #include "evaluator/log/schema.sql.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "evaluator/log/loss.hpp"
+#include "evaluator/log/row.hpp"
 #include "evaluator/log/session.hpp"
-#include "evaluator/log/value.hpp"
 
 namespace trivela::evaluator::log {
 

@@ -5,7 +5,7 @@
 
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/sample_size.hpp"
+#include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
 

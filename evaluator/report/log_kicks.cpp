@@ -118,18 +118,10 @@ void check(const LogKicks& options, const std::string& by, bool known_stratum) {
   }
 }
 
-}  // namespace
-
-KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
-  const LoggedOpportunities logged = read_opportunities(logs, options.truth);
-  std::set<std::string> arms;
-  for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
-  by = !options.by.empty() ? options.by : arms.size() > 1 ? "arm" : "policy";
-  const auto stratum_name = name_by(logged, options.stratify);
-  check(options, by, stratum_name.has_value());
-  const auto group_name = *name_by(logged, by);
+// The book without its opportunities: what is compared, and how. Throws where the logs do not say what is asked for.
+KickBook book_of(const LoggedOpportunities& logged, const LogKicks& options, const std::string& by) {
   KickBook book;
-  book.groups = groups_of(logged, by, group_name);
+  book.groups = groups_of(logged, by, *name_by(logged, by));
   if (book.groups.empty() && !logged.rows.empty()) {
     throw BadOption(fmt::format("by {0}: no session of these logs names its {0}{1}", by,
                                 by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
@@ -145,45 +137,53 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
   book.stratified_by = options.stratify;
   book.strata_of_kicks = options.stratify == "distance";
   if (options.stratify.ends_with("distance")) book.strata = distance_bins();
-  Settings settings{by};
-  std::map<std::optional<std::int64_t>, std::uint32_t> evenings;  // numbers of calibrations
-  std::vector<std::size_t> rows;                                  // of the opportunities
+  return book;
+}
+
+// What a row says by itself, without the numbers that the book gives to groups, strata, settings and calibrations.
+Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& session, bool blocked_apart) {
+  Opportunity opportunity;
+  opportunity.match = session.match;
+  if (o.has_possession && o.possession_id != 0) {
+    const std::uint64_t half = session.paired_halves ? 1 : static_cast<std::uint64_t>(o.half);
+    opportunity.id = half << 48 | static_cast<std::uint64_t>(o.possession_id);
+  }
+  opportunity.ending = blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
+  if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
+  opportunity.bounced = o.bounced;
+  opportunity.truth_bounced = o.truth_bounced;
+  opportunity.goal = o.goal;
+  return opportunity;
+}
+
+// The opportunities of the book, and sentences on the rows left out. Returns which row each of them is.
+std::vector<std::size_t> enter_opportunities(KickBook& book, const LoggedOpportunities& logged, const std::string& by,
+                                             bool drawn, Settings& settings) {
+  const Name group_name = *name_by(logged, by);
+  const auto stratum_name = name_by(logged, book.stratified_by);
   std::map<std::string, std::uint32_t> places;
   for (std::uint32_t i = 0; i < book.groups.size(); ++i) places[book.groups[i]] = i;
-  // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
-  const bool drawn = by == "policy" && std::ranges::any_of(logged.rows, was_drawn);
+  std::map<std::optional<std::int64_t>, std::uint32_t> evenings;  // numbers of calibrations
+  std::vector<std::size_t> rows;
   std::int64_t nameless = 0, certain = 0;
   for (std::size_t i = 0; i < logged.rows.size(); ++i) {
     const LoggedOpportunity& o = logged.rows[i];
     const auto group = places.find(group_name(o));
     if (group == places.end()) {
       ++nameless;
-      continue;
-    }
-    if (drawn && !was_drawn(o)) {
+    } else if (drawn && !was_drawn(o)) {
       ++certain;
-      continue;
+    } else {
+      const ComparedSession& session = logged.sessions[o.session];
+      Opportunity& opportunity = book.opportunities.emplace_back(opportunity_of(o, session, book.blocked_apart));
+      opportunity.group = group->second;
+      const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
+      opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
+      opportunity.setting = settings.of(session, o.policy);
+      opportunity.calibration = evenings.try_emplace(session.calibration_id, evenings.size()).first->second;
+      book.keeper = book.keeper || o.saved;
+      rows.push_back(i);
     }
-    rows.push_back(i);
-    Opportunity opportunity;
-    opportunity.group = group->second;
-    opportunity.match = logged.sessions[o.session].match;
-    if (o.has_possession && o.possession_id != 0) {
-      const std::uint64_t half = logged.sessions[o.session].paired_halves ? 1 : static_cast<std::uint64_t>(o.half);
-      opportunity.id = half << 48 | static_cast<std::uint64_t>(o.possession_id);
-    }
-    const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
-    opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
-    opportunity.setting = settings.of(logged.sessions[o.session], o.policy);
-    opportunity.ending = options.blocked_apart && o.blocked ? Ending::kBlocked : o.ending;
-    opportunity.calibration =
-        evenings.try_emplace(logged.sessions[o.session].calibration_id, evenings.size()).first->second;
-    if (opportunity.ending != Ending::kBlocked) opportunity.doubt = o.doubt;
-    opportunity.bounced = o.bounced;
-    opportunity.truth_bounced = o.truth_bounced;
-    opportunity.goal = o.goal;
-    book.keeper = book.keeper || o.saved;
-    book.opportunities.push_back(opportunity);
   }
   const auto unknown = static_cast<std::uint32_t>(book.strata.size());
   for (Opportunity& opportunity : book.opportunities) opportunity.stratum = std::min(opportunity.stratum, unknown);
@@ -191,9 +191,24 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
     book.remarks.push_back(
         fmt::format("{} {} without a {} left out", nameless, book.has_opportunities ? "opportunities" : "kicks", by));
   }
-  if (certain > 0) {
+  if (certain > 0)
     book.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
-  }
+  return rows;
+}
+
+}  // namespace
+
+KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
+  const LoggedOpportunities logged = read_opportunities(logs, options.truth);
+  std::set<std::string> arms;
+  for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
+  by = !options.by.empty() ? options.by : arms.size() > 1 ? "arm" : "policy";
+  check(options, by, name_by(logged, options.stratify).has_value());
+  KickBook book = book_of(logged, options, by);
+  Settings settings{by};
+  // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
+  const bool drawn = by == "policy" && std::ranges::any_of(logged.rows, was_drawn);
+  std::vector<std::size_t> rows = enter_opportunities(book, logged, by, drawn, settings);
   infer_design(book, logged, rows, by, drawn);
   if (book.design == Design::kPaired) {
     keep_first_of_paired_halves(book, logged, rows);

@@ -10,9 +10,7 @@
 #include <utility>
 
 #include "evaluator/report/pair_counts.hpp"
-#include "evaluator/report/policy_headline.hpp"
-#include "evaluator/stats/sample_ratio.hpp"
-#include "evaluator/stats/several_tests.hpp"
+#include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -140,4 +140,9 @@ std::string to_text(const PolicyComparison& comparison);
 /// Its keys are explained in docs/evaluation.md; null where there is no such number.
 std::string to_json(const PolicyComparison& comparison);
 
+/// What the verdict on a pair rests on: shots on target an opportunity where opportunities are known, else efficiency;
+/// within strata where that measure has them and the pair is not one of same opportunities; by match where there are
+/// enough. `smallest_effect` is a proportion. p is not adjusted for other pairs.
+Headline headline_of(const PairResult& pair, double smallest_effect);
+
 }  // namespace trivela::evaluator

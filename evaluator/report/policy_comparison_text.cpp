@@ -103,7 +103,7 @@ std::string rate_line(const std::string& name, const std::optional<stats::RateRa
                         p_value(ratio->p), ratio->by_match ? "clustered by match" : "Poisson, exact"));
 }
 
-std::string strata_text(const PairResult& pair, const Stratified& s) {
+std::string strata_table(const PairResult& pair, const Stratified& s) {
   Table table = {{s.column, pair.older, "", pair.newer, "", "difference"}};
   for (const StratumResult& row : s.strata) {
     const stats::Counts older = row.counts.older, newer = row.counts.newer;
@@ -121,13 +121,11 @@ std::string strata_text(const PairResult& pair, const Stratified& s) {
     text += fmt::format("  {} {} left out below: of situations that one side alone had, or unknown\n", s.left_out,
                         s.of_opportunities ? "opportunities" : "kicks");
   }
-  if (s.standardised) {
-    text += named_line("standardised",
-                       fmt::format("{} {}, {} {}: {}, 95 % {} (MOVER)", pair.older, percent(s.standardised->older),
-                                   pair.newer, percent(s.standardised->newer), points(s.standardised->difference.value),
-                                   points(s.standardised->difference.ci)));
-  }
-  if (s.clustered) text += named_line("", fmt::format("95 % {} ({})", points(s.clustered->ci), clusters(*s.clustered)));
+  return text;
+}
+
+std::string stratified_tests(const Stratified& s) {
+  std::string text;
   if (s.odds_ratio) {
     text += named_line("common odds ratio",
                        fmt::format("{:.3f}, 95 % {:.3f} to {:.3f} (Mantel-Haenszel; Robins, Breslow, Greenland)",
@@ -148,6 +146,19 @@ std::string strata_text(const PairResult& pair, const Stratified& s) {
         fmt::format("p {} (Breslow-Day){}", p_value(s.homogeneity->p),
                     s.homogeneity->p < 0.05 ? ": the policies differ more in some situations than in others" : ""));
   }
+  return text;
+}
+
+std::string strata_text(const PairResult& pair, const Stratified& s) {
+  std::string text = strata_table(pair, s);
+  if (s.standardised) {
+    text += named_line("standardised",
+                       fmt::format("{} {}, {} {}: {}, 95 % {} (MOVER)", pair.older, percent(s.standardised->older),
+                                   pair.newer, percent(s.standardised->newer), points(s.standardised->difference.value),
+                                   points(s.standardised->difference.ci)));
+  }
+  if (s.clustered) text += named_line("", fmt::format("95 % {} ({})", points(s.clustered->ci), clusters(*s.clustered)));
+  text += stratified_tests(s);
   if (s.simpson) {
     text +=
         bullet(fmt::format("Simpson's paradox: over all kicks one is better, on the same mix of {} the other; the mix "
@@ -169,28 +180,22 @@ std::string pairs_lines(const PairResult& pair) {
   return text;
 }
 
-std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
-  std::string text = fmt::format("\n{} against {}\n", pair.newer, pair.older);
-  if (!pair.headline) return text + bullet(pair.why_none + ".");
-  if (pair.per_opportunity) {
-    text += effect_lines("on target an opp.", *pair.per_opportunity, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+std::string kicks_text(const PairResult& pair) {
+  if (!pair.kicks) return "";
+  std::string text =
+      fmt::format("\n{} against {}: efficiency, every kick taken as independent\n", pair.newer, pair.older);
+  text += efficiency_lines(*pair.kicks);
+  if (pair.design == Design::kBeforeAfter && pair.kicks->e_value && pair.kicks->e_value_ci) {
+    text += named_line(
+        "E-value",
+        fmt::format("{:.2f} ({:.2f} for the interval): so strongly would something unrecorded have to go with both",
+                    *pair.kicks->e_value, *pair.kicks->e_value_ci));
   }
-  if (pair.goals) text += effect_lines("goals an opp.", *pair.goals, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
-  text += pairs_lines(pair);
-  if (pair.efficiency) text += effect_lines("efficiency", *pair.efficiency, "Newcombe, kicks independent");
-  text += rate_line("on target a minute", pair.on_target_rate);
-  text += rate_line("kicks a minute", pair.kick_rate);
-  if (pair.stratified) text += strata_text(pair, *pair.stratified);
-  if (pair.kicks) {
-    text += fmt::format("\n{} against {}: efficiency, every kick taken as independent\n", pair.newer, pair.older);
-    text += efficiency_lines(*pair.kicks);
-    if (pair.design == Design::kBeforeAfter && pair.kicks->e_value && pair.kicks->e_value_ci) {
-      text += named_line(
-          "E-value",
-          fmt::format("{:.2f} ({:.2f} for the interval): so strongly would something unrecorded have to go with both",
-                      *pair.kicks->e_value, *pair.kicks->e_value_ci));
-    }
-  }
+  return text;
+}
+
+std::string doubts_text(const PairResult& pair, const PolicyComparison& c) {
+  std::string text;
   if (pair.unknown > 0 || pair.expected_wrong > 0.0) {
     const std::string wrong = pair.expected_wrong > 0.0
                                   ? fmt::format(", and {:.1f} labels are expected to be wrong", pair.expected_wrong)
@@ -214,6 +219,23 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
                                       : "Which kick belongs to which match is not known: the intervals take kicks as "
                                         "independent, so the truth is less certain.");
   }
+  return text;
+}
+
+std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
+  std::string text = fmt::format("\n{} against {}\n", pair.newer, pair.older);
+  if (!pair.headline) return text + bullet(pair.why_none + ".");
+  if (pair.per_opportunity) {
+    text += effect_lines("on target an opp.", *pair.per_opportunity, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+  }
+  if (pair.goals) text += effect_lines("goals an opp.", *pair.goals, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+  text += pairs_lines(pair);
+  if (pair.efficiency) text += effect_lines("efficiency", *pair.efficiency, "Newcombe, kicks independent");
+  text += rate_line("on target a minute", pair.on_target_rate);
+  text += rate_line("kicks a minute", pair.kick_rate);
+  if (pair.stratified) text += strata_text(pair, *pair.stratified);
+  text += kicks_text(pair);
+  text += doubts_text(pair, c);
   return text;
 }
 

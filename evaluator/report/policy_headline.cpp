@@ -1,10 +1,10 @@
-#include "evaluator/report/policy_headline.hpp"
+#include "evaluator/report/policy_comparison.hpp"
 
 #include <algorithm>
 
+#include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/sample_size.hpp"
-#include "evaluator/stats/square.hpp"
+#include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -25,6 +25,42 @@ std::optional<double> needed(const Effect& effect, double standard_error, double
   return *kicks * (independent > 0.0 && standard_error > 0.0 ? stats::square(standard_error) / independent : 1.0);
 }
 
+void rest_on_matches(Headline& result, const PairResult& pair, const stats::Clustered& clustered) {
+  result.by_match = true;
+  result.difference = clustered.value;
+  result.ci = clustered.ci;
+  result.p = p_of(clustered);
+  result.method = pair.pairs        ? "paired, clustered by "
+                  : result.adjusted ? "standardised, clustered by "
+                                    : "clustered by ";
+  result.method += clustered.by_calibration ? "match and calibration" : "match";
+  result.p_method = "Student's t of the difference over matches";
+  if (clustered.by_calibration) result.p_method += " and calibrations";
+}
+
+void rest_on_strata(Headline& result, const Stratified& stratified) {
+  result.difference = stratified.standardised->difference.value;
+  result.ci = stratified.standardised->difference.ci;
+  result.p = stratified.cmh ? stratified.cmh->p : 1.0;
+  result.method = "standardised, MOVER of Wilson intervals";
+  result.p_method = "Cochran-Mantel-Haenszel";
+}
+
+void rest_on_counts(Headline& result, const PairResult& pair, const Effect& crude) {
+  result.difference = crude.difference;
+  result.ci = crude.independent;
+  if (pair.pairs) {
+    result.p = pair.mcnemar_p;
+    result.method = "Newcombe's for pairs";
+    result.p_method = "McNemar, exact";
+  } else {
+    const auto boschloo = stats::boschloo_two_sided_doubled(crude.older, crude.newer);
+    result.p = boschloo ? *boschloo : stats::fisher_two_sided(crude.older, crude.newer);
+    result.method = "Newcombe's";
+    result.p_method = boschloo ? "Boschloo, twice the smaller one-sided p" : "Fisher";
+  }
+}
+
 }  // namespace
 
 Headline headline_of(const PairResult& pair, double smallest_effect) {
@@ -34,41 +70,15 @@ Headline headline_of(const PairResult& pair, double smallest_effect) {
   result.adjusted = pair.stratified && pair.stratified->standardised && !pair.pairs &&
                     pair.stratified->of_opportunities == result.of_opportunities;
   const auto& clustered = result.adjusted ? pair.stratified->clustered : crude.clustered;
-  result.by_match = clustered.has_value();
-  double standard_error = 0.0;
   if (clustered) {
-    result.difference = clustered->value;
-    result.ci = clustered->ci;
-    standard_error = clustered->standard_error;
-    result.p = p_of(*clustered);
-    const std::string over = clustered->by_calibration ? "match and calibration" : "match";
-    result.method = (pair.pairs        ? "paired, clustered by "
-                     : result.adjusted ? "standardised, clustered by "
-                                       : "clustered by ") +
-                    over;
-    result.p_method = "Student's t of the difference over matches";
-    if (clustered->by_calibration) result.p_method += " and calibrations";
+    rest_on_matches(result, pair, *clustered);
   } else if (result.adjusted) {
-    result.difference = pair.stratified->standardised->difference.value;
-    result.ci = pair.stratified->standardised->difference.ci;
-    result.p = pair.stratified->cmh ? pair.stratified->cmh->p : 1.0;
-    result.method = "standardised, MOVER of Wilson intervals";
-    result.p_method = "Cochran-Mantel-Haenszel";
+    rest_on_strata(result, *pair.stratified);
   } else {
-    result.difference = crude.difference;
-    result.ci = crude.independent;
-    if (pair.pairs) {
-      result.p = pair.mcnemar_p;
-      result.method = "Newcombe's for pairs";
-      result.p_method = "McNemar, exact";
-    } else {
-      const auto boschloo = stats::boschloo_two_sided_doubled(crude.older, crude.newer);
-      result.p = boschloo ? *boschloo : stats::fisher_two_sided(crude.older, crude.newer);
-      result.method = "Newcombe's";
-      result.p_method = boschloo ? "Boschloo, twice the smaller one-sided p" : "Fisher";
-    }
+    rest_on_counts(result, pair, crude);
   }
-  if (!clustered) standard_error = 0.5 * (result.ci.hi - result.ci.lo) / stats::z_of(stats::kConfidence);
+  const double standard_error =
+      clustered ? clustered->standard_error : 0.5 * (result.ci.hi - result.ci.lo) / stats::z_of(stats::kConfidence);
   result.p_holm = result.p;
   result.verdict = stats::verdict(result.ci, smallest_effect);
   result.needed_for_smallest = needed(crude, standard_error, smallest_effect).value_or(0.0);

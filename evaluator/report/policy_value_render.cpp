@@ -5,7 +5,7 @@
 #include "evaluator/report/policy_value.hpp"
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
-#include "evaluator/stats/sample_ratio.hpp"
+#include "evaluator/stats/test_plan.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -1,5 +1,5 @@
 #include "evaluator/report/json_values.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 #include <span>
 
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"

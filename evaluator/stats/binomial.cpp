@@ -1,4 +1,4 @@
-#include "evaluator/stats/binomial.hpp"
+#include "evaluator/stats/exact.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>

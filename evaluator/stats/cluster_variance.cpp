@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "evaluator/stats/square.hpp"
+#include "evaluator/stats/counts.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

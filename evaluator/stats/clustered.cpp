@@ -8,8 +8,8 @@
 
 #include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/cluster_variance.hpp"
+#include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
@@ -57,6 +57,37 @@ BiasReduced with_calibrations(const BiasReduced& by_match, const ClusterVariance
   return {std::max(by_match.variance, by_both.variance), std::min(by_match.df, by_both.df)};
 }
 
+// The weighted difference as a sum of shares, and what each match adds to them.
+struct DifferenceParts {
+  std::vector<RatioPart> parts;  // of each stratum the older one's, then the newer one's
+  std::vector<RatioCell> cells;
+  std::vector<Influence> influences;
+  std::set<std::uint32_t> with_older, with_newer;  // matches
+};
+
+DifferenceParts parts_of(std::span<const MatchCounts> cells, const std::map<std::uint32_t, StratumTotal>& totals) {
+  DifferenceParts sum;
+  std::map<std::uint32_t, std::size_t> places;  // of the older one's part, by stratum
+  for (const auto& [number, total] : totals) {
+    places[number] = sum.parts.size();
+    sum.parts.push_back({real(total.older.inside), real(total.older.n), -total.weight, false});
+    sum.parts.push_back({real(total.newer.inside), real(total.newer.n), total.weight, true});
+  }
+  for (const MatchCounts& cell : cells) {
+    const auto found = places.find(cell.stratum);
+    if (found == places.end()) continue;
+    for (const auto& [place, counts] : {std::pair{found->second, cell.older}, {found->second + 1, cell.newer}}) {
+      if (counts.n == 0) continue;
+      const RatioPart& part = sum.parts[place];
+      const double x = real(counts.inside), n = real(counts.n), p = part.x / part.n;
+      (part.newer ? sum.with_newer : sum.with_older).insert(cell.match);
+      sum.cells.push_back({cell.match, place, x, n, spread_of_trials(n, p)});
+      sum.influences.push_back({cell.match, cell.calibration, part.weight * (x - n * p) / part.n});
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells, double confidence) {
@@ -70,33 +101,12 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
     independent +=
         square(total.weight) * (p1 * (1.0 - p1) / real(total.older.n) + p2 * (1.0 - p2) / real(total.newer.n));
   }
-  std::vector<RatioPart> parts;
-  std::vector<RatioCell> of_parts;
-  std::vector<Influence> influences;
-  std::map<std::uint32_t, std::size_t> places;  // of the older one's part, by stratum; the newer one's is the next
-  for (const auto& [number, total] : totals) {
-    places[number] = parts.size();
-    parts.push_back({real(total.older.inside), real(total.older.n), -total.weight, false});
-    parts.push_back({real(total.newer.inside), real(total.newer.n), total.weight, true});
-  }
-  std::set<std::uint32_t> with_older, with_newer;
-  for (const MatchCounts& cell : cells) {
-    const auto found = places.find(cell.stratum);
-    if (found == places.end()) continue;
-    for (const auto& [place, counts] : {std::pair{found->second, cell.older}, {found->second + 1, cell.newer}}) {
-      if (counts.n == 0) continue;
-      const RatioPart& part = parts[place];
-      const double x = real(counts.inside), n = real(counts.n), p = part.x / part.n;
-      (part.newer ? with_newer : with_older).insert(cell.match);
-      of_parts.push_back({cell.match, place, x, n, spread_of_trials(n, p)});
-      influences.push_back({cell.match, cell.calibration, part.weight * (x - n * p) / part.n});
-    }
-  }
-  result.older_matches = with_older.size();
-  result.newer_matches = with_newer.size();
+  const DifferenceParts sum = parts_of(cells, totals);
+  result.older_matches = sum.with_older.size();
+  result.newer_matches = sum.with_newer.size();
   if (std::min(result.older_matches, result.newer_matches) < kFewestMatches) return std::nullopt;
-  const ClusterVariance by_both = *cluster_variance(influences);
-  const BiasReduced spread = with_calibrations(bias_reduced(parts, merged(of_parts)), by_both);
+  const ClusterVariance by_both = *cluster_variance(sum.influences);
+  const BiasReduced spread = with_calibrations(bias_reduced(sum.parts, merged(sum.cells)), by_both);
   const double variance = spread.variance;
   result.df = spread.df;
   result.calibrations = by_both.calibrations;

@@ -26,4 +26,6 @@ struct Ratio {
 /// inside / n; none: no kick.
 std::optional<double> efficiency(Counts counts);
 
+constexpr double square(double x) { return x * x; }
+
 }  // namespace trivela::evaluator::stats

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/stats/square.hpp"
+#include "evaluator/stats/counts.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

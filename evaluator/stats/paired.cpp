@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/stats/binomial.hpp"
+#include "evaluator/stats/exact.hpp"
 #include "evaluator/stats/interval.hpp"
 
 namespace trivela::evaluator::stats {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "evaluator/stats/bias_reduced.hpp"
-#include "evaluator/stats/binomial.hpp"
 #include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/exact.hpp"
 
 namespace trivela::evaluator::stats {
 

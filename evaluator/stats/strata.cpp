@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "evaluator/stats/square.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -15,6 +15,12 @@ enum class Verdict {
   kNotEnoughData,        ///< it holds 0 and differences of interest
 };
 
-Verdict verdict(Interval interval, double smallest_effect = kSmallestEffect);
+inline Verdict verdict(Interval interval, double smallest_effect = kSmallestEffect) {
+  if (interval.lo > -smallest_effect && interval.hi < smallest_effect) return Verdict::kEquivalent;
+  if (interval.lo > smallest_effect) return Verdict::kBetter;
+  if (interval.lo > 0.0) return Verdict::kBetterMaybeTooSmall;
+  if (interval.hi < 0.0) return Verdict::kWorse;
+  return Verdict::kNotEnoughData;
+}
 
 }  // namespace trivela::evaluator::stats

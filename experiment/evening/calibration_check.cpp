@@ -10,7 +10,7 @@
 #include "kicking/fit/rotation_fit.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/policy/shot.hpp"
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::experiment {
 namespace {

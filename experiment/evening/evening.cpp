@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/run/in_threads.hpp"
-#include "sim/team.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::experiment {
 

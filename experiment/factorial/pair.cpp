@@ -7,8 +7,7 @@
 
 #include "evaluator/report/text_table.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "experiment/effects/effect_json.hpp"
-#include "experiment/effects/effect_text.hpp"
+#include "experiment/effects/render.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -11,8 +11,7 @@
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "evaluator/stats/interval.hpp"
-#include "experiment/effects/effect_json.hpp"
-#include "experiment/effects/effect_text.hpp"
+#include "experiment/effects/render.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -157,6 +156,27 @@ Json json_of_gain(const Gain& gain) {
   return {{"gain", json_of(gain.gain)}, {"calibration", json_of(gain.calibration)}, {"motion", json_of(gain.motion)}};
 }
 
+Json json_of_sweep(const FactorialReport& report) {
+  const SweepAnswer answer = answer_of(report.sweep, report.efficiency);
+  Json sweep{{"law", name(report.sweep_law)}, {"points", Json::array()}};
+  for (const SweepPoint& point : report.sweep) {
+    sweep["points"].push_back({{"opponent_median_m", point.opponent_median_m},
+                               {"kick_ratio", json_of(kick_ratio(point.older, point.newer))},
+                               {"old_stopped", json_of_arm(point.older, report.efficiency)},
+                               {"new_moving", json_of_arm(point.newer, report.efficiency)}});
+  }
+  sweep["ratio_at_m"] = evaluator::json_of(answer.ratio_at_m);
+  sweep["ratio_from_m"] = evaluator::json_of(answer.ratio_from_m);
+  sweep["ratio_to_m"] = evaluator::json_of(answer.ratio_to_m);
+  sweep["pair_within_m"] = Json::array();
+  for (const std::size_t i : answer.pair_within) sweep["pair_within_m"].push_back(report.sweep[i].opponent_median_m);
+  sweep["nearest_m"] = answer.nearest ? Json(report.sweep[*answer.nearest].opponent_median_m) : Json();
+  sweep["off_older"] = answer.nearest ? Json(answer.off_older) : Json();
+  sweep["off_newer"] = answer.nearest ? Json(answer.off_newer) : Json();
+  sweep["answer"] = sweep_sentence(report);
+  return sweep;
+}
+
 std::string csv_of_arm(const ArmTally& matches, Measure efficiency, const std::string& bias = "") {
   const MatchTally total = total_of(matches);
   return fmt::format("{},{},{},{},{},{},{},{},{},1\n", total.opportunities, total.kicks, total.on_target,
@@ -207,25 +227,7 @@ nlohmann::ordered_json to_json(const FactorialReport& report) {
                                {"on_target_per_opportunity", json_of(effect.per_opportunity)}});
   }
   if (!report.biases.empty()) json["pair"] = pair_json(report.biases);
-  if (report.sweep.empty()) return json;
-  const SweepAnswer answer = answer_of(report.sweep, report.efficiency);
-  Json sweep{{"law", name(report.sweep_law)}, {"points", Json::array()}};
-  for (const SweepPoint& point : report.sweep) {
-    sweep["points"].push_back({{"opponent_median_m", point.opponent_median_m},
-                               {"kick_ratio", json_of(kick_ratio(point.older, point.newer))},
-                               {"old_stopped", json_of_arm(point.older, report.efficiency)},
-                               {"new_moving", json_of_arm(point.newer, report.efficiency)}});
-  }
-  sweep["ratio_at_m"] = evaluator::json_of(answer.ratio_at_m);
-  sweep["ratio_from_m"] = evaluator::json_of(answer.ratio_from_m);
-  sweep["ratio_to_m"] = evaluator::json_of(answer.ratio_to_m);
-  sweep["pair_within_m"] = Json::array();
-  for (const std::size_t i : answer.pair_within) sweep["pair_within_m"].push_back(report.sweep[i].opponent_median_m);
-  sweep["nearest_m"] = answer.nearest ? Json(report.sweep[*answer.nearest].opponent_median_m) : Json();
-  sweep["off_older"] = answer.nearest ? Json(answer.off_older) : Json();
-  sweep["off_newer"] = answer.nearest ? Json(answer.off_newer) : Json();
-  sweep["answer"] = sweep_sentence(report);
-  json["sweep"] = std::move(sweep);
+  if (!report.sweep.empty()) json["sweep"] = json_of_sweep(report);
   return json;
 }
 

@@ -7,9 +7,7 @@
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_chart.hpp"
 #include "evaluator/report/text_table.hpp"
-#include "experiment/effects/effect_json.hpp"
-#include "experiment/effects/effect_text.hpp"
-#include "experiment/effects/interval_words.hpp"
+#include "experiment/effects/render.hpp"
 
 namespace trivela::experiment {
 namespace {

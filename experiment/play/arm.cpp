@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "sim/hand_table.hpp"
+#include "sim/kicker.hpp"
 #include "sim/scenario_fields.hpp"
-#include "sim/team.hpp"
 
 namespace trivela::experiment {
 

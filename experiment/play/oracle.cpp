@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::experiment {
 

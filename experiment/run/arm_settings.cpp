@@ -1,4 +1,4 @@
-#include "experiment/run/arm_settings.hpp"
+#include "experiment/run/arms.hpp"
 
 #include <fmt/format.h>
 

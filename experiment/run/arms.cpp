@@ -9,9 +9,8 @@
 
 #include "config/arms.hpp"
 #include "config/error.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/arm_settings.hpp"
 #include "robot/recording/session_text.hpp"
 
 namespace trivela::experiment {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "experiment/evening/evening.hpp"
-#include "experiment/run/evening_seed.hpp"
 #include "experiment/run/in_threads.hpp"
 
 namespace trivela::experiment {

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "config/error.hpp"
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
-#include "config/software_version.hpp"
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"

@@ -1,12 +1,10 @@
-#include "experiment/sensitivity/report.hpp"
+#include "experiment/sensitivity/analysis.hpp"
 
 #include <fmt/format.h>
 
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
-#include "experiment/effects/effect_json.hpp"
-#include "experiment/effects/effect_text.hpp"
-#include "experiment/effects/interval_words.hpp"
+#include "experiment/effects/render.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/svg_style.hpp"
-#include "experiment/sensitivity/report.hpp"
+#include "experiment/sensitivity/analysis.hpp"
 
 namespace trivela::experiment {
 namespace {

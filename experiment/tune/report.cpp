@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "evaluator/report/text_table.hpp"
-#include "experiment/effects/effect_text.hpp"
+#include "experiment/effects/render.hpp"
 
 namespace trivela::experiment {
 namespace {

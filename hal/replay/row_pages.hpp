@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -8,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "evaluator/log/row.hpp"
 #include "hal/replay/replay_log.hpp"
 #include "idl/meta.hpp"
 #include "idl/none.hpp"
@@ -37,8 +41,13 @@ T message_of(std::span<const evaluator::log::Value> cells) {
 }
 
 /// The query for a page of a message's recorded samples, from `after_seq` on.
-std::string page_sql(const ReplayLog& log, std::string_view message, const std::vector<std::string>& columns,
-                     std::int64_t after_seq);
+inline std::string page_sql(const ReplayLog& log, std::string_view message, const std::vector<std::string>& columns,
+                            std::int64_t after_seq) {
+  constexpr int kPageRows = 1024;
+  return fmt::format("SELECT {} FROM {} WHERE session_id = {} AND robot_id = {} AND seq > {} ORDER BY seq LIMIT {}",
+                     fmt::join(columns, ", "), evaluator::log::table_of_message(message).value(), log.session_id,
+                     log.robot_id, after_seq, kPageRows);
+}
 
 /// The recorded samples of a message in the order of seq, read a page at a time: a log may be larger than memory.
 template <bus::Message T>

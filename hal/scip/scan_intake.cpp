@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "hal/scip/status.hpp"
+#include "hal/scip/reply.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::scip {

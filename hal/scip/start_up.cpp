@@ -1,6 +1,6 @@
 #include "hal/scip/start_up.hpp"
 
-#include "hal/scip/status.hpp"
+#include "hal/scip/reply.hpp"
 
 namespace trivela::hal::scip {
 

@@ -1,4 +1,4 @@
-#include "hal/scip/status.hpp"
+#include "hal/scip/reply.hpp"
 
 #include <array>
 

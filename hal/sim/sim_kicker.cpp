@@ -1,7 +1,6 @@
 #include "hal/sim/sim_kicker.hpp"
 
-#include "hal/sim/both_ways.hpp"
-#include "hal/sim/read_newer.hpp"
+#include "hal/sim/sim_streams.hpp"
 
 namespace trivela::hal {
 namespace {

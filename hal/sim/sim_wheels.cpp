@@ -4,8 +4,7 @@
 #include <cmath>
 #include <exception>
 
-#include "hal/sim/both_ways.hpp"
-#include "hal/sim/read_newer.hpp"
+#include "hal/sim/sim_streams.hpp"
 #include "idl/none.hpp"
 
 namespace trivela::hal {

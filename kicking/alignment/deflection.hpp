@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kicking/ballistics/transfer.hpp"
-#include "kicking/geometry/elevation.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
+#include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/frames.hpp"
 
 namespace trivela::kicking {

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "kicking/ballistics/transfer.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
-#include "kicking/geometry/elevation.hpp"
+#include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/turned_pose.hpp"
 
 namespace trivela::kicking {

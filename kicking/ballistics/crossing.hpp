@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "kicking/constants.hpp"
-#include "kicking/geometry/elevation.hpp"
+#include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {
 

@@ -1,4 +1,4 @@
-#include "kicking/fit/isotonic.hpp"
+#include "kicking/fit/table_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

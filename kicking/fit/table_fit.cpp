@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "kicking/ballistics/lob.hpp"
-#include "kicking/fit/isotonic.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {

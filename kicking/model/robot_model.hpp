@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "kicking/ballistics/transfer.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/model/angle_table.hpp"

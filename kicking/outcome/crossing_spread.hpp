@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "kicking/ballistics/directed_kick.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/model/robot_model.hpp"

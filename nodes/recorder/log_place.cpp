@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "robot/recording/predecessor.hpp"
 
 namespace trivela::nodes {

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/step_done.hpp"
 #include "robot/recording/message_row.hpp"
 

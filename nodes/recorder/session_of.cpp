@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <optional>
 
+#include "config/installation.hpp"
 #include "config/scenario.hpp"
-#include "config/software_version.hpp"
 #include "evaluator/log/reader.hpp"
-#include "evaluator/log/value.hpp"
+#include "evaluator/log/row.hpp"
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "robot/decision/assignment.hpp"
 #include "robot/recording/session_text.hpp"
 

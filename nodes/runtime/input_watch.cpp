@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kicking/geometry/time.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
 namespace {

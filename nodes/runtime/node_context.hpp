@@ -15,9 +15,13 @@
 #include "bus/stop.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
-#include "nodes/runtime/now_ns.hpp"
 
 namespace trivela::nodes {
+
+/// A reading of a std::chrono clock in nanoseconds since that clock's epoch.
+std::int64_t now_ns(auto clock_now) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(clock_now.time_since_epoch()).count();
+}
 
 /// What every node is given: its settings, its robot, its place on the bus, its logger, and the word to stop.
 struct NodeContext {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/software_version.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "config/installation.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {

@@ -7,7 +7,7 @@
 
 #include "calibration/scanner_session.hpp"
 #include "kicking/geometry/time.hpp"
-#include "pages/lob/setup_json.hpp"
+#include "pages/lob/lob_json.hpp"
 
 namespace trivela::pages {
 namespace {

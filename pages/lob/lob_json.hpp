@@ -3,10 +3,17 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 
+#include "evaluator/log/scan_log.hpp"
+#include "kicking/lob/analyzer.hpp"
 #include "pages/lob/plan.hpp"
 
 namespace trivela::pages {
+
+/// What the page must know before it draws a scan. `mode`: "live" or "replay"; `file`: of the record.
+nlohmann::json setup_json(const std::string& mode, const std::string& file, const evaluator::log::ScanSession& session,
+                          const kicking::lob::AnalyzerConfig& config);
 
 /// One lob as the page shows it. "curve": {"x_m", "z_m", "k_per_m"} of z = z_m - k_per_m (x - x_m)^2 through its
 /// centres, with the curvature k = 4 H / D^2 of the effective fit; null where there is none.

@@ -15,7 +15,7 @@
 #include "pages/lob/page.css.hpp"
 #include "pages/lob/page.html.hpp"
 #include "pages/lob/page.js.hpp"
-#include "pages/lob/same_site.hpp"
+#include "pages/lob/site.hpp"
 
 namespace trivela::pages {
 namespace {

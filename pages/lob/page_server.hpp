@@ -4,8 +4,8 @@
 #include <string>
 
 #include "pages/lob/broadcast.hpp"
-#include "pages/lob/listen_address.hpp"
 #include "pages/lob/scene.hpp"
+#include "pages/lob/site.hpp"
 
 namespace trivela::pages {
 

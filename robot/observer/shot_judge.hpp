@@ -9,7 +9,6 @@
 #include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/outcome/outcome.hpp"
-#include "kicking/outcome/outcome_probability.hpp"
 
 namespace trivela::robot {
 

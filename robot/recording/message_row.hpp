@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluator/log/message_table.hpp"
-#include "evaluator/log/value.hpp"
+#include "evaluator/log/row.hpp"
 #include "idl/messages.hpp"
 
 namespace trivela::robot {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "kicking/lob/scan.hpp"
@@ -29,6 +30,10 @@ struct LaserModel {
 };
 
 /// The pose as the analyzer has to know it, for kicks from `launch`: x along u from there.
-kicking::lob::LaserMount mount_of(const LaserModel& laser, const Eigen::Vector3d& launch);
+inline kicking::lob::LaserMount mount_of(const LaserModel& laser, const Eigen::Vector3d& launch) {
+  const double along_m =
+      (laser.x_m - launch.x()) * -std::sin(laser.heading_rad) + (laser.y_m - launch.y()) * std::cos(laser.heading_rad);
+  return {along_m, laser.z_m, laser.front_elevation_rad, laser.mirrored};
+}
 
 }  // namespace trivela::sim

@@ -177,6 +177,30 @@ void drain(evaluator::log::Writer& log, std::int64_t rows) {
   }
 }
 
+/// Every robot's writer is there, and the robots say that they have their reader. A writer may know a reader before the
+/// reader knows the writer, and then its first samples are nobody's.
+bool robots_are_ready(bus::Participant& participant, const Plan& plan, const Pipe& report) {
+  bus::Reader<msg::KickDecision> watch{participant};
+  char ready = 0;
+  return watch.wait_for_writers(static_cast<std::size_t>(plan.robots), kPatience) &&
+         read(report.read_end(), &ready, 1) == 1;
+}
+
+/// What of it stands in the log, and what the log says is missing.
+void add_log(Result& result, const fs::path& path) {
+  const evaluator::log::Reader reader{path};
+  reader.query("SELECT (SELECT count(*) FROM kick_decisions), (SELECT count(*) FROM shadow_decisions)",
+               [&](const auto& row) {
+                 result.recorded = std::get<std::int64_t>(row[0]);
+                 result.shadows = std::get<std::int64_t>(row[1]);
+               });
+  for (const auto& loss : reader.losses()) {
+    result.gaps += loss.gaps;
+    result.overflow += loss.overflow;
+    result.refused += loss.nan_refused + loss.rejected;
+  }
+}
+
 Result measure(const Plan& plan) {
   const bus::DomainConfig domain =
       bus::loopback(1 + static_cast<unsigned>(getpid()) % 100, fmt::format("recorder-bench-{}", getpid()));
@@ -202,14 +226,7 @@ Result measure(const Plan& plan) {
   nodes::RecorderNode node{context, log};
   const double cpu_before_s = cpu_s();
   std::thread recording{[&] { bus::Executor{bus::Executor::kWaitset, stop, {&node.node()}}.run(); }};
-  {
-    // A writer may know a reader before the reader knows the writer, and then its first samples are nobody's.
-    bus::Reader<msg::KickDecision> watch{context.participant};
-    char ready = 0;
-    const bool found = watch.wait_for_writers(static_cast<std::size_t>(plan.robots), kPatience) &&
-                       read(report.read_end(), &ready, 1) == 1;
-    if (!found) release.close_end(1);
-  }
+  if (!robots_are_ready(context.participant, plan, report)) release.close_end(1);
   if (write(release.write_end(), "g", 1) != 1) fmt::print(stderr, "the robots' process is gone\n");
   Result result;
   const bool reported = read(report.read_end(), &result.sent, sizeof result.sent) == sizeof result.sent;
@@ -223,17 +240,7 @@ Result measure(const Plan& plan) {
   if (!reported) throw std::runtime_error{"the robots' process failed"};
 
   result.stats = log.stats();
-  const evaluator::log::Reader reader{path};
-  reader.query("SELECT (SELECT count(*) FROM kick_decisions), (SELECT count(*) FROM shadow_decisions)",
-               [&](const auto& row) {
-                 result.recorded = std::get<std::int64_t>(row[0]);
-                 result.shadows = std::get<std::int64_t>(row[1]);
-               });
-  for (const auto& loss : reader.losses()) {
-    result.gaps += loss.gaps;
-    result.overflow += loss.overflow;
-    result.refused += loss.nan_refused + loss.rejected;
-  }
+  add_log(result, path);
   return result;
 }
 

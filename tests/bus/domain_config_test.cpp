@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "bus/cyclone.hpp"
 #include "bus/domain.hpp"
-#include "bus/error.hpp"
 
 namespace trivela::bus {
 namespace {

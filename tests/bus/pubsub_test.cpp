@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "bus/error.hpp"
+#include "bus/cyclone.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

@@ -1,4 +1,4 @@
-#include "bus/scheduling.hpp"
+#include "bus/process.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

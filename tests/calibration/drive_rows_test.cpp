@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "calibration/rows/launch_track.hpp"
-#include "calibration/rows/release_track.hpp"
+#include "calibration/rows/recorded_drives.hpp"
 #include "kicking/fit/delay_fit.hpp"
 #include "kicking/geometry/time.hpp"
 #include "tests/calibration/drive_log.hpp"

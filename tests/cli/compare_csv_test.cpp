@@ -1,4 +1,4 @@
-#include "cli/compare_csv.hpp"
+#include "cli/compare_input.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/counts_argument.hpp"
+#include "cli/compare_input.hpp"
 #include "cli/verbs.hpp"
 
 namespace trivela::cli {

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "bus/domain.hpp"
 #include "bus/reader.hpp"
@@ -69,6 +71,14 @@ class Witness {
       });
     }
     return met();
+  }
+
+  /// Listens until so many more kicks, and then for half a second of the match: nothing of them is under way any more.
+  bool hears_kicks(std::size_t more) {
+    const std::size_t until = fires.size() + more;
+    if (!hears_until([&] { return fires.size() >= until; })) return false;
+    const std::int64_t kicked_t_ns = referee_t_ns;
+    return hears_until([&] { return referee_t_ns > kicked_t_ns + 500'000'000; });
   }
 
   std::vector<std::int64_t> odometry_t_ns;
@@ -131,6 +141,26 @@ class Match {
   std::map<std::string, std::unique_ptr<Program>> nodes_;
 };
 
+/// The longest time between two of these instants, one after the other: from and to.
+std::pair<std::int64_t, std::int64_t> longest_gap(const std::vector<std::int64_t>& t_ns) {
+  std::int64_t from = 0, to = 0;
+  for (std::size_t i = 1; i < t_ns.size(); ++i) {
+    if (t_ns[i] - t_ns[i - 1] <= to - from) continue;
+    from = t_ns[i - 1];
+    to = t_ns[i];
+  }
+  return {from, to};
+}
+
+/// The kicks that a driver accepted, by these logs.
+std::set<std::int64_t> accepted_in(std::initializer_list<const Reader*> logs) {
+  std::set<std::int64_t> kicks;
+  for (const Reader* log : logs)
+    for (const Row& row : rows_of(*log, "SELECT kick_id FROM kick_receipts GROUP BY kick_id HAVING min(accepted) = 1"))
+      kicks.insert(std::get<std::int64_t>(row[0]));
+  return kicks;
+}
+
 TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   Match match;
   Witness& witness = match.witness;
@@ -150,12 +180,7 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   EXPECT_THAT(match.node("recorder").errors(), HasSubstr("no odometry of robot 1 for 0."));
 
   // The longest gap that the witness heard is a row with his own times.
-  std::int64_t from = 0, to = 0;
-  for (std::size_t i = 1; i < witness.odometry_t_ns.size(); ++i) {
-    if (witness.odometry_t_ns[i] - witness.odometry_t_ns[i - 1] <= to - from) continue;
-    from = witness.odometry_t_ns[i - 1];
-    to = witness.odometry_t_ns[i];
-  }
+  const auto [from, to] = longest_gap(witness.odometry_t_ns);
   ASSERT_GT(to - from, 1'000'000'000);
   const Reader log{match.folder / "match.db"};
   const auto silence = rows_of(log,
@@ -184,23 +209,14 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
 TEST(Silence, ARecorderThatIsKilledAndStartedAgainGoesOnAndCountsTheKicksInBetween) {
   Match match;
   Witness& witness = match.witness;
-  const auto kicks_more = [&](std::size_t n) {
-    const std::size_t until = witness.fires.size() + n;
-    return witness.hears_until([&] { return witness.fires.size() >= until; });
-  };
-  // Half a second of the match after a kick nothing of it is under way.
-  const auto answered = [&] {
-    const std::int64_t kicked_t_ns = witness.referee_t_ns;
-    return witness.hears_until([&] { return witness.referee_t_ns > kicked_t_ns + 500'000'000; });
-  };
-  ASSERT_TRUE(kicks_more(2) && answered()) << match.node("kicker_driver").errors();
+  ASSERT_TRUE(witness.hears_kicks(2)) << match.node("kicker_driver").errors();
   match.node("recorder").signal(SIGKILL);
   match.node("recorder").wait();
-  ASSERT_TRUE(kicks_more(2) && answered());
+  ASSERT_TRUE(witness.hears_kicks(2));
   match.start("recorder");
   ASSERT_TRUE(wait_for_change(match.folder.path(), match.node("recorder").watch(),
                               [&] { return match.folder.files(".db").size() == 2; }));
-  ASSERT_TRUE(kicks_more(2) && answered());
+  ASSERT_TRUE(witness.hears_kicks(2));
   match.stop_all();
 
   std::string second;
@@ -214,10 +230,7 @@ TEST(Silence, ARecorderThatIsKilledAndStartedAgainGoesOnAndCountsTheKicksInBetwe
   EXPECT_EQ(rows_of(two, "SELECT * FROM continued").size(), 1u);
 
   // Each kick that the coil was told of stands in a log or is counted.
-  std::set<std::int64_t> recorded;
-  for (const Reader* log : {&one, &two})
-    for (const Row& row : rows_of(*log, "SELECT kick_id FROM kick_receipts GROUP BY kick_id HAVING min(accepted) = 1"))
-      recorded.insert(std::get<std::int64_t>(row[0]));
+  const std::set<std::int64_t> recorded = accepted_in({&one, &two});
   std::size_t unrecorded = 0;
   for (const std::int64_t kick : witness.fires) unrecorded += recorded.contains(kick) ? 0 : 1;
   EXPECT_GE(unrecorded, 1u) << "no kick fell between the logs";

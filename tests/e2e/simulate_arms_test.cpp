@@ -86,9 +86,7 @@ TEST(SimulateArms, OneOfArmAndSettingsSaysWhoPlays) {
               HasSubstr("free.toml:1: arm a: kick_decision.random_probabilities has 1 entries"));
 }
 
-TEST(SimulateArms, AnArmWithoutPolicyPlaysWhatItsSettingsSay) {
-  const Folder folder;
-  std::ofstream{folder / "arms.toml"} << R"(
+constexpr const char* kArmsWithoutPolicy = R"(
 [[arm]]
 name = "by robot"
 set = ["kick_decision.policy_by_robot = ['stopped', 'predictive']", "kick_decision.policy_by_half = ['moving']"]
@@ -103,33 +101,38 @@ name = "drawn by the arm"
 random = ["stopped", "moving"]
 random_probabilities = [0.25, 0.75]
 )";
+
+std::vector<Row> assignments_of(const Reader& log, const std::string& arm) {
+  return rows_of(log,
+                 "SELECT match_id, a.robot_id, possession_id, policy, probability FROM assignments AS a JOIN "
+                 "sessions USING (session_id) WHERE arm = '" +
+                     arm + "' ORDER BY match_id, possession_id");
+}
+
+/// How many policies played in an arm.
+auto policies_of(const Reader& log, const std::string& arm) {
+  return number_of(
+      log, "SELECT count(DISTINCT policy) FROM assignments JOIN sessions USING (session_id) WHERE arm = '" + arm + "'");
+}
+
+TEST(SimulateArms, AnArmWithoutPolicyPlaysWhatItsSettingsSay) {
+  const Folder folder;
+  std::ofstream{folder / "arms.toml"} << kArmsWithoutPolicy;
   run(folder, {"simulate", "--arms", "arms.toml", "--matches", "2", "--possessions", "20", "--scenario",
                std::string{TRIVELA_SOURCE_DIR} + "/config/scenarios/team.toml", "--out", "team.db"});
   const Reader log{folder / "team.db"};
-  const auto assignments = [&](const std::string& arm) {
-    return rows_of(log,
-                   "SELECT match_id, a.robot_id, possession_id, policy, probability FROM assignments AS a JOIN "
-                   "sessions USING (session_id) WHERE arm = '" +
-                       arm + "' ORDER BY match_id, possession_id");
-  };
   EXPECT_EQ(number_of(log,
                       "SELECT count(*) FROM assignments AS a JOIN sessions USING (session_id) WHERE arm = "
                       "'by robot' AND probability = 1 AND policy = CASE a.robot_id WHEN 1 THEN 'stopped' WHEN 2 "
                       "THEN 'predictive' ELSE 'moving' END"),
             40);
-  EXPECT_EQ(number_of(log,
-                      "SELECT count(DISTINCT policy) FROM assignments JOIN sessions USING (session_id) WHERE arm "
-                      "= 'by robot'"),
-            3);
+  EXPECT_EQ(policies_of(log, "by robot"), 3);
   EXPECT_EQ(number_of(log,
                       "SELECT count(*) FROM kick_decisions AS d LEFT JOIN assignments AS a USING (session_id, "
                       "robot_id, half, possession_id) WHERE d.policy IS NOT a.policy"),
             0);
-  EXPECT_EQ(assignments("drawn"), assignments("drawn by the arm"));
-  EXPECT_EQ(number_of(log,
-                      "SELECT count(DISTINCT policy) FROM assignments JOIN sessions USING (session_id) WHERE arm "
-                      "= 'drawn'"),
-            2);
+  EXPECT_EQ(assignments_of(log, "drawn"), assignments_of(log, "drawn by the arm"));
+  EXPECT_EQ(policies_of(log, "drawn"), 2);
   EXPECT_EQ(rows_of(log,
                     "SELECT DISTINCT arm, half, policy FROM session_policies AS p JOIN sessions USING (session_id) "
                     "WHERE p.robot_id = 0"),

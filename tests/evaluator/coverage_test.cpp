@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluator/stats/bayes.hpp"
-#include "evaluator/stats/binomial.hpp"
+#include "evaluator/stats/exact.hpp"
 #include "evaluator/stats/interval.hpp"
 #include "evaluator/stats/off_policy.hpp"
 #include "evaluator/stats/paired.hpp"

@@ -12,7 +12,7 @@
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/schema_check.hpp"
 #include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -9,7 +9,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 #include "tests/evaluator/older_log.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

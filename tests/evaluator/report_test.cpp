@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "evaluator/report/render.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/merged_log.hpp"
 

@@ -9,7 +9,7 @@
 #include "evaluator/log/migration.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/older_log.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "evaluator/stats/binomial.hpp"
+#include "evaluator/stats/exact.hpp"
 #include "evaluator/stats/interval.hpp"
 
 namespace trivela::evaluator::stats {

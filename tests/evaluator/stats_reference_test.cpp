@@ -9,9 +9,7 @@
 #include "evaluator/stats/label_doubt.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "evaluator/stats/robustness.hpp"
-#include "evaluator/stats/sample_ratio.hpp"
-#include "evaluator/stats/sample_size.hpp"
-#include "evaluator/stats/several_tests.hpp"
+#include "evaluator/stats/test_plan.hpp"
 #include "evaluator/stats/verdict.hpp"
 
 namespace trivela::evaluator::stats {

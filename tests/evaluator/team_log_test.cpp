@@ -5,7 +5,7 @@
 
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "experiment/factorial/play.hpp"
-#include "experiment/run/evening_seed.hpp"
+#include "experiment/run/evenings.hpp"
 
 namespace trivela::experiment {
 namespace {

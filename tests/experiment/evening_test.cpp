@@ -1,6 +1,6 @@
 // An evening of calibration in this process.
 #include "experiment/evening/evening.hpp"
-#include "config/place.hpp"
+#include "config/installation.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "experiment/frontier/report.hpp"
-#include "experiment/sensitivity/report.hpp"
+#include "experiment/sensitivity/analysis.hpp"
 #include "experiment/tune/space.hpp"
 #include "sim/scenario_fields.hpp"
 

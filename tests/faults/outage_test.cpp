@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "evaluator/report/render.hpp"
+#include "evaluator/report/table2.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/faults/stack.hpp"
 

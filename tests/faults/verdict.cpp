@@ -86,10 +86,11 @@ Times times_of(std::vector<double> values_s) {
   return {values_s[(values_s.size() - 1) / 2], values_s.back()};
 }
 
-std::string text(const Verdict& verdict) {
-  std::string out = fmt::format("{} faults with seed {} in {:.0f} s: {} orders, {} fires\n\n", verdict.trials.size(),
-                                verdict.seed, verdict.took_s, verdict.orders, verdict.fires.size());
-  out += "Faults by node (a link counts at both ends) and seconds until whole: topics heard, next kick\n";
+namespace {
+
+/// How often each node was hit, and how long it took to recover.
+std::string lines_by_node(const Verdict& verdict) {
+  std::string out = "Faults by node (a link counts at both ends) and seconds until whole: topics heard, next kick\n";
   out += fmt::format("  {:<14}", "node");
   for (const FaultKind kind : kKinds) out += fmt::format("{:>8}", name(kind));
   out += fmt::format("{:>9}{:>8}{:>8}{:>8}{:>8}\n", "not whole", "median", "worst", "median", "worst");
@@ -101,8 +102,14 @@ std::string text(const Verdict& verdict) {
     out += fmt::format("{:>9}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.2f}\n", row.unrecovered, streams.median_s, streams.worst_s,
                        kick.median_s, kick.worst_s);
   }
-  out += fmt::format("\nFrames on the links: {} forwarded, {} delayed, {} dropped, {} garbled\n",
-                     verdict.frames.forwarded, verdict.frames.delayed, verdict.frames.dropped, verdict.frames.garbled);
+  return out;
+}
+
+/// What the wire did, and the counts that must be 0.
+std::string counts_text(const Verdict& verdict) {
+  std::string out =
+      fmt::format("\nFrames on the links: {} forwarded, {} delayed, {} dropped, {} garbled\n", verdict.frames.forwarded,
+                  verdict.frames.delayed, verdict.frames.dropped, verdict.frames.garbled);
   out += fmt::format("Fires for an order that the garbled wire had given another id, which nobody can tell: {}\n",
                      verdict.forged.size());
   std::size_t crashed = 0;
@@ -116,6 +123,12 @@ std::string text(const Verdict& verdict) {
   out += fmt::format("  fires closer than the minimum interval      {:>6}\n", too_soon(verdict));
   out += fmt::format("  kicks neither in a log nor in a counted gap {:>6}\n", verdict.logged.lost.size());
   out += fmt::format("  faults that were not recovered from         {:>6}\n", unrecovered(verdict));
+  return out;
+}
+
+/// Each thing that was not in order.
+std::string findings_text(const Verdict& verdict) {
+  std::string out;
   const std::size_t told = std::min(verdict.findings.size(), kMostTold);
   for (std::size_t i = 0; i < told; ++i) {
     const Finding& finding = verdict.findings[i];
@@ -132,6 +145,14 @@ std::string text(const Verdict& verdict) {
     for (const std::string& crash : trial.crashed) out += fmt::format("  \"{}\": {}\n", text(trial.fault), crash);
   }
   return out;
+}
+
+}  // namespace
+
+std::string text(const Verdict& verdict) {
+  return fmt::format("{} faults with seed {} in {:.0f} s: {} orders, {} fires\n\n", verdict.trials.size(), verdict.seed,
+                     verdict.took_s, verdict.orders, verdict.fires.size()) +
+         lines_by_node(verdict) + counts_text(verdict) + findings_text(verdict);
 }
 
 nlohmann::json json(const Verdict& verdict) {

@@ -14,7 +14,6 @@
 #include "hal/scip/reply.hpp"
 #include "hal/scip/scan_intake.hpp"
 #include "hal/scip/start_up.hpp"
-#include "hal/scip/status.hpp"
 
 namespace {
 

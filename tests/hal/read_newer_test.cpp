@@ -1,4 +1,4 @@
-#include "hal/sim/read_newer.hpp"
+#include "hal/sim/sim_streams.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "hal/scip/codec.hpp"
-#include "hal/scip/status.hpp"
+#include "hal/scip/reply.hpp"
 #include "tests/hal/scip_text.hpp"
 
 namespace trivela::hal::scip {

@@ -1,4 +1,4 @@
-#include "kicking/ballistics/directed_kick.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kicking/outcome/outcome_probability.hpp"
+#include "kicking/outcome/outcome.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <random>
 
-#include "kicking/fit/isotonic.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/vector_rows.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "evaluator/log/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
-#include "nodes/runtime/now_ns.hpp"
+#include "nodes/runtime/node_context.hpp"
 #include "robot/recording/predecessor.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"

@@ -1,9 +1,8 @@
-#include "pages/lob/same_site.hpp"
+#include "pages/lob/site.hpp"
 
 #include <gtest/gtest.h>
 
 #include "config/error.hpp"
-#include "pages/lob/listen_address.hpp"
 
 namespace trivela::pages {
 namespace {

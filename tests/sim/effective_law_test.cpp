@@ -4,7 +4,7 @@
 
 #include "kicking/outcome/crossing_spread.hpp"
 #include "sim/flight.hpp"
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::sim {
 namespace {

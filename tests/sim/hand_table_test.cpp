@@ -6,7 +6,7 @@
 
 #include "kicking/ballistics/drag.hpp"
 #include "sim/flight.hpp"
-#include "sim/kicker_table.hpp"
+#include "sim/kicker.hpp"
 
 namespace trivela::sim {
 namespace {

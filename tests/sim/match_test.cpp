@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "sim/kicker.hpp"
 #include "sim/opportunity.hpp"
-#include "sim/team.hpp"
 #include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {

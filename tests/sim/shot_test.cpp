@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "sim/margin.hpp"
-
 namespace trivela::sim {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kicking/ballistics/directed_kick.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
 
 namespace trivela::kicking {
 namespace {

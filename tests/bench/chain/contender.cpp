@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-#include "bus/scheduling.hpp"
+#include "bus/process.hpp"
 
 namespace trivela::bench {
 

@@ -8,7 +8,7 @@
 #include <deque>
 #include <optional>
 
-#include "bus/scheduling.hpp"
+#include "bus/process.hpp"
 #include "tests/bench/chain/contender.hpp"
 #include "tests/bench/chain/dds_chain.hpp"
 #include "tests/bench/chain/hogs.hpp"

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+namespace trivela::bus {
+
+/// The bus cannot go on: names the call, the topic or thing, and the reason.
+class Error : public std::runtime_error {
+ public:
+  Error(std::string_view call, std::string_view about, std::string_view reason);
+};
+
+/// Returns a result of Cyclone's API as it is, or throws Error with Cyclone's text if it is negative.
+std::int32_t checked(std::int32_t result, std::string_view call, std::string_view about);
+
+/// Owns one handle of Cyclone's; deleted with its owner. 0: none.
+class Entity {
+ public:
+  Entity() = default;
+  explicit Entity(std::int32_t handle) : handle_(handle) {}
+  Entity(Entity&& other) noexcept : handle_(other.release()) {}
+  Entity& operator=(Entity&& other) noexcept;
+  ~Entity() { reset(); }
+
+  std::int32_t handle() const { return handle_; }
+  void reset() noexcept;
+
+ private:
+  std::int32_t release() noexcept;
+
+  std::int32_t handle_ = 0;
+};
+
+}  // namespace trivela::bus

@@ -1,0 +1,109 @@
+#include "evaluator/log/log_check.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "evaluator/log/log_file.hpp"
+#include "evaluator/log/row_digest.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+constexpr int kFirstWithTexts = 2;  // versions
+
+[[noreturn]] void damaged(const LogFile& file, const std::string& what) {
+  throw std::runtime_error(fmt::format("the match log {} is damaged or was changed: {}", file.path(), what));
+}
+
+void check_hashes(const LogFile& file, const std::string& pairs, const std::string& what) {
+  file.query(pairs, [&](const std::string& named, const std::string& text) {
+    if (const std::string is = sha256(text); is != named)
+      damaged(file, fmt::format("{} named {:.64} has the SHA-256 {}", what, named, is));
+  });
+}
+
+struct DigestedSession {
+  std::int64_t session_id = 0;
+  std::string uuid;
+  bool closed = false;
+  std::optional<RowDigest> noted;
+};
+
+std::vector<DigestedSession> digested_sessions(const LogFile& file) {
+  std::vector<DigestedSession> sessions;
+  file.query(
+      "SELECT s.session_id, s.uuid, s.closed_t_ns IS NOT NULL, d.row_count, d.sha256 FROM main.sessions AS s "
+      "LEFT JOIN main.digests AS d USING (session_id) ORDER BY s.session_id",
+      [&](std::int64_t session_id, const std::string& uuid, bool closed, std::optional<std::int64_t> row_count,
+          std::optional<std::string> sha256) {
+        DigestedSession& session = sessions.emplace_back(DigestedSession{session_id, uuid, closed, {}});
+        if (row_count) session.noted = RowDigest{*row_count, std::move(sha256).value_or("")};
+      });
+  return sessions;
+}
+
+void check_that_rows_have_sessions(const LogFile& file) {
+  const auto check = [&](std::string_view table) {
+    file.query(fmt::format("SELECT session_id FROM main.{} WHERE session_id NOT IN (SELECT session_id FROM "
+                           "main.sessions) LIMIT 1",
+                           table),
+               [&](std::int64_t) { damaged(file, fmt::format("{} has rows of no session", table)); });
+  };
+  for (const DigestedTable& table : digested_tables()) check(table.name);
+  check("digests");
+}
+
+}  // namespace
+
+void check_texts(const LogFile& file) {
+  if (file.version() < kFirstWithTexts) {
+    check_hashes(file, "SELECT config_sha256, config_toml FROM main.sessions", "the configuration");
+    return;
+  }
+  check_hashes(file, "SELECT sha256, text FROM main.texts", "the text");
+  check_hashes(file, "SELECT arguments_sha256, arguments FROM main.experiments", "the experiment's arguments");
+  for (const char* const text : {"config_sha256", "idl_sha256"}) {
+    file.query(
+        fmt::format("SELECT uuid FROM main.sessions WHERE {} NOT IN (SELECT sha256 FROM main.texts) LIMIT 1", text),
+        [&](const std::string& uuid) {
+          damaged(file, fmt::format("the text that {} of session {} names is not there", text, uuid));
+        });
+  }
+}
+
+Verification unverified(const LogFile& file) {
+  Verification found;
+  const bool has_digests = file.version() >= kFirstWithDigests;
+  file.query(
+      has_digests
+          ? "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
+            "session_id NOT IN (SELECT session_id FROM main.digests))"
+          : "SELECT 0, count(*) FROM main.sessions",
+      [&](std::int64_t rows, std::int64_t without_digest) {
+        found.rows = rows;
+        found.without_digest = without_digest;
+      });
+  return found;
+}
+
+Verification verify(const LogFile& file) {
+  Verification found = unverified(file);
+  if (file.version() < kFirstWithDigests) return found;
+  check_that_rows_have_sessions(file);
+  RowDigests digests(file.database(), file.version());
+  for (const DigestedSession& session : digested_sessions(file)) {
+    if (!session.noted && !session.closed) continue;
+    if (!session.noted)
+      damaged(file, fmt::format("session {} has ended, but the digest of its rows is not there", session.uuid));
+    const RowDigest is = digests.of(session.session_id);
+    if (is == *session.noted) continue;
+    damaged(file, fmt::format("the rows of session {} are not those that were recorded ({} rows, digest {:.12}...; "
+                              "recorded {} rows, digest {:.12}...)",
+                              session.uuid, is.row_count, is.sha256, session.noted->row_count, session.noted->sha256));
+  }
+  found.compared = true;
+  return found;
+}
+
+}  // namespace trivela::evaluator::log
