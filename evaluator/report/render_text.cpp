@@ -33,9 +33,10 @@ std::string who_played(const std::vector<log::HalfPolicy>& policies) {
     const bool own = robot_id != 0;
     if (own) text += fmt::format(", robot {}", robot_id);
     if (!own && by_robot.size() > 1) text += ", other robots";
-    const bool one = std::ranges::all_of(halves, [&](auto* half) { return half->policy == halves.front()->policy; });
+    const std::string& first = halves.front()->policy;
+    const bool one = std::ranges::all_of(halves, [&](auto* half) { return half->policy == first; });
     const bool alone = by_robot.size() == 1 && !own;
-    if (one && !alone) text += fmt::format(" {}", printable(halves.front()->policy));
+    if (one && !alone) text += fmt::format(" {}", printable(first));
     for (const log::HalfPolicy* const half : halves) {
       if (!one || alone) text += fmt::format("{} half {} {}", alone ? "," : "", half->half, printable(half->policy));
     }
