@@ -15,7 +15,7 @@ int main() {
   std::printf("%s: %s, %.2f m from the target\n", judgement.fire ? "fire" : "hold", name(judgement.reason),
               judgement.distance_m);
   if (judgement.power) std::printf("power %.3f for %.3f m/s\n", *judgement.power, *judgement.v_kick_mps);
-  if (judgement.predicted)
+  if (judgement.predicted)  // it lands on the line: by default heights are by the paper's law
     std::printf("crosses the goal line at x = %.3f m, z = %.3f m\n", judgement.predicted->x_m,
                 judgement.predicted->z_m);
 }

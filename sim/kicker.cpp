@@ -49,13 +49,13 @@ Exit effective_exit(const Exit& true_exit, const BallPhysics& ball) {
       {{0.0, 0.0, 100.0}, {0.0, true_exit.speed_mps * std::cos(elevation), true_exit.speed_mps * std::sin(elevation)}}};
   const double launch_z = now.position_m.z();
   double apex = 0.0;
-  constexpr double kStep_s = 1e-3;
+  constexpr double kFine_s = 1e-3;
   for (;;) {
     BallMotion next = now;
-    advance(next, ball, kStep_s);
+    advance(next, ball, kFine_s);
     if (now.velocity_mps.z() > 0.0 && next.velocity_mps.z() <= 0.0) {
       const double fraction = now.velocity_mps.z() / (now.velocity_mps.z() - next.velocity_mps.z());
-      apex = now.position_m.z() - launch_z + 0.5 * now.velocity_mps.z() * fraction * kStep_s;
+      apex = now.position_m.z() - launch_z + 0.5 * now.velocity_mps.z() * fraction * kFine_s;
     }
     if (next.position_m.z() <= launch_z) {
       const double fraction = (now.position_m.z() - launch_z) / (now.position_m.z() - next.position_m.z());

@@ -2,9 +2,9 @@
 
 #include "kicking/policy/policy.hpp"
 
-/// Whether a robot shall kick now, and how hard: four nouns, and `judge` that makes the fourth of the other three. SI
-/// units; the field's origin is its centre spot, +y points to the opponents' goal, +x to the right, and a heading of 0
-/// faces the goal. Everything is a value, and nothing is allocated.
+/// Whether a robot shall kick now, and how hard: four nouns, a robot, a goal, a state and a judgement, and `judge` that
+/// makes the fourth of the other three. SI units; the field's origin is its centre spot, +y points to the opponents'
+/// goal, +x to the right, and a heading of 0 faces the goal. Everything is a value, and nothing is allocated.
 ///
 ///     const trivela::RobotModel robot;
 ///     const trivela::Goal goal{.y_m = 9.0};
@@ -20,7 +20,8 @@ using kicking::Goal;
 using kicking::Judgement;
 using kicking::RobotModel;
 
-/// What one instant knows: where the robot is and how it moves, whether the game runs and it has the ball.
+/// What one instant knows: where the robot is and how it moves, and whether the game runs, it has the ball and the
+/// kicker is ready, which are false until they are said: then it holds.
 using State = kicking::PolicyInput;
 
 using kicking::PolicyConfig;
@@ -30,7 +31,7 @@ using kicking::PolicyName;
 /// Fire or hold in each cycle of a match: the memory is the policy's own and goes from call to call.
 using kicking::judge;
 
-/// The same of an instant by itself, which nothing went before.
+/// The same of an instant by itself, which nothing went before; who judges comes last, since there is a usual one.
 inline Judgement judge(const RobotModel& robot, const Goal& goal, const State& state,
                        PolicyName policy = PolicyName::kMoving, const PolicyConfig& config = {}) {
   PolicyMemory nothing;

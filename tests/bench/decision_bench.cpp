@@ -49,7 +49,7 @@ void moving_kick_decision(benchmark::State& state, HeightLaw height, MotionLaw m
 BENCHMARK_CAPTURE(moving_kick_decision, paper, HeightLaw::kPaper, MotionLaw::kPaper, AlphaLaw::kPaperLine);
 BENCHMARK_CAPTURE(moving_kick_decision, released_code, HeightLaw::kExtendedRange, MotionLaw::kPaper,
                   AlphaLaw::kPaperLine);
-BENCHMARK_CAPTURE(moving_kick_decision, defaults, HeightLaw::kExact, MotionLaw::kExact, AlphaLaw::kPaperLine);
+BENCHMARK_CAPTURE(moving_kick_decision, exact, HeightLaw::kExact, MotionLaw::kExact, AlphaLaw::kPaperLine);
 BENCHMARK_CAPTURE(moving_kick_decision, physical, HeightLaw::kExact, MotionLaw::kExact, AlphaLaw::kPhysical);
 
 void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, PolicyName::kStopped, {}); }
