@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -86,9 +87,11 @@ std::vector<std::string> columns_of() {
 /// The label of an enum's value, e.g. "wide_left" for OUTCOME_WIDE_LEFT; "invalid" for a number outside the enum (the
 /// bus does not check the range).
 template <Enumeration E>
-constexpr const char* label(E value) {
+constexpr const char* label(const E& value) {
+  // By its bits: to load a number outside the enum as its type is undefined.
+  const auto number = std::bit_cast<std::underlying_type_t<E>>(value);
   for (const auto& e : enumeration<E>::enumerators)
-    if (e.value == value) return e.label;
+    if (std::bit_cast<std::underlying_type_t<E>>(e.value) == number) return e.label;
   return "invalid";
 }
 

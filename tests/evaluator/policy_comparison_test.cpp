@@ -160,8 +160,8 @@ TEST_F(PolicyComparisonTest, TheSameArmsByPolicyOrTableAreReadToo) {
   EXPECT_EQ(compared({.by = "policy"}).pairs[0].design, Design::kPaired);
   EXPECT_THAT(message_of({.by = "table"}), HasSubstr("the only table is 'new'"));
   EXPECT_THAT(message_of({.by = "robot"}), HasSubstr("the only robot is 'robot 1'"));
-  EXPECT_THAT(message_of({.by = "floor"}), HasSubstr("--by 'floor'"));
-  EXPECT_THAT(message_of({.stratify = "floor"}), HasSubstr("--stratify 'floor'"));
+  EXPECT_THAT(message_of({.by = "floor"}), testing::StartsWith("by 'floor': a match log is compared by"));
+  EXPECT_THAT(message_of({.stratify = "floor"}), testing::StartsWith("stratify 'floor': a match log has"));
 }
 
 TEST_F(PolicyComparisonTest, FewMatchesGiveTheIntervalOfPairsAndSaySo) {

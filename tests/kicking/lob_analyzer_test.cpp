@@ -266,7 +266,9 @@ std::vector<Scan> scans_of(const std::function<std::vector<Disc>(double)>& scene
         const double q = x * std::sin(angle) - z * std::cos(angle);
         const double depth2 = disc.radius_m * disc.radius_m - q * q;
         if (along <= 0.0 || depth2 <= 0.0) continue;
-        const auto range_mm = static_cast<std::uint32_t>(1000.0 * (along - std::sqrt(depth2)));
+        const double range_m = along - std::sqrt(depth2);
+        if (range_m < 0.0) continue;  // the scanner is inside
+        const auto range_mm = static_cast<std::uint32_t>(1000.0 * range_m);
         if (scans[j].range_mm[i] < 100 || range_mm < scans[j].range_mm[i]) scans[j].range_mm[i] = range_mm;
       }
     }
