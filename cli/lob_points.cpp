@@ -54,7 +54,7 @@ class ReturnRows {
   std::set<std::pair<std::int64_t, long>> beams_;
 };
 
-Json to_json(const LobRecord& lob) {
+Json lob_json(const LobRecord& lob) {
   Json effective = evaluator::effective_json(lob, evaluator::EstimateForm::kBeside);
   Json true_values = evaluator::true_json(lob, evaluator::EstimateForm::kBeside);
   if (lob.effective) effective["residual_rms_m"] = lob.effective->residual_rms_m;
@@ -76,7 +76,7 @@ std::string line(const char* what, const Estimate& estimate, const char* unit, d
   return fmt::format("  {:<12}{:8.3f} +- {:.3f} {}\n", what, estimate.value * scale, estimate.se * scale, unit);
 }
 
-std::string to_text(const LobRecord& lob) {
+std::string lob_text(const LobRecord& lob) {
   std::string text = fmt::format("{} centres of the ball: {}\n", lob.centres.size(),
                                  lob.refusal == kicking::lob::Refusal::kNone
                                      ? "a lob"
@@ -142,7 +142,7 @@ int run_lob_points(const PointsFlags& flags, const kicking::lob::ScannerPlace& p
   if (flags.centre == "middle") config.centre = kicking::lob::CentreMethod::kMiddleOfLimits;
   config.drag_coefficient = flags.cd;
   const LobRecord lob = kicking::lob::analyse_returns(*returns, place, config);
-  std::cout << (flags.json ? evaluator::json_text(to_json(lob)) : to_text(lob)) << std::flush;
+  std::cout << (flags.json ? evaluator::json_text(lob_json(lob)) : lob_text(lob)) << std::flush;
   return lob.refusal == kicking::lob::Refusal::kNone ? kDone : kFailed;
 }
 
