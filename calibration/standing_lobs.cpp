@@ -63,6 +63,7 @@ std::vector<std::string> without_lob(const std::vector<DriveRecord>& records, st
     }
   }
   std::vector<std::string> sentences;
+  sentences.reserve(refused.size() + 1);
   for (const auto& [why, flights] : refused)
     sentences.push_back(fmt::format("{} flight{}: {}", flights, flights == 1 ? "" : "s", why));
   if (const std::size_t unseen = kicks - std::min(seen, kicks); unseen > 0)

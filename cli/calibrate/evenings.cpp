@@ -71,6 +71,7 @@ EveningsReport play_study(const EveningsFlags& flags) {
   if (!flags.out_dir.empty()) write_robots(evenings, flags.out_dir);
 
   std::vector<double> kicks;
+  kicks.reserve(evenings.size());
   for (const experiment::Evening& evening : evenings) kicks.push_back(static_cast<double>(kicks_of(evening)));
   EveningsReport report{
       .mean_kicks = std::accumulate(kicks.begin(), kicks.end(), 0.0) / static_cast<double>(kicks.size()),
