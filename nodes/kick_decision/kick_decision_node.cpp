@@ -7,6 +7,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/kick_id.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -101,6 +102,13 @@ void KickDecisionNode::stay_alive() {
   if (now - asserted_ < std::chrono::milliseconds(20)) return;
   order_out_.assert_liveliness();
   asserted_ = now;
+}
+
+int kick_decision_main(int argc, char** argv) {
+  return node_main(argc, argv, "kick_decision", [](NodeContext& context) {
+    KickDecisionNode node{context};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hal/open.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -120,6 +122,13 @@ void KickerDriverNode::on_order(const msg::KickOrder& order) {
 
 void KickerDriverNode::report_done(std::int64_t t_ns) {
   step_done(step_done_, context_.robot_id(), msg::STEP_KICKER_DRIVER, t_ns, desk_.handled(), desk_.fires());
+}
+
+int kicker_driver_main(int argc, char** argv) {
+  return node_main(argc, argv, "kicker_driver", [](NodeContext& context) {
+    KickerDriverNode node{context, hal::open_kicker(context.settings.hal, {context.participant, context.robot_id()})};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -78,6 +80,13 @@ void OdometryNode::on_drive(const msg::DriveCommand& command) {
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_ODOMETRY, command.t_ns);
   if (context_.settings.run.lockstep) cycle_over_.release();
+}
+
+int odometry_main(int argc, char** argv) {
+  return node_main(argc, argv, "odometry", [](NodeContext& context) {
+    OdometryNode node{context, hal::open_wheels(context.settings.hal, {context.participant, context.robot_id()})};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -1,12 +1,18 @@
 #include "nodes/recorder/recorder_node.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "bus/executor.hpp"
+#include "nodes/recorder/log_place.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/step_done.hpp"
 #include "robot/recording/message_row.hpp"
 
@@ -115,6 +121,31 @@ void RecorderNode::store_beside(const msg::KickDecision& decision, std::int64_t 
     robot::write_shadow(row, decision.robot_id, seq, i, decision.shadows[i]);
     log_.push(shadows_, std::move(row.cells));
   }
+}
+
+int recorder_main(int argc, char** argv) {
+  // One log with what is known of it, also where the recorder joins the bus anew.
+  std::optional<PlacedLog> placed;
+  const auto state = std::make_shared<RecordingState>();
+  return node_main(argc, argv, "recorder", [&placed, &state](NodeContext& context) {
+    const config::Recorder& settings = context.settings.recorder;
+    evaluator::log::WriterOptions options;
+    options.queue_capacity = settings.queue_capacity;
+    options.group_commit_s = settings.group_commit_s;
+    options.warn_late = !context.settings.run.lockstep;  // where nobody looks at a clock
+    options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
+    if (!placed) placed.emplace(place_log(context, options));
+    evaluator::log::Writer& log = *placed->writer;
+    RecorderNode node{context, log, state};
+    // Its own thread takes the samples: the bus's receive thread must never wait for the log.
+    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
+    node.note_silences();
+    log.finalise();
+    const auto stats = log.stats();
+    fmt::print("recorded {} rows, {:.0f} a second, queue high-water {} of {}, {} missing: {}\n", stats.rows_written,
+               stats.rows_per_s, stats.queue_high_water, settings.queue_capacity, stats.rows_missing,
+               placed->path.string());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/progress_line.hpp"
 #include "nodes/runtime/readers.hpp"
 
@@ -54,6 +55,13 @@ void ReplayPlayerNode::publish(const hal::ReplayedSample& sample) {
     if constexpr (std::is_same_v<T, msg::Referee>) referee_.write(message);
   };
   std::visit(say, sample);
+}
+
+int replay_player_main(int argc, char** argv) {
+  return node_main(argc, argv, "replay_player", [](NodeContext& context) {
+    ReplayPlayerNode node{context};
+    node.run();
+  });
 }
 
 }  // namespace trivela::nodes

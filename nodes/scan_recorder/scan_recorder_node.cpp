@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "bus/executor.hpp"
 #include "config/installation.hpp"
+#include "hal/open.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
@@ -112,6 +115,16 @@ void ScanRecorderNode::on_receipt(const msg::KickReceipt& receipt) {
 void ScanRecorderNode::finish() {
   const std::lock_guard lock{mutex_};
   if (log_) log_->finalise();
+}
+
+int scan_recorder_main(int argc, char** argv) {
+  return node_main(argc, argv, "scan_recorder", [](NodeContext& context) {
+    ScanRecorderNode node{context, hal::open_range_finder(context.settings.scan_recorder.device,
+                                                          {context.participant, context.robot_id()})};
+    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
+    node.finish();
+    context.logger->info("recorded {} scans: {}", node.scans(), context.settings.scan_recorder.file);
+  });
 }
 
 }  // namespace trivela::nodes

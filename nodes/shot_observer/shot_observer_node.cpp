@@ -1,5 +1,6 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
 
@@ -44,6 +45,13 @@ void ShotObserverNode::publish(std::vector<msg::KickOutcome> settled) {
     outcome_out_.write(outcome);
     context_.logger->info("kick {}: {}", outcome.kick_id, bus::label(outcome.outcome));
   }
+}
+
+int shot_observer_main(int argc, char** argv) {
+  return node_main(argc, argv, "shot_observer", [](NodeContext& context) {
+    ShotObserverNode node{context};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

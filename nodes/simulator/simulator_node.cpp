@@ -11,6 +11,7 @@
 #include "config/scenario.hpp"
 #include "hal/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "sim/laser/field_laser.hpp"
 
@@ -193,6 +194,14 @@ void SimulatorNode::publish_truth(const sim::StepEvents& events) {
 void SimulatorNode::report_progress() {
   const double total_s = context_.settings.simulator.halves * context_.settings.simulator.half_minutes * 60.0;
   progress_.say(played_s(), total_s, match_.done());
+}
+
+int simulator_main(int argc, char** argv) {
+  return node_main(argc, argv, "simulator", [](NodeContext& context) {
+    SimulatorNode node{context};
+    node.run();
+    context.logger->info("played {:.1f} s", node.played_s());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -1,5 +1,6 @@
 #include "nodes/world_state/world_state_node.hpp"
 
+#include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 
 namespace trivela::nodes {
@@ -43,6 +44,13 @@ void WorldStateNode::trust_no_silence(std::optional<msg::Referee>& word) {
   heard_ = word;
   if (const auto news = referee_watch_.news(now_ns)) context_.logger->warn(*news);
   word->playing = referee_watch_.says(now_ns) == robot::RefereeSays::kPlay;
+}
+
+int world_state_main(int argc, char** argv) {
+  return node_main(argc, argv, "world_state", [](NodeContext& context) {
+    WorldStateNode node{context};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

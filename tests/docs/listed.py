@@ -41,7 +41,7 @@ def unbuilt_programs(root, documents, build):
     """Programs that the documents' commands or `trivela` itself start and that ./quickstart does not build."""
     texts = " ".join(command.text for document in documents for block in document.blocks for command in block.commands)
     needed = set(re.findall(r"build/release/(trivela[\w-]*)", texts))
-    needed |= {f"trivela-{path.parent.name}" for path in (root / "nodes").glob("*/main.cpp")}
+    needed |= {f"trivela-{path.parent.name}" for path in (root / "nodes").glob("*/*_node.cpp")}
     target = re.search(r"^build release (\S+)$", (root / "quickstart").read_text(), re.M).group(1)
     built = subprocess.run(["ninja", "-C", build, "-t", "query", target], capture_output=True, text=True, check=True)
     return sorted(needed - set(built.stdout.split()))
