@@ -103,7 +103,11 @@ def play(recipes, folder):
     """Copies the tree with the edits made, builds it and runs the commands. Raises CalledProcessError where one fails."""
     listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True)
     edited = apply(recipes, ROOT)[0]
-    for name in sorted({*filter(None, listed.stdout.split("\n")), *edited}):
+    names = {*filter(None, listed.stdout.split("\n")), *edited}
+    for stale in [path for path in folder.rglob("*") if path.is_file() and path.relative_to(folder).parts[0] not in ("build", "out")]:
+        if str(stale.relative_to(folder)) not in names:
+            stale.unlink()
+    for name in sorted(names):
         target = folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         content = edited[name].encode() if name in edited else (ROOT / name).read_bytes()
