@@ -62,10 +62,10 @@ class Node {
   /// With a robot_id the node's reactions and mailboxes see that robot's samples only.
   Node(Participant participant, std::string name, std::optional<std::uint8_t> robot_id = {});
 
-  /// The node's writer of T; owner is set to "name/robot_id".
+  /// The node's writer of T; an owner that is not named is "name/robot_id".
   template <Message T>
   Output<T> writer(WriterOptions options = {}) {
-    options.owner = owner();
+    if (options.owner.empty()) options.owner = owner();
     return Output<T>(std::make_shared<Writer<T>>(participant_, options));
   }
 

@@ -114,6 +114,24 @@ struct ScanRecorder {
   bool mount_mirrored = false;                                ///< it lies on its other side
 };
 
+/// What a team is called by the referee box of before 2016.
+enum class TeamColour : std::uint8_t { kCyan, kMagenta };
+
+/// The connection to the league's referee box.
+struct Refbox {
+  std::string host = "127.0.0.1";         ///< name or address of the box
+  std::uint32_t port = 28097;             ///< RoboCup-MSL/RefBox
+  std::string group;                      ///< our multicast group, 224.16.32.N, by which the box names us
+  std::string team_name;                  ///< ... and what we call ourselves
+  std::string intention = "play";         ///< of the team, for the audience
+  bool letters = false;                   ///< the box speaks the protocol of one letter, to version 1.5.0
+  TeamColour colour = TeamColour::kCyan;  ///< in that protocol
+  /// Whom it is for: the box takes one connection of a team. Empty: run.robot_id alone.
+  std::vector<std::uint32_t> robots;
+  double period_s = 0.08;          ///< between two repetitions of `referee`, and of what the box is told
+  double acknowledgement_s = 0.4;  ///< what we sent waits for longer: the connection is lost
+};
+
 /// Everything a node takes from default.toml, defaults included.
 struct Settings {
   Run run;
@@ -129,6 +147,7 @@ struct Settings {
   Simulator simulator;
   Recorder recorder;
   ScanRecorder scan_recorder;
+  Refbox refbox;
 };
 
 /// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.

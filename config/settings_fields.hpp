@@ -247,6 +247,26 @@ void fields(V& v, ScanRecorder& s) {
   v("mount_mirrored", s.mount_mirrored);
 }
 
+template <>
+struct Names<TeamColour> {
+  static constexpr std::array<std::pair<std::string_view, TeamColour>, 2> entries{
+      {{"cyan", TeamColour::kCyan}, {"magenta", TeamColour::kMagenta}}};
+};
+
+template <class V>
+void fields(V& v, Refbox& r) {
+  v("host", r.host);
+  v("port", r.port, Range{1, 65535});
+  v("group", r.group);
+  v("team_name", r.team_name);
+  v("intention", r.intention);
+  v("letters", r.letters);
+  v("colour", r.colour);
+  v("robots", r.robots, Range{1, 255});
+  v("period_s", r.period_s, Range{0.01, 0.1});
+  v("acknowledgement_s", r.acknowledgement_s, Range{0.05, 0.5});
+}
+
 template <class V>
 void fields(V& v, Settings& s) {
   v("run", s.run);
@@ -262,6 +282,7 @@ void fields(V& v, Settings& s) {
   v("simulator", s.simulator);
   v("recorder", s.recorder);
   v("scan_recorder", s.scan_recorder);
+  v("refbox", s.refbox);
 }
 
 }  // namespace trivela::config

@@ -67,6 +67,7 @@ struct Match::State {
 
   void begin_possession() {
     ++possession_id;
+    ++commands;
     phase = Phase::kStop;
     ending.reset();
     const kicking::Draws draws{seed, situation()};
@@ -86,7 +87,9 @@ struct Match::State {
 
   void start_play() {
     phase = Phase::kPlay;
+    ++commands;
     play_t_ns = world.t_ns();
+    if (!half_play_t_ns) half_play_t_ns = play_t_ns;
     world.start_play(opportunity);
     const double free_s = challenger().time_until_s(scenario.opponent.dispute_distance_m);
     dispute_t_ns = instant_after(play_t_ns, free_s);
@@ -119,6 +122,7 @@ struct Match::State {
 
   void close_half() {
     phase = Phase::kClosing;
+    ++commands;
     stop_until_t_ns = world.t_ns() + kicking::nanoseconds(scenario.possession.stop_s);
     world.stop_play();
   }
@@ -130,6 +134,7 @@ struct Match::State {
     }
     ++half;
     half_start_t_ns = world.t_ns();
+    half_play_t_ns.reset();
     possession_id = 0;
     begin_possession();
   }
@@ -140,6 +145,7 @@ struct Match::State {
     if (const auto& shot = world.shot()) {
       if (!shot->result()) return;
       const ShotResult& result = *shot->result();
+      if (result.outcome == kicking::Outcome::kOnTarget && !result.saved) ++goals;
       events.kicks.push_back({.t_ns = result.t_ns,
                               .kick_id = world.shot_kick_id(),
                               .half = half,
@@ -189,6 +195,12 @@ struct Match::State {
     begin_possession();
   }
 
+  RefereeWord word() const {
+    RefereeWord said{half, phase == Phase::kPlay, possession_id, goals, commands, {}};
+    if (half_play_t_ns) said.half_s = kicking::seconds(world.t_ns() - *half_play_t_ns);
+    return said;
+  }
+
   Scenario scenario;
   std::uint64_t seed;
   int halves;
@@ -206,7 +218,10 @@ struct Match::State {
   Phase phase = Phase::kStop;
   int half = 1;
   std::int64_t half_start_t_ns = 0;
+  std::optional<std::int64_t> half_play_t_ns;  // its first start of play
   std::uint32_t possession_id = 0;
+  std::uint32_t goals = 0;
+  std::uint32_t commands = 0;
   Opportunity opportunity;
   std::int64_t stop_until_t_ns = 0;
   std::int64_t play_t_ns = 0;
@@ -233,7 +248,7 @@ Sensors Match::sense(const SensorChoice& choice) const {
           .kicker = {.charge = s.world.kicker().charge()},
           .vision = choice.vision ? s.sensors.vision(s.world) : VisionFrame{},
           .flight = choice.flight ? s.sensors.flight(s.world) : FlightFrame{},
-          .referee = {.half = s.half, .playing = s.phase == State::Phase::kPlay, .possession_id = s.possession_id},
+          .referee = s.word(),
           .scans = s.laser.scans()};
 }
 

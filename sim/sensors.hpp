@@ -48,11 +48,14 @@ struct FlightFrame {
   std::optional<Point> ball;
 };
 
-/// The referee's last word.
+/// What the referee has said.
 struct RefereeWord {
   int half = 1;
   bool playing = false;
   std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
+  std::uint32_t goals = 0;          ///< ours; the opponents only defend
+  std::uint32_t commands = 0;       ///< how often play was stopped or started
+  std::optional<double> half_s;     ///< since the first start of play in the half
 };
 
 /// Which samples a caller wants. Those it leaves out cost nothing; the others are the same bits with or without them.

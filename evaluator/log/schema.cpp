@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "evaluator/log/before_version_4.sql.hpp"
+#include "evaluator/log/before_version_5.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
@@ -15,6 +16,7 @@
 #include "evaluator/log/schema_version_1.sql.hpp"
 #include "evaluator/log/schema_version_2.sql.hpp"
 #include "evaluator/log/schema_version_3.sql.hpp"
+#include "evaluator/log/schema_version_4.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
@@ -87,6 +89,8 @@ std::string_view schema_of(const LogKind& kind, int version) {
       return kSchemaVersion2Sql;
     case 3:
       return kSchemaVersion3Sql;
+    case 4:
+      return kSchemaVersion4Sql;
     default:
       return match_schema();
   }
@@ -115,6 +119,7 @@ void create_reading_views(SQLite::Database& database, int version) {
     database.exec(kBeforeVersion4Sql);
     database.exec(kicks_with_nulls());
   }
+  if (version < 5) database.exec(kBeforeVersion5Sql);
   database.exec(kReadingViewsSql);
 }
 

@@ -1,4 +1,4 @@
--- Schema of a match log, version 4. One file holds one session or several merged ones.
+-- Schema of a match log, version 5. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -133,14 +133,24 @@ CREATE TABLE flight_frames (               -- one observation of the ball in fli
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE referee (                     -- the referee's word
+CREATE TABLE referee (                     -- what the referee has said
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot that heard it
   seq INTEGER NOT NULL,                    -- sequence number of the stream
   t_ns INTEGER NOT NULL,                   -- instant of the word
-  half INTEGER NOT NULL,                   -- 1, 2
+  half INTEGER NOT NULL,                   -- 1, 2; 3, 4 in overtime
   playing INTEGER NOT NULL CHECK (playing IN (0, 1)), -- 0: everybody stands, no kick
   possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half; 0: not counted
+  stage TEXT NOT NULL CHECK (stage = 'unknown' OR stage = 'pre_game' OR stage = 'first_half' OR stage = 'half_time'
+    OR stage = 'second_half' OR stage = 'full_time' OR stage = 'first_overtime' OR stage = 'overtime_break'
+    OR stage = 'second_overtime' OR stage = 'penalties' OR stage = 'game_over'), -- part of the match
+  restart TEXT NOT NULL CHECK (restart = 'none' OR restart = 'kickoff' OR restart = 'freekick' OR restart = 'goalkick'
+    OR restart = 'throwin' OR restart = 'corner' OR restart = 'penalty' OR restart = 'drop_ball'), -- announced for the next start
+  ours INTEGER NOT NULL CHECK (ours IN (0, 1)), -- 1: the restart is our team's
+  goals_own INTEGER NOT NULL,              -- counted since the writer started or the match was reset
+  goals_other INTEGER NOT NULL,            -- the opponents'
+  command_counter INTEGER NOT NULL,        -- rises with each command of the referee; 0: none yet, or not counted
+  half_time_s REAL,                        -- since the first start of play in the half; NULL: none
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 

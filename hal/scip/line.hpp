@@ -32,6 +32,9 @@ class Line {
   /// Sends all of them. False: it could not, why() says it; some may have left.
   virtual bool write(std::string_view bytes, Deadline deadline) = 0;
 
+  /// Bytes of write() that the other side has not acknowledged; 0 also where the line cannot tell.
+  virtual std::size_t unacknowledged_B() const { return 0; }
+
   virtual void close() noexcept = 0;
 
   /// "/dev/ttyACM0", "tcp://192.168.0.10:10940".

@@ -1,7 +1,9 @@
+#include <linux/sockios.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -81,6 +83,11 @@ class TcpLine final : public Line {
     return fd_.read(bytes, deadline, why_);
   }
   bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
+  std::size_t unacknowledged_B() const override {
+    int waiting_B = 0;
+    return fd_ && ::ioctl(fd_.get(), SIOCOUTQ, &waiting_B) == 0 && waiting_B > 0 ? static_cast<std::size_t>(waiting_B)
+                                                                                 : 0;
+  }
   void close() noexcept override { fd_.reset(); }
   const std::string& name() const override { return name_; }
   const std::string& why() const override { return why_; }

@@ -1,7 +1,9 @@
 #include "hal/sim/sim_messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <limits>
 
 #include "idl/none.hpp"
 
@@ -12,6 +14,14 @@ static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
 static_assert(int{msg::POSSESSION_STOPPED} == int(sim::PossessionEnd::kStopped));
 
 constexpr sim::PlanPoint kNoPoint{msg::kNone, msg::kNone};
+
+/// A match of more than four halves, which an experiment may have, has no names for them.
+msg::GameStage stage_of(int half) {
+  constexpr std::array kStages{msg::STAGE_FIRST_HALF, msg::STAGE_SECOND_HALF, msg::STAGE_FIRST_OVERTIME,
+                               msg::STAGE_SECOND_OVERTIME};
+  return half >= 1 && half <= static_cast<int>(kStages.size()) ? kStages[static_cast<std::size_t>(half) - 1]
+                                                               : msg::STAGE_UNKNOWN;
+}
 
 }  // namespace
 
@@ -71,6 +81,11 @@ msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word) {
   out.half = static_cast<std::uint8_t>(word.half);
   out.playing = word.playing;
   out.possession_id = word.possession_id;
+  out.stage = stage_of(word.half);
+  out.goals_own =
+      static_cast<std::uint16_t>(std::min(word.goals, std::uint32_t{std::numeric_limits<std::uint16_t>::max()}));
+  out.command_counter = word.commands;
+  out.half_time_s = msg::wire_of(word.half_s);
   return out;
 }
 

@@ -12,6 +12,7 @@ msg::SimWheels wheels_message(const sim::Sensors& sensors);
 msg::SimKicker kicker_message(const sim::Sensors& sensors);
 msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame);
 msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame);
+/// No set piece is ever announced: each possession is gained on the run.
 msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word);
 msg::SimScan scan_message(const kicking::lob::Scan& scan, const kicking::lob::ScanGeometry& geometry);
 msg::KickTruth truth_message(const sim::KickTruth& truth);

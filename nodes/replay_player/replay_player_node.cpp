@@ -29,7 +29,7 @@ ReplayPlayerNode::ReplayPlayerNode(NodeContext& context)
       topics_(log_),
       vision_(context.participant),
       flight_(context.participant),
-      referee_(context.participant),
+      referee_(context.participant, referee_of(context.robot_id())),
       barrier_(context.participant, context.robot_id()) {
   for (const auto& session : log_.reader->sessions())
     if (session.session_id == log_.session_id) hal::require_lockstep(session, context.settings.hal.replay_log);

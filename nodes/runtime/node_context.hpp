@@ -43,11 +43,20 @@ struct NodeContext {
 /// Refuses to run beside another node of the same kind and robot: two of them would both write.
 /// Throws std::runtime_error naming node, robot and topic.
 template <class T>
-void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const std::string& node) {
+void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const std::string& node,
+                 std::optional<std::uint32_t> robot_id = {}) {
   if (!output.other_writer_exists(std::chrono::milliseconds(300))) return;
-  throw std::runtime_error{"another " + node + " of robot " + std::to_string(context.settings.run.robot_id) +
-                           " writes " + std::string(bus::meta<T>::topic) + " in domain " +
+  throw std::runtime_error{"another " + node + " of robot " +
+                           std::to_string(robot_id.value_or(context.settings.run.robot_id)) + " writes " +
+                           std::string(bus::meta<T>::topic) + " in domain " +
                            std::to_string(context.settings.domain.domain_id) + ": stop it first"};
+}
+
+/// Who writes `referee` for a robot: nodes of several kinds do, and there must be one of them.
+inline bus::WriterOptions referee_of(std::uint32_t robot_id) {
+  bus::WriterOptions options;
+  options.owner = "referee/" + std::to_string(robot_id);
+  return options;
 }
 
 /// How long a node waits in lockstep for the others before it gives up.

@@ -56,7 +56,7 @@ SimulatorNode::SimulatorNode(NodeContext& context)
       kicker_(context.participant),
       vision_(context.participant),
       flight_(context.participant),
-      referee_(context.participant),
+      referee_(context.participant, referee_of(context.robot_id())),
       kick_truth_(context.participant),
       possession_truth_(context.participant),
       drive_(context.participant, context.robot_id()),
@@ -65,6 +65,10 @@ SimulatorNode::SimulatorNode(NodeContext& context)
   if (scenario_.laser.enabled) scan_.emplace(context.participant);
   if (wheels_.other_writer_exists(std::chrono::milliseconds(300))) {
     throw std::runtime_error{fmt::format("another simulator of robot {} runs in domain {}: stop it first",
+                                         context.settings.run.robot_id, context.settings.domain.domain_id)};
+  }
+  if (referee_.other_writer_exists(std::chrono::milliseconds(1))) {  // others have become known by now
+    throw std::runtime_error{fmt::format("a referee of robot {} writes referee in domain {} already: stop it first",
                                          context.settings.run.robot_id, context.settings.domain.domain_id)};
   }
 }

@@ -48,7 +48,7 @@ class TestExperiment {
         possessions_(log_.table("possession_truths", {"robot_id", "seq", "t_ns", "half", "possession_id", "ending",
                                                       "start_t_ns", "start_x_m", "start_y_m", "start_heading_rad"})),
         assignments_(log_.table("assignments", {"robot_id", "half", "possession_id", "policy", "probability"})),
-        referee_(log_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})) {}
+        referee_(log_.table("referee", referee_columns())) {}
 
   std::string table = "new";         ///< of the next sessions
   std::string config = "a = 1\n";    ///< of the next sessions
@@ -122,14 +122,14 @@ class TestExperiment {
 
   /// The referee lets a possession of the half run from an instant for so long.
   void played_possession(Int half, Int id, double from_s, double minutes) {
-    row(referee_, {Int{1}, ++seq_, static_cast<Int>(from_s * 1e9), half, Int{1}, id}, {});
-    row(referee_, {Int{1}, ++seq_, static_cast<Int>((from_s + minutes * 60.0) * 1e9), half, Int{0}, id}, {});
+    word(from_s, half, true, id);
+    word(from_s + minutes * 60.0, half, false, id);
   }
 
   /// The referee lets a half run for so long.
   void played(Int half, double minutes) {
-    row(referee_, {Int{1}, ++seq_, Int{0}, half, Int{1}, Int{0}}, {});
-    row(referee_, {Int{1}, ++seq_, static_cast<Int>(minutes * 60e9), half, Int{0}, Int{0}}, {});
+    word(0.0, half, true, 0);
+    word(minutes * 60.0, half, false, 0);
   }
 
  private:
@@ -151,6 +151,18 @@ class TestExperiment {
     d.integer(1);
     for (const double value : {0.3, 0.3, 1.0, 0.0, probability}) d.number(value);
     d.integer(0);
+    log_.end_row();
+  }
+
+  void word(double at_s, Int half, bool playing, Int id) {
+    auto& sink = log_.row(referee_, session_id_);
+    for (const log::Value& cell : referee_cells(1, ++seq_, static_cast<Int>(at_s * 1e9), half, playing, id)) {
+      if (const auto* const text = std::get_if<std::string>(&cell)) {
+        sink.text(text->c_str());
+      } else {
+        sink.integer(std::get<Int>(cell));
+      }
+    }
     log_.end_row();
   }
 

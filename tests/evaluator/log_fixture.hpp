@@ -11,6 +11,7 @@
 
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/writer.hpp"
+#include "tests/evaluator/referee_row.hpp"
 
 namespace trivela::evaluator {
 
@@ -50,13 +51,10 @@ class LogTest : public testing::Test {
             }};
   }
 
-  static log::TableId referee_table(log::Writer& writer) {
-    return writer.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"});
-  }
+  static log::TableId referee_table(log::Writer& writer) { return writer.table("referee", referee_columns()); }
 
   static std::vector<log::Value> referee_row(std::int64_t seq, std::int64_t half = 1, std::int64_t t_ns = -1) {
-    using Int = std::int64_t;
-    return {Int{1}, seq, t_ns < 0 ? seq * 20 : t_ns, half, Int{1}, Int{0}};
+    return referee_cells(1, seq, t_ns < 0 ? seq * 20 : t_ns, half, true, 0);
   }
 
   static log::TableId drive_table(log::Writer& writer) {

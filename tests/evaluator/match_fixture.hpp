@@ -34,7 +34,7 @@ class MatchLog {
             "kick_truths",
             {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome", "x_cross_m", "release_t_ns",
              "release_x_m", "release_y_m", "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
-        referee_(writer_.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"})),
+        referee_(writer_.table("referee", referee_columns())),
         statuses_(
             writer_.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault",
                                             "last_kick_id", "last_accepted", "orders_handled", "orders_refused"})) {}
@@ -83,7 +83,7 @@ class MatchLog {
   }
 
   void referee(double at_s, Int half, bool playing) {
-    writer_.push(referee_, {robot_id, ++seq_, static_cast<Int>(at_s * 1e9), half, Int{playing}, Int{0}});
+    writer_.push(referee_, referee_cells(robot_id, ++seq_, static_cast<Int>(at_s * 1e9), half, playing, 0));
   }
 
   /// What the kicker's driver has counted so far.

@@ -52,8 +52,8 @@ inline void insert_session(const OlderRows& rows) {
                   "scenario, simulated, config_sha256, ") +
           (version == 1 ? "config_toml, idl" : "idl_sha256"),
       "'00000000-0000-000e-8000-000000000000', 1, 0, 60000000000, 'simulated', 0, 3, '0.1', 'default', 1, '" +
-          log::sha256(config) +
-          (version == 1 ? "', '" + config + "', '" + idl + "'" : "', '" + log::sha256(idl) + "'"));
+          log::sha256(config) + (version == 1 ? "', '" + config + "', '" + idl + "'" : "', '" + log::sha256(idl) + "'"),
+      4, ", paired_halves", ", 1");
   rows.insert("losses", "stream, received, lost, gaps, overflow, nan_refused, rejected, out_of_order",
               "'kick_orders', 2, 0, 0, 0, 0, 0, 0", 3, ", robot_id, from_t_ns", ", 0, 0");
 }
@@ -64,7 +64,7 @@ inline void insert_half(const OlderRows& rows, int half) {
   const std::string start = std::to_string((half - 1) * 30) + "000000000";
   const std::string end = std::to_string(half * 30) + "000000000";
   const std::string policy = half == 1 ? "'stopped'" : rows.version == 1 ? "'moving'" : "'predictive'";
-  rows.insert("session_policies", "half, policy", n + ", " + policy);
+  rows.insert("session_policies", "half, policy", n + ", " + policy, 4, ", robot_id", ", 0");
   for (const bool playing : {true, false}) {
     rows.insert(
         "referee", "robot_id, seq, t_ns, half, playing, possession_id",
@@ -97,7 +97,7 @@ inline void insert_half(const OlderRows& rows, int half) {
       ", saved", ", 0");
 }
 
-/// A closed session in a match log of version 1, 2 or 3, with a kick on target of each of two policies, in half a
+/// A closed session in a match log of version 1, 2, 3 or 4, with a kick on target of each of two policies, in half a
 /// minute each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =

@@ -63,7 +63,16 @@ TEST_P(OlderLog, WhatItDidNotHaveIsEmpty) {
     EXPECT_EQ(std::get<std::int64_t>(row[0]), 0);
     EXPECT_TRUE(std::holds_alternative<std::monostate>(row[2]));
   });
-  EXPECT_EQ(rows, 3);
+  reader.for_each_row("referee", {"stage", "restart", "goals_own", "command_counter", "half_time_s"},
+                      [&](std::span<const Value> row) {
+                        ++rows;
+                        EXPECT_EQ(std::get<std::string>(row[0]), "unknown");
+                        EXPECT_EQ(std::get<std::string>(row[1]), "none");
+                        EXPECT_EQ(std::get<std::int64_t>(row[2]), 0);
+                        EXPECT_EQ(std::get<std::int64_t>(row[3]), 0) << "nobody counted";
+                        EXPECT_TRUE(std::holds_alternative<std::monostate>(row[4]));
+                      });
+  EXPECT_EQ(rows, 7);
 }
 
 TEST_P(OlderLog, IsReportedOn) {
@@ -99,7 +108,7 @@ TEST_P(OlderLog, AConfigurationThatIsNotTheNamedOneIsDamage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3, 4));
 
 using Version2 = LogTest;
 

@@ -27,8 +27,11 @@ void flight(RecordedLog& log, Int seq, Int t_ns, bool seen) {
 }
 
 void referee(RecordedLog& log, Int seq, Int t_ns) {
-  log.row("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"},
-          {Int{3}, seq, t_ns, Int{2}, Int{1}, Int{17}});
+  log.row("referee",
+          {"robot_id", "seq", "t_ns", "half", "playing", "possession_id", "stage", "restart", "ours", "goals_own",
+           "goals_other", "command_counter", "half_time_s"},
+          {Int{3}, seq, t_ns, Int{2}, Int{1}, Int{17}, std::string{"second_half"}, std::string{"corner"}, Int{1},
+           Int{4}, Int{5}, Int{6}, kNone});
 }
 
 TEST(ReplayTopics, MergesTheTablesByTime) {
@@ -74,6 +77,11 @@ TEST(ReplayTopics, MergesTheTablesByTime) {
   EXPECT_TRUE(word.playing);
   EXPECT_EQ(word.possession_id, 17U);
   EXPECT_EQ(word.seq, 2U);
+  EXPECT_EQ(word.stage, msg::STAGE_SECOND_HALF);
+  EXPECT_EQ(word.restart, msg::RESTART_CORNER);
+  EXPECT_TRUE(word.ours);
+  EXPECT_EQ(word.goals_other, 5);
+  EXPECT_TRUE(std::isnan(word.half_time_s));
 }
 
 TEST(ReplayTopics, OfARobotThatIsNotInTheLogAreEmpty) {

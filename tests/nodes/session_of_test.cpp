@@ -4,6 +4,7 @@
 #include "config/settings.hpp"
 #include "evaluator/log/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
+#include "tests/evaluator/referee_row.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -55,9 +56,9 @@ TEST_F(SessionOf, NamesTheSessionThatItReplays) {
   recorded.paired_halves = true;
   {
     evaluator::log::Writer writer{log, recorded};
-    const auto referee = writer.table("referee", {"robot_id", "seq", "t_ns", "half", "playing", "possession_id"});
+    const auto referee = writer.table("referee", evaluator::referee_columns());
     for (const std::int64_t seq : {1, 2, 3})
-      writer.push(referee, {std::int64_t{1}, seq, seq * 10'000'000'000, std::int64_t{1}, std::int64_t{1}, seq});
+      writer.push(referee, evaluator::referee_cells(1, seq, seq * 10'000'000'000, 1, true, seq));
   }
   context.settings.hal.wheels = config::ReplayDevice{};
   context.settings.hal.kicker = config::ReplayDevice{};

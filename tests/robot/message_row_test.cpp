@@ -99,7 +99,7 @@ TEST_F(MessageRowTest, TheSchemaAllowsTheLabelsOfTheMessages) {
       }
     });
   });
-  EXPECT_GE(enums, 9);
+  EXPECT_GE(enums, 11);
 }
 
 // Whoever misses a stream with a period here takes a robot whose other streams went on for one that ended.
@@ -120,11 +120,27 @@ TEST_F(MessageRowTest, ATableOfOtherColumnsIsRefused) {
 }
 
 TEST_F(MessageRowTest, CellsStandInTheOrderOfTheColumns) {
-  EXPECT_THAT(columns_of<msg::Referee>(), ElementsAre("robot_id", "seq", "t_ns", "half", "playing", "possession_id"));
-  msg::Referee referee{.robot_id = 3, .seq = 4, .t_ns = -5, .half = 2, .playing = true, .possession_id = 9};
+  EXPECT_THAT(columns_of<msg::Referee>(),
+              ElementsAre("robot_id", "seq", "t_ns", "half", "playing", "possession_id", "stage", "restart", "ours",
+                          "goals_own", "goals_other", "command_counter", "half_time_s"));
+  msg::Referee referee{.robot_id = 3,
+                       .seq = 4,
+                       .t_ns = -5,
+                       .half = 2,
+                       .playing = true,
+                       .possession_id = 9,
+                       .stage = msg::STAGE_SECOND_HALF,
+                       .restart = msg::RESTART_CORNER,
+                       .ours = true,
+                       .goals_own = 6,
+                       .goals_other = 7,
+                       .command_counter = 8,
+                       .half_time_s = 1.5};
   using Int = std::int64_t;
   EXPECT_THAT(row_of(referee),
-              ElementsAre(Value{Int{3}}, Value{Int{4}}, Value{Int{-5}}, Value{Int{2}}, Value{Int{1}}, Value{Int{9}}));
+              ElementsAre(Value{Int{3}}, Value{Int{4}}, Value{Int{-5}}, Value{Int{2}}, Value{Int{1}}, Value{Int{9}},
+                          Value{std::string{"second_half"}}, Value{std::string{"corner"}}, Value{Int{1}}, Value{Int{6}},
+                          Value{Int{7}}, Value{Int{8}}, Value{1.5}));
 }
 
 TEST_F(MessageRowTest, EnumsAreWrittenByTheirLabel) {

@@ -1,0 +1,116 @@
+#include "hal/refbox/words.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "kicking/text/printable.hpp"
+
+namespace trivela::hal::refbox {
+namespace {
+
+/// The beginning of what came, for a line of a log.
+std::string shown(std::string_view text) {
+  constexpr std::size_t kShown_B = 120;
+  const std::string begin = kicking::printable(text.substr(0, kShown_B));
+  return text.size() > kShown_B ? begin + " ..." : begin;
+}
+
+NoCommand no_command(std::string_view what, std::string_view object) {
+  return {fmt::format("{}: {}", what, shown(object))};
+}
+
+Side side_of(std::string_view target, std::string_view group) {
+  if (target.empty()) return Side::kBoth;
+  if (target == group) return Side::kOurs;
+  const bool of_two_alike = target.ends_with(":1") && target.substr(0, target.size() - 2) == group;
+  return of_two_alike ? Side::kOurs : Side::kTheirs;
+}
+
+struct Letter {
+  char letter;
+  CommandKind kind;
+  Side side;  // kOurs: of the team whose case it is
+};
+
+using enum CommandKind;
+constexpr std::array kCommonLetters{Letter{'S', kStop, Side::kBoth},
+                                    Letter{'s', kStart, Side::kBoth},
+                                    Letter{'W', kWelcome, Side::kBoth},
+                                    Letter{'Z', kReset, Side::kBoth},
+                                    Letter{'U', kTestModeOn, Side::kBoth},
+                                    Letter{'u', kTestModeOff, Side::kBoth},
+                                    Letter{'1', kFirstHalf, Side::kBoth},
+                                    Letter{'2', kSecondHalf, Side::kBoth},
+                                    Letter{'3', kFirstHalfOvertime, Side::kBoth},
+                                    Letter{'4', kSecondHalfOvertime, Side::kBoth},
+                                    Letter{'h', kHalfTime, Side::kBoth},
+                                    Letter{'e', kEndGame, Side::kBoth},
+                                    Letter{'z', kGameOver, Side::kBoth},
+                                    Letter{'L', kPark, Side::kBoth},
+                                    Letter{'N', kDropBall, Side::kBoth}};
+constexpr std::array kTeamLetters{Letter{'a', kGoal, Side::kOurs},     Letter{'d', kSubGoal, Side::kOurs},
+                                  Letter{'k', kKickOff, Side::kOurs},  Letter{'f', kFreeKick, Side::kOurs},
+                                  Letter{'g', kGoalKick, Side::kOurs}, Letter{'t', kThrowIn, Side::kOurs},
+                                  Letter{'c', kCorner, Side::kOurs},   Letter{'p', kPenalty, Side::kOurs},
+                                  Letter{'o', kRepair, Side::kOurs},   Letter{'y', kYellowCard, Side::kOurs},
+                                  Letter{'r', kRedCard, Side::kOurs},  Letter{'b', kDoubleYellow, Side::kOurs}};
+
+}  // namespace
+
+Word read_object(std::string_view object, std::string_view group) {
+  const auto json = nlohmann::json::parse(object, nullptr, false);
+  if (json.is_discarded()) return no_command("what is no JSON", object);
+  if (!json.is_object()) return no_command("JSON that is no object", object);
+  const auto text_of = [&](const char* key) -> const std::string* {
+    const auto found = json.find(key);
+    return found == json.end() ? nullptr : found->get_ptr<const std::string*>();
+  };
+  const std::string* const word = text_of("command");
+  if (word == nullptr) return no_command("an object without a command", object);
+  const auto kind = kind_of(*word);
+  if (!kind) return no_command("a command that nobody knows", object);
+  Command command{.kind = *kind};
+  const auto target = json.find("targetTeam");
+  if (target != json.end() && !target->is_null() && *kind != kStop) {  // a stop is everybody's, whatever else it says
+    const std::string* const team = text_of("targetTeam");
+    if (team == nullptr) return no_command("a targetTeam that is no text", object);
+    command.side = side_of(*team, group);
+  }
+  if (const auto robot = json.find("robotID"); robot != json.end() && robot->is_number_integer()) {
+    const auto number = robot->get<std::int64_t>();
+    if (number >= 0 && number <= 255) command.robot_id = static_cast<int>(number);
+  }
+  return command;
+}
+
+Word read_letter(char letter, Colour ours) {
+  for (const Letter& known : kCommonLetters) {
+    if (known.letter == letter) return Command{known.kind, known.side};
+  }
+  const bool cyan = letter >= 'A' && letter <= 'Z';
+  const char lower = cyan ? static_cast<char>(letter - 'A' + 'a') : letter;
+  for (const Letter& known : kTeamLetters) {
+    if (known.letter == lower)
+      return Command{known.kind, cyan == (ours == Colour::kCyan) ? Side::kOurs : Side::kTheirs};
+  }
+  return no_command("a letter that nobody knows", std::string_view{&letter, 1});
+}
+
+std::vector<Word> WordStream::add(std::string_view bytes) {
+  std::vector<Word> words;
+  if (team_.protocol == Protocol::kLetters) {
+    for (const char letter : bytes) {
+      const bool space = letter == '\0' || letter == '\n' || letter == '\r' || letter == ' ';
+      if (!space) words.push_back(read_letter(letter, team_.colour));
+    }
+    return words;
+  }
+  for (const Framed& framed : framing_.add(bytes)) {
+    words.push_back(framed.overlong ? Word{NoCommand{fmt::format("an object of over {} bytes", kLongestObject_B)}}
+                                    : read_object(framed.text, team_.group));
+  }
+  return words;
+}
+
+}  // namespace trivela::hal::refbox

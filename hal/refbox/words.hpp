@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "hal/refbox/command.hpp"
+#include "hal/refbox/framing.hpp"
+
+namespace trivela::hal::refbox {
+
+/// What was said and is no command: it changes nothing.
+struct NoCommand {
+  std::string why;  ///< a clause for the log: "an object without a command: {"status":"connected"}"
+
+  friend bool operator==(const NoCommand&, const NoCommand&) = default;
+};
+
+using Word = std::variant<Command, NoCommand>;
+
+/// A command of the league's JSON protocol: {"command":"KICKOFF","targetTeam":"224.16.32.39"}, keys in any order, with
+/// "robotID" where it is about one robot. `group` is our team's multicast group. A target that is empty or missing is
+/// both teams, our group is ours, also with the ":1" that a box adds where a team plays itself; any other is theirs.
+Word read_object(std::string_view object, std::string_view group);
+
+/// The colour that the protocol before 2016 knows a team by: magenta in lower case, cyan in upper case.
+enum class Colour : std::uint8_t { kCyan, kMagenta };
+
+/// A command of that protocol, one letter (RefBox wiki "Basestation-Protocol", to version 1.5.0).
+Word read_letter(char letter, Colour ours);
+
+/// Which of them the box speaks.
+enum class Protocol : std::uint8_t { kJson, kLetters };
+
+/// What a team is called on the wire.
+struct TeamMarks {
+  Protocol protocol = Protocol::kJson;
+  std::string group;  ///< multicast group, "224.16.32.39"
+  Colour colour = Colour::kCyan;
+};
+
+/// The words in a stream of bytes; one for each connection.
+class WordStream {
+ public:
+  explicit WordStream(TeamMarks team) : team_(std::move(team)) {}
+
+  /// The words that these bytes end, in their order.
+  std::vector<Word> add(std::string_view bytes);
+
+ private:
+  TeamMarks team_;
+  Framing framing_;
+};
+
+}  // namespace trivela::hal::refbox

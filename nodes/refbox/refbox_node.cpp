@@ -1,0 +1,130 @@
+#include "nodes/refbox/refbox_node.hpp"
+
+#include <algorithm>
+
+#include "hal/refbox/worldstate.hpp"
+#include "kicking/geometry/time.hpp"
+#include "kicking/text/printable.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using std::chrono::steady_clock;
+namespace box = hal::refbox;
+
+constexpr std::int64_t kFreshBelief_ns =
+    1'000'000'000;  // of a robot that has said nothing for longer the box hears nothing
+
+std::vector<std::uint32_t> robots_of(const config::Settings& settings) {
+  return settings.refbox.robots.empty() ? std::vector{settings.run.robot_id} : settings.refbox.robots;
+}
+
+std::string in_words(const box::Command& command) {
+  std::string text(box::name(command.kind));
+  if (command.side != box::Side::kBoth) text += command.side == box::Side::kOurs ? " for us" : " for them";
+  if (command.robot_id) text += ", robot " + std::to_string(*command.robot_id);
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<box::RefboxClient> open_refbox(const config::Refbox& settings) {
+  const bool magenta = settings.colour == config::TeamColour::kMagenta;
+  return box::refbox_client(settings.host, static_cast<std::uint16_t>(settings.port),
+                            {.protocol = settings.letters ? box::Protocol::kLetters : box::Protocol::kJson,
+                             .group = settings.group,
+                             .colour = magenta ? box::Colour::kMagenta : box::Colour::kCyan},
+                            std::chrono::nanoseconds{kicking::nanoseconds(settings.acknowledgement_s)});
+}
+
+RefboxNode::RefboxNode(NodeContext& context, std::unique_ptr<box::RefboxClient> client)
+    : context_(context), client_(std::move(client)), node_(context.participant, "refbox") {
+  const config::Refbox& settings = context.settings.refbox;
+  if (context.settings.run.lockstep) throw std::runtime_error{"run.lockstep = true: a referee box waits for nobody"};
+  if (settings.group.empty() && !settings.letters)
+    throw std::runtime_error{"refbox.group is empty: the referee box names us by our multicast group, 224.16.32.N"};
+  for (const std::uint32_t robot_id : robots_of(context.settings))
+    robots_.push_back({static_cast<std::uint8_t>(robot_id), node_.writer<msg::Referee>(referee_of(robot_id))});
+  for (const Robot& robot : robots_) refuse_twin(context_, robot.referee_out, "referee", robot.robot_id);
+  node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); });
+  node_.on_device(
+      "refbox", [this](std::chrono::nanoseconds timeout) { return next(timeout); },
+      [this](const Event& event) { on_event(event); }, bus::writes<msg::Referee>());
+}
+
+/// What the box does, and a tick every period: a flood of commands does not put it off.
+std::optional<RefboxNode::Event> RefboxNode::next(std::chrono::nanoseconds timeout) {
+  const auto now = steady_clock::now();
+  if (now >= next_tick_) {
+    const std::chrono::nanoseconds period{kicking::nanoseconds(context_.settings.refbox.period_s)};
+    next_tick_ = std::max(next_tick_ + period, now - period);  // late ones are made up for, but not for ever
+    return Event{Tick{}};
+  }
+  const auto event = client_->next(std::min<std::chrono::nanoseconds>(timeout, next_tick_ - now));
+  return event ? std::optional<Event>{*event} : std::nullopt;
+}
+
+void RefboxNode::on_event(const Event& event) {
+  if (const auto* const happened = std::get_if<box::BoxEvent>(&event))
+    return std::visit([this](const auto& what) { on_box(what); }, *happened);
+  publish();
+  tell_box();
+}
+
+void RefboxNode::on_box(const box::Connected&) {
+  match_.connected();
+  context_.logger->info("connected to the referee box {}", client_->box());
+}
+
+void RefboxNode::on_box(const box::Command& command) {
+  match_.command(command, context_.steady_ns());
+  publish();
+  context_.logger->info("referee: {}", in_words(command));
+}
+
+void RefboxNode::on_box(const box::NoCommand& word) {
+  context_.logger->warn("the referee box said {}", kicking::printable(word.why));
+}
+
+void RefboxNode::on_box(const box::Lost& lost) {
+  match_.disconnected();
+  publish();
+  context_.logger->error("the referee box {} is lost: {}: the game is stopped", client_->box(), lost.why);
+}
+
+void RefboxNode::on_box(const box::Unreachable& failure) {
+  context_.logger->warn("the referee box {} cannot be reached: {}: the game is stopped", client_->box(), failure.why);
+}
+
+void RefboxNode::on_world(const msg::WorldState& world) {
+  if (!speaks_for(world.robot_id) || !context_.participant.believes(world.t_ns)) return;
+  const std::lock_guard lock{worlds_mutex_};
+  worlds_.at(world.robot_id) = world;
+}
+
+bool RefboxNode::speaks_for(std::uint8_t robot_id) const {
+  return std::ranges::any_of(robots_, [robot_id](const Robot& robot) { return robot.robot_id == robot_id; });
+}
+
+void RefboxNode::publish() {
+  msg::Referee word = match_.message(context_.steady_ns());
+  word.seq = ++seq_;
+  for (const Robot& robot : robots_) {
+    word.robot_id = robot.robot_id;
+    robot.referee_out.write(word);
+  }
+}
+
+void RefboxNode::tell_box() {
+  const std::int64_t now_ns = context_.steady_ns();
+  std::vector<msg::WorldState> fresh;
+  {
+    const std::lock_guard lock{worlds_mutex_};
+    for (const auto& world : worlds_)
+      if (world && now_ns - world->t_ns <= kFreshBelief_ns) fresh.push_back(*world);
+  }
+  const config::Refbox& settings = context_.settings.refbox;
+  client_->send(box::worldstate_object(fresh, {settings.team_name, settings.intention}, now_ns));
+}
+
+}  // namespace trivela::nodes
