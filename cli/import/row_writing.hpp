@@ -1,10 +1,18 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <typeindex>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "cli/launch/log_claim.hpp"
 #include "evaluator/log/writer.hpp"
@@ -27,16 +35,21 @@ class RowWriting {
     for (const char* const beside : {"", "-wal", "-shm"}) std::filesystem::remove(out_.string() + beside, ignored);
   }
 
-  /// A row of the message's table.
+  /// A row of the message's table, with nothing in the columns of `without`.
   template <bus::Struct T>
-  void write(const T& message) {
+  void write(const T& message, std::initializer_list<std::string_view> without = {}) {
     const auto place = tables_.find(typeid(T));
     const evaluator::log::TableId table =
         place != tables_.end()
             ? place->second
             : tables_.emplace(typeid(T), writer_->table(robot::table_of<T>(), robot::columns_of<T>())).first->second;
     if (++rows_ % kGroup == 0) writer_->flush();  // nothing is lost to a full queue
-    writer_->push(table, robot::row_of(message));
+    std::vector<evaluator::log::Value> row = robot::row_of(message);
+    for (const std::string_view column : without) {
+      const auto columns = robot::columns_of<T>();
+      row.at(static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin())) = std::monostate{};
+    }
+    writer_->push(table, std::move(row));
   }
 
   /// Throws std::runtime_error where the disk refuses, or a row is against the schema.
