@@ -1,5 +1,7 @@
 #include "cli/import/match_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -29,7 +31,8 @@ class GameState {
   void hear(imports::BoxCommand command) {
     if (const auto begun = imports::begun_part(command)) part_ = *begun;
     if (command == imports::BoxCommand::kStart) playing_ = true;
-    if (command == imports::BoxCommand::kStop || imports::begun_part(command) || imports::ends_part(command)) playing_ = false;
+    if (command == imports::BoxCommand::kStop || imports::begun_part(command) || imports::ends_part(command))
+      playing_ = false;
   }
   std::uint8_t half() const { return static_cast<std::uint8_t>(part_); }
   bool playing() const { return playing_; }
@@ -136,12 +139,26 @@ void write_team(RowWriting& rows, const imports::TeamLog& team, const std::vecto
   }
 }
 
+// Records an hour from any command are of another match: a box is started for a match and ended with it.
+void check_same_match(const imports::RefereeLog& referee, const std::string& team_file,
+                      const std::vector<std::int64_t>& times_ms) {
+  constexpr std::int64_t kLongestApart_ms = 3'600'000;
+  if (times_ms.empty()) return;
+  const std::int64_t after_ms = times_ms.front() - referee.lines.back().t_ms;
+  const std::int64_t before_ms = referee.lines.front().t_ms - times_ms.back();
+  const std::int64_t apart_ms = std::max(after_ms, before_ms);
+  if (apart_ms <= kLongestApart_ms) return;
+  throw std::runtime_error(fmt::format("{} and {} are not of the same match: they are {:.1f} h apart", team_file,
+                                       referee.file, static_cast<double>(apart_ms) / 3.6e6));
+}
+
 }  // namespace
 
 ImportedRows write_match_log(const imports::RefereeLog& referee, const imports::SidedTeamLog* team,
                              const std::vector<std::string>& sentences, const std::filesystem::path& out) {
   if (referee.lines.empty()) throw std::runtime_error(referee.file + ": no command in it, so there is no match to log");
   const auto times_ms = team != nullptr ? imports::record_times_ms(team->log, &referee) : std::vector<std::int64_t>();
+  if (team != nullptr) check_same_match(referee, team->log.file, times_ms);
   std::int64_t start_ms = referee.lines.front().t_ms;
   if (!times_ms.empty()) start_ms = std::min(start_ms, times_ms.front());
   ImportedRows imported{.referee = std::ssize(referee.lines)};

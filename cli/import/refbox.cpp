@@ -45,13 +45,13 @@ const imports::SidedTeamLog* team_of(const imports::BoxLogs& logs, const std::st
 /// What the match log and its reports say of where it is from.
 std::vector<std::string> sentences_of(const imports::RefereeLog& referee, const imports::SidedTeamLog* team,
                                       const std::vector<std::string>& faults) {
-  std::vector<std::string> sentences{
-      fmt::format("imported from the referee box's {}: {} commands, no kick decision in it", referee.file,
-                  referee.lines.size())};
+  std::vector<std::string> sentences{fmt::format(
+      "imported from the referee box's {}: {} commands, no kick decision in it", referee.file, referee.lines.size())};
   if (team != nullptr) {
-    sentences.push_back(fmt::format("world states as {} ({}) told the box in {}, by game time; what it is not told is "
-                                    "none, standard deviations stand as 0",
-                                    team->log.team, side_name(team->side), team->log.file));
+    sentences.push_back(
+        fmt::format("world states as {} ({}) told the box in {}, by game time; what it is not told is "
+                    "none, standard deviations stand as 0",
+                    team->log.team, side_name(team->side), team->log.file));
   }
   for (const std::string& fault : faults) sentences.push_back("fault: " + fault);
   for (std::string& sentence : sentences) sentence = kicking::printable(sentence);
@@ -61,13 +61,11 @@ std::vector<std::string> sentences_of(const imports::RefereeLog& referee, const 
 std::string write_log(const imports::BoxLogs& logs, const RefboxArguments& arguments) {
   const imports::RefereeLog& referee = one_text_log(logs);
   const imports::SidedTeamLog* const team = team_of(logs, arguments.team);
-  const ImportedRows rows =
-      write_match_log(referee, team, sentences_of(referee, team, logs.faults()), arguments.out);
-  std::string text = fmt::format("{}: {} words of the referee, {} world states", arguments.out, rows.referee,
-                                 rows.world_states);
+  const ImportedRows rows = write_match_log(referee, team, sentences_of(referee, team, logs.faults()), arguments.out);
+  std::string text =
+      fmt::format("{}: {} words of the referee, {} world states", arguments.out, rows.referee, rows.world_states);
   if (team != nullptr) text += fmt::format(" of the {} team", arguments.team);
-  if (rows.without_velocity > 0)
-    text += fmt::format("; {} without a velocity left out", rows.without_velocity);
+  if (rows.without_velocity > 0) text += fmt::format("; {} without a velocity left out", rows.without_velocity);
   if (logs.teams.size() > (team != nullptr ? 1U : 0U)) text += "; --team takes the other team's";
   return text + "\n";
 }

@@ -168,9 +168,8 @@ std::string to_text(const RefboxSummary& summary) {
 }
 
 std::string to_json(const RefboxSummary& summary) {
-  nlohmann::json json = {{"referee", nlohmann::json::array()},
-                         {"teams", nlohmann::json::array()},
-                         {"faults", nlohmann::json::array()}};
+  nlohmann::json json = {
+      {"referee", nlohmann::json::array()}, {"teams", nlohmann::json::array()}, {"faults", nlohmann::json::array()}};
   const auto add_faults = [&](const std::string& file, const imports::FaultBook& faults) {
     for (nlohmann::json& fault : json_of_faults(file, faults)) json["faults"].push_back(std::move(fault));
   };

@@ -37,8 +37,8 @@ const char* side_name(evaluator::imports::BoxSide side);
 /// Tables for a terminal: the game, possessions, faults.
 std::string to_text(const RefboxSummary& summary);
 
-/// `referee: [{file, commands, plays, ...}], teams: [{file, team, side, records, ...}], faults: [...]`; null where there
-/// is no such number.
+/// `referee: [{file, commands, plays, ...}], teams: [{file, team, side, records, ...}], faults: [...]`; null where
+/// there is no such number.
 std::string to_json(const RefboxSummary& summary);
 
 }  // namespace trivela::cli

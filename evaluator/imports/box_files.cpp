@@ -27,7 +27,7 @@ bool is_of_a_team(std::istream& in, std::string_view name) {
 template <class Fault>
 void read_one(std::istream& in, const std::string& name, BoxLogs& logs, Fault&& fault) {
   const auto note = [&](FaultBook& faults) {
-    if (const std::string why = fault(); !why.empty()) faults.note("cannot be read to its end", 0, "", why);
+    if (const std::string why = fault(); !why.empty()) faults.note("cannot be read to its end", 0, why, "");
   };
   if (is_of_a_team(in, name)) {
     const BoxSide side = std::string_view(name).ends_with(".B.msl") ? BoxSide::kMagenta : BoxSide::kCyan;

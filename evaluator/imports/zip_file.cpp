@@ -100,7 +100,8 @@ class ZipStream::Buffer : public std::streambuf {
     if (header.size() < kHeaderBytes || !header.starts_with(kHeaderMark))
       fail_zip(archive, fmt::format("{} is not where the directory has it", entry.name));
     in_.clear();
-    in_.seekg(static_cast<std::streamoff>(std::uint64_t{entry.offset} + kHeaderBytes + u16(header, 26) + u16(header, 28)));
+    in_.seekg(
+        static_cast<std::streamoff>(std::uint64_t{entry.offset} + kHeaderBytes + u16(header, 26) + u16(header, 28)));
     left_ = entry.compressed_bytes;
     if (inflateInit2(&inflater_, -MAX_WBITS) != Z_OK) fail_zip(archive, "zlib does not start");
   }
@@ -119,7 +120,7 @@ class ZipStream::Buffer : public std::streambuf {
     if (n == 0) {
       ended_ = true;
       if (fault_.empty() && (crc_ != entry_.crc32 || bytes_ != entry_.bytes))
-        fault_ = fmt::format("{}: its bytes are not those that were packed", entry_.name);
+        fault_ = "its bytes are not those that were packed";
       return traits_type::eof();
     }
     setg(out_.data(), out_.data(), out_.data() + n);
@@ -134,7 +135,7 @@ class ZipStream::Buffer : public std::streambuf {
     in_.read(to, static_cast<std::streamsize>(std::min<std::uint64_t>(most, left_)));
     const auto n = static_cast<std::size_t>(in_.gcount());
     left_ -= n;
-    if (n == 0 && left_ > 0) fault_ = fmt::format("{}: the archive ends within it", entry_.name);
+    if (n == 0 && left_ > 0) fault_ = "the archive ends within it";
     return n;
   }
 
@@ -150,8 +151,7 @@ class ZipStream::Buffer : public std::streambuf {
       }
       const int code = inflate(&inflater_, Z_NO_FLUSH);
       stream_ended_ = code == Z_STREAM_END;
-      if (code != Z_OK && !stream_ended_ && fault_.empty())
-        fault_ = fmt::format("{}: its packed bytes are broken", entry_.name);
+      if (code != Z_OK && !stream_ended_ && fault_.empty()) fault_ = "its packed bytes are broken";
     }
     return out_.size() - inflater_.avail_out;
   }

@@ -62,8 +62,9 @@ TEST_F(ZipFile, EntriesAreUnpackedAsTheyWere) {
 TEST_F(ZipFile, ACutArchiveIsRefusedWithItsName) {
   const std::string whole = zip_of({{"a.msl", long_text(), true}});
   write(whole.substr(0, whole.size() - 30));
-  EXPECT_THAT([&] { zip_entries(path()); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("x.zip: no zip archive that can be read: it has no directory")));
+  EXPECT_THAT(
+      [&] { zip_entries(path()); },
+      ThrowsMessage<std::runtime_error>(HasSubstr("x.zip: no zip archive that can be read: it has no directory")));
 }
 
 TEST_F(ZipFile, ChangedBytesAreAFaultWhereverTheyAre) {

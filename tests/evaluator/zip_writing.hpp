@@ -40,8 +40,8 @@ inline std::string zip_of(const std::vector<PackedFile>& files) {
     const auto* const bytes = reinterpret_cast<const Bytef*>(file.text.data());
     const std::string described = number(20, 2) + number(0, 2) + number(file.deflated ? 8 : 0, 2) + number(0, 4) +
                                   number(::crc32(0, bytes, static_cast<uInt>(file.text.size())), 4) +
-                                  number(packed.size(), 4) + number(file.text.size(), 4) +
-                                  number(file.name.size(), 2) + number(0, 2);
+                                  number(packed.size(), 4) + number(file.text.size(), 4) + number(file.name.size(), 2) +
+                                  number(0, 2);
     directory += "PK\1\2" + number(20, 2) + described + number(0, 10) + number(archive.size(), 4) + file.name;
     archive += "PK\3\4" + described + file.name + packed;
   }
