@@ -3,8 +3,19 @@
 CREATE TEMP TABLE left_out_sessions (session_id INTEGER NOT NULL PRIMARY KEY) STRICT;
 CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER NOT NULL, kick_id INTEGER NOT NULL,
   PRIMARY KEY (session_id, robot_id, kick_id)) STRICT, WITHOUT ROWID;
+-- Sessions that no robot recorded (kImportMark, evaluator/log/session.hpp).
+CREATE TEMP VIEW imported_sessions AS
+SELECT session_id FROM sessions
+WHERE config_sha256 IN (SELECT sha256 FROM texts WHERE substr(text, 1, 11) = '### import' || char(10));
+-- Kicks with what counts as their outcome: 'outside' where somebody saw by eye that it was outside and did not say how.
+CREATE TEMP VIEW labelled_kicks AS
+SELECT k.*,
+  CASE WHEN k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
+      AND k.session_id IN (SELECT session_id FROM imported_sessions)
+    THEN 'outside' ELSE k.outcome END AS label
+FROM temp.kicks AS k;
 CREATE TEMP VIEW counted_kicks AS
-SELECT k.* FROM temp.kicks AS k
+SELECT k.* FROM labelled_kicks AS k
 WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
   AND NOT EXISTS (SELECT 1 FROM left_out_kicks AS l
     WHERE l.session_id = k.session_id AND l.robot_id = k.robot_id AND l.kick_id = k.kick_id);

@@ -3,9 +3,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trivela::evaluator::log {
+
+/// How the configuration of an imported session begins; sentences on what was imported follow up to an empty line.
+inline constexpr std::string_view kImportMark = "### import\n";
 
 /// The policy in charge of a robot's kicks in one half: "stopped", "moving" or a test drive such as "turn_drive".
 struct HalfPolicy {

@@ -1,7 +1,7 @@
 -- The same as outcomes_by_policy.sql for each robot.
 -- Columns: robot_id, policy, outcome, kicks.
-SELECT robot_id, policy, coalesce(outcome, 'unknown') AS outcome, count(*) AS kicks
+SELECT robot_id, policy, coalesce(label, 'unknown') AS outcome, count(*) AS kicks
 FROM counted_kicks
 WHERE accepted IS NOT 0
-GROUP BY robot_id, policy, coalesce(outcome, 'unknown')
+GROUP BY robot_id, policy, coalesce(label, 'unknown')
 ORDER BY robot_id, policy, outcome;

@@ -60,7 +60,7 @@ struct KickBook {
   std::string design_reason;           ///< how the design is known
   std::vector<double> planned_shares;  ///< of the groups, where drawn at random with constant chances; else empty
   bool simulated = false;
-  std::string outcome = "observed";  ///< "observed" or "truth"
+  std::string outcome = "observed";  ///< "observed", "truth", or "labelled": somebody watched
   bool keeper = false;               ///< of these matches a keeper saved something: goals are fewer than balls inside
   bool blocked_apart = false;        ///< blocked kicks stand apart
   std::vector<std::string> remarks;  ///< sentences on what was read

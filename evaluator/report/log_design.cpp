@@ -116,6 +116,10 @@ void infer_from_halves(KickBook& book, const WhoPlayed& who, const std::string& 
 void infer_design(KickBook& book, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows,
                   const std::string& by, bool drawn) {
   if (drawn) return infer_drawn(book, logged, rows);
+  if (std::ranges::all_of(logged.sessions, [](const ComparedSession& session) { return session.imported; })) {
+    book.design_reason = "labels by hand do not say how the policies were assigned; --design does";
+    return;
+  }
   const bool numbered = std::ranges::all_of(
       logged.sessions, [](const ComparedSession& session) { return session.match_id && session.simulated; });
   const bool paired_halves = std::ranges::all_of(

@@ -126,7 +126,10 @@ KickBook book_of(const LoggedOpportunities& logged, const LogKicks& options, con
     throw BadOption(fmt::format("by {0}: no session of these logs names its {0}{1}", by,
                                 by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
   }
-  book.outcome = options.truth ? "truth" : "observed";
+  const bool labelled = !logged.rows.empty() && std::ranges::all_of(logged.rows, [&](const LoggedOpportunity& o) {
+    return logged.sessions[o.session].imported;
+  });
+  book.outcome = options.truth ? "truth" : labelled ? "labelled" : "observed";
   book.remarks = logged.remarks;
   book.blocked_apart = options.blocked_apart;
   book.matches = logged.matches;

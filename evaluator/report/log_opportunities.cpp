@@ -100,9 +100,9 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, bool tr
   reader.query(
       kComparedKicksSql,
       [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id, const std::string& policy,
-          std::optional<std::string> outcome, std::optional<std::string> truth_outcome, double distance_m,
-          std::optional<double> p_inside, std::optional<bool> bounced, std::optional<bool> truth_bounced,
-          std::optional<bool> truth_saved, std::int64_t kick_id) {
+          std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
+          std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
+          std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
         const auto session = sessions.find(session_id);
         if (session == sessions.end()) return;
         const bool saved = truth_saved.value_or(false);

@@ -9,6 +9,7 @@
 
 #include "evaluator/metrics/compared_sessions.sql.hpp"
 #include "evaluator/metrics/kick_words.sql.hpp"
+#include "evaluator/report/import_notes.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -25,7 +26,7 @@ std::vector<ComparedSession> sessions_of(const log::Reader& reader) {
   return reader.rows<S>(kComparedSessionsSql, &S::session_id, &S::started_utc_ns, &S::closed_utc_ns, &S::seed,
                         &S::scenario, &S::simulated, &S::arm, &S::table, &S::match_id, &S::config_sha256, &S::uuid,
                         &S::continues_uuid, &S::is_replay, &S::paired_halves, &S::lockstep, &S::ended_utc_ns,
-                        &S::row_count, &S::calibration_id);
+                        &S::row_count, &S::calibration_id, &S::imported);
 }
 
 }  // namespace
@@ -70,6 +71,9 @@ void SessionBook::note_log(const log::Reader& reader, const std::string& name, s
     remarks_.push_back(fmt::format("{}: {}", name, *doubt));
   remark(open, "session was not closed, its last kicks may be missing",
          "sessions were not closed, their last kicks may be missing");
+  for (const auto& [session_id, notes] : import_notes_of(reader)) {
+    if (!notes.empty()) remarks_.push_back(fmt::format("{}: {}", name, notes.front()));
+  }
   reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches",
                [&](std::int64_t done, std::int64_t matches) {
                  remarks_.push_back(fmt::format("{}: the experiment is not finished, {} of {} matches are there", name,
@@ -165,7 +169,7 @@ void SessionBook::number_matches() {
     const auto known = of_play.find(session.play);
     if (known != of_play.end()) {
       last_real = known->second;
-    } else if (session.simulated || !last_real || session.started_utc_ns >= last_end_utc_ns) {
+    } else if (session.simulated || session.imported || !last_real || session.started_utc_ns >= last_end_utc_ns) {
       last_real = matches_++;
       last_end_utc_ns = session.started_utc_ns;
     }

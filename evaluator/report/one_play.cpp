@@ -24,8 +24,9 @@ class Joined {
 };
 
 bool may_be_one(const ComparedSession& a, const ComparedSession& b) {
-  return !a.is_replay && !b.is_replay && !a.match_id && !b.match_id && a.simulated == b.simulated &&
-         a.lockstep == b.lockstep && (!a.simulated || (a.seed == b.seed && a.setup.world == b.setup.world));
+  return !a.is_replay && !b.is_replay && !(a.imported && b.imported) && !a.match_id && !b.match_id &&
+         a.simulated == b.simulated && a.lockstep == b.lockstep &&
+         (!a.simulated || (a.seed == b.seed && a.setup.world == b.setup.world));
 }
 
 void join_by_kicks(const std::vector<ComparedSession>& sessions, const std::vector<KickWord>& kicks, Joined& joined) {

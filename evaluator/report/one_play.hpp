@@ -25,6 +25,7 @@ struct ComparedSession {
   bool lockstep = false;  ///< its clock is the simulator's, and the same seed gives the same rows
   std::string uuid;
   std::string continues_uuid;  ///< empty: none
+  bool imported = false;       ///< no robot recorded it: two of them are never of one play
   bool is_replay = false;      ///< of another session: what its kicks would have become nobody knows
   bool paired_halves = false;  ///< each half has the possessions of the first
   std::int64_t row_count = 0;  ///< that its recorder wrote; of an experiment its possessions

@@ -12,7 +12,7 @@ namespace {
 
 using Table = std::vector<std::vector<std::string>>;
 
-std::string number(std::int64_t n) { return std::to_string(n); }
+std::string whole(std::int64_t n) { return std::to_string(n); }
 
 std::string share(stats::Counts counts) {
   const auto p = stats::efficiency(counts);
@@ -24,13 +24,13 @@ std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n
 std::string groups_table(const PolicyComparison& c) {
   Table table = {{c.by, "inside", "outside", "unknown", "efficiency", "95 %", "matches"}};
   for (const GroupResult& g : c.groups) {
-    table.push_back({g.name, number(g.inside), number(g.outside), number(g.unknown), share(g.efficiency()),
+    table.push_back({g.name, whole(g.inside), whole(g.outside), whole(g.unknown), share(g.efficiency()),
                      share_ci(g.efficiency(), g.efficiency_ci),
-                     g.matches > 0 ? number(static_cast<std::int64_t>(g.matches)) : "-"});
+                     g.matches > 0 ? whole(static_cast<std::int64_t>(g.matches)) : "-"});
   }
   if (c.book.blocked_apart) {
     table[0].push_back("blocked");
-    for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(number(c.groups[i].blocked));
+    for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(whole(c.groups[i].blocked));
   }
   std::string text = "\nEfficiency\n" + text_table(table);
   if (c.book.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
@@ -51,7 +51,7 @@ std::string volume_table(const PolicyComparison& c) {
     const auto per_minute = [&](std::int64_t n) {
       return g.minutes && *g.minutes > 0.0 ? fmt::format("{:.3f}", static_cast<double>(n) / *g.minutes) : "-";
     };
-    table.push_back({g.name, g.opportunities > 0 ? number(g.opportunities) : "-", number(g.kicks()),
+    table.push_back({g.name, g.opportunities > 0 ? whole(g.opportunities) : "-", whole(g.kicks()),
                      g.opportunities > 0
                          ? fmt::format("{:.3f}", static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities))
                          : "-",
@@ -79,7 +79,7 @@ std::string inside_text(const PolicyComparison& c) {
   Table table = {{c.by, "inside", "goals", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {
     const stats::Counts goals{g.goals, g.opportunities};
-    table.push_back({g.name, number(g.inside), number(g.goals), share(goals), share_ci(goals, g.goals_ci)});
+    table.push_back({g.name, whole(g.inside), whole(g.goals), share(goals), share_ci(goals, g.goals_ci)});
   }
   return text + "\nGoals: past the keeper, by the simulator's truth\n" + text_table(table);
 }
@@ -254,8 +254,9 @@ std::string to_text(const PolicyComparison& c) {
     }
   }
   text += "\nDesign: " + wrapped(design_sentence(c.pairs.front(), c), "  ", 100) + ".\n";
-  text += fmt::format("Outcomes: {}.\n",
-                      c.book.outcome == "truth" ? "the simulator's truth" : "as the robots observed them");
+  text += fmt::format("Outcomes: {}.\n", c.book.outcome == "truth"      ? "the simulator's truth"
+                                         : c.book.outcome == "labelled" ? "as somebody labelled them"
+                                                                        : "as the robots observed them");
   if (c.sample_ratio_p) {
     text += fmt::format("Shares as planned: p {}{}\n", p_value(*c.sample_ratio_p),
                         *c.sample_ratio_p < 0.001

@@ -7,6 +7,7 @@ namespace {
 Json policy_json(const PolicyRow& row) {
   Json misses = Json::object();
   for (const std::string& miss : kMisses) misses[miss] = row.of(miss);
+  if (row.of("outside") > 0) misses["outside"] = row.of("outside");
   return {{"policy", row.policy},
           {"inside", row.inside()},
           {"outside", row.outside()},
@@ -23,15 +24,17 @@ Json policy_json(const PolicyRow& row) {
           {"misses", misses}};
 }
 
-Json session_json(const log::RecordedSession& session) {
+Json session_json(const log::RecordedSession& session, const ImportNotes& imports) {
   Json policies = Json::array();
   for (const auto& half : session.policies) {
     policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
   }
+  const auto notes = imports.find(session.session_id);
   return {{"uuid", session.uuid},
           {"robot_id", json_of(session.robot_id)},
           {"simulated", session.simulated},
           {"scenario", session.scenario},
+          {"imported", notes == imports.end() ? Json() : Json(notes->second)},
           {"seed", json_of(session.seed)},
           {"software_version", session.software_version},
           {"config_sha256", session.config_sha256},
@@ -142,7 +145,7 @@ std::string to_json(const Report& report) {
     json["robots"].back()["robot_id"] = row.robot_id;
   }
   json["sessions"] = Json::array();
-  for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session));
+  for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session, report.imports));
   json["data_quality"] = quality_json(report);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "

@@ -66,6 +66,9 @@ std::string heading(const Report& report) {
         fmt::format(", version {}, configuration {:.12}\n", printable(session.software_version), session.config_sha256);
     if (session.paired_halves && halves_of(session) > 1)
       text += "  its halves are paired: each has the possessions of the first\n";
+    if (const auto notes = report.imports.find(session.session_id); notes != report.imports.end()) {
+      for (const std::string& note : notes->second) text += fmt::format("  {}\n", printable(note));
+    }
     if (!session.continues_uuid.empty())
       text += fmt::format("  it continues session {}\n", printable(session.continues_uuid));
   }
@@ -125,10 +128,13 @@ std::string by_robot(const Report& report) {
 std::string misses(const Report& report) {
   Table table = {{"policy"}};
   for (const std::string& miss : kMisses) table[0].push_back(words(miss));
+  const bool unsaid = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of("outside") > 0; });
+  if (unsaid) table[0].push_back("not said");
   table[0].push_back("unknown");
   for (const PolicyRow& row : report.policies) {
     table.push_back({row.policy});
     for (const std::string& miss : kMisses) table.back().push_back(number(row.of(miss)));
+    if (unsaid) table.back().push_back(number(row.of("outside")));
     table.back().push_back(number(row.unknown()));
   }
   return "\nWhy the misses missed\n" + text_table(table);
@@ -144,6 +150,9 @@ std::string label_quality(const LabelQuality& labels) {
   return "\nOutcomes by sightings of the flight\n" + text_table(table) +
          (labels.has_probabilities ? "" : "  an older log: its labels came without their probabilities\n");
 }
+
+// Nobody counts the sightings of somebody who watched a video.
+bool imported_alone(const Report& report) { return report.imports.size() == report.sessions.size(); }
 
 std::string lost_rows(const Report& report) {
   if (report.rows_missing() == 0) return "  lost: nothing\n";
@@ -211,9 +220,9 @@ std::string hint(const Report& report) {
 std::string to_text(const Report& report) {
   std::int64_t kicks = 0;
   for (const PolicyRow& row : report.policies) kicks += row.kicks();
-  const std::string tables = kicks > 0
-                                 ? table2(report) + by_robot(report) + misses(report) + label_quality(report.labels)
-                                 : table2(report) + "  there are no kicks\n";
+  const std::string tables = kicks > 0 ? table2(report) + by_robot(report) + misses(report) +
+                                             (imported_alone(report) ? "" : label_quality(report.labels))
+                                       : table2(report) + "  there are no kicks\n";
   return heading(report) + tables + quality(report) + hint(report);
 }
 

@@ -189,6 +189,7 @@ Report make_report(const log::Reader& reader, bool blocked_apart) {
                 .policies = policy_rows(reader, sessions, logged, blocked_apart),
                 .robots = robot_rows(reader, logged, blocked_apart),
                 .lengths = played_lengths(reader, logged.sessions),
+                .imports = import_notes_of(reader),
                 .not_counted = logged.not_counted,
                 .losses = reader.losses(),
                 .unclosed_kicks = unclosed_kicks_of(reader),

@@ -8,6 +8,7 @@
 
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/bounces.hpp"
+#include "evaluator/report/import_notes.hpp"
 #include "evaluator/report/label_quality.hpp"
 #include "evaluator/report/played_length.hpp"
 #include "evaluator/report/recording_gaps.hpp"
@@ -16,7 +17,8 @@
 
 namespace trivela::evaluator {
 
-/// Reasons why a kick was not on target, as in kicking::Outcome, without kUnknown.
+/// Reasons why a kick was not on target, as in kicking::Outcome, without kUnknown. A label by hand may be "outside"
+/// without any of them.
 inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "over", "short", "post", "bar", "blocked"};
 
 /// One row of Table 2: the kicks of a policy.
@@ -78,6 +80,7 @@ struct Report {
   std::vector<PolicyRow> policies;  ///< stopped before moving
   std::vector<RobotRow> robots;     ///< by robot and policy; empty: the log has one robot
   std::vector<PlayedLength> lengths;
+  ImportNotes imports{};                 ///< of sessions that no robot recorded
   std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
   std::vector<log::Loss> losses;         ///< by stream
   std::vector<UnclosedKick> unclosed_kicks;

@@ -1,168 +1,235 @@
-// Logs of a team: minutes, sessions and designs by robot; how long was planned and recorded.
+#include "evaluator/imports/team_log.hpp"
+
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/policy_comparison.hpp"
-#include "evaluator/report/table2.hpp"
-#include "tests/evaluator/experiment_fixture.hpp"
-#include "tests/evaluator/match_fixture.hpp"
+#include "evaluator/imports/possessions.hpp"
+#include "evaluator/imports/record_times.hpp"
+#include "tests/evaluator/team_log_writing.hpp"
 
-namespace trivela::evaluator {
+namespace trivela::evaluator::imports {
 namespace {
 
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
-using testing::SizeIs;
+using testing::IsEmpty;
 
-class TeamLog : public LogTest {
- protected:
-  // Robot 1 stopped, robot 2 moving; possessions in turn, those of robot 1 of half a minute, of robot 2 of a quarter.
-  void write_team(bool noted, bool in_turn = false) {
-    TestExperiment match(path(), 2);
-    for (std::uint32_t id = 0; id < 2; ++id) {
-      const auto policy = [&](std::int64_t robot) {
-        return (robot == 1) != (in_turn && id == 1) ? "stopped" : "moving";
-      };
-      match.begin();
-      match.session(id, 0, "", {{1, "learned", 0}, {1, policy(1), 1}, {1, policy(2), 2}, {1, "learned", 3}}, false);
-      double at_s = 0.0;
-      for (std::int64_t i = 1; i <= 8; ++i) {
-        match.robot_id = 1 + i % 2;
-        const double minutes = match.robot_id == 1 ? 0.5 : 0.25;
-        match.played_possession(1, i, at_s, minutes);
-        at_s += 60.0 * minutes;
-        match.possession(1, i, policy(match.robot_id), noted ? 0.9999999 : 1.0,
-                         i > 2 ? std::optional(LoggedKick{}) : std::nullopt);
-      }
-      match.commit();
-    }
-    match.finish();
+TeamLog read(const std::string& text) {
+  std::istringstream in(text);
+  return read_team_log(in, "x.A.msl");
+}
+
+std::string log_of(const std::vector<std::string>& states, std::int64_t step_ms = 100) {
+  std::ostringstream out;
+  TeamLogWriting log(out);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto n = static_cast<std::int64_t>(i);
+    log.record(1'000'000 + n * step_ms, n * step_ms, states[i]);
   }
-};
-
-TEST_F(TeamLog, MinutesAreThoseOfTheRobotsOfAPolicy) {
-  write_team(false);
-  const Report report = make_report(log::Reader(path()));
-  ASSERT_THAT(report.policies, SizeIs(2));
-  EXPECT_EQ(report.policies[0].policy, "stopped");
-  EXPECT_NEAR(*report.policies[0].played_min, 4.0, 1e-9);
-  EXPECT_NEAR(*report.policies[1].played_min, 2.0, 1e-9);
-  EXPECT_NEAR(*report.policies[1].kicks_per_min(), 3.0, 1e-9);
+  log.close();
+  return out.str();
 }
 
-TEST_F(TeamLog, HasATableByRobotAndASessionLineThatIsTrue) {
-  write_team(false);
-  const Report report = make_report(log::Reader(path()));
-  ASSERT_THAT(report.robots, SizeIs(2));
-  EXPECT_EQ(report.robots[0].robot_id, 1);
-  EXPECT_EQ(report.robots[0].policy, "stopped");
-  EXPECT_EQ(report.robots[0].kicks(), 6);
-  EXPECT_NEAR(*report.robots[0].played_min, 4.0, 1e-9);
-  const std::string text = to_text(report);
-  EXPECT_THAT(text, HasSubstr(", robot 1 stopped, robot 2 moving, version"));
-  EXPECT_THAT(text, HasSubstr("By robot"));
-  EXPECT_THAT(text, Not(HasSubstr("learned"))) << "of robots that nobody recorded";
-  EXPECT_EQ(nlohmann::json::parse(to_json(report))["robots"][1]["robot_id"], 2);
+/// The faults of one worldstate in a log of it alone.
+std::vector<std::string> faults_of(const std::string& state) { return read(log_of({state})).faults.sentences(); }
+
+std::string with_robot(const std::string& robot) { return worldstate(robot, told_ball(1.0)); }
+
+std::string with_ball(const std::string& ball) { return worldstate(told_robot(1, 0.0, 0.0), ball); }
+
+TEST(TeamLog, ARecordOfTheLeaguesSchemaIsReadWithoutAFault) {
+  const TeamLog log =
+      read(log_of({worldstate(told_robot(1, -1.5, 2.0) + "," + told_robot(2, 0.5, 4.0, "1"), told_ball(0.5))}));
+  EXPECT_THAT(log.faults.sentences(), IsEmpty());
+  EXPECT_EQ(log.team, "Water");
+  ASSERT_EQ(log.usable.size(), 1u);
+  const TeamRecord& record = log.usable[0];
+  EXPECT_EQ(record.timestamp_ms, 1'000'000.0);
+  EXPECT_EQ(record.game_ms, 0.0);
+  ASSERT_EQ(record.robots.size(), 2u);
+  EXPECT_EQ(record.robots[0].id, 1);
+  EXPECT_EQ(record.robots[0].x_m, -1.5);
+  EXPECT_EQ(record.robots[0].heading_rad, 0.25);
+  EXPECT_THAT(*record.robots[0].velocity, ElementsAre(0.0, 0.5, 0.1));
+  EXPECT_FALSE(record.robots[0].ball_engaged);
+  EXPECT_TRUE(record.robots[1].ball_engaged);
+  ASSERT_TRUE(record.ball);
+  EXPECT_EQ(record.ball->x_m, 0.5);
 }
 
-TEST_F(TeamLog, ComparesWithTheMinutesOfTheReportAndSaysThatTheRobotsDiffer) {
-  write_team(false);
-  std::string by;
-  const auto result = compare_policies(read_log_kicks({path()}, {}, by), by);
-  EXPECT_NEAR(*result.groups[0].minutes, 4.0, 1e-9);
-  EXPECT_NEAR(*result.groups[1].minutes, 2.0, 1e-9);
-  EXPECT_EQ(result.pairs[0].design, Design::kBeforeAfter);
-  EXPECT_THAT(result.book.design_reason,
-              HasSubstr("side by side in the same matches, each robot always with the same"));
+TEST(TeamLog, FaultsOfAgesAreNamed) {
+  const auto aged = [](const std::string& age) { return worldstate(told_robot(1, 0, 0), told_ball(1), age); };
+  EXPECT_THAT(faults_of(aged("4.5")), ElementsAre("x.A.msl: ageMs not whole in record 1: ageMs = 4.5"));
+  EXPECT_THAT(faults_of(aged("-1")), ElementsAre("x.A.msl: ageMs negative in record 1: ageMs = -1"));
+  EXPECT_THAT(faults_of(aged("600000")), ElementsAre("x.A.msl: ageMs above 10 s in record 1: ageMs = 600000"));
+  EXPECT_THAT(faults_of(aged("\"old\"")), ElementsAre("x.A.msl: value of another type in record 1: ageMs = old"));
+  std::string without = aged("40");
+  without.replace(without.find("\"ageMs\":40,"), 11, "");
+  EXPECT_THAT(faults_of(without), ElementsAre("x.A.msl: ageMs missing in record 1"));
 }
 
-TEST_F(TeamLog, RobotsThatChangeRolesAlternate) {
-  write_team(false, true);
-  std::string by;
-  const auto result = compare_policies(read_log_kicks({path()}, {}, by), by);
-  EXPECT_EQ(result.pairs[0].design, Design::kAlternating);
-  EXPECT_THAT(result.book.design_reason, HasSubstr("each robot played with each"));
+TEST(TeamLog, FaultsOfRobotsAreNamedAndTheRobotIsUsedWhereItHasAPlace) {
+  EXPECT_THAT(faults_of(with_robot(told_robot(1, 0, 0, "0.0"))),
+              ElementsAre("x.A.msl: ballEngaged neither 0 nor 1 in record 1: ballEngaged = 0.0"));
+  EXPECT_THAT(faults_of(with_robot(told_robot(1, 0, 0, "0", "target pose"))),
+              ElementsAre(HasSubstr("key \"target pose\" in record 1")));
+  EXPECT_THAT(faults_of(with_robot(told_robot(1, 0, 0) + "," + told_robot(1, 1, 1))),
+              ElementsAre("x.A.msl: robot twice in a record in record 1: id = 1"));
+  const auto use = [](const std::string& robot) { return read(log_of({with_robot(robot)})).usable[0].robots.size(); };
+  const std::string placeless =
+      R"({"id":1,"pose":null,"targetPose":[0,0,0],"velocity":null,"intention":"","batteryLevel":5,"ballEngaged":1})";
+  EXPECT_THAT(faults_of(with_robot(placeless)), ElementsAre("x.A.msl: null position in record 1: pose = null",
+                                                            "x.A.msl: velocity null in record 1: velocity = null"));
+  EXPECT_EQ(use(placeless), 0u);
+  EXPECT_EQ(use(told_robot(1, 1800.0, 0.0)), 0u);  // millimetres
+  EXPECT_THAT(faults_of(with_robot(told_robot(1, 1800.0, 0.0))),
+              ElementsAre("x.A.msl: position beyond 50 m in record 1: robot = 1800, 0"));
+  EXPECT_EQ(use(R"({"id":2,"pose":[0,0,1]})"), 1u);
+  EXPECT_THAT(faults_of(with_robot(R"({"id":300,"pose":[0,0]})")),
+              Contains("x.A.msl: robot without an id from 0 to 255 in record 1: id = 300"));
+  EXPECT_THAT(faults_of(with_robot(R"({"id":3,"pose":[0,0]})")),
+              Contains(HasSubstr("robot with too short a position")));
 }
 
-TEST_F(TeamLog, ComparedByRobotEachHasItsMinutes) {
-  write_team(false);
-  std::string by;
-  LogKicks options;
-  options.by = "robot";
-  const auto result = compare_policies(read_log_kicks({path()}, options, by), by);
-  EXPECT_NEAR(*result.groups[0].minutes, 4.0, 1e-9);
-  EXPECT_NEAR(*result.groups[1].minutes, 2.0, 1e-9);
+TEST(TeamLog, FaultsOfBallsAreNamedAndTheMostTrustedOneIsUsed) {
+  EXPECT_THAT(faults_of(with_ball(told_ball(1.0, 0.0))),
+              ElementsAre("x.A.msl: ball at height 0 in record 1: position = 0"));
+  EXPECT_THAT(faults_of(with_ball(told_ball(1.0, 0.11, -100.0))),
+              ElementsAre("x.A.msl: confidence outside 0..1 in record 1: confidence = -100"));
+  EXPECT_THAT(faults_of(with_ball(R"({"position":[null,null,null],"velocity":[0,0,0],"confidence":0.5})")),
+              ElementsAre("x.A.msl: null position in record 1: ball"));
+  EXPECT_THAT(faults_of(with_ball(R"({"position":[1,2,0.1],"confidence":0.5})")),
+              ElementsAre("x.A.msl: ball without velocity in record 1"));
+  const TeamLog log = read(log_of(
+      {with_ball(told_ball(1.0, 0.11, 0.2) + "," + told_ball(2.0, 0.11, 0.7) + "," + told_ball(3.0, 0.11, 0.5))}));
+  EXPECT_THAT(log.faults.sentences(), ElementsAre("x.A.msl: more than one ball in record 1: balls = 3"));
+  EXPECT_EQ(log.usable[0].ball->x_m, 2.0);
 }
 
-class LengthOfALog : public LogTest {
- protected:
-  Report report(double planned_s, double recorded_s, std::optional<double> second_half_from_s = {}) {
-    auto planned = session();
-    planned.planned_s = planned_s;
-    planned.policies = {{1, "stopped"}};
-    if (second_half_from_s) planned.policies.push_back({2, "moving"});
-    MatchLog match(path(), planned, options());
-    match.referee(0.0, 1, true);
-    if (second_half_from_s) {
-      match.referee(*second_half_from_s - 0.02, 1, true);
-      match.referee(*second_half_from_s, 2, true);
-    }
-    match.referee(recorded_s, second_half_from_s ? 2 : 1, true);
-    match.close();
-    return make_report(log::Reader(path()));
+TEST(TeamLog, FaultsOfTheWholeFileAreNamed) {
+  const std::vector<std::string> same(150, worldstate(told_robot(1, 0, 0), told_ball(1)));
+  EXPECT_THAT(read(log_of(same)).faults.sentences(),
+              ElementsAre("x.A.msl: battery constant: batteryLevel of robot 1 = 80"));
+  EXPECT_THAT(read(log_of(same, 250)).faults.sentences(),
+              Contains("x.A.msl: rate below 10 Hz: records a second = 4.0"));
+  EXPECT_NEAR(*record_rate_hz(read(log_of(same, 250))), 4.0, 1e-9);
+}
+
+TEST(TeamLog, StampsThatRepeatOrGoBackAreCounted) {
+  std::ostringstream out;
+  TeamLogWriting writing(out);
+  const std::string state = worldstate(told_robot(1, 0, 0), told_ball(1));
+  for (const std::int64_t stamp : {1000, 1000, 1000, 900, 1300}) writing.record(stamp, 100 * writing.records(), state);
+  writing.close();
+  EXPECT_THAT(read(out.str()).faults.sentences(),
+              ElementsAre("x.A.msl: repeated stamp: 2 times, first in record 2: timestamp = 1000",
+                          "x.A.msl: record out of order in record 4: timestamp = 900"));
+}
+
+TEST(TeamLog, ABrokenRecordIsNamedAndTheOthersAreUsed) {
+  const std::string good = R"({"teamName": "W","timestamp": 1,"gametimeMs": 1,"worldstate": )" +
+                           worldstate(told_robot(1, 0, 0), told_ball(1)) + "}";
+  const TeamLog log =
+      read("[\n" + good + "\n,\n{\"teamName\": \"W\",\"timestamp\": 1x,\"worldstate\": {}}\n,\n" + good + "\n]");
+  EXPECT_EQ(log.records, 3);
+  EXPECT_EQ(log.usable.size(), 2u);
+  EXPECT_THAT(log.faults.sentences(), Contains("x.A.msl: record is not JSON in record 2"));
+}
+
+TEST(TeamLog, ATruncatedFileSaysSoAndWhatIsWholeIsUsed) {
+  const std::string whole =
+      log_of({worldstate(told_robot(1, 0, 0), told_ball(1)), worldstate(told_robot(1, 0, 0), told_ball(1))});
+  for (std::size_t cut = whole.size() - 3; cut > whole.size() / 2 + 5; cut -= 7) {
+    const TeamLog log = read(whole.substr(0, cut));
+    EXPECT_EQ(log.usable.size(), 1u) << cut;
+    EXPECT_THAT(log.faults.sentences(),
+                ElementsAre("x.A.msl: breaks off within a record in record 2", "x.A.msl: array not closed"));
   }
-};
-
-TEST_F(LengthOfALog, AMatchThatWasCutShortIsLoss) {
-  const Report cut = report(300.0, 27.0);
-  EXPECT_TRUE(cut.data_lost());
-  EXPECT_THAT(to_text(cut), HasSubstr("Planned 300 s, recorded 27.0 s: CUT SHORT"));
-  EXPECT_THAT(to_text(cut), HasSubstr("  cut short: 27.0 s of 300.0 s are recorded\n"));
-  EXPECT_TRUE(nlohmann::json::parse(to_json(cut))["data_quality"]["lengths"][0]["cut_short"]);
 }
 
-TEST_F(LengthOfALog, AWholeOneIsNot) {
-  const Report whole = report(300.0, 301.0);
-  EXPECT_FALSE(whole.data_lost());
-  EXPECT_THAT(to_text(whole), HasSubstr("Planned 300 s, recorded 301.0 s\n"));
+TEST(TeamLog, WhatIsNoLogSaysSo) {
+  EXPECT_THAT(read("").faults.sentences(), ElementsAre("x.A.msl: no record in it"));
+  EXPECT_THAT(read("[]").faults.sentences(), ElementsAre("x.A.msl: no record in it"));
+  EXPECT_THAT(read("hello\n").faults.sentences(), ElementsAre("x.A.msl: not JSON in record 1: line = hello"));
+  const TeamLog other = read("[{\"a\":[{\"b\":1}],\"worldstate\":[1,2],\"timestamp\":null}]");
+  EXPECT_THAT(other.usable, IsEmpty());
+  EXPECT_THAT(other.faults.sentences(), Contains(HasSubstr("worldstate missing in record 1")));
 }
 
-TEST_F(LengthOfALog, HalvesThatOverranAreWhole) { EXPECT_FALSE(report(60.0, 66.0, 33.0).data_lost()); }
-
-TEST_F(LengthOfALog, AHalfThatOverranMakesUpForNoneOfTheNext) {
-  const Report cut = report(60.0, 61.0, 36.0);
-  EXPECT_TRUE(cut.data_lost());
-  EXPECT_THAT(to_text(cut), HasSubstr("Planned 60 s, recorded 61.0 s: CUT SHORT"));
+TEST(RecordTimes, AreThoseOfTheGameTimePlacedByTheStampsThatMove) {
+  std::ostringstream out;
+  TeamLogWriting writing(out);
+  const std::string state = worldstate(told_robot(1, 0, 0), told_ball(1));
+  // Twice the same stamp, one that goes back; then the next part, whose game time starts at 0.
+  const std::int64_t stamps[] = {5000, 5000, 5200, 5100, 5400, 9000, 9100};
+  const std::int64_t game[] = {1000, 1100, 1200, 1300, 1400, 0, 100};
+  for (int i = 0; i < 7; ++i) writing.record(stamps[i], game[i], state);
+  writing.close();
+  EXPECT_THAT(record_times_ms(read(out.str()), nullptr), ElementsAre(5000, 5100, 5200, 5300, 5400, 9000, 9100));
 }
 
-TEST_F(LengthOfALog, AComparisonSaysThatAMatchWasCutShort) {
-  report(300.0, 27.0);
-  EXPECT_THAT(read_opportunities({path()}, false).remarks,
-              testing::Contains(HasSubstr("match.db: cut short: 27.0 s of 300.0 s are recorded")));
+TEST(RecordTimes, OfStampsThatNeverMoveAreThoseOfTheRefereesParts) {
+  std::ostringstream out;
+  TeamLogWriting writing(out);
+  const std::string state = worldstate(told_robot(1, 0, 0), told_ball(1));
+  for (const std::int64_t game : {2000, 2250, 100, 350}) writing.record(7, game, state);
+  writing.close();
+  std::istringstream text(
+      "50000,00:01(00:00),1st Half,1,1st half\n60000,00:11(00:10),1st Half - STOP,S,STOP\n"
+      "90000,00:00(00:00),2nd Half,2,2nd half\n");
+  const RefereeLog referee = read_referee_log(text, "x.msl");
+  EXPECT_THAT(record_times_ms(read(out.str()), &referee), ElementsAre(51000, 51250, 90100, 90350));
+  EXPECT_THAT(record_times_ms(read(out.str()), nullptr), ElementsAre(2000, 2250, 2250, 2500));
 }
 
-TEST_F(LengthOfALog, WhereNobodyPlannedOneNothingIsSaid) {
-  MatchLog match(path(), session(), options());
-  match.referee(0.0, 1, true);
-  match.referee(3.0, 1, true);
-  match.close();
-  const Report report = make_report(log::Reader(path()));
-  EXPECT_FALSE(report.data_lost());
-  EXPECT_THAT(to_text(report), Not(HasSubstr("Planned")));
+TEST(RecordTimes, WhereTheGameTimeStandsStillTheStampsSayTheSteps) {
+  std::ostringstream out;
+  TeamLogWriting writing(out);
+  const std::string state = worldstate(told_robot(1, 0, 0), told_ball(1));
+  for (const std::int64_t stamp : {5000, 5100, 5100, 5350}) writing.record(stamp, 0, state);
+  writing.close();
+  EXPECT_THAT(record_times_ms(read(out.str()), nullptr), ElementsAre(5000, 5100, 5100, 5350));
 }
 
-TEST_F(LengthOfALog, TheValueOfAPolicySaysWhereDrawsHeldForAHalf) {
-  TestExperiment match(path(), 1);
-  match.begin();
-  match.session(0, 0, "", {}, false);
-  match.possession(1, 0, "moving", 0.5, LoggedKick{});
-  match.commit();
-  match.finish();
-  const auto logged = read_opportunities({path()}, false);
-  EXPECT_EQ(logged.draws_of_halves, 1);
+TEST(Possessions, JoinShortGapsAndLeaveOutShortContacts) {
+  std::vector<std::string> states;
+  for (int i = 0; i < 60; ++i) {
+    const bool first = (i >= 5 && i < 10) || (i >= 14 && i < 20);  // 0.5 s of nothing between them
+    const bool touch = i >= 30 && i < 33;                          // 0.2 s
+    const bool other = i >= 40 && i < 50;
+    states.push_back(worldstate(
+        told_robot(1, 0, 0, first || touch ? "1" : "0") + "," + told_robot(2, 1, 1, other ? "1" : "0"), told_ball(1)));
+  }
+  const TeamLog log = read(log_of(states));
+  const std::vector<Possession> found = possessions(log, record_times_ms(log, nullptr));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].robot_id, 1);
+  EXPECT_DOUBLE_EQ(found[0].duration_s(), 1.4);
+  EXPECT_EQ(found[1].robot_id, 2);
+  EXPECT_DOUBLE_EQ(found[1].duration_s(), 0.9);
+  EXPECT_EQ(found[1].speeds_mps.size(), 10u);
+  EXPECT_DOUBLE_EQ(found[1].speeds_mps[0], 0.5);
+}
+
+TEST(TeamLog, AGeneratedLogWithTheFaultsOfRealClientsIsCountedRecordByRecord) {
+  std::stringstream text;
+  const GeneratedFaults made = write_faulty_log(text, 1'000'000);
+  const TeamLog log = read_team_log(text, "x.A.msl");
+  EXPECT_EQ(log.records, made.records);
+  EXPECT_EQ(std::ssize(log.usable), made.records);
+  EXPECT_EQ(log.faults.of("ageMs missing"), made.no_age);
+  EXPECT_EQ(log.faults.of("more than one ball"), made.five_balls);
+  EXPECT_EQ(log.faults.of("null position"), made.null_positions);
+  EXPECT_EQ(log.faults.of("ball at height 0"), made.records + 3 * made.five_balls);
+  EXPECT_EQ(log.faults.of("battery constant"), 1);
+  EXPECT_GT(log.faults.of("repeated stamp"), made.records / 3);
+  EXPECT_GT(log.faults.of("record out of order"), made.records / 20);
+  const auto found = possessions(log, record_times_ms(log, nullptr));
+  ASSERT_EQ(std::ssize(found), (made.records + 89) / 100);
+  EXPECT_NEAR(found[0].duration_s(), 1.0, 1e-9);
 }
 
 }  // namespace
-}  // namespace trivela::evaluator
+}  // namespace trivela::evaluator::imports

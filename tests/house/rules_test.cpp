@@ -126,6 +126,7 @@ TEST(House, EveryOuterLibraryHasOneDoor) {
   const std::map<std::string, std::vector<std::string>> doors{
       {"dds/", {"bus/", "idl/"}}, {"SQLiteCpp/", {"evaluator/log/"}},   {"sqlite3.h", {"evaluator/log/"}},
       {"toml++/", {"config/"}},   {"CLI/", {"cli/", "nodes/runtime/"}}, {"httplib.h", {"pages/lob/"}},
+      {"zlib.h", {"evaluator/imports/"}},
   };
   std::vector<std::string> broken;
   for (const std::string& folder : kRooms) {

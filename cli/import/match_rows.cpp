@@ -1,0 +1,172 @@
+#include "cli/import/match_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "cli/import/import_session.hpp"
+#include "cli/import/row_writing.hpp"
+#include "evaluator/imports/play_statistics.hpp"
+#include "evaluator/imports/record_times.hpp"
+#include "idl/messages.hpp"
+#include "idl/none.hpp"
+#include "robot/recording/message_row.hpp"
+
+namespace trivela::cli {
+namespace {
+
+namespace imports = evaluator::imports;
+
+constexpr std::int64_t kLongestStep_ms = 500;  // between poses that a velocity follows from
+
+/// Which part of the match it is and whether the ball is in play, command by command.
+class GameState {
+ public:
+  explicit GameState(const imports::RefereeLog& log) : part_(imports::first_part(log)) {}
+
+  void hear(imports::BoxCommand command) {
+    if (const auto begun = imports::begun_part(command)) part_ = *begun;
+    if (command == imports::BoxCommand::kStart) playing_ = true;
+    if (command == imports::BoxCommand::kStop || imports::begun_part(command) || imports::ends_part(command))
+      playing_ = false;
+  }
+  std::uint8_t half() const { return static_cast<std::uint8_t>(part_); }
+  bool playing() const { return playing_; }
+
+ private:
+  int part_;
+  bool playing_ = false;
+};
+
+std::int64_t nanoseconds_since(std::int64_t start_ms, std::int64_t t_ms) { return (t_ms - start_ms) * 1'000'000; }
+
+void write_referee(RowWriting& rows, const imports::RefereeLog& log, std::int64_t start_ms) {
+  GameState game(log);
+  msg::Referee row{};
+  for (const imports::RefereeLine& line : log.lines) {
+    game.hear(line.command);
+    ++row.seq;
+    row.t_ns = nanoseconds_since(start_ms, line.t_ms);
+    row.half = game.half();
+    row.playing = game.playing();
+    rows.write(row);
+  }
+}
+
+/// The game as it was at instants that never fall.
+class GameAt {
+ public:
+  explicit GameAt(const imports::RefereeLog& log) : log_(log), game_(log) {}
+  const GameState& at(std::int64_t t_ms) {
+    while (next_ < log_.lines.size() && log_.lines[next_].t_ms <= t_ms) game_.hear(log_.lines[next_++].command);
+    return game_;
+  }
+
+ private:
+  const imports::RefereeLog& log_;
+  GameState game_;
+  std::size_t next_ = 0;
+};
+
+/// Velocities in F [m/s, m/s, rad/s], from the latest pose where none is told.
+class Velocities {
+ public:
+  std::optional<std::array<double, 3>> of(const imports::ToldRobot& robot, std::int64_t t_ms) {
+    const auto [place, first] = latest_.try_emplace(robot.id, Latest{robot, t_ms});
+    const Latest before = std::exchange(place->second, Latest{robot, t_ms});
+    if (robot.velocity) return robot.velocity;
+    const std::int64_t step_ms = t_ms - before.t_ms;
+    if (first || step_ms <= 0 || step_ms > kLongestStep_ms) return std::nullopt;
+    const double step_s = 1e-3 * static_cast<double>(step_ms);
+    const double turned_rad = std::remainder(robot.heading_rad - before.robot.heading_rad, 2.0 * M_PI);
+    return std::array{(robot.x_m - before.robot.x_m) / step_s, (robot.y_m - before.robot.y_m) / step_s,
+                      turned_rad / step_s};
+  }
+
+ private:
+  struct Latest {
+    imports::ToldRobot robot;
+    std::int64_t t_ms = 0;
+  };
+  std::map<int, Latest> latest_;  // by robot
+};
+
+/// The robot's twist is told in F and stands in R: turned by minus its heading.
+msg::WorldState world_state(const imports::ToldRobot& robot, const std::array<double, 3>& velocity,
+                            const std::optional<imports::ToldBall>& ball) {
+  const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
+  msg::WorldState row{};
+  row.robot_id = static_cast<std::uint8_t>(robot.id);
+  row.x_m = robot.x_m;
+  row.y_m = robot.y_m;
+  row.heading_rad = robot.heading_rad;
+  row.vx_mps = c * velocity[0] + s * velocity[1];
+  row.vy_mps = c * velocity[1] - s * velocity[0];
+  row.omega_radps = velocity[2];
+  row.possession = robot.ball_engaged;
+  row.ball_known = ball.has_value();
+  row.ball_x_m = ball ? ball->x_m : msg::kNone;
+  row.ball_y_m = ball ? ball->y_m : msg::kNone;
+  row.ball_vx_mps = ball && ball->velocity ? (*ball->velocity)[0] : msg::kNone;
+  row.ball_vy_mps = ball && ball->velocity ? (*ball->velocity)[1] : msg::kNone;
+  row.ball_age_s = row.opponent_distance_m = msg::kNone;
+  return row;
+}
+
+void write_team(RowWriting& rows, const imports::TeamLog& team, const std::vector<std::int64_t>& times_ms,
+                const imports::RefereeLog& referee, std::int64_t start_ms, ImportedRows& imported) {
+  GameAt game(referee);
+  Velocities velocities;
+  std::map<int, std::uint64_t> seqs;
+  for (std::size_t i = 0; i < team.usable.size(); ++i) {
+    const GameState& now = game.at(times_ms[i]);
+    for (const imports::ToldRobot& robot : team.usable[i].robots) {
+      const auto velocity = velocities.of(robot, times_ms[i]);
+      imported.without_velocity += velocity ? 0 : 1;
+      if (!velocity) continue;
+      msg::WorldState row = world_state(robot, *velocity, team.usable[i].ball);
+      row.seq = ++seqs[robot.id];
+      row.t_ns = nanoseconds_since(start_ms, times_ms[i]);
+      row.half = now.half();
+      row.playing = now.playing();
+      rows.write(row);
+      ++imported.world_states;
+    }
+  }
+}
+
+// Records an hour from any command are of another match: a box is started for a match and ended with it.
+void check_same_match(const imports::RefereeLog& referee, const std::string& team_file,
+                      const std::vector<std::int64_t>& times_ms) {
+  constexpr std::int64_t kLongestApart_ms = 3'600'000;
+  if (times_ms.empty()) return;
+  const std::int64_t after_ms = times_ms.front() - referee.lines.back().t_ms;
+  const std::int64_t before_ms = referee.lines.front().t_ms - times_ms.back();
+  const std::int64_t apart_ms = std::max(after_ms, before_ms);
+  if (apart_ms <= kLongestApart_ms) return;
+  throw std::runtime_error(fmt::format("{} and {} are not of the same match: they are {:.1f} h apart", team_file,
+                                       referee.file, static_cast<double>(apart_ms) / 3.6e6));
+}
+
+}  // namespace
+
+ImportedRows write_match_log(const imports::RefereeLog& referee, const imports::SidedTeamLog* team,
+                             const std::vector<std::string>& sentences, const std::filesystem::path& out) {
+  if (referee.lines.empty()) throw std::runtime_error(referee.file + ": no command in it, so there is no match to log");
+  const auto times_ms = team != nullptr ? imports::record_times_ms(team->log, &referee) : std::vector<std::int64_t>();
+  if (team != nullptr) check_same_match(referee, team->log.file, times_ms);
+  std::int64_t start_ms = referee.lines.front().t_ms;
+  if (!times_ms.empty()) start_ms = std::min(start_ms, times_ms.front());
+  ImportedRows imported{.referee = std::ssize(referee.lines)};
+  RowWriting rows(out, imported_session(referee.file, sentences, "", start_ms * 1'000'000));
+  write_referee(rows, referee, start_ms);
+  if (team != nullptr) write_team(rows, team->log, times_ms, referee, start_ms, imported);
+  rows.finish();
+  return imported;
+}
+
+}  // namespace trivela::cli

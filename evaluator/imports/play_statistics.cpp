@@ -1,0 +1,107 @@
+#include "evaluator/imports/play_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace trivela::evaluator::imports {
+namespace {
+
+double seconds_between(std::int64_t from_ms, std::int64_t to_ms) { return 1e-3 * static_cast<double>(to_ms - from_ms); }
+
+/// What began and has not ended yet, command by command.
+class PlayCount {
+ public:
+  explicit PlayCount(int part) : part_(part) {}
+
+  void hear(const RefereeLine& line) {
+    if (line.command == BoxCommand::kStart) return start(line.t_ms);
+    if (line.command == BoxCommand::kStop) return stop(line.t_ms);
+    if (is_restart(line.command)) restart_ms_ = line.t_ms;
+    const auto begun = begun_part(line.command);
+    if (begun || ends_part(line.command)) {
+      end_play(line.t_ms, false);
+      stop_ms_.reset();
+    }
+    if (begun) part_ = *begun;
+  }
+
+  PlayStatistics finish() && {
+    statistics_.open_plays = start_ms_ ? 1 : 0;
+    return std::move(statistics_);
+  }
+
+ private:
+  void start(std::int64_t t_ms) {
+    if (stop_ms_) statistics_.stop_to_start_s.push_back(seconds_between(*stop_ms_, t_ms));
+    if (restart_ms_) statistics_.restart_to_start_s.push_back(seconds_between(*restart_ms_, t_ms));
+    stop_ms_.reset();
+    restart_ms_.reset();
+    if (!start_ms_) start_ms_ = t_ms;
+  }
+
+  void stop(std::int64_t t_ms) {
+    const bool played = start_ms_.has_value();
+    end_play(t_ms, true);
+    if (played) stop_ms_ = t_ms;
+    restart_ms_.reset();
+  }
+
+  void end_play(std::int64_t t_ms, bool stopped) {
+    if (start_ms_) statistics_.plays.push_back({*start_ms_, t_ms, part_, stopped});
+    start_ms_.reset();
+  }
+
+  PlayStatistics statistics_{};
+  int part_;
+  std::optional<std::int64_t> start_ms_, stop_ms_, restart_ms_;
+};
+
+}  // namespace
+
+double PlayStatistics::played_s() const {
+  return std::accumulate(plays.begin(), plays.end(), 0.0,
+                         [](double sum, const Play& play) { return sum + seconds_between(play.from_ms, play.to_ms); });
+}
+
+std::int64_t PlayStatistics::stops() const { return std::ranges::count_if(plays, &Play::stopped); }
+
+std::optional<double> PlayStatistics::stops_per_min() const {
+  const double played = played_s();
+  return played > 0.0 ? std::optional(60.0 * static_cast<double>(stops()) / played) : std::nullopt;
+}
+
+PlayStatistics play_statistics(const RefereeLog& log) {
+  PlayCount count(first_part(log));
+  for (const RefereeLine& line : log.lines) count.hear(line);
+  return std::move(count).finish();
+}
+
+int first_part(const RefereeLog& log) {
+  if (log.lines.empty()) return 1;
+  const std::string& state = log.lines.front().state;
+  const bool second = state.find("2nd") != std::string::npos, over = state.find("vertime") != std::string::npos;
+  return (second ? 2 : 1) + (over ? 2 : 0);
+}
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+std::optional<double> quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return std::nullopt;
+  std::ranges::sort(values);
+  const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+std::optional<double> mean(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace trivela::evaluator::imports

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "evaluator/imports/referee_log.hpp"
+
+namespace trivela::evaluator::imports {
+
+/// From a START to the STOP, or to the end of the part, that ended it.
+struct Play {
+  std::int64_t from_ms = 0;  ///< UTC since 1970
+  std::int64_t to_ms = 0;
+  int part = 1;          ///< 1 to 4, 3 and 4 being overtime
+  bool stopped = false;  ///< by a STOP
+};
+
+/// What a box's text log says of the game.
+struct PlayStatistics {
+  std::vector<Play> plays;
+  std::vector<double> stop_to_start_s;     ///< from the STOP that ended a play to the next START of the same part
+  std::vector<double> restart_to_start_s;  ///< from the last set piece that was called, since the last STOP, to START
+  std::int64_t open_plays = 0;             ///< started where the log ends; not among `plays`
+
+  double played_s() const;
+  std::int64_t stops() const;
+
+  /// STOPs that ended a play, a minute of play. None: nothing was played.
+  std::optional<double> stops_per_min() const;
+};
+
+PlayStatistics play_statistics(const RefereeLog& log);
+
+/// The part that the match is in before its first command: by the state that it is logged with, 1 where that says none.
+int first_part(const RefereeLog& log);
+
+/// The middle of the values, of an even number the mean of the two in the middle. None: there are none.
+std::optional<double> median(std::vector<double> values);
+
+/// The value that `fraction` of the values lie at or below, 0 < fraction <= 1. None: there are none.
+std::optional<double> quantile(std::vector<double> values, double fraction);
+
+std::optional<double> mean(const std::vector<double>& values);
+
+}  // namespace trivela::evaluator::imports

@@ -1,0 +1,161 @@
+#include "evaluator/imports/referee_log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+namespace trivela::evaluator::imports {
+namespace {
+
+using Text = std::string_view;
+
+constexpr std::int64_t kLatest_ms = 4'102'444'800'000;  // 2100: beyond it is no UTC in milliseconds
+
+template <class T>
+bool take_number(Text& text, T& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || number < 0) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+bool take(Text& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+/// "06:53" is minutes and seconds; minutes may be more than 59.
+bool take_clock(Text& text, std::int64_t& ms) {
+  int minutes = 0, seconds = 0;
+  if (!take_number(text, minutes) || !take(text, ':') || !take_number(text, seconds) || seconds > 59) return false;
+  ms = (minutes * std::int64_t{60} + seconds) * 1000;
+  return true;
+}
+
+/// Which side a team's network "172.16.N" or "224.16.32.N" has, as lines such as "Connection from 172.16.74.27
+/// accepted - Magenta" tell it.
+class SidesOfTeams {
+ public:
+  void accepted(Text line) {
+    const BoxSide side = line.ends_with("Magenta") ? BoxSide::kMagenta : BoxSide::kCyan;
+    if (const auto group = number_behind(line, "172.16.")) sides_[*group] = side;
+  }
+  BoxSide of(Text team) const {
+    const auto group = number_behind(team, "224.16.32.");
+    const auto known = group ? sides_.find(*group) : sides_.end();
+    return known == sides_.end() ? BoxSide::kBoth : known->second;
+  }
+
+ private:
+  static std::optional<int> number_behind(Text text, Text prefix) {
+    const auto place = text.find(prefix);
+    if (place == Text::npos) return std::nullopt;
+    text.remove_prefix(place + prefix.size());
+    int number = 0;
+    return take_number(text, number) ? std::optional(number) : std::nullopt;
+  }
+
+  std::map<int, BoxSide> sides_;
+};
+
+class RefereeLogReading {
+ public:
+  explicit RefereeLogReading(const std::string& file) : log_{.file = file, .lines = {}, .faults = {file, "line"}} {}
+
+  void read(Text text, std::int64_t line) {
+    if (text.empty() || note_connection(text)) return;
+    RefereeLine read{.line = line};
+    Text rest = text;
+    if (!take_number(rest, read.t_ms) || !take(rest, ',') || !take_clock(rest, read.game_ms) || !take(rest, '(') ||
+        !take_clock(rest, read.run_ms) || !take(rest, ')') || !take(rest, ',') || read.t_ms > kLatest_ms)
+      return log_.faults.note("line of another form", line, "line", text);
+    const auto comma = rest.find(',');
+    if (comma == Text::npos) return log_.faults.note("line breaks off", line, "line", text);
+    read.state = rest.substr(0, comma);
+    rest.remove_prefix(comma + 1);
+    const auto end = rest.starts_with('{') ? std::min(rest.rfind('}'), rest.size() - 1) + 1 : rest.find(',');
+    if (end == Text::npos) return log_.faults.note("line breaks off", line, "line", text);
+    read.text = rest.substr(std::min(end + 1, rest.size()));
+    const auto word = word_of(rest.substr(0, end), line);
+    if (!word) return;
+    read.command = word->command;
+    read.side = word->side;
+    add(std::move(read));
+  }
+
+  RefereeLog finish() && {
+    if (log_.lines.empty()) log_.faults.note("no command in it", 0);
+    return std::move(log_);
+  }
+
+ private:
+  bool note_connection(Text text) {
+    if (text.starts_with("New BaseStation @ ")) return true;
+    if (text.starts_with("Connection from ")) {
+      ++log_.accepted;
+      sides_.accepted(text);
+      return true;
+    }
+    if (text.starts_with("Team ") && text.ends_with(" dropped")) {
+      ++log_.dropped;
+      return true;
+    }
+    if (!text.starts_with("ERR ")) return false;
+    ++log_.refused;
+    return true;
+  }
+
+  std::optional<BoxWord> word_of(Text code, std::int64_t line) {
+    if (code.starts_with('{')) return word_of_json(code, line);
+    std::optional<BoxWord> word;
+    if (code.size() == 1) word = word_of_letter(code.front());
+    if (const auto command = command_of_name(code)) word = BoxWord{*command, BoxSide::kBoth};
+    if (!word) log_.faults.note("unknown command", line, "code", code);
+    return word;
+  }
+
+  std::optional<BoxWord> word_of_json(Text code, std::int64_t line) {
+    const auto json = nlohmann::json::parse(code, nullptr, false);
+    const auto text_of = [&](const char* key) {
+      const auto value = json.is_object() ? json.find(key) : json.end();
+      return value != json.end() && value->is_string() ? value->get<std::string>() : std::string();
+    };
+    if (!json.is_object()) {
+      log_.faults.note("command is not JSON", line, "code", code);
+      return std::nullopt;
+    }
+    const auto command = command_of_name(text_of("command"));
+    if (command) return BoxWord{*command, sides_.of(text_of("targetTeam"))};
+    log_.faults.note(json.contains("command") ? "unknown command" : "object without command", line, "code", code);
+    return std::nullopt;
+  }
+
+  void add(RefereeLine read) {
+    if (!log_.lines.empty() && read.t_ms < log_.lines.back().t_ms) {
+      log_.faults.note("time goes back", read.line, "ms", read.t_ms);
+      read.t_ms = log_.lines.back().t_ms;
+    }
+    log_.lines.push_back(std::move(read));
+  }
+
+  RefereeLog log_;
+  SidesOfTeams sides_;
+};
+
+}  // namespace
+
+RefereeLog read_referee_log(std::istream& in, const std::string& file) {
+  RefereeLogReading reading(file);
+  std::int64_t line = 0;
+  for (std::string text; std::getline(in, text);) {
+    if (text.ends_with('\r')) text.pop_back();
+    reading.read(text, ++line);
+  }
+  return std::move(reading).finish();
+}
+
+}  // namespace trivela::evaluator::imports
