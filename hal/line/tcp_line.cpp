@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "hal/scip/descriptor.hpp"
-#include "hal/scip/line.hpp"
+#include "hal/line/descriptor.hpp"
+#include "hal/line/line.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 struct Address {
@@ -82,6 +82,7 @@ class TcpLine final : public Line {
   }
   bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
   void close() noexcept override { fd_.reset(); }
+  int descriptor() const override { return fd_.get(); }
   const std::string& name() const override { return name_; }
   const std::string& why() const override { return why_; }
 
@@ -129,4 +130,4 @@ std::unique_ptr<Line> tcp_line(const std::string& host, std::uint16_t port) {
   return std::make_unique<TcpLine>(host, port);
 }
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal
