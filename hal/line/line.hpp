@@ -32,7 +32,8 @@ class Line {
   /// Sends all of them. False: it could not, why() says it; some may have left.
   virtual bool write(std::string_view bytes, Deadline deadline) = 0;
 
-  /// What was written and has not left yet is not sent, where the system can take it back: of a terminal it can.
+  /// What was written and has not left yet is not sent, where the system can take it back: a serial device whose
+  /// driver flushes can, TCP and a pseudo-terminal cannot.
   virtual void drop_unsent() noexcept {}
 
   virtual void close() noexcept = 0;
