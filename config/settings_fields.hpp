@@ -166,6 +166,13 @@ void fields(V& v, IoBoardDevice& b) {
 }
 
 template <class V>
+void fields(V& v, ReKickDevice& b) {
+  v("port", b.port);
+  v("pulse_us_per_power", b.pulse_us_per_power, Range{0.01, 3499.0});
+  v("max_voltage_v", b.max_voltage_v, Range{1, 330});
+}
+
+template <class V>
 void fields(V& v, Hal& h) {
   v("wheels", h.wheels);
   v("kicker", h.kicker);

@@ -5,8 +5,10 @@
 #include <stdexcept>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
+#include "hal/rekick/rekick.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
 #include "hal/scip/scip_range_finder.hpp"
@@ -17,7 +19,8 @@
 namespace trivela::hal {
 namespace {
 
-using config::Hal, config::IoBoardDevice, config::ReplayDevice, config::ScipDevice, config::SimDevice;
+using config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
+    config::SimDevice;
 
 std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
   return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
@@ -35,6 +38,9 @@ std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Ow
 
 std::unique_ptr<Kicker> kicker(const IoBoardDevice& board, const Hal&, const Owner&) {
   return std::make_unique<BoardKicker>(std::make_unique<ioboard::IoBoard>(serial_line(board.port), board));
+}
+std::unique_ptr<Kicker> kicker(const ReKickDevice& board, const Hal&, const Owner&) {
+  return std::make_unique<BoardKicker>(std::make_unique<rekick::ReKick>(can::can_line(board.port), board));
 }
 
 std::unique_ptr<RangeFinder> range_finder(const SimDevice&, const Owner& owner) {
