@@ -1,56 +1,29 @@
 // The ioBoard's backend with its thread, on a pseudo-terminal, against an emulated board: its clock is the witness.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <memory>
-
-#include "hal/board/board_kicker.hpp"
-#include "hal/ioboard/emulator.hpp"
-#include "hal/ioboard/io_board.hpp"
+#include "tests/hal/board_on_a_line.hpp"
 
 namespace trivela::hal::ioboard {
 namespace {
 
 using std::chrono::milliseconds;
+using tests::kPatience;
+using tests::steady_ns;
+using tests::until_armed;
+using tests::until_link_fault;
 
-constexpr std::chrono::seconds kPatience{20};  // for anything to happen at all
 constexpr std::int64_t kMs = 1'000'000;
-/// A busy machine wakes a thread late; what is late is dropped otherwise.
-constexpr std::chrono::seconds kAnyLateness{20};
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 class IoBoardKickerTest : public testing::Test {
  protected:
   std::unique_ptr<Kicker> open(config::IoBoardDevice settings = {}) {
     settings.port = emulator_.address();
-    return std::make_unique<BoardKicker>(std::make_unique<IoBoard>(serial_line(settings.port), settings), kAnyLateness);
-  }
-  /// Reads until `done` of a sample.
-  bool until(Kicker& kicker, const std::function<bool(const KickerSample&)>& done) {
-    for (const std::int64_t end_ns = now_ns() + std::chrono::nanoseconds(kPatience).count(); now_ns() < end_ns;) {
-      if (const auto sample = kicker.read(milliseconds(100)); sample && done(*sample)) return true;
-    }
-    return false;
-  }
-  bool until_armed(Kicker& kicker) {
-    return until(kicker, [](const KickerSample& sample) { return sample.armed; });
-  }
-  bool until_fault(Kicker& kicker) {
-    return until(kicker, [](const KickerSample& sample) { return sample.fault == KickerFault::kLink; });
+    return tests::kicker_on(std::make_unique<IoBoard>(serial_line(settings.port), settings));
   }
   bool wait_for_pulses(std::size_t n) {
     return emulator_.wait(kPatience, [=](const EmulatedBoard& board) { return board.pulses().size() >= n; });
   }
-  /// So long that a shot that was to come would have come: the board was asked so many more times.
-  void wait_for_looks(std::uint64_t n) {
-    std::uint64_t before = 0;
-    emulator_.with_board([&](const EmulatedBoard& board) { before = board.looks(); });
-    EXPECT_TRUE(emulator_.wait(kPatience, [=](const EmulatedBoard& board) { return board.looks() >= before + n; }));
-  }
+  void wait_for_looks(std::uint64_t n) { tests::wait_for_looks(emulator_, n); }
   EmulatedBoard board() {
     EmulatedBoard copy;
     emulator_.with_board([&](const EmulatedBoard& board) { copy = board; });
@@ -63,7 +36,7 @@ class IoBoardKickerTest : public testing::Test {
 TEST_F(IoBoardKickerTest, FiresOnceAtItsInstantAndNotBefore) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience)) << kicker->status();
-  const std::int64_t t_ns = now_ns() + 60 * kMs;
+  const std::int64_t t_ns = steady_ns() + 60 * kMs;
   kicker->fire(1, 100.0, t_ns);
   ASSERT_TRUE(wait_for_pulses(1));
   wait_for_looks(3);
@@ -91,11 +64,11 @@ TEST_F(IoBoardKickerTest, SwitchesDisarm) {
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.with_board([](EmulatedBoard& board) { board.in_play = false; });
-  EXPECT_TRUE(until(*kicker, [](const KickerSample& sample) { return !sample.armed; }));
+  EXPECT_TRUE(tests::read_until(*kicker, [](const KickerSample& sample) { return !sample.armed; }));
   emulator_.with_board([](EmulatedBoard& board) { board.in_play = true; });
   EXPECT_TRUE(until_armed(*kicker));
   emulator_.with_board([](EmulatedBoard& board) { board.software_on = false; });
-  EXPECT_TRUE(until(*kicker, [](const KickerSample& sample) { return !sample.armed; }));
+  EXPECT_TRUE(tests::read_until(*kicker, [](const KickerSample& sample) { return !sample.armed; }));
 }
 
 TEST_F(IoBoardKickerTest, AShotWhoseAnswerIsLostGarbledOrWrongIsNotSentAgain) {
@@ -106,9 +79,9 @@ TEST_F(IoBoardKickerTest, AShotWhoseAnswerIsLostGarbledOrWrongIsNotSentAgain) {
   std::size_t shots = 0;
   for (const auto fault : kFaults) {
     emulator_.with_board([=](EmulatedBoard& board) { board.faults.*fault = 1; });  // every answer
-    kicker->fire(static_cast<std::int64_t>(++shots), 20.0, now_ns());
+    kicker->fire(static_cast<std::int64_t>(++shots), 20.0, steady_ns());
     ASSERT_TRUE(wait_for_pulses(shots)) << kicker->status();
-    EXPECT_TRUE(until_fault(*kicker)) << "no answer comes any more";
+    EXPECT_TRUE(until_link_fault(*kicker)) << "no answer comes any more";
     emulator_.with_board([](EmulatedBoard& board) { board.faults = {}; });
     EXPECT_TRUE(until_armed(*kicker)) << kicker->status();
     EXPECT_EQ(board().shots_told(), shots);
@@ -129,9 +102,9 @@ TEST_F(IoBoardKickerTest, SomeLostAnswersCostSamplesAndNotTheLine) {
 TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(1, 100.0, now_ns() + 30 * kMs);
+  kicker->fire(1, 100.0, steady_ns() + 30 * kMs);
   kicker->make_safe();
-  kicker->fire(2, 100.0, now_ns());
+  kicker->fire(2, 100.0, steady_ns());
   wait_for_looks(10);
   EXPECT_EQ(board().shots_told(), 0u);
   EXPECT_TRUE(until_armed(*kicker)) << "it still speaks";
@@ -140,7 +113,7 @@ TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
 TEST_F(IoBoardKickerTest, DestructionFiresNothing) {
   auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(1, 100.0, now_ns() + 500 * kMs);
+  kicker->fire(1, 100.0, steady_ns() + 500 * kMs);
   kicker.reset();
   kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
@@ -153,18 +126,17 @@ TEST_F(IoBoardKickerTest, APulledCableIsALinkFaultAndIsOpenedAgainByItself) {
   ASSERT_TRUE(until_armed(*kicker));
   EXPECT_EQ(board().lever(), 120);
   emulator_.line().pull();
-  EXPECT_TRUE(until_fault(*kicker));
-  kicker->fire(1, 100.0, now_ns());             // nobody is there
-  kicker->fire(2, 100.0, now_ns() + 10 * kMs);  // nor then
-  EXPECT_TRUE(
-      until(*kicker, [&](const KickerSample&) { return kicker->status().find("kick 2") != std::string::npos; }));
+  EXPECT_TRUE(until_link_fault(*kicker));
+  kicker->fire(1, 100.0, steady_ns());             // nobody is there
+  kicker->fire(2, 100.0, steady_ns() + 10 * kMs);  // nor then
+  EXPECT_TRUE(tests::until_status_says(*kicker, "kick 2"));
   emulator_.line().plug();
   EXPECT_TRUE(until_armed(*kicker)) << kicker->status();
   wait_for_looks(5);
   const EmulatedBoard seen = board();
   EXPECT_EQ(seen.shots_told(), 0u) << "nothing fires late";
   EXPECT_EQ(seen.heights_told(), 2u) << "once on each line";
-  kicker->fire(3, 100.0, now_ns());
+  kicker->fire(3, 100.0, steady_ns());
   EXPECT_TRUE(wait_for_pulses(1));
 }
 
@@ -172,8 +144,8 @@ TEST_F(IoBoardKickerTest, AShotThatStoodInTheCableDoesNotFireWhenItIsPluggedInAg
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.line().hold(true);
-  kicker->fire(1, 100.0, now_ns());
-  EXPECT_TRUE(until_fault(*kicker));
+  kicker->fire(1, 100.0, steady_ns());
+  EXPECT_TRUE(until_link_fault(*kicker));
   emulator_.line().pull();
   emulator_.line().hold(false);
   emulator_.line().plug();
@@ -186,7 +158,7 @@ TEST_F(IoBoardKickerTest, ABoardThatIsNotThereYetIsWaitedFor) {
   emulator_.line().pull();
   const auto kicker = open();
   EXPECT_FALSE(kicker->connected(milliseconds(10)));
-  EXPECT_TRUE(until_fault(*kicker));
+  EXPECT_TRUE(until_link_fault(*kicker));
   EXPECT_EQ(kicker->status(), "no device " + emulator_.address() + ": no such file or directory");
   emulator_.line().plug();
   EXPECT_TRUE(kicker->connected(kPatience));
@@ -195,9 +167,8 @@ TEST_F(IoBoardKickerTest, ABoardThatIsNotThereYetIsWaitedFor) {
 TEST_F(IoBoardKickerTest, ASetPointOutsideOfThePulseIsNotFiredAndSaid) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(7, 300.0, now_ns());
-  EXPECT_TRUE(
-      until(*kicker, [&](const KickerSample&) { return kicker->status().find("kick 7") != std::string::npos; }));
+  kicker->fire(7, 300.0, steady_ns());
+  EXPECT_TRUE(tests::until_status_says(*kicker, "kick 7"));
   EXPECT_EQ(board().shots_told(), 0u);
 }
 
@@ -207,7 +178,7 @@ TEST(BoardKickerTest, AShotThatWaitedTooLongIsNotFired) {
   // Every shot is later than that: its instant is over when the thread looks at it.
   BoardKicker kicker{std::make_unique<IoBoard>(serial_line(settings.port), settings), std::chrono::nanoseconds(-1)};
   ASSERT_TRUE(kicker.connected(kPatience));
-  kicker.fire(1, 100.0, now_ns());
+  kicker.fire(1, 100.0, steady_ns());
   std::uint64_t looks = 0;
   emulator.with_board([&](const EmulatedBoard& board) { looks = board.looks(); });
   EXPECT_TRUE(emulator.wait(kPatience, [=](const EmulatedBoard& board) { return board.looks() > looks + 2; }));

@@ -5,7 +5,7 @@
 
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/sim/sim_kicker.hpp"
-#include "tests/hal/ioboard_on_a_line.hpp"
+#include "tests/hal/board_on_a_line.hpp"
 #include "tests/hal/recorded_log.hpp"
 #include "tests/hal/sim_world.hpp"
 
@@ -121,7 +121,7 @@ class ReplayRig : public ToldDevice {
   std::unique_ptr<Kicker> device;
 };
 
-/// A board on a line, whose emulated switches are opened and closed; `Board` is its emulator with the backend's maker.
+/// A board at the end of a line: its emulator, and the backend that it makes.
 template <class Board>
 class BoardRig {
  public:
@@ -131,32 +131,34 @@ class BoardRig {
 
   BoardRig() {
     EXPECT_TRUE(device->connected(kPlenty)) << device->status();
-    while (device->read(kPlenty).value().fault != KickerFault::kNone) {
-    }
+    EXPECT_TRUE(tests::read_until(*device, [](const auto& sample) { return sample.fault == KickerFault::kNone; }));
   }
 
   void say(std::size_t i) {
     said_t_ns_ = tests::steady_ns();
-    board.be_well(i % 2 == 0);
+    board.be_well(well(i));
   }
   /// Samples may be of before, until one says what was told.
   void expect_said(std::size_t i, KickerSample sample) {
-    const bool well = i % 2 == 0;
-    while (board.well(sample) != well || sample.t_ns < said_t_ns_) {
+    while (sample.armed != well(i) || sample.t_ns < said_t_ns_) {
       const std::int64_t before_ns = sample.t_ns;
       sample = device->read(kPlenty).value();
       EXPECT_GT(sample.t_ns, before_ns);
     }
     EXPECT_LE(sample.t_ns, tests::steady_ns());
   }
-  void expect_waited(const KickerSample& sample) { EXPECT_LE(sample.t_ns, board.last_look_ns()); }
+  void expect_waited(const KickerSample& sample) {
+    board.emulator.with_board([&](const auto& emulated) { EXPECT_LE(sample.t_ns, emulated.last_look_ns()); });
+  }
   bool is_last(const KickerSample& sample) const { return sample.t_ns > said_t_ns_; }
 
-  /// What the coil did, once a pulse of no length that is the last has come, or long after that it would have.
+  /// What the coil did so far and does within the next while.
   std::vector<Fired> energised() {
-    device->fire(kEnd, 0.0, tests::steady_ns() + kAhead_ns + 100'000'000);
+    tests::wait_for_looks(board.emulator, 2, tests::steady_ns() + kAhead_ns + 100'000'000);
     std::vector<Fired> fired;
-    for (const auto& [power, t_ns] : board.energised(100)) fired.push_back({0, power, t_ns});
+    board.emulator.with_board([&](const auto& emulated) {
+      for (const auto& pulse : emulated.pulses()) fired.push_back({0, Board::power_of(pulse), pulse.t_ns});
+    });
     return fired;
   }
   /// A board knows neither kick nor order: pulses as long as ordered, in their order, none before its instant.
@@ -172,7 +174,7 @@ class BoardRig {
   std::unique_ptr<Kicker> device = board.open();
 
  private:
-  static constexpr std::int64_t kEnd = -1;
+  static bool well(std::size_t i) { return i % 2 == 0; }
   std::int64_t said_t_ns_ = 0;
 };
 
@@ -181,7 +183,7 @@ class KickerContract : public testing::Test {
  protected:
   Rig rig_;
 };
-using Rigs = testing::Types<SimRig, ReplayRig, BoardRig<tests::IoBoardOnALine>>;
+using Rigs = testing::Types<SimRig, ReplayRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
 TYPED_TEST_SUITE(KickerContract, Rigs);
 
 TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
