@@ -1,14 +1,20 @@
 #include <fmt/core.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "hal/ioboard/emulator.hpp"
+#include "hal/rekick/emulator.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -34,87 +40,101 @@ std::optional<int> number_of(const std::string& fault, const std::string& name) 
   return number;
 }
 
-/// Pulls the cable for a second, every `every` seconds.
+/// Pulls the cable for a second, every `every_s` seconds; 0: never.
 class LooseCable {
  public:
-  explicit LooseCable(EmulatedLine& line, std::optional<int> every_s) : line_(line), every_s_(every_s) {}
+  LooseCable(EmulatedLine& line, int every_s) : line_(line), every_s_(every_s) {}
 
   void move() {
-    if (!every_s_ || Clock::now() < next_) return;
+    if (every_s_ == 0 || Clock::now() < next_) return;
     pulled_ ? line_.plug() : line_.pull();
     pulled_ = !pulled_;
-    next_ = Clock::now() + std::chrono::seconds(pulled_ ? 1 : *every_s_);
+    next_ = Clock::now() + std::chrono::seconds(pulled_ ? 1 : every_s_);
   }
 
  private:
   EmulatedLine& line_;
-  std::optional<int> every_s_;
+  int every_s_;
   bool pulled_ = false;
-  Clock::time_point next_ = Clock::now() + std::chrono::seconds(every_s_.value_or(0));
+  Clock::time_point next_ = Clock::now() + std::chrono::seconds(every_s_);
 };
 
-/// Prints the address and then calls `look` ten times a second, until Ctrl-C.
-template <class Look>
-int run_until_stopped(SignalInbox& signals, const std::string& address, Look look) {
-  say(address + "\n");
-  std::fflush(stdout);
+/// Prints the address and then each pulse of the coil, until Ctrl-C. `length_us` is that of a pulse.
+template <class Emulator, class Length>
+int run_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, Length length_us) {
+  say(emulator.address() + "\n");
+  LooseCable cable{emulator.line(), unplug_s};
   pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-  while (!signals.stop_requested()) {
-    look();
+  for (std::size_t said = 0; !signals.stop_requested(); poll(&inbox, 1, 100)) {
+    cable.move();
+    emulator.with_board([&](const auto& board) {
+      for (; said < board.pulses().size(); ++said)
+        say(fmt::format("pulse of {:.3f} ms\n", length_us(board.pulses()[said]) / 1000.0));
+    });
     std::fflush(stdout);
-    poll(&inbox, 1, 100);
   }
   return kDone;
 }
 
-/// Sets the faults and gives how often the cable is pulled.
-std::optional<int> take_faults(const std::vector<std::string>& faults, hal::ioboard::EmulatedFaults& out) {
-  std::optional<int> unplugged_every_s;
+/// A fault's name and the number that it sets.
+using FaultNumbers = std::vector<std::pair<std::string, int*>>;
+
+/// Sets the numbers of the faults that are named. Throws UsageError for one that is none.
+void take_faults(const std::vector<std::string>& faults, const FaultNumbers& numbers) {
   for (const std::string& fault : faults) {
-    if (const auto every = number_of(fault, "lost")) {
-      out.lost_every = *every;
-    } else if (const auto garbled = number_of(fault, "garbled")) {
-      out.garbled_every = *garbled;
-    } else if (const auto wrong = number_of(fault, "wrong_sums")) {
-      out.wrong_sums_every = *wrong;
-    } else if (const auto seconds = number_of(fault, "unplug")) {
-      unplugged_every_s = seconds;
-    } else {
-      throw UsageError{fmt::format("--faults {}: expected lost=N, garbled=N, wrong_sums=N or unplug=SECONDS", fault)};
-    }
+    const auto set = [&](const auto& number) {
+      const auto value = number_of(fault, number.first);
+      if (value) *number.second = *value;
+      return value.has_value();
+    };
+    if (std::ranges::any_of(numbers, set)) continue;
+    std::string names;
+    for (const auto& [name, number] : numbers) names += (names.empty() ? "" : ", ") + name + "=N";
+    throw UsageError{fmt::format("--faults {}: expected one of: {}", fault, names)};
   }
-  return unplugged_every_s;
 }
 
 int emulate_ioboard(const EmulateBoardFlags& flags) {
   hal::ioboard::EmulatedFaults faults;
-  const auto unplugged_every_s = take_faults(flags.faults, faults);
+  int unplug_s = 0;
+  take_faults(flags.faults, {{"lost", &faults.lost_every},
+                             {"garbled", &faults.garbled_every},
+                             {"wrong_sums", &faults.wrong_sums_every},
+                             {"unplug", &unplug_s}});
   SignalInbox signals;  // before the emulator's thread, which must not take them
   hal::ioboard::Emulator emulator;
   emulator.with_board([&](hal::ioboard::EmulatedBoard& board) {
     board.in_play = !flags.disarmed;
     board.faults = faults;
   });
-  LooseCable cable{emulator.line(), unplugged_every_s};
-  std::size_t said = 0;
-  return run_until_stopped(signals, emulator.address(), [&] {
-    cable.move();
-    emulator.with_board([&](const hal::ioboard::EmulatedBoard& board) {
-      for (; said < board.pulses().size(); ++said)
-        say(fmt::format("pulse of {:.3f} ms\n", board.pulses()[said].units * hal::ioboard::kPulseUnit_us / 1000.0));
-    });
+  return run_until_stopped(signals, emulator, unplug_s, [](const hal::ioboard::EmulatedBoard::Pulse& pulse) {
+    return pulse.units * hal::ioboard::kPulseUnit_us;
   });
 }
 
-void add_emulate_ioboard(CLI::App& verb, int& exit_code) {
-  auto* device = verb.add_subcommand("ioboard", "The Falcons' ioBoard, on a pseudo-terminal");
+int emulate_rekick(const EmulateBoardFlags& flags) {
+  hal::rekick::EmulatedFaults faults;
+  int unplug_s = 0;
+  take_faults(flags.faults,
+              {{"lost", &faults.lost_every}, {"strangers", &faults.strangers_every}, {"unplug", &unplug_s}});
+  SignalInbox signals;
+  hal::rekick::Emulator emulator;
+  emulator.with_board([&](hal::rekick::EmulatedBoard& board) {
+    board.supply_on = !flags.disarmed;
+    board.faults = faults;
+  });
+  return run_until_stopped(signals, emulator, unplug_s, [](const hal::rekick::EmulatedBoard::Pulse& pulse) {
+    return static_cast<double>(pulse.pulse_us);
+  });
+}
+
+void add_board(CLI::App& verb, int& exit_code, const std::string& name, const std::string& help,
+               const std::string& faults, int (*emulate)(const EmulateBoardFlags&)) {
+  auto* device = verb.add_subcommand(name, help);
   auto flags = std::make_shared<EmulateBoardFlags>();
-  device
-      ->add_option("--faults", flags->faults,
-                   "lost=N, garbled=N, wrong_sums=N: each N-th answer; unplug=SECONDS: for a second, as often")
-      ->delimiter(',');
-  device->add_flag("--disarmed", flags->disarmed, "the in-play switch is open");
-  device->callback([flags, &exit_code] { exit_code = emulate_ioboard(*flags); });
+  device->add_option("--faults", flags->faults, faults + "; unplug=N: for a second, every N seconds")->delimiter(',');
+  device->add_flag("--disarmed", flags->disarmed, "a switch is open: it says that it may not be fired");
+  device->callback([flags, emulate, &exit_code] { exit_code = emulate(*flags); });
 }
 
 }  // namespace
@@ -123,7 +143,10 @@ void add_emulate(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("emulate", "Be a device that is not there");
   verb->footer("Prints the address to connect to, then what it is told to do, until Ctrl-C.");
   verb->require_subcommand(1);
-  add_emulate_ioboard(*verb, exit_code);
+  add_board(*verb, exit_code, "ioboard", "The Falcons' ioBoard, on a pseudo-terminal",
+            "lost=N, garbled=N, wrong_sums=N: so is each N-th answer", emulate_ioboard);
+  add_board(*verb, exit_code, "rekick", "A ReKick board, behind a SOCK_SEQPACKET socket in place of a CAN bus",
+            "lost=N: so is each N-th answer; strangers=N: before it another device speaks", emulate_rekick);
 }
 
 }  // namespace trivela::cli

@@ -61,7 +61,7 @@ std::int64_t IoBoard::next_ns() const {
 std::string IoBoard::shoot(double power, std::int64_t now_ns) {
   const auto pulse = pulse_of(power, settings_.pulse_us_per_power);
   if (!pulse)
-    return fmt::format("set-point {} is a pulse of {} us, the board's are 0 to {}", power,
+    return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 0 to {:g}", power,
                        power * settings_.pulse_us_per_power, kLongestPulse * kPulseUnit_us);
   charging_since_ns_ = now_ns;
   if (line_->write(encode(frame_of(Command::kShoot, *pulse)), kNow)) {

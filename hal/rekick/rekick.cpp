@@ -42,7 +42,7 @@ std::int64_t ReKick::next_ns() const {
 std::string ReKick::shoot(double power, std::int64_t now_ns) {
   const auto pulse_us = pulse_of(power, settings_.pulse_us_per_power);
   if (!pulse_us)
-    return fmt::format("set-point {} is a pulse of {} us, the board's are 1 to {}", power,
+    return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 1 to {:g}", power,
                        power * settings_.pulse_us_per_power, kLongestPulse_us);
   if (last_kick_ns_ && now_ns - *last_kick_ns_ < kBetweenKicks_ns) return "the last kick was less than 0.1 s before";
   last_kick_ns_ = now_ns;

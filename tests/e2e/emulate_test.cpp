@@ -6,7 +6,9 @@
 #include <chrono>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/ioboard/io_board.hpp"
+#include "hal/rekick/rekick.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 
@@ -43,11 +45,26 @@ TEST_F(Emulate, AnIoBoardIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
   EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
 }
 
+TEST_F(Emulate, AReKickIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
+  Program trivela{"trivela", {"emulate", "rekick", "--faults", "lost=7,strangers=2"}, folder_.path()};
+  ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
+  const config::ReKickDevice settings{.port = trivela.output().substr(0, trivela.output().find('\n'))};
+  hal::BoardKicker kicker{std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port), settings),
+                          std::chrono::seconds(20)};
+  ASSERT_TRUE(kicker.connected(kPatience)) << kicker.status();
+  kicker.fire(1, 30.0, now_ns());
+  EXPECT_TRUE(says(trivela, "pulse of 1.000 ms\n")) << trivela.output();
+  trivela.signal(SIGTERM);
+  EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
+}
+
 TEST_F(Emulate, AFaultThatIsNoneIsBadUsage) {
-  for (const std::string fault : {"lost", "lost=0", "lost=x", "burn=1"}) {
-    Program trivela{"trivela", {"emulate", "ioboard", "--faults", fault}, folder_.path()};
-    EXPECT_EQ(trivela.wait(), 2);
-    EXPECT_THAT(trivela.errors(), HasSubstr("--faults " + fault + ": expected"));
+  for (const std::string board : {"ioboard", "rekick"}) {
+    for (const std::string fault : {"lost", "lost=0", "lost=x", "burn=1"}) {
+      Program trivela{"trivela", {"emulate", board, "--faults", fault}, folder_.path()};
+      EXPECT_EQ(trivela.wait(), 2);
+      EXPECT_THAT(trivela.errors(), HasSubstr("--faults " + fault + ": expected"));
+    }
   }
 }
 
