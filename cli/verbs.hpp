@@ -18,6 +18,7 @@ struct UsageError : config::BadArgument {
 void add_match(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_scan(CLI::App& app, int& exit_code);
+void add_emulate(CLI::App& app, int& exit_code);
 void add_lob(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

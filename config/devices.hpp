@@ -20,6 +20,23 @@ struct ReplayDevice {
   static constexpr std::string_view kName = "replay";
 };
 
+/// The Falcons' ioBoard on a serial line (docs/devices/ioboard.md).
+struct IoBoardDevice {
+  static constexpr std::string_view kName = "ioboard";
+  std::string port = "/dev/ttyUSB0";
+  double pulse_us_per_power = 128.0;    ///< the coil's pulse for one unit of the table's set-points
+  std::optional<std::uint8_t> lever{};  ///< height of the lever for this table, 0 home to 205; none: it is left alone
+  double charge_time_s = 3.0;           ///< from empty to full (assumed): the board does not say its charge
+};
+
+/// A ReKick board on a CAN bus (docs/devices/rekick.md).
+struct ReKickDevice {
+  static constexpr std::string_view kName = "rekick";
+  std::string port = "can0";                ///< an interface, or the path of an emulator's socket
+  double pulse_us_per_power = 100.0 / 3.0;  ///< of the coil: set-points in percent, as those of its public host
+  std::uint16_t max_voltage_v = 330;        ///< that it charges to
+};
+
 /// A scanner that speaks SCIP, by its address.
 struct ScipDevice {
   static constexpr std::string_view kName = "tcp://HOST:PORT (Hokuyo's port is 10940) or the path of a device";
@@ -29,7 +46,7 @@ struct ScipDevice {
 };
 
 using WheelsDevice = std::variant<SimDevice, ReplayDevice>;
-using KickerDevice = std::variant<SimDevice, ReplayDevice>;
+using KickerDevice = std::variant<SimDevice, ReplayDevice, IoBoardDevice, ReKickDevice>;
 using RangeFinderDevice = std::variant<SimDevice, ScipDevice>;
 
 /// The devices of a robot that plays.

@@ -158,6 +158,21 @@ void fields(V& v, Domain& d) {
 }
 
 template <class V>
+void fields(V& v, IoBoardDevice& b) {
+  v("port", b.port);
+  v("pulse_us_per_power", b.pulse_us_per_power, Range{0.1, 32640.0});
+  v("lever", b.lever, Range{0, 205});
+  v("charge_time_s", b.charge_time_s, Range{0.0, 60.0});
+}
+
+template <class V>
+void fields(V& v, ReKickDevice& b) {
+  v("port", b.port);
+  v("pulse_us_per_power", b.pulse_us_per_power, Range{0.01, 3499.0});
+  v("max_voltage_v", b.max_voltage_v, Range{1, 330});
+}
+
+template <class V>
 void fields(V& v, Hal& h) {
   v("wheels", h.wheels);
   v("kicker", h.kicker);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace trivela::hal {
 
@@ -14,6 +15,17 @@ struct KickerSample {
   double charge = 0.0;    ///< capacitor energy, 0..1
   bool armed = false;     ///< the arm switch
   KickerFault fault = KickerFault::kNone;
+  bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
+  std::optional<double> voltage_v{};  ///< of the capacitor; none: not measured
+};
+
+/// What a device can do beyond firing and saying whether it may.
+struct KickerCapabilities {
+  bool charge_control = false;  ///< charging is switched on and off by its host
+  bool voltage = false;         ///< it measures its capacitor
+  bool discharge = false;       ///< it empties its capacitor when told
+  bool watchdog = false;        ///< it makes itself safe when its host falls silent
+  bool operator==(const KickerCapabilities&) const = default;
 };
 
 /// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
@@ -47,6 +59,11 @@ class Kicker {
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;
+
+  virtual KickerCapabilities capabilities() const { return {}; }
+
+  /// One line on the state of the link and on a kick that was not carried out, for a human; empty: nothing to say.
+  virtual std::string status() const { return {}; }
 };
 
 }  // namespace trivela::hal

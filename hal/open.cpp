@@ -4,9 +4,13 @@
 
 #include <stdexcept>
 
+#include "hal/board/board_kicker.hpp"
+#include "hal/can/can_line.hpp"
+#include "hal/ioboard/io_board.hpp"
+#include "hal/line/line.hpp"
+#include "hal/rekick/rekick.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
-#include "hal/scip/line.hpp"
 #include "hal/scip/scip_range_finder.hpp"
 #include "hal/sim/sim_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
@@ -15,7 +19,8 @@
 namespace trivela::hal {
 namespace {
 
-using config::Hal, config::ReplayDevice, config::ScipDevice, config::SimDevice;
+using config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
+    config::SimDevice;
 
 std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
   return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
@@ -29,6 +34,13 @@ std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner)
 }
 std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayKicker>(ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+std::unique_ptr<Kicker> kicker(const IoBoardDevice& board, const Hal&, const Owner&) {
+  return std::make_unique<BoardKicker>(std::make_unique<ioboard::IoBoard>(serial_line(board.port), board));
+}
+std::unique_ptr<Kicker> kicker(const ReKickDevice& board, const Hal&, const Owner&) {
+  return std::make_unique<BoardKicker>(std::make_unique<rekick::ReKick>(can::can_line(board.port), board));
 }
 
 std::unique_ptr<RangeFinder> range_finder(const SimDevice&, const Owner& owner) {
@@ -53,8 +65,8 @@ std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& 
 }
 
 std::unique_ptr<RangeFinder> open_range_finder(const ScipDevice& scanner) {
-  return std::make_unique<scip::ScipRangeFinder>(scanner.port != 0 ? scip::tcp_line(scanner.host, scanner.port)
-                                                                   : scip::serial_line(scanner.address));
+  return std::make_unique<scip::ScipRangeFinder>(scanner.port != 0 ? tcp_line(scanner.host, scanner.port)
+                                                                   : serial_line(scanner.address));
 }
 
 std::unique_ptr<RangeFinder> open_range_finder(const std::string& address) {

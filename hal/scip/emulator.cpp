@@ -18,10 +18,10 @@
 #include <thread>
 #include <utility>
 
+#include "hal/line/emulated_socket.hpp"
 #include "hal/scip/emulated_faults.hpp"
 #include "hal/scip/emulated_playback.hpp"
 #include "hal/scip/emulated_scanner.hpp"
-#include "hal/scip/emulated_socket.hpp"
 
 namespace trivela::hal::scip {
 namespace {
@@ -33,7 +33,8 @@ constexpr std::size_t kLongestRequest = 64;
 constexpr std::size_t kLongestQueue = 32768;  // bytes; scans measured meanwhile are lost
 
 std::unique_ptr<EmulatedSocket> open_socket(const EmulatorConfig& config) {
-  return config.port == EmulatedPort::kTcp ? emulated_tcp(config.tcp_port) : emulated_terminal();
+  return config.port == EmulatedPort::kTcp ? emulated_tcp("SCIP", config.tcp_port)
+                                           : emulated_terminal("SCIP", "scanner");
 }
 
 }  // namespace

@@ -67,6 +67,36 @@ TEST(Device, IsWrittenAsItIsRead) {
   EXPECT_EQ(to_toml(read(text)), text);
 }
 
+Settings with(const std::vector<std::string>& lines) {
+  Settings settings;
+  override_settings(settings, lines);
+  return settings;
+}
+
+std::string refusal(const std::vector<std::string>& lines) try {
+  with(lines);
+  return "accepted";
+} catch (const Error& error) {
+  return error.what();
+}
+
+TEST(IoBoard, HasItsSettingsInATableOfItsName) {
+  const Settings settings = with({"hal.kicker = \"ioboard\"", "hal.ioboard.port = \"/dev/ttyS4\"",
+                                  "hal.ioboard.lever = 120", "hal.ioboard.charge_time_s = 2.5"});
+  const auto board = std::get<IoBoardDevice>(settings.hal.kicker);
+  EXPECT_EQ(board.port, "/dev/ttyS4");
+  EXPECT_EQ(board.lever, 120);
+  EXPECT_EQ(board.charge_time_s, 2.5);
+  EXPECT_EQ(board.pulse_us_per_power, 128.0);
+  EXPECT_EQ(std::get<IoBoardDevice>(with({"hal.kicker = \"ioboard\""}).hal.kicker).lever, std::nullopt);
+}
+
+TEST(IoBoard, IsRefusedWithALeverThatItDoesNotHaveAndWhereItIsNotTheKicker) {
+  EXPECT_THAT(refusal({"hal.kicker = \"ioboard\"", "hal.ioboard.lever = 206"}),
+              HasSubstr("hal.ioboard.lever = 206: must lie in [0, 205]"));
+  EXPECT_THAT(refusal({"hal.kicker = \"sim\"", "hal.ioboard.lever = 20"}), HasSubstr("unknown key"));
+}
+
 TEST(Scanner, IsSimulatedOrAnAddress) {
   const auto of = [](const std::string& device) {
     Settings settings;

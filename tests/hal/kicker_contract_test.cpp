@@ -5,6 +5,7 @@
 
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/sim/sim_kicker.hpp"
+#include "tests/hal/board_on_a_line.hpp"
 #include "tests/hal/recorded_log.hpp"
 #include "tests/hal/sim_world.hpp"
 
@@ -25,7 +26,32 @@ struct Fired {
   bool operator==(const Fired&) const = default;
 };
 
-class SimRig {
+/// A device that says what it is told to, to the nanosecond, and speaks of kicks as it was ordered to.
+class ToldDevice {
+ public:
+  static constexpr std::size_t kCount = 4;  // of kSaid
+  static constexpr bool kSpeaksByItself = false;
+  static constexpr std::int64_t kAhead_ns = 15'000'000;  // of a clock that stands
+
+  static void expect_said(std::size_t i, const KickerSample& sample) {
+    EXPECT_EQ(sample.t_ns, kSaid[i].t_ns);
+    EXPECT_EQ(sample.charge, kSaid[i].charge);
+    EXPECT_EQ(sample.armed, kSaid[i].armed);
+    EXPECT_EQ(sample.fault, kSaid[i].fault);
+  }
+  /// It was said, and nothing else.
+  static void expect_waited(const KickerSample& sample) {
+    const auto said = std::ranges::find(kSaid, sample.t_ns, &KickerSample::t_ns);
+    ASSERT_NE(said, kSaid.end()) << sample.t_ns << " is no instant of the device";
+    EXPECT_EQ(sample.charge, said->charge);
+  }
+  static bool is_last(const KickerSample& sample) { return sample.t_ns >= kSaid.back().t_ns; }
+  static void expect_fired(const std::vector<Fired>& fired, const std::vector<Fired>& ordered) {
+    EXPECT_EQ(fired, ordered);
+  }
+};
+
+class SimRig : public ToldDevice {
  public:
   SimRig() {
     EXPECT_TRUE(device->connected(kPlenty));
@@ -73,7 +99,7 @@ class SimRig {
   std::int64_t now_t_ns = 0;  // of the world
 };
 
-class ReplayRig {
+class ReplayRig : public ToldDevice {
  public:
   ReplayRig() {
     const char* faults[] = {"none", "charger", "coil", "link"};
@@ -95,59 +121,114 @@ class ReplayRig {
   std::unique_ptr<Kicker> device;
 };
 
+/// A board at the end of a line: its emulator, and the backend that it makes.
+template <class Board>
+class BoardRig {
+ public:
+  static constexpr std::size_t kCount = 4;
+  static constexpr bool kSpeaksByItself = true;
+  static constexpr std::int64_t kAhead_ns = 1'000'000'000;  // of a clock that runs
+
+  BoardRig() {
+    EXPECT_TRUE(device->connected(kPlenty)) << device->status();
+    EXPECT_TRUE(tests::read_until(*device, [](const auto& sample) { return sample.fault == KickerFault::kNone; }));
+  }
+
+  void say(std::size_t i) {
+    said_t_ns_ = tests::steady_ns();
+    board.be_well(well(i));
+  }
+  /// Samples may be of before, until one says what was told.
+  void expect_said(std::size_t i, KickerSample sample) {
+    while (sample.armed != well(i) || sample.t_ns < said_t_ns_) {
+      const std::int64_t before_ns = sample.t_ns;
+      sample = device->read(kPlenty).value();
+      EXPECT_GT(sample.t_ns, before_ns);
+    }
+    EXPECT_LE(sample.t_ns, tests::steady_ns());
+  }
+  void expect_waited(const KickerSample& sample) {
+    board.emulator.with_board([&](const auto& emulated) { EXPECT_LE(sample.t_ns, emulated.last_look_ns()); });
+  }
+  bool is_last(const KickerSample& sample) const { return sample.t_ns > said_t_ns_; }
+
+  /// What the coil did so far and does within the next while.
+  std::vector<Fired> energised() {
+    tests::wait_for_looks(board.emulator, 2, tests::steady_ns() + kAhead_ns + 100'000'000);
+    std::vector<Fired> fired;
+    board.emulator.with_board([&](const auto& emulated) {
+      for (const auto& pulse : emulated.pulses()) fired.push_back({0, Board::power_of(pulse), pulse.t_ns});
+    });
+    return fired;
+  }
+  /// A board knows neither kick nor order: pulses as long as ordered, in their order, none before its instant.
+  void expect_fired(const std::vector<Fired>& fired, const std::vector<Fired>& ordered) {
+    ASSERT_EQ(fired.size(), ordered.size()) << device->status();
+    for (std::size_t i = 0; i < fired.size(); ++i) {
+      EXPECT_EQ(fired[i].power, ordered[i].power);
+      EXPECT_GE(fired[i].t_ns, ordered[i].t_ns);
+    }
+  }
+
+  Board board;
+  std::unique_ptr<Kicker> device = board.open();
+
+ private:
+  static bool well(std::size_t i) { return i % 2 == 0; }
+  std::int64_t said_t_ns_ = 0;
+};
+
 template <class Rig>
 class KickerContract : public testing::Test {
  protected:
   Rig rig_;
 };
-using Rigs = testing::Types<SimRig, ReplayRig>;
+using Rigs = testing::Types<SimRig, ReplayRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
 TYPED_TEST_SUITE(KickerContract, Rigs);
 
 TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
   auto& kicker = *this->rig_.device;
-  for (std::size_t i = 0; i < kSaid.size(); ++i) {
+  for (std::size_t i = 0; i < TypeParam::kCount; ++i) {
     EXPECT_FALSE(kicker.ended());
     this->rig_.say(i);
     const auto sample = kicker.read(kPlenty);
     ASSERT_TRUE(sample);
-    EXPECT_EQ(sample->t_ns, kSaid[i].t_ns);
-    EXPECT_EQ(sample->charge, kSaid[i].charge);
-    EXPECT_EQ(sample->armed, kSaid[i].armed);
-    EXPECT_EQ(sample->fault, kSaid[i].fault);
+    this->rig_.expect_said(i, *sample);
   }
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_FALSE(kicker.read(milliseconds(20)));
+  const auto beyond = kicker.read(milliseconds(20));
+  EXPECT_TRUE(TypeParam::kSpeaksByItself || !beyond);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
 }
 
 /// A process that stood still finds what came meanwhile: each sample still of the instant at which the device took it.
 TYPED_TEST(KickerContract, ASampleThatWaitedKeepsItsInstant) {
   auto& kicker = *this->rig_.device;
-  for (std::size_t i = 0; i < kSaid.size(); ++i) this->rig_.say(i);
+  for (std::size_t i = 0; i < TypeParam::kCount; ++i) this->rig_.say(i);
   std::int64_t last_t_ns = 0;
-  while (last_t_ns < kSaid.back().t_ns) {
+  for (bool last = false; !last;) {
     const auto sample = kicker.read(kPlenty);
     ASSERT_TRUE(sample);
-    const auto said = std::ranges::find(kSaid, sample->t_ns, &KickerSample::t_ns);
-    ASSERT_NE(said, kSaid.end()) << sample->t_ns << " is no instant of the device";
-    EXPECT_EQ(sample->charge, said->charge);
+    this->rig_.expect_waited(*sample);
     EXPECT_GT(sample->t_ns, last_t_ns);
     last_t_ns = sample->t_ns;
+    last = this->rig_.is_last(*sample);
   }
-  kicker.fire(11, 22.5, kSaid.front().t_ns);  // the driver's word waited, too
-  EXPECT_EQ(this->rig_.energised(), (std::vector<Fired>{{11, 22.5, kSaid.front().t_ns}})) << "the device sees its age";
+  kicker.fire(11, 22.5, kSaid.front().t_ns);                                          // the driver's word waited, too
+  this->rig_.expect_fired(this->rig_.energised(), {{11, 22.5, kSaid.front().t_ns}});  // the device sees its age
 }
 
 TYPED_TEST(KickerContract, FiresAtAnyTime) {
   auto& kicker = *this->rig_.device;
   kicker.fire(11, 22.5, 5);
-  EXPECT_EQ(this->rig_.energised(), (std::vector<Fired>{{11, 22.5, 5}}));
+  const std::vector<Fired> first = this->rig_.energised();
+  this->rig_.expect_fired(first, {{11, 22.5, 5}});
   this->rig_.say(0);
   kicker.read(kPlenty);
   kicker.fire(12, 50.0, 30'000'000);
   const std::vector<Fired> fired = this->rig_.energised();
   ASSERT_FALSE(fired.empty());
-  EXPECT_EQ(fired.back(), (Fired{12, 50.0, 30'000'000}));
+  this->rig_.expect_fired({fired.back()}, {{12, 50.0, 30'000'000}});
 }
 
 TYPED_TEST(KickerContract, AKickThatLiesAheadIsCalledOffAndNoOther) {
@@ -155,15 +236,16 @@ TYPED_TEST(KickerContract, AKickThatLiesAheadIsCalledOffAndNoOther) {
   this->rig_.say(0);
   const auto sample = kicker.read(kPlenty);
   ASSERT_TRUE(sample);
+  constexpr std::int64_t ahead_ns = TypeParam::kAhead_ns;
   kicker.fire(11, 22.5, sample->t_ns - 1);
-  kicker.fire(12, 30.0, sample->t_ns + 15'000'000);
-  kicker.fire(13, 40.0, sample->t_ns + 18'000'000);
+  kicker.fire(12, 30.0, sample->t_ns + ahead_ns);
+  kicker.fire(13, 40.0, sample->t_ns + ahead_ns + 3'000'000);
   kicker.withdraw(12);
   kicker.withdraw(12);
   kicker.withdraw(11);  // was carried out
   kicker.withdraw(99);  // was never ordered
-  EXPECT_EQ(this->rig_.energised(),
-            (std::vector<Fired>{{11, 22.5, sample->t_ns - 1}, {13, 40.0, sample->t_ns + 18'000'000}}));
+  this->rig_.expect_fired(this->rig_.energised(),
+                          {{11, 22.5, sample->t_ns - 1}, {13, 40.0, sample->t_ns + ahead_ns + 3'000'000}});
 }
 
 TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {

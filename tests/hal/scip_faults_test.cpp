@@ -211,6 +211,7 @@ class NoiseLine final : public Line {
     return random_() % 32 != 0;
   }
   void close() noexcept override {}
+  int descriptor() const override { return -1; }
   const std::string& name() const override { return name_; }
   const std::string& why() const override { return name_; }
 

@@ -11,7 +11,7 @@
 
 #include "hal/open.hpp"
 #include "hal/scip/emulator.hpp"
-#include "hal/scip/line.hpp"
+#include "hal/line/line.hpp"
 #include "hal/scip/scip_range_finder.hpp"
 
 namespace trivela::tests {
@@ -44,10 +44,10 @@ inline kicking::lob::ScanGeometry fast_geometry() {
   return geometry;
 }
 
-inline std::unique_ptr<hal::scip::Line> line_to(const std::string& address) {
+inline std::unique_ptr<hal::Line> line_to(const std::string& address) {
   const std::string tcp = "tcp://127.0.0.1:";
-  if (!address.starts_with(tcp)) return hal::scip::serial_line(address);
-  return hal::scip::tcp_line("127.0.0.1", static_cast<std::uint16_t>(std::stoi(address.substr(tcp.size()))));
+  if (!address.starts_with(tcp)) return hal::serial_line(address);
+  return hal::tcp_line("127.0.0.1", static_cast<std::uint16_t>(std::stoi(address.substr(tcp.size()))));
 }
 
 /// An emulator and the real client on it. Every call of the client is timed.

@@ -6,14 +6,14 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "hal/scip/emulated_socket.hpp"
+#include "hal/line/emulated_socket.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 class EmulatedTcp final : public EmulatedSocket {
  public:
-  explicit EmulatedTcp(std::uint16_t port) : port_(port) {
+  EmulatedTcp(const std::string& emulator, std::uint16_t port) : emulator_(emulator), port_(port) {
     bind();
     plug();
     address_ = fmt::format("tcp://127.0.0.1:{}", port_);
@@ -63,9 +63,10 @@ class EmulatedTcp final : public EmulatedSocket {
   }
 
   [[noreturn]] void refuse(const char* what) const {
-    throw std::runtime_error{fmt::format("SCIP emulator: {} port {}: {}", what, port_, system_error(errno))};
+    throw std::runtime_error{fmt::format("{} emulator: {} port {}: {}", emulator_, what, port_, system_error(errno))};
   }
 
+  std::string emulator_;
   std::uint16_t port_;
   std::string address_;
   Descriptor listener_;
@@ -75,6 +76,8 @@ class EmulatedTcp final : public EmulatedSocket {
 
 }  // namespace
 
-std::unique_ptr<EmulatedSocket> emulated_tcp(std::uint16_t port) { return std::make_unique<EmulatedTcp>(port); }
+std::unique_ptr<EmulatedSocket> emulated_tcp(const std::string& emulator, std::uint16_t port) {
+  return std::make_unique<EmulatedTcp>(emulator, port);
+}
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 
 /// A two-way line of bytes to a device. One thread at a time; every call returns by its deadline.
 class Line {
@@ -35,7 +35,14 @@ class Line {
   /// Bytes of write() that the other side has not acknowledged; 0 also where the line cannot tell.
   virtual std::size_t unacknowledged_B() const { return 0; }
 
+  /// What was written and has not left yet is not sent, where the system can take it back: a serial device whose
+  /// driver flushes can, TCP and a pseudo-terminal cannot.
+  virtual void drop_unsent() noexcept {}
+
   virtual void close() noexcept = 0;
+
+  /// To wait for it together with something else; -1: closed.
+  virtual int descriptor() const = 0;
 
   /// "/dev/ttyACM0", "tcp://192.168.0.10:10940".
   virtual const std::string& name() const = 0;
@@ -50,4 +57,4 @@ std::unique_ptr<Line> serial_line(const std::string& path);
 /// A TCP connection; `host` is a name or an address.
 std::unique_ptr<Line> tcp_line(const std::string& host, std::uint16_t port);
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

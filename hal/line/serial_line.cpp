@@ -3,10 +3,10 @@
 
 #include <cerrno>
 
-#include "hal/scip/descriptor.hpp"
-#include "hal/scip/line.hpp"
+#include "hal/line/descriptor.hpp"
+#include "hal/line/line.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 class SerialLine final : public Line {
@@ -25,7 +25,9 @@ class SerialLine final : public Line {
     return fd_.read(bytes, deadline, why_);
   }
   bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
+  void drop_unsent() noexcept override { ::tcflush(fd_.get(), TCOFLUSH); }
   void close() noexcept override { fd_.reset(); }
+  int descriptor() const override { return fd_.get(); }
   const std::string& name() const override { return path_; }
   const std::string& why() const override { return why_; }
 
@@ -53,4 +55,4 @@ class SerialLine final : public Line {
 
 std::unique_ptr<Line> serial_line(const std::string& path) { return std::make_unique<SerialLine>(path); }
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

@@ -13,10 +13,10 @@
 #include <thread>
 #include <vector>
 
-#include "hal/scip/descriptor.hpp"
-#include "hal/scip/line.hpp"
+#include "hal/line/descriptor.hpp"
+#include "hal/line/line.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 struct Address {
@@ -89,6 +89,7 @@ class TcpLine final : public Line {
                                                                                  : 0;
   }
   void close() noexcept override { fd_.reset(); }
+  int descriptor() const override { return fd_.get(); }
   const std::string& name() const override { return name_; }
   const std::string& why() const override { return why_; }
 
@@ -136,4 +137,4 @@ std::unique_ptr<Line> tcp_line(const std::string& host, std::uint16_t port) {
   return std::make_unique<TcpLine>(host, port);
 }
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

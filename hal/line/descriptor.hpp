@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "hal/scip/line.hpp"
+#include "hal/line/line.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 
 /// "no such file or directory" of an errno.
 std::string system_error(int error);
@@ -38,4 +38,4 @@ class Descriptor {
   int fd_ = -1;
 };
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

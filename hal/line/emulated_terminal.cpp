@@ -8,24 +8,20 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "hal/scip/emulated_socket.hpp"
+#include "hal/line/emulated_socket.hpp"
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const char* what) {
-  throw std::runtime_error{fmt::format("SCIP emulator: {}: {}", what, system_error(errno))};
-}
-
 class EmulatedTerminal final : public EmulatedSocket {
  public:
-  EmulatedTerminal() {
-    std::string folder = (fs::temp_directory_path() / "trivela-scip-XXXXXX").string();
+  EmulatedTerminal(const std::string& emulator, const std::string& device) : emulator_(emulator) {
+    std::string folder = (fs::temp_directory_path() / ("trivela-" + emulator + "-XXXXXX")).string();
     if (::mkdtemp(folder.data()) == nullptr) refuse(folder.c_str());
     folder_ = folder;
-    link_ = folder + "/scanner";
+    link_ = folder + "/" + device;
     plug();
   }
   ~EmulatedTerminal() override {
@@ -65,6 +61,11 @@ class EmulatedTerminal final : public EmulatedSocket {
   const std::string& address() const override { return link_; }
 
  private:
+  [[noreturn]] void refuse(const char* what) const {
+    throw std::runtime_error{fmt::format("{} emulator: {}: {}", emulator_, what, system_error(errno))};
+  }
+
+  std::string emulator_;
   fs::path folder_;
   std::string link_;
   Descriptor terminal_;
@@ -73,6 +74,8 @@ class EmulatedTerminal final : public EmulatedSocket {
 
 }  // namespace
 
-std::unique_ptr<EmulatedSocket> emulated_terminal() { return std::make_unique<EmulatedTerminal>(); }
+std::unique_ptr<EmulatedSocket> emulated_terminal(const std::string& emulator, const std::string& device) {
+  return std::make_unique<EmulatedTerminal>(emulator, device);
+}
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

@@ -1,4 +1,4 @@
-#include "hal/scip/descriptor.hpp"
+#include "hal/line/descriptor.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-namespace trivela::hal::scip {
+namespace trivela::hal {
 namespace {
 
 using std::chrono::nanoseconds;
@@ -92,4 +92,4 @@ bool Descriptor::write(std::string_view bytes, Line::Deadline deadline, std::str
   return true;
 }
 
-}  // namespace trivela::hal::scip
+}  // namespace trivela::hal

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "hal/kicker.hpp"
+
+namespace trivela::hal {
+
+/// The board of a kicker at the end of its line, for the thread of a BoardKicker. It looks at no clock and never waits:
+/// now_ns is the steady clock's.
+class KickerBoard {
+ public:
+  virtual ~KickerBoard() = default;
+
+  /// Opens the line where it is closed, takes what has come and asks what is due.
+  virtual void step(std::int64_t now_ns) = 0;
+
+  /// When step() is to be called though nothing comes.
+  virtual std::int64_t next_ns() const = 0;
+
+  /// Readable when something has come; -1: the line is closed.
+  virtual int descriptor() const = 0;
+
+  /// It answers: a shot can be sent.
+  virtual bool up() const = 0;
+
+  /// Sends the shot now, by one write, which is never made again. Empty: it is on its way; else why not.
+  virtual std::string shoot(double power, std::int64_t now_ns) = 0;
+
+  /// The newest sample that was not taken yet. While the line is down they say KickerFault::kLink.
+  virtual std::optional<KickerSample> take_sample() = 0;
+
+  virtual KickerCapabilities capabilities() const = 0;
+
+  /// Kicker::status() of the line.
+  virtual const std::string& status() const = 0;
+};
+
+}  // namespace trivela::hal
