@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "hal/refbox/framing.hpp"
-#include "hal/scip/descriptor.hpp"
+#include "hal/line/descriptor.hpp"
 
 namespace trivela::hal::refbox {
 namespace {

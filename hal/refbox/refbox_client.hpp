@@ -11,7 +11,7 @@
 
 #include "hal/refbox/unacknowledged.hpp"
 #include "hal/refbox/words.hpp"
-#include "hal/scip/line.hpp"
+#include "hal/line/line.hpp"
 
 namespace trivela::hal::refbox {
 

@@ -12,7 +12,7 @@
 
 #include "hal/refbox/emulated_box.hpp"
 #include "hal/refbox/refbox_client.hpp"
-#include "hal/scip/descriptor.hpp"
+#include "hal/line/descriptor.hpp"
 
 namespace trivela::tests {
 
