@@ -27,6 +27,20 @@ inline void set_alignment(Judgement& judgement, const Alignment& alignment) {
   judgement.right_m = alignment.right_m;
 }
 
+/// How far the robot may still go with the ball that it took there.
+inline CarryReach carry_reach(const PolicyConfig& config, const RobotModel& robot, const PossessionMemory& memory) {
+  if (!memory.taken_m) return {};
+  return {config.rules, robot.ball_offset_m, config.max_brake_mps2, *memory.taken_m};
+}
+
+/// May the ball be kicked at the goal now, and by an order that goes out now?
+inline bool may_shoot(const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input,
+                      const Judgement& judgement) {
+  if (!config.rules.opponents_half_only) return true;
+  return config.rules.may_shoot_from(held_ball(input.pose, robot).y()) &&
+         (!judgement.predicted || config.rules.may_shoot_from(judgement.predicted->release_m.y()));
+}
+
 /// Does an order of this possession still have its time?
 inline bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PossessionMemory& memory) {
   return memory.fired_t_ns && seconds(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;

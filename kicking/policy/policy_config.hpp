@@ -6,6 +6,7 @@
 #include "kicking/ballistics/height_law.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/policy/learned_model.hpp"
+#include "kicking/policy/match_rules.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
 #include "kicking/policy/test_drive_config.hpp"
 
@@ -68,6 +69,9 @@ struct PolicyConfig {
   /// quarters).
   double max_turn_rate_radps = 2.5;
   double max_turn_acceleration_radps2 = 4.0;
+
+  /// Of the match: what may be kicked at the goal, how far the ball may be carried. Test drives have none.
+  MatchRules rules{};
 
   /// Of policy kLearned, which is not played without one.
   std::optional<LearnedModel> learned{};
