@@ -6,33 +6,21 @@
 
 namespace trivela::kicking {
 
-/// What a match's rules allow a robot with the ball. By default nothing is forbidden, as on the paper's field; the
-/// files of config/fields/ name each rule's source.
+/// What a match's rules allow a robot with the ball. By default nothing is forbidden, as on the paper's field; a
+/// scenario says where each of its rules comes from.
 struct MatchRules {
-  /// A goal counts only where the ball was kicked in the opponents' half ...
-  bool opponents_half_only = false;
-  /// ... its centre so far beyond the half-way line, which is as much as one's own place is trusted (VDL Robotsports
-  /// role_assigner, min_y_for_lob_shot: 0.25 m).
-  double half_line_margin_m = 0.25;
-  /// The ball is carried at most so far from where it was taken; 0: as far as one likes.
-  double carry_limit_m = 0.0;
-  /// The policies stay so far within that (assumed: position error of a few metres' odometry, and braking).
-  double carry_margin_m = 0.3;
+  bool opponents_half_only = false;  ///< a goal counts only where the ball was kicked in the opponents' half
+  double carry_limit_m = 0.0;        ///< the ball is carried at most so far from where it was taken; 0: no limit
 
-  /// May a ball be kicked at the goal from ball_y_m, of its centre in F?
-  bool may_shoot_from(double ball_y_m) const { return !opponents_half_only || ball_y_m > half_line_margin_m; }
+  friend bool operator==(const MatchRules&, const MatchRules&) = default;
 };
 
 /// How far a robot may still go with the ball: its centre within a circle about the place where the ball was taken.
 class CarryReach {
  public:
-  /// `taken_m`: the ball's centre in F then. The ball is at most ball_offset_m farther from there than the robot's
-  /// centre, however it turns, so that the circle's radius is carry_limit_m - carry_margin_m - ball_offset_m.
-  CarryReach(const MatchRules& rules, double ball_offset_m, double max_brake_mps2, const Eigen::Vector2d& taken_m)
-      : radius_m_(rules.carry_limit_m - rules.carry_margin_m - ball_offset_m),
-        brake_mps2_(max_brake_mps2),
-        taken_m_(taken_m),
-        limited_(rules.carry_limit_m > 0.0) {}
+  /// `taken_m`: the ball's centre in F then.
+  CarryReach(double radius_m, double max_brake_mps2, const Eigen::Vector2d& taken_m)
+      : radius_m_(radius_m), brake_mps2_(max_brake_mps2), taken_m_(taken_m), limited_(true) {}
 
   /// No limit.
   CarryReach() = default;

@@ -70,8 +70,13 @@ struct PolicyConfig {
   double max_turn_rate_radps = 2.5;
   double max_turn_acceleration_radps2 = 4.0;
 
-  /// Of the match: what may be kicked at the goal, how far the ball may be carried. Test drives have none.
+  /// Of the match; test drives have none.
   MatchRules rules{};
+  /// A ball is in the opponents' half whose centre is so far beyond the half-way line: as well as one's own place is
+  /// known (VDL Robotsports, role_assigner, min_y_for_lob_shot: 0.25 m).
+  double half_line_margin_m = 0.25;
+  /// The policies carry the ball so much less far than they may (assumed: errors of the place, and of braking).
+  double carry_margin_m = 0.3;
 
   /// Of policy kLearned, which is not played without one.
   std::optional<LearnedModel> learned{};

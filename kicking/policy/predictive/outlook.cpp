@@ -75,7 +75,7 @@ ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedSho
 
 PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
   PlannedShot out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
-  if (!config_.rules.may_shoot_from(out.release.ball_m.y())) return out;
+  if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
   if (!(out.shot.p > 0.0)) return out;
