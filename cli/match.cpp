@@ -7,8 +7,11 @@
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
+#include "config/error.hpp"
+#include "config/field.hpp"
 #include "config/installation.hpp"
 #include "config/robot.hpp"
+#include "config/scenario.hpp"
 #include "config/settings.hpp"
 #include "nodes/simulator/simulator_node.hpp"
 
@@ -102,6 +105,10 @@ config::Settings settings_of(const MatchFlags& flags) {
   for (const std::string& line : flags.overrides) lines.push_back(line);
   config::override_settings(settings, lines, "--set");
   refuse_oracle(settings.kick_decision);
+  const sim::Scenario scenario = config::load_scenario(settings.run.scenario);
+  if (const auto contradiction = config::field_contradiction(scenario, settings))
+    throw config::Error{fmt::format("{}: {}", settings.run.scenario, *contradiction)};
+  settings = config::on_field_of(scenario, std::move(settings));
   nodes::scenario_of(settings);
   config::robot_for(config::load_robot(settings.run.robot), settings);
   return settings;

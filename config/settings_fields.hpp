@@ -3,6 +3,7 @@
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
 #include "kicking/kick_id.hpp"
+#include "sim/scenario_fields.hpp"
 
 /// The keys of default.toml, each named once.
 namespace trivela::config {
@@ -129,6 +130,8 @@ void fields(V& v, PolicyConfig& p) {
   v("max_brake_mps2", p.max_brake_mps2, Range{0.1, 50.0});
   v("max_turn_rate_radps", p.max_turn_rate_radps, Range{0.0, 30.0});
   v("max_turn_acceleration_radps2", p.max_turn_acceleration_radps2, Range{0.0, 200.0});
+  v("half_line_margin_m", p.half_line_margin_m, Range{0.0, 5.0});
+  v("carry_margin_m", p.carry_margin_m, Range{0.0, 5.0});
   v("alignment", p.alignment);
   v("predictive", p.predictive);
   v("test_drive", p.test_drive);
@@ -288,6 +291,7 @@ void fields(V& v, Settings& s) {
   v("domain", s.domain);
   v("hal", s.hal);
   v("goal", s.goal);
+  v("rules", s.policy.rules);
   v("policy", s.policy);
   v("odometry", s.odometry);
   v("world_state", s.world_state);

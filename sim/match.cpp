@@ -166,9 +166,17 @@ struct Match::State {
     const Eigen::Vector3d ball = world.ball_m();
     const bool carried_out =
         std::abs(ball.x()) > scenario.field.side_line_x_m || std::abs(ball.y()) > scenario.field.goal_line_y_m;
+    if (carried_too_far(ball.head<2>())) return end(PossessionEnd::kStopped, 0.0, events);
     if (carried_out || world.t_ns() - play_t_ns >= time_limit_ns) {
       end(PossessionEnd::kTimedOut, 0.0, events);
     }
+  }
+
+  bool carried_too_far(const Eigen::Vector2d& ball_m) const {
+    const double limit_m = scenario.rules.carry_limit_m;
+    if (limit_m <= 0.0) return false;
+    const Eigen::Vector2d taken = kicking::to_field(opportunity.start, {0.0, scenario.robot.ball_offset_m});
+    return (ball_m - taken).norm() > limit_m;
   }
 
   void end(PossessionEnd how, double play_on_s, StepEvents& events) {

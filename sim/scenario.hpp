@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "kicking/policy/match_rules.hpp"
+
 /// Every input of the simulated world: a named value with its unit and its source. "Assumption" marks a number that no
 /// publication gives; results depend on it and reports must say so. SI throughout; angles in rad.
 namespace trivela::sim {
@@ -203,6 +205,7 @@ struct Scenario {
   double cycle_s = 0.02;    ///< control cycle; CAMBADA release 1.0: MOTION_TICK 20 ms
   double substep_s = 0.02;  ///< longest step of the physics; numerical choice
   Field field;
+  kicking::MatchRules rules;  ///< who carries the ball farther is stopped by the referee
   BallPhysics ball;
   Robot robot;
   Kicker kicker;

@@ -8,6 +8,16 @@
 
 /// The keys of a scenario, each named once with the range it may take: `fields(visitor, struct)` calls
 /// `visitor(key, member, range)` for each member and `visitor(key, struct)` for each nested struct. Found by ADL.
+namespace trivela::kicking {
+
+template <class V>
+void fields(V& v, MatchRules& r) {
+  v("opponents_half_only", r.opponents_half_only);
+  v("carry_limit_m", r.carry_limit_m, Range{0.0, 60.0});
+}
+
+}  // namespace trivela::kicking
+
 namespace trivela::sim {
 
 using kicking::Degrees, kicking::Range;
@@ -200,6 +210,7 @@ void fields(V& v, Scenario& s) {
   v("cycle_s", s.cycle_s, Range{0.001, 0.5});
   v("substep_s", s.substep_s, Range{0.00001, 0.02});
   v("field", s.field);
+  v("rules", s.rules);
   v("ball", s.ball);
   v("robot", s.robot);
   v("kicker", s.kicker);

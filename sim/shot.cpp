@@ -8,9 +8,6 @@
 #include "sim/guard.hpp"
 
 namespace trivela::sim {
-namespace {
-
-constexpr std::int64_t kNear_ns = 1'000'000;  // step beside an opponent: a centimetre of the ball's way
 
 kicking::Goal goal_of(const Field& field) {
   return {.y_m = field.goal_line_y_m,
@@ -18,6 +15,10 @@ kicking::Goal goal_of(const Field& field) {
           .height_m = field.goal_height_m,
           .post_width_m = field.frame_thickness_m};
 }
+
+namespace {
+
+constexpr std::int64_t kNear_ns = 1'000'000;  // step beside an opponent: a centimetre of the ball's way
 
 kicking::Ball ball_of(const BallPhysics& ball) { return {.mass_kg = ball.mass_kg, .radius_m = ball.radius_m}; }
 

@@ -10,6 +10,7 @@
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/output.hpp"
+#include "config/field.hpp"
 #include "config/scenario.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "experiment/evening/drive_in_process.hpp"
@@ -80,7 +81,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   config::Settings settings = settings_;
   settings.run.robot = robot_file_.string();
   settings.run.scenario = scenario_file.string();
-  settings = settings_of_drive(plan, record, std::move(settings));
+  settings = config::on_field_of(world_, settings_of_drive(plan, record, std::move(settings)));
   const ConfigFile config{config::to_toml_text(settings)};
   const MatchResult result = run_match("simulator", config.path(), signals_, more_nodes(settings), true);
   record.played_s = result.played_s;

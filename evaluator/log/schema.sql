@@ -223,7 +223,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   reason TEXT NOT NULL CHECK (reason = 'fire' OR reason = 'not_playing' OR reason = 'no_ball'
     OR reason = 'kicker_not_ready' OR reason = 'order_pending' OR reason = 'approaching' OR reason = 'turning'
     OR reason = 'settling' OR reason = 'not_aligned' OR reason = 'out_of_range' OR reason = 'stale_state'
-    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting'), -- why it fires or holds
+    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting' OR reason = 'own_half'), -- why it fires or holds
   x_m REAL NOT NULL,                       -- robot pose in F, m
   y_m REAL NOT NULL,                       -- robot pose in F, m
   heading_rad REAL NOT NULL,               -- robot pose in F, rad
@@ -268,7 +268,7 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   reason TEXT NOT NULL CHECK (reason = 'fire' OR reason = 'not_playing' OR reason = 'no_ball'
     OR reason = 'kicker_not_ready' OR reason = 'order_pending' OR reason = 'approaching' OR reason = 'turning'
     OR reason = 'settling' OR reason = 'not_aligned' OR reason = 'out_of_range' OR reason = 'stale_state'
-    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting'), -- why it fires or holds
+    OR reason = 'drive_finished' OR reason = 'unlikely' OR reason = 'waiting' OR reason = 'own_half'), -- why it fires or holds
   power REAL,                              -- set-point of the robot's own table
   v_kick_mps REAL,                         -- exit speed asked of the kicker, m/s
   aligned INTEGER NOT NULL CHECK (aligned IN (0, 1)), -- 1: the two segments meet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "config/field.hpp"
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/robot_chain.hpp"
 #include "hal/sim/sim_messages.hpp"
@@ -18,8 +19,9 @@ namespace {
 
 constexpr double kEndless_min = 1e6;  // a half ends by its possessions
 
-config::Settings settings_of_match(const Arm& arm, std::uint64_t seed, const PlayOptions& options) {
-  config::Settings settings = settings_of(arm, options);
+config::Settings settings_of_match(const sim::Scenario& scenario, const Arm& arm, std::uint64_t seed,
+                                   const PlayOptions& options) {
+  config::Settings settings = config::on_field_of(scenario, settings_of(arm, options));
   settings.kick_decision.assignment_seed = seed;
   return settings;
 }
@@ -49,7 +51,7 @@ class Game {
         record_(record),
         seed_(seed),
         match_id_(match_id),
-        settings_(settings_of_match(arm, seed_of_match, options)),
+        settings_(settings_of_match(scenario, arm, seed_of_match, options)),
         session_(kicking::kick_session(seed_of_match)),
         oracle_(somebody_knows_the_truth(settings_.kick_decision, scenario)),
         match_(scenario, seed_of_match, 1, kEndless_min, possessions),

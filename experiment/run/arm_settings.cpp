@@ -25,6 +25,8 @@ constexpr IdleKey kIdleKeys[] = {
     {"run.lockstep", "every match in process is played in lockstep"},
     {"run.log_level", "no node runs that could log"},
     {"domain", "there is no bus; trivela match has one"},
+    {"goal", "goal and rules are the scenario's [field] and [rules] (--scenario)"},
+    {"rules", "goal and rules are the scenario's [field] and [rules] (--scenario)"},
     {"hal", "devices are the simulator's; trivela match and replay choose others"},
     {"policy.test_drive", "drives calibrate a robot (trivela calibrate run)"},
     {"kick_decision.assignment_seed", "each match draws by its own seed, which follows from --seed"},

@@ -27,6 +27,27 @@ inline void set_alignment(Judgement& judgement, const Alignment& alignment) {
   judgement.right_m = alignment.right_m;
 }
 
+/// How far the robot may still go with the ball that it took at memory.taken_m. However it turns, the ball is at most
+/// ball_offset_m farther from there than its centre: radius = carry_limit_m - carry_margin_m - ball_offset_m.
+inline CarryReach carry_reach(const PolicyConfig& config, const RobotModel& robot, const PossessionMemory& memory) {
+  if (!memory.taken_m) return {};
+  const double radius_m = config.rules.carry_limit_m - config.carry_margin_m - robot.ball_offset_m;
+  return {radius_m, config.max_brake_mps2, *memory.taken_m};
+}
+
+/// May a ball with its centre at ball_y_m of F be kicked at the goal?
+inline bool may_shoot_from(const PolicyConfig& config, double ball_y_m) {
+  return !config.rules.opponents_half_only || ball_y_m > config.half_line_margin_m;
+}
+
+/// The same of the ball that is held, now and where an order that goes out now releases it.
+inline bool may_shoot(const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input,
+                      const Judgement& judgement) {
+  if (!config.rules.opponents_half_only) return true;
+  return may_shoot_from(config, held_ball(input.pose, robot).y()) &&
+         (!judgement.predicted || may_shoot_from(config, judgement.predicted->release_m.y()));
+}
+
 /// Does an order of this possession still have its time?
 inline bool order_pending(const PolicyConfig& config, const PolicyInput& input, const PossessionMemory& memory) {
   return memory.fired_t_ns && seconds(input.t_ns - *memory.fired_t_ns) < config.order_hold_s;

@@ -53,6 +53,13 @@ void begin_possession(Memory& memory, std::uint32_t possession_id) {
   memory.possession_id = possession_id;
 }
 
+/// The drive command that keeps the ball where it may be carried.
+Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Pose& pose,
+                   const PossessionMemory& memory, const Twist& drive) {
+  const Eigen::Vector2d forward(-std::sin(pose.heading_rad), std::cos(pose.heading_rad));
+  return carry_reach(config, robot, memory).keep(drive, {pose.x_m, pose.y_m}, forward);
+}
+
 /// judge() of one row.
 template <std::size_t kRow>
 Judgement judge_row(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
@@ -71,7 +78,14 @@ Judgement judge_row(const PolicyConfig& config, const RobotModel& robot, const G
   if constexpr (drive) {
     if (pending) return hold(config, goal, Reason::kOrderPending, memory.command);
   }
+  if constexpr (!drive) {
+    if (config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
+  }
   Judgement judgement = row.judge(config, robot, goal, input, memory);
+  if constexpr (!drive) {
+    if (memory.taken_m) judgement.drive = within_reach(config, robot, input.pose, memory, judgement.drive);
+    if (!may_shoot(config, robot, input, judgement)) judgement.reason = Reason::kOwnHalf;
+  }
   if (pending) {
     judgement.reason = Reason::kOrderPending;
   } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
@@ -121,6 +135,8 @@ const char* name(Reason reason) {
       return "unlikely";
     case Reason::kWaiting:
       return "waiting";
+    case Reason::kOwnHalf:
+      return "own_half";
   }
   assert(false);
   return "unknown";

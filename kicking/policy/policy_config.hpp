@@ -6,6 +6,7 @@
 #include "kicking/ballistics/height_law.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/policy/learned_model.hpp"
+#include "kicking/policy/match_rules.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
 #include "kicking/policy/test_drive_config.hpp"
 
@@ -68,6 +69,14 @@ struct PolicyConfig {
   /// quarters).
   double max_turn_rate_radps = 2.5;
   double max_turn_acceleration_radps2 = 4.0;
+
+  /// Of the match; test drives have none.
+  MatchRules rules{};
+  /// A ball is in the opponents' half whose centre is so far beyond the half-way line: as well as one's own place is
+  /// known (VDL Robotsports, role_assigner, min_y_for_lob_shot: 0.25 m).
+  double half_line_margin_m = 0.25;
+  /// The policies carry the ball so much less far than they may (assumed: errors of the place, and of braking).
+  double carry_margin_m = 0.3;
 
   /// Of policy kLearned, which is not played without one.
   std::optional<LearnedModel> learned{};

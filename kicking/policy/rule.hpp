@@ -28,7 +28,8 @@ enum class Reason {
   kStaleState,
   kDriveFinished,
   kUnlikely,
-  kWaiting
+  kWaiting,
+  kOwnHalf
 };
 
 /// "fire", "not_playing", ...
@@ -122,6 +123,7 @@ inline constexpr std::tuple kRecordedFields{
 struct PossessionMemory {
   std::optional<std::uint32_t> possession_id;
   std::optional<std::int64_t> fired_t_ns;  ///< last order
+  std::optional<Eigen::Vector2d> taken_m;  ///< the ball's centre in F when it was first had
 
   /// Nothing may be decided in this cycle.
   void interrupt() {}

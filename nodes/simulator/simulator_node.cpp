@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "bus/renewal.hpp"
+#include "config/field.hpp"
 #include "config/scenario.hpp"
 #include "hal/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
@@ -40,6 +41,8 @@ sim::Scenario scenario_of(const config::Settings& settings) {
         fmt::format("{}: team.robots = {}, but one set of nodes is one robot: trivela simulate plays teams",
                     settings.run.scenario, scenario.team.robots)};
   }
+  if (const auto difference = config::field_difference(scenario, settings))
+    throw std::runtime_error{fmt::format("{}: {}", settings.run.scenario, *difference)};
   const config::ScanRecorder& scans = settings.scan_recorder;
   if (scans.enabled && std::holds_alternative<config::SimDevice>(scans.device) && !scenario.laser.enabled) {
     throw std::runtime_error{

@@ -15,6 +15,7 @@ static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
 static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
 static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
 static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
+static_assert(int{msg::REASON_OWN_HALF} == int(kicking::Reason::kOwnHalf));
 
 constexpr bool wire(bool value) { return value; }
 constexpr double wire(double value) { return value; }

@@ -4,6 +4,9 @@
 
 #include <set>
 
+#include "config/installation.hpp"
+#include "config/scenario.hpp"
+
 namespace trivela::experiment {
 namespace {
 
@@ -142,6 +145,36 @@ MatchRecord played_by(const config::KickDecision& decision) {
   play_match(scenario, team, 1, 0, kPossessions, {}, &record);
   EXPECT_EQ(record.assignments.size(), kPossessions);
   return record;
+}
+
+TEST(PlayMatch, GoalAndRulesAreTheScenarios) {
+  const sim::Scenario scenario = config::load_scenario(config::shipped("scenarios/msl_2026.toml"));
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive}) {
+    MatchRecord record;
+    play_match(scenario, arm(policy), 1, 0, kPossessions, {}, &record);
+    ASSERT_FALSE(record.decisions.empty());
+    for (const msg::KickDecision& decision : record.decisions) EXPECT_EQ(decision.target_y_m, 11.0);
+  }
+}
+
+TEST(PlayMatch, NoPolicyBreaksTheRulesThatItPlaysBy) {
+  sim::Scenario scenario = config::load_scenario(config::shipped("scenarios/msl_2026.toml"));
+  scenario.referee.stops_per_min = 0.0;  // who is stopped carried the ball too far
+  scenario.possession.goal_distance_max_m = 14.0;
+  scenario.opponent.distance_median_m = 4.0;
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive}) {
+    MatchRecord record;
+    PlayOptions every;
+    every.every_cycle = true;
+    const PlayedMatch match = play_match(scenario, arm(policy), 1, 0, kPossessions, every, &record);
+    int held = 0;
+    for (const msg::KickDecision& decision : record.decisions) held += decision.reason == msg::REASON_OWN_HALF;
+    EXPECT_GT(held, 50) << kicking::name(policy);
+    EXPECT_GT(kicks(match), 3) << kicking::name(policy);
+    for (const PlayedPossession& possession : match.possessions)
+      EXPECT_NE(possession.ending, sim::PossessionEnd::kStopped) << kicking::name(policy) << possession.possession_id;
+    for (const msg::KickTruth& kick : record.kick_truths) EXPECT_GT(kick.release_y_m, 0.0) << kicking::name(policy);
+  }
 }
 
 TEST(PlayMatch, SettingsSayWhoPlaysRobotByRobot) {

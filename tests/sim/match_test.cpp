@@ -72,6 +72,23 @@ TEST(Match, CarryingTheBallOutEndsThePossession) {
   }
 }
 
+TEST(Match, TheRefereeStopsWhoCarriesTheBallTooFar) {
+  Scenario s = alone();
+  s.rules.carry_limit_m = 1.5;
+  s.possession.goal_distance_min_m = 6.0;
+  const auto ahead = [](const Sensors&) { return Commands{.drive = {0.0, 2.0, 0.0}, .fire = {}}; };
+  const Record record = play(s, 5, 1, 0.3, ahead);
+  ASSERT_GT(record.possessions.size(), 3U);
+  for (const auto& p : record.possessions) {
+    EXPECT_EQ(p.ending, PossessionEnd::kStopped);
+    // From at most 2 m/s in any direction to 2 m/s ahead, then 1.5 m in a straight line: not at once, not late.
+    EXPECT_GT(p.t_ns - p.start_t_ns, 700'000'000);
+    EXPECT_LT(p.t_ns - p.start_t_ns, 2'500'000'000);
+  }
+  s.rules.carry_limit_m = 0.0;
+  for (const auto& p : play(s, 5, 1, 0.3, ahead).possessions) EXPECT_NE(p.ending, PossessionEnd::kStopped);
+}
+
 TEST(Match, AKickEndsThePossessionAndItsTruthNamesIt) {
   const Record record = play(alone(), 7, 1, 0.5, fire_at_once(25));
   ASSERT_GT(record.kicks.size(), 5U);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/policy/judgement.hpp"
 #include "kicking/policy/shot.hpp"
 
 namespace trivela::kicking {
@@ -32,6 +33,7 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       goal_(goal),
       input_(input),
       learned_(learned),
+      reach_(carry_reach(config, robot, memory)),
       start_(settled(config, input, memory)),
       model_(config.predictive, robot, goal, spread_of(config.predictive, input, memory)),
       survival_(config.predictive, memory.opponent),
@@ -41,8 +43,9 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
 }
 
 Twist LookaheadSearch::command_at(DrivePlan plan, const DriveMotion& base) const {
-  return command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral,
-                    ball_speed_mps_);
+  const Twist command =
+      command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral, ball_speed_mps_);
+  return reach_.keep(command, base.position_m, base.forward);
 }
 
 /// Cycle by cycle, as the policy itself will steer.
@@ -72,6 +75,7 @@ ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedSho
 
 PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
   PlannedShot out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
+  if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
   if (!(out.shot.p > 0.0)) return out;

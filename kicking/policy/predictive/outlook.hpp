@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "kicking/policy/match_rules.hpp"
 #include "kicking/policy/predictive/drive_plan.hpp"
 #include "kicking/policy/predictive/predictive.hpp"
 #include "kicking/policy/predictive/shot_chance.hpp"
@@ -63,6 +64,7 @@ class LookaheadSearch {
   const Goal& goal_;
   const PolicyInput& input_;
   const LearnedModel* learned_;
+  CarryReach reach_;
   DriveMotion start_;
   ShotModel model_;
   Survival survival_;

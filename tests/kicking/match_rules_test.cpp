@@ -1,0 +1,127 @@
+#include "kicking/policy/match_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kicking/policy/shot.hpp"
+#include "tests/kicking/play.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+using tests::play;
+using tests::ready_at;
+
+constexpr double kBrake_mps2 = 2.5;
+
+CarryReach reach_of_three_metres(const Eigen::Vector2d& taken_m = {0, 0}) {
+  return {3.0 - 0.3 - 0.27, kBrake_mps2, taken_m};
+}
+
+TEST(CarryReach, LeavesACommandAloneWhereNothingIsForbidden) {
+  const Twist command{0.3, 2.0, 1.0};
+  EXPECT_EQ(CarryReach{}.keep(command, {50, 50}, {0, 1}).vy_mps, 2.0);
+}
+
+TEST(CarryReach, LetsARobotGoAsFastAsItCanStillBrake) {
+  // 3 m less the margin and the ball's distance from the centre are 2.43 m, of which 0.43 m are left.
+  const Twist kept = reach_of_three_metres().keep({0, 2.0, 0.5}, {0, 2.0}, {0, 1});
+  EXPECT_NEAR(kept.vy_mps, std::sqrt(2 * kBrake_mps2 * 0.43), 1e-12);
+  EXPECT_NEAR(kept.vx_mps, 0.0, 1e-12);
+  EXPECT_EQ(kept.omega_radps, 0.5);
+}
+
+TEST(CarryReach, ForbidsOnlyWhatLeadsAway) {
+  const CarryReach reach = reach_of_three_metres();
+  // At the edge, facing along it, then facing back.
+  const Twist along = reach.keep({0, 1.5, 0}, {2.43, 0}, {0, 1});
+  EXPECT_NEAR(along.vy_mps, 1.5, 1e-12);
+  const Twist back = reach.keep({0, 1.5, 0}, {2.43, 0}, {-1, 0});
+  EXPECT_NEAR(back.vy_mps, 1.5, 1e-12);
+  const Twist out = reach.keep({0, 1.5, 0}, {2.5, 0}, {1, 0});
+  EXPECT_NEAR(out.vy_mps, 0.0, 1e-12);
+}
+
+TEST(CarryReach, NeverLeavesAVelocityThatCannotBeBrakedInTime) {
+  const CarryReach reach = reach_of_three_metres({0.4, -0.2});
+  for (double place_rad = 0.0; place_rad < 6.3; place_rad += 0.7)
+    for (double heading_rad = 0.0; heading_rad < 6.3; heading_rad += 0.9)
+      for (double carried_m : {0.01, 0.8, 1.9, 2.4, 2.43, 3.2}) {
+        const Eigen::Vector2d outward(std::cos(place_rad), std::sin(place_rad));
+        const Eigen::Vector2d forward(-std::sin(heading_rad), std::cos(heading_rad));
+        const Twist kept = reach.keep({0.5, 2.2, 0.1}, Eigen::Vector2d(0.4, -0.2) + carried_m * outward, forward);
+        const Eigen::Vector2d right(forward.y(), -forward.x());
+        const double out_mps = (kept.vx_mps * right + kept.vy_mps * forward).dot(outward);
+        EXPECT_LE(out_mps * out_mps * (out_mps > 0), 2 * kBrake_mps2 * std::max(0.0, 2.43 - carried_m) + 1e-9);
+      }
+}
+
+class RuledPolicy : public testing::TestWithParam<PolicyName> {};
+
+TEST_P(RuledPolicy, HoldsInItsOwnHalfAndSaysSo) {
+  PolicyConfig config = tests::strict_config();
+  config.rules.opponents_half_only = true;
+  PolicyMemory memory;
+  const RobotModel robot;
+  // The ball lies 0.27 m before the robot: 0.2 m beyond the line is less than the margin.
+  Judgement judgement = judge(GetParam(), config, robot, {}, ready_at({0, -0.07, 0}), memory);
+  EXPECT_FALSE(judgement.fire);
+  EXPECT_EQ(judgement.reason, Reason::kOwnHalf);
+  EXPECT_STREQ(name(judgement.reason), "own_half");
+  judgement = judge(GetParam(), config, robot, {}, ready_at({0, 3, 0}), memory);
+  EXPECT_NE(judgement.reason, Reason::kOwnHalf);
+}
+
+TEST_P(RuledPolicy, KicksFromTheOpponentsHalfAsWithoutTheRule) {
+  PolicyConfig ruled = tests::strict_config();
+  ruled.rules.opponents_half_only = true;
+  const auto with = play(GetParam(), ruled, {}, ready_at({0.5, 3.5, 0.4}, {0.2, 1.0, 0}));
+  const auto without = play(GetParam(), tests::strict_config(), {}, ready_at({0.5, 3.5, 0.4}, {0.2, 1.0, 0}));
+  ASSERT_TRUE(with.fired);
+  ASSERT_TRUE(without.fired);
+  EXPECT_EQ(with.seconds, without.seconds);
+  EXPECT_EQ(with.fired->power, without.fired->power);
+}
+
+TEST_P(RuledPolicy, CarriesTheBallNoFartherThanTheLimitWhereverItTurns) {
+  PolicyConfig config;
+  config.rules.carry_limit_m = 3.0;
+  config.carry_margin_m = 0.05;
+  const RobotModel robot;
+  for (const double heading_rad : {0.0, 1.2, -2.4, 3.1}) {
+    PolicyMemory memory;
+    PolicyInput input = ready_at({2.0, -4.0, heading_rad}, {0.0, 1.0, 0.0});
+    input.kicker_ready = false;  // so that it drives on for as long as it may
+    const Eigen::Vector2d taken = held_ball(input.pose, robot);
+    double farthest_m = 0.0;
+    for (int cycle = 0; cycle < 400; ++cycle) {
+      input.twist = judge(GetParam(), config, robot, {}, input, memory).drive;
+      input.pose = advance(input.pose, input.twist, config.cycle_s);
+      input.t_ns += 20'000'000;
+      farthest_m = std::max(farthest_m, (held_ball(input.pose, robot) - taken).norm());
+    }
+    EXPECT_LE(farthest_m, 3.0) << "heading " << heading_rad;
+  }
+}
+
+TEST_P(RuledPolicy, HasANewReachWithANewPossession) {
+  PolicyConfig config;
+  config.rules.carry_limit_m = 1.0;
+  PolicyMemory memory;
+  PolicyInput input = ready_at({0.0, -6.0, 0.0}, {0.0, 1.0, 0.0});
+  input.kicker_ready = false;
+  const auto drive = [&] { return judge(GetParam(), config, {}, {}, input, memory).drive; };
+  drive();
+  input.pose.y_m += 2.0;
+  EXPECT_NEAR(std::hypot(drive().vx_mps, drive().vy_mps), 0.0, 1e-9);
+  input.possession_id = 2;
+  EXPECT_GT(std::hypot(drive().vx_mps, drive().vy_mps), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Policies, RuledPolicy,
+                         testing::Values(PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive),
+                         [](const auto& policy) { return std::string(name(policy.param)); });
+
+}  // namespace
+}  // namespace trivela::kicking
