@@ -17,14 +17,13 @@
 #include <thread>
 #include <vector>
 
-#include "hal/refbox/framing.hpp"
 #include "hal/line/descriptor.hpp"
+#include "hal/refbox/framing.hpp"
 
 namespace trivela::hal::refbox {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using scip::Descriptor;
 
 // So long after the first half of an object its second one leaves: a client reads them one by one.
 constexpr std::chrono::milliseconds kBetweenHalves{30};
@@ -56,7 +55,7 @@ Descriptor listen_on(std::uint16_t& port, bool on_network) {
   auto* const address = reinterpret_cast<sockaddr*>(&own);
   if (::bind(listener.get(), address, size) != 0 || ::listen(listener.get(), 8) != 0 ||
       ::getsockname(listener.get(), address, &size) != 0) {
-    throw std::runtime_error{fmt::format("referee box: port {}: {}", port, scip::system_error(errno))};
+    throw std::runtime_error{fmt::format("referee box: port {}: {}", port, system_error(errno))};
   }
   port = ntohs(own.sin_port);
   return listener;
@@ -69,7 +68,7 @@ struct EmulatedBox::State {
       : config(wanted),
         listener(listen_on(config.port, config.on_network)),
         wake(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-    if (!wake) throw std::runtime_error{fmt::format("referee box: {}", scip::system_error(errno))};
+    if (!wake) throw std::runtime_error{fmt::format("referee box: {}", system_error(errno))};
     thread = std::thread{[this] { serve(); }};
   }
   State(const State&) = delete;

@@ -9,8 +9,6 @@
 
 namespace trivela::hal::refbox {
 
-using scip::Line;
-
 namespace {
 
 // How often it is looked whether what was sent has been acknowledged.
@@ -103,7 +101,7 @@ void RefboxClient::send(std::string_view object) {
 
 std::unique_ptr<RefboxClient> refbox_client(const std::string& host, std::uint16_t port, TeamMarks team,
                                             std::chrono::nanoseconds patience) {
-  return std::make_unique<RefboxClient>(scip::tcp_line(host, port), std::move(team), patience);
+  return std::make_unique<RefboxClient>(tcp_line(host, port), std::move(team), patience);
 }
 
 }  // namespace trivela::hal::refbox

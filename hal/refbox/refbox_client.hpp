@@ -9,9 +9,9 @@
 #include <string_view>
 #include <variant>
 
+#include "hal/line/line.hpp"
 #include "hal/refbox/unacknowledged.hpp"
 #include "hal/refbox/words.hpp"
-#include "hal/line/line.hpp"
 
 namespace trivela::hal::refbox {
 
@@ -43,7 +43,7 @@ class RefboxClient {
   static constexpr std::chrono::seconds kRetryTurnedAway{2};
   static constexpr std::chrono::seconds kLongestAttempt{2};  ///< a host that is switched off answers nothing
 
-  RefboxClient(std::unique_ptr<scip::Line> line, TeamMarks team, std::chrono::nanoseconds patience);
+  RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds patience);
 
   /// The next event; waits for it up to `timeout`. None: nothing happened.
   std::optional<BoxEvent> next(std::chrono::nanoseconds timeout);
@@ -63,7 +63,7 @@ class RefboxClient {
   void look_at_acknowledgements();
   void lose(std::string why);
 
-  std::unique_ptr<scip::Line> line_;
+  std::unique_ptr<Line> line_;
   TeamMarks team_;
   std::chrono::nanoseconds patience_;
   bool connected_ = false;

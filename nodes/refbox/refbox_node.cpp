@@ -5,6 +5,7 @@
 #include "hal/refbox/worldstate.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
+#include "nodes/runtime/node_main.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -125,6 +126,13 @@ void RefboxNode::tell_box() {
   }
   const config::Refbox& settings = context_.settings.refbox;
   client_->send(box::worldstate_object(fresh, {settings.team_name, settings.intention}, now_ns));
+}
+
+int refbox_main(int argc, char** argv) {
+  return node_main(argc, argv, "refbox", [](NodeContext& context) {
+    RefboxNode node{context, open_refbox(context.settings.refbox)};
+    run(context, node.node());
+  });
 }
 
 }  // namespace trivela::nodes

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
+#include "hal/line/descriptor.hpp"
 #include "hal/refbox/emulated_box.hpp"
 #include "hal/refbox/refbox_client.hpp"
-#include "hal/line/descriptor.hpp"
 
 namespace trivela::tests {
 
@@ -68,8 +68,8 @@ class BoxLink {
 };
 
 /// A connection to the box from an address of the loopback network.
-inline hal::scip::Descriptor connect_from(const char* address, std::uint16_t port) {
-  hal::scip::Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
+inline hal::Descriptor connect_from(const char* address, std::uint16_t port) {
+  hal::Descriptor socket{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
   sockaddr_in own{};
   own.sin_family = AF_INET;
   ::inet_pton(AF_INET, address, &own.sin_addr);
@@ -83,7 +83,7 @@ inline hal::scip::Descriptor connect_from(const char* address, std::uint16_t por
 }
 
 /// What comes until the other side closes, or until so many bytes are there.
-inline std::string read_all(const hal::scip::Descriptor& socket, std::size_t most_B = 1U << 20) {
+inline std::string read_all(const hal::Descriptor& socket, std::size_t most_B = 1U << 20) {
   std::string all, why;
   std::array<char, 4096> bytes;
   while (all.size() < most_B) {
