@@ -4,8 +4,10 @@
 namespace trivela::nodes {
 
 int refbox_main(int argc, char** argv) {
-  return node_main(argc, argv, "refbox", [](NodeContext& context) {
-    RefboxNode node{context, open_refbox(context.settings.refbox)};
+  std::shared_ptr<RefboxLink> link;  // one connection, also where the node joins the bus anew
+  return node_main(argc, argv, "refbox", [&link](NodeContext& context) {
+    if (!link) link = open_refbox(context.settings.refbox);
+    RefboxNode node{context, link};
     run(context, node.node());
   });
 }
