@@ -31,6 +31,7 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all{
       {"Play", {cli::add_match, cli::add_simulate}},
+      {"Referee", {cli::add_refbox}},
       {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
       {"After a match",

@@ -17,6 +17,7 @@ struct UsageError : config::BadArgument {
 /// Each adds its subcommand with flags, help and a callback that sets `exit_code`.
 void add_match(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
+void add_refbox(CLI::App& app, int& exit_code);
 void add_scan(CLI::App& app, int& exit_code);
 void add_emulate(CLI::App& app, int& exit_code);
 void add_lob(CLI::App& app, int& exit_code);

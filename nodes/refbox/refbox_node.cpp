@@ -1,6 +1,7 @@
 #include "nodes/refbox/refbox_node.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "hal/refbox/worldstate.hpp"
 #include "kicking/geometry/time.hpp"
@@ -29,17 +30,19 @@ std::string in_words(const box::Command& command) {
 
 }  // namespace
 
-std::unique_ptr<box::RefboxClient> open_refbox(const config::Refbox& settings) {
+std::shared_ptr<RefboxLink> open_refbox(const config::Refbox& settings) {
   const bool magenta = settings.colour == config::TeamColour::kMagenta;
-  return box::refbox_client(settings.host, static_cast<std::uint16_t>(settings.port),
-                            {.protocol = settings.letters ? box::Protocol::kLetters : box::Protocol::kJson,
-                             .group = settings.group,
-                             .colour = magenta ? box::Colour::kMagenta : box::Colour::kCyan},
-                            std::chrono::nanoseconds{kicking::nanoseconds(settings.acknowledgement_s)});
+  const box::TeamMarks team{.protocol = settings.letters ? box::Protocol::kLetters : box::Protocol::kJson,
+                            .group = settings.group,
+                            .colour = magenta ? box::Colour::kMagenta : box::Colour::kCyan};
+  const std::chrono::nanoseconds patience{kicking::nanoseconds(settings.acknowledgement_s)};
+  auto link = std::make_shared<RefboxLink>();
+  link->client = box::refbox_client(settings.host, static_cast<std::uint16_t>(settings.port), team, patience);
+  return link;
 }
 
-RefboxNode::RefboxNode(NodeContext& context, std::unique_ptr<box::RefboxClient> client)
-    : context_(context), client_(std::move(client)), node_(context.participant, "refbox") {
+RefboxNode::RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link)
+    : context_(context), link_(std::move(link)), node_(context.participant, "refbox") {
   const config::Refbox& settings = context.settings.refbox;
   if (context.settings.run.lockstep) throw std::runtime_error{"run.lockstep = true: a referee box waits for nobody"};
   if (settings.group.empty() && !settings.letters)
@@ -53,32 +56,42 @@ RefboxNode::RefboxNode(NodeContext& context, std::unique_ptr<box::RefboxClient> 
       [this](const Event& event) { on_event(event); }, bus::writes<msg::Referee>());
 }
 
-/// What the box does, and a tick every period: a flood of commands does not put it off.
+/// What the box does, and a tick each cycle, by which others see that this thread lives. A flood of commands does not
+/// put it off.
 std::optional<RefboxNode::Event> RefboxNode::next(std::chrono::nanoseconds timeout) {
   const auto now = steady_clock::now();
   if (now >= next_tick_) {
-    const std::chrono::nanoseconds period{kicking::nanoseconds(context_.settings.refbox.period_s)};
-    next_tick_ = std::max(next_tick_ + period, now - period);  // late ones are made up for, but not for ever
+    next_tick_ = now + context_.cycle();
     return Event{Tick{}};
   }
-  const auto event = client_->next(std::min<std::chrono::nanoseconds>(timeout, next_tick_ - now));
+  const auto event = link_->client->next(std::min<std::chrono::nanoseconds>(timeout, next_tick_ - now));
   return event ? std::optional<Event>{*event} : std::nullopt;
 }
 
 void RefboxNode::on_event(const Event& event) {
-  if (const auto* const happened = std::get_if<box::BoxEvent>(&event))
-    return std::visit([this](const auto& what) { on_box(what); }, *happened);
+  if (const auto* const happened = std::get_if<box::BoxEvent>(&event)) {
+    std::visit([this](const auto& what) { on_box(what); }, *happened);
+  } else {
+    on_tick();
+  }
+}
+
+void RefboxNode::on_tick() {
+  const auto now = steady_clock::now();
+  if (now < next_telling_) return;
+  const std::chrono::nanoseconds period{kicking::nanoseconds(context_.settings.refbox.period_s)};
+  next_telling_ = std::max(next_telling_ + period, now - period);  // late ones are made up for, but not for ever
   publish();
   tell_box();
 }
 
 void RefboxNode::on_box(const box::Connected&) {
-  match_.connected();
-  context_.logger->info("connected to the referee box {}", client_->box());
+  link_->match.connected();
+  context_.logger->info("connected to the referee box {}", link_->client->box());
 }
 
 void RefboxNode::on_box(const box::Command& command) {
-  match_.command(command, context_.steady_ns());
+  link_->match.command(command, context_.steady_ns());
   publish();
   context_.logger->info("referee: {}", in_words(command));
 }
@@ -88,13 +101,14 @@ void RefboxNode::on_box(const box::NoCommand& word) {
 }
 
 void RefboxNode::on_box(const box::Lost& lost) {
-  match_.disconnected();
+  link_->match.disconnected();
   publish();
-  context_.logger->error("the referee box {} is lost: {}: the game is stopped", client_->box(), lost.why);
+  context_.logger->error("the referee box {} is lost: {}: the game is stopped", link_->client->box(), lost.why);
 }
 
 void RefboxNode::on_box(const box::Unreachable& failure) {
-  context_.logger->warn("the referee box {} cannot be reached: {}: the game is stopped", client_->box(), failure.why);
+  context_.logger->warn("the referee box {} cannot be reached: {}: the game is stopped", link_->client->box(),
+                        failure.why);
 }
 
 void RefboxNode::on_world(const msg::WorldState& world) {
@@ -108,7 +122,7 @@ bool RefboxNode::speaks_for(std::uint8_t robot_id) const {
 }
 
 void RefboxNode::publish() {
-  msg::Referee word = match_.message(context_.steady_ns());
+  msg::Referee word = link_->match.message(context_.steady_ns());
   word.seq = ++seq_;
   for (const Robot& robot : robots_) {
     word.robot_id = robot.robot_id;
@@ -125,12 +139,14 @@ void RefboxNode::tell_box() {
       if (world && now_ns - world->t_ns <= kFreshBelief_ns) fresh.push_back(*world);
   }
   const config::Refbox& settings = context_.settings.refbox;
-  client_->send(box::worldstate_object(fresh, {settings.team_name, settings.intention}, now_ns));
+  link_->client->send(box::worldstate_object(fresh, {settings.team_name, settings.intention}, now_ns));
 }
 
 int refbox_main(int argc, char** argv) {
-  return node_main(argc, argv, "refbox", [](NodeContext& context) {
-    RefboxNode node{context, open_refbox(context.settings.refbox)};
+  std::shared_ptr<RefboxLink> link;  // one connection, also where the node joins the bus anew
+  return node_main(argc, argv, "refbox", [&link](NodeContext& context) {
+    if (!link) link = open_refbox(context.settings.refbox);
+    RefboxNode node{context, link};
     run(context, node.node());
   });
 }

@@ -12,15 +12,22 @@
 
 namespace trivela::nodes {
 
-/// The client of the settings' referee box.
-std::unique_ptr<hal::refbox::RefboxClient> open_refbox(const config::Refbox& settings);
+/// The connection and what was said on it. It outlives a node that joins the bus anew: the box would take a new
+/// connection for a lost one, and the game would stop.
+struct RefboxLink {
+  std::unique_ptr<hal::refbox::RefboxClient> client;
+  robot::MatchState match;
+};
+
+/// To the settings' referee box.
+std::shared_ptr<RefboxLink> open_refbox(const config::Refbox& settings);
 
 /// The referee box's commands in, `referee` out at each change and every period_s; the robots' beliefs out to the box
 /// as often. A lost connection stops the game until a new START. In real time alone.
 class RefboxNode {
  public:
   /// Throws std::runtime_error in lockstep, without the group that the box names us by, and beside another referee.
-  RefboxNode(NodeContext& context, std::unique_ptr<hal::refbox::RefboxClient> client);
+  RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link);
   bus::Node& node() { return node_; }
 
  private:
@@ -35,6 +42,7 @@ class RefboxNode {
   void on_box(const hal::refbox::Lost& lost);
   void on_box(const hal::refbox::Unreachable& failure);
   void on_world(const msg::WorldState& world);
+  void on_tick();
   void publish();
   void tell_box();
   bool speaks_for(std::uint8_t robot_id) const;
@@ -46,12 +54,12 @@ class RefboxNode {
   };
 
   NodeContext& context_;
-  std::unique_ptr<hal::refbox::RefboxClient> client_;
-  robot::MatchState match_;
+  std::shared_ptr<RefboxLink> link_;
   bus::Node node_;
   std::vector<Robot> robots_;
   std::uint64_t seq_ = 0;
   std::chrono::steady_clock::time_point next_tick_{};
+  std::chrono::steady_clock::time_point next_telling_{};
   std::mutex worlds_mutex_;  // beliefs come in the bus's thread
   std::array<std::optional<msg::WorldState>, 256> worlds_;
 };

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hal/refbox/box_keys.hpp"
+
 namespace trivela::hal::refbox {
 namespace {
 
@@ -88,6 +90,26 @@ TEST(BoxLog, WithoutACommandIsNone) {
   for (const char* const text : {"", "hello\n", "1,2,3\n", ",,,s\n", "1,,,", "9223372036854775808,,,s,"}) {
     EXPECT_THROW(read_box_log(text, "c.msl"), std::runtime_error) << text;
   }
+}
+
+TEST(BoxKeys, AreTheOldLettersOfTheLeftTeamInUpperCaseAndOfTheRightOneInLowerCase) {
+  const auto said = [](char key) { return std::get<Said>(act_of_key(key).value()); };
+  EXPECT_EQ(said('s'), (Said{CommandKind::kStart, {}, {}}));
+  EXPECT_EQ(said('S'), (Said{CommandKind::kStop, {}, {}}));
+  EXPECT_EQ(said(' '), (Said{CommandKind::kStop, {}, {}}));
+  EXPECT_EQ(said('K'), (Said{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(said('k'), (Said{CommandKind::kKickOff, 1, {}}));
+  EXPECT_EQ(said('E'), (Said{CommandKind::kEndPart, {}, {}}));
+}
+
+TEST(BoxKeys, ReachEveryFaultAndNothingElseUnderAnUnknownKey) {
+  std::size_t faults = 0;
+  for (int key = 0; key < 256; ++key) {
+    const auto act = act_of_key(static_cast<char>(key));
+    faults += act && std::holds_alternative<BoxFault>(*act) ? 1 : 0;
+  }
+  EXPECT_EQ(faults, kBoxFaults.size());
+  for (const char key : {'?', '\n', '\0', '5', '~'}) EXPECT_FALSE(act_of_key(key)) << key;
 }
 
 }  // namespace

@@ -202,6 +202,27 @@ TEST_F(RefboxNodeTest, WhatNobodyKnowsIsLoggedAndChangesNothing) {
   EXPECT_TRUE(now.playing);
 }
 
+TEST_F(RefboxNodeTest, ANodeThatJoinsTheBusAnewKeepsTheConnectionAndTheMatch) {
+  const auto link = open_refbox(context.settings.refbox);
+  bus::Stop first_stop;
+  NodeContext first_context{context.settings, context.robot, participant, context.logger, first_stop};
+  first_context.steady_ns = context.steady_ns;
+  std::optional<RefboxNode> first(std::in_place, first_context, link);
+  {
+    const Running runs{bus::Executor::kListener, first_stop, {&first->node()}};
+    ASSERT_TRUE(box.wait_for_teams(1, kPlenty));
+    say(CommandKind::kStart);
+    wait_for_play(true);
+  }
+  first.reset();
+  const std::size_t before = referee.now().size();
+  node.emplace(context, link);
+  running.emplace(bus::Executor::kListener, stop, std::vector{&node->node()});
+  const auto& words = referee.first(before + 3);
+  for (std::size_t i = before; i < words.size(); ++i) EXPECT_TRUE(words[i].playing);
+  EXPECT_EQ(words.back().command_counter, 2U) << "no second WELCOME";
+}
+
 TEST_F(RefboxNodeTest, ASecondRefereeOfARobotIsRefused) {
   start();
   EXPECT_THAT(refusal(), HasSubstr("another referee of robot 1 writes referee in domain"));
