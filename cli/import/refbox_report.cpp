@@ -181,7 +181,7 @@ std::string to_json(const RefboxSummary& summary) {
     json["teams"].push_back(json_of_team(team));
     add_faults(team.team->log.file, team.team->log.faults);
   }
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace trivela::cli

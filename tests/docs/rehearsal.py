@@ -30,7 +30,8 @@ class Rehearsal:
         (folder / "build").mkdir()
         (folder / "build/release").symlink_to(build)
         (folder / "tests").mkdir()
-        (folder / "tests/vectors").symlink_to(root / "tests/vectors")
+        for read in ("vectors", "data"):
+            (folder / "tests" / read).symlink_to(root / "tests" / read)
         shutil.copytree(root / "config", folder / "config", ignore=shutil.ignore_patterns("*.cpp", "*.hpp"))
         # Two runs on one machine do not hear each other.
         settings = folder / "config/default.toml"
