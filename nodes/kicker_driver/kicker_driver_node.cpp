@@ -60,6 +60,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
   check_clock(sample);
+  say_link();
   status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
   withdraw();
   report_done(sample.t_ns);
@@ -83,6 +84,14 @@ void KickerDriverNode::check_clock(const hal::KickerSample& sample) {
     context_.logger->error("the kicker's samples are {:.0f} s off this machine's steady clock: nothing will be fired",
                            off_s);
   clock_differs_ = differs;
+}
+
+/// What the device says of its link and of kicks that it dropped, whenever that is something else.
+void KickerDriverNode::say_link() {
+  std::string said = kicker_->status();
+  if (said == link_said_) return;
+  link_said_ = std::move(said);
+  if (!link_said_.empty()) context_.logger->info("{}", link_said_);
 }
 
 void KickerDriverNode::on_referee(const msg::Referee& word) {

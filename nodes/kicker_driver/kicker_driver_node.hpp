@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "hal/kicker.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -29,6 +30,7 @@ class KickerDriverNode {
   std::int64_t now_t_ns() const;
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
+  void say_link();
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
@@ -37,6 +39,7 @@ class KickerDriverNode {
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
+  std::string link_said_;
   robot::LoopWatch loop_;
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -112,6 +113,20 @@ using WheelsFarSide = FarSide<hal::WheelSample, Driven>;
 struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<bool> safe = false;
   std::atomic<std::int64_t> withdrawn = 0;  ///< kick_id that was called off last
+
+  /// What the device says of its link.
+  void say_link(const std::string& link) {
+    const std::lock_guard lock{link_mutex_};
+    link_ = link;
+  }
+  std::string link() const {
+    const std::lock_guard lock{link_mutex_};
+    return link_;
+  }
+
+ private:
+  mutable std::mutex link_mutex_;
+  std::string link_;
 };
 
 class FakeWheels : public hal::Wheels {
@@ -139,6 +154,7 @@ class FakeKicker : public hal::Kicker {
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
   void make_safe() noexcept override { far_side_->safe = true; }
+  std::string status() const override { return far_side_->link(); }
   bool ended() const override { return far_side_->ended(); }
 
  private:

@@ -84,6 +84,16 @@ TEST_F(KickerDriverNodeTest, SaysHowTheKickerIs) {
   EXPECT_FALSE(sample().armed);
 }
 
+TEST_F(KickerDriverNodeTest, LogsWhatTheDeviceSaysOfItsLinkWheneverThatIsSomethingElse) {
+  start();
+  kicker->say_link("/dev/ttyUSB0: the line is cut");
+  sample();
+  EXPECT_TRUE(log_lines->wait_for("/dev/ttyUSB0: the line is cut"));
+  kicker->say_link("/dev/ttyUSB0: ioBoard version 00000003");
+  sample();
+  EXPECT_TRUE(log_lines->wait_for("ioBoard version 00000003"));
+}
+
 TEST_F(KickerDriverNodeTest, FiresAnOrderAndAnswersIt) {
   for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
     SCOPED_TRACE(kind);
