@@ -27,20 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 // So long after the first half of an object its second one leaves: a client reads them one by one.
 constexpr std::chrono::milliseconds kBetweenHalves{30};
-// A client's unread bytes find no place beyond this: the box's deafness shows at once.
+// A client's unread bytes find no place beyond this: the box's deafness shows soon.
 constexpr int kReceiveBuffer_B = 4096;
-
-struct Client {
-  Descriptor socket;
-  std::size_t team = 0;
-  Framing framing{};
-};
-
-struct Heard {
-  TeamReport report;
-  Clock::time_point first{};
-  Clock::time_point last{};
-};
 
 Descriptor listen_on(std::uint16_t& port, bool on_network) {
   Descriptor listener{::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};
@@ -64,6 +52,18 @@ Descriptor listen_on(std::uint16_t& port, bool on_network) {
 }  // namespace
 
 struct EmulatedBox::State {
+  struct Client {
+    Descriptor socket;
+    std::size_t team = 0;
+    Framing framing{};
+  };
+
+  struct Heard {
+    TeamReport report;
+    Clock::time_point first{};
+    Clock::time_point last{};
+  };
+
   explicit State(const BoxConfig& wanted)
       : config(wanted),
         listener(listen_on(config.port, config.on_network)),
