@@ -33,7 +33,8 @@ const std::vector<Group>& groups() {
       {"Play", {cli::add_match, cli::add_simulate}},
       {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
-      {"After a match", {cli::add_report, cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
+      {"After a match",
+       {cli::add_report, cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
       {"On the robot, one kick", {cli::add_solve, cli::add_align, cli::add_predict}}};
   return all;
 }
