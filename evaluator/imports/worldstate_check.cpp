@@ -7,6 +7,7 @@ namespace trivela::evaluator::imports {
 namespace {
 
 constexpr double kFarthest_m = 50.0, kFastest_mps = 50.0;  // beyond: other units, or no measurement
+constexpr double kLatestTold_ms = 4'102'444'800'000.0;     // 2100, UTC
 constexpr double kOldest_ms = 10'000.0;                    // an age beyond it is time since something else
 constexpr std::int64_t kManyBatteries = 100;               // a voltage that is measured moves within so many
 
@@ -32,6 +33,8 @@ void WorldstateCheck::record_value(const std::string& key, const Scalar& value) 
     if (log_.team.empty()) log_.team = value.text;
   } else if (key == "timestamp" || key == "gametimeMs") {
     if (!value.is_number()) return wrong_type(key, value.shown());
+    if (value.number < 0.0 || value.number > kLatestTold_ms)
+      return fault("time beyond all matches", key, value.shown());
     (key == "gametimeMs" ? record_.game_ms : record_.timestamp_ms) = value.number;
   } else if (key == "worldstate") {
     wrong_type(key, value.shown());

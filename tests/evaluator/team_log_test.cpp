@@ -149,6 +149,15 @@ TEST(TeamLog, ATruncatedFileSaysSoAndWhatIsWholeIsUsed) {
   }
 }
 
+TEST(TeamLog, TimesBeyondAllMatchesAreLeftOut) {
+  const TeamLog log = read(R"([{"timestamp": 1e300,"gametimeMs": -5,"worldstate": {"robots":[]}}])");
+  EXPECT_EQ(log.faults.of("time beyond all matches"), 2);
+  ASSERT_EQ(log.usable.size(), 1u);
+  EXPECT_FALSE(log.usable[0].timestamp_ms);
+  EXPECT_FALSE(log.usable[0].game_ms);
+  EXPECT_THAT(record_times_ms(log, nullptr), ElementsAre(0));
+}
+
 TEST(TeamLog, WhatIsNoLogSaysSo) {
   EXPECT_THAT(read("").faults.sentences(), ElementsAre("x.A.msl: no record in it"));
   EXPECT_THAT(read("[]").faults.sentences(), ElementsAre("x.A.msl: no record in it"));
