@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "hal/range_finder.hpp"
 #include "hal/line/line.hpp"
+#include "hal/range_finder.hpp"
 #include "hal/scip/reply.hpp"
 #include "hal/scip/scan_intake.hpp"
 #include "hal/scip/start_up.hpp"
