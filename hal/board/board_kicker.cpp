@@ -17,6 +17,9 @@ namespace trivela::hal {
 namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
+/// So long before a shot the line is left alone: whoever asks a terminal for its bytes may have to wait for a thread of
+/// the kernel that has no real-time priority.
+constexpr std::int64_t kQuiet_ns = 5'000'000;
 
 std::int64_t steady_ns() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -91,9 +94,15 @@ void BoardKicker::run() {
   ::pthread_setname_np(::pthread_self(), "kicker board");
   ::prctl(PR_SET_TIMERSLACK, 1UL);  // ns; without a real-time priority it would wake up 50 us late
   while (fire_due()) {
-    board_->step(steady_ns());
-    wait(publish());
+    if (next_shot_ns() - kQuiet_ns > steady_ns()) board_->step(steady_ns());
+    publish();
+    wait();
   }
+}
+
+std::int64_t BoardKicker::next_shot_ns() const {
+  const std::lock_guard lock{mutex_};
+  return shots_.next_ns();
 }
 
 /// False: the thread is to end.
@@ -114,20 +123,23 @@ std::string BoardKicker::send(const Shot& shot, std::int64_t now_ns) {
   return board_->shoot(shot.power, now_ns);
 }
 
-/// Hands out what the board has said; when the thread is to go on.
-std::int64_t BoardKicker::publish() {
+/// Hands out what the board has said.
+void BoardKicker::publish() {
   const std::lock_guard lock{mutex_};
   if (const auto sample = board_->take_sample()) sample_ = sample;
   up_ = board_->up();
   status_ = board_->status();
   changed_.notify_all();
-  return std::min(board_->next_ns(), shots_.next_ns());
 }
 
-void BoardKicker::wait(std::int64_t until_ns) const {
-  const std::int64_t left_ns = std::max<std::int64_t>(until_ns - steady_ns(), 0);
+/// Until something comes, or is due.
+void BoardKicker::wait() const {
+  const std::int64_t shot_ns = next_shot_ns(), now_ns = steady_ns();
+  const bool quiet = shot_ns - kQuiet_ns <= now_ns;
+  const std::int64_t until_ns = quiet ? shot_ns : std::min(board_->next_ns(), shot_ns - kQuiet_ns);
+  const std::int64_t left_ns = std::max<std::int64_t>(until_ns - now_ns, 0);
   const timespec time_out{static_cast<time_t>(left_ns / kNsPerS), left_ns % kNsPerS};
-  std::array<pollfd, 2> polled{{{wake_.get(), POLLIN, 0}, {board_->descriptor(), POLLIN, 0}}};
+  std::array<pollfd, 2> polled{{{wake_.get(), POLLIN, 0}, {quiet ? -1 : board_->descriptor(), POLLIN, 0}}};
   ::ppoll(polled.data(), polled.size(), &time_out, nullptr);
   std::uint64_t pokes = 0;
   [[maybe_unused]] const auto got = ::read(wake_.get(), &pokes, sizeof pokes);

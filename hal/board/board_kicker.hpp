@@ -42,8 +42,9 @@ class BoardKicker final : public Kicker {
   void run();
   bool fire_due();
   std::string send(const Shot& shot, std::int64_t now_ns);
-  std::int64_t publish();
-  void wait(std::int64_t until_ns) const;
+  std::int64_t next_shot_ns() const;
+  void publish();
+  void wait() const;
   void wake() const noexcept;
 
   const std::unique_ptr<KickerBoard> board_;  // the thread's

@@ -60,7 +60,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
   check_clock(sample);
-  say_link();
+  say_link(sample.fault == hal::KickerFault::kLink);
   status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
   withdraw();
   report_done(sample.t_ns);
@@ -87,11 +87,11 @@ void KickerDriverNode::check_clock(const hal::KickerSample& sample) {
 }
 
 /// What the device says of its link and of kicks that it dropped, whenever that is something else.
-void KickerDriverNode::say_link() {
+void KickerDriverNode::say_link(bool lost) {
   std::string said = kicker_->status();
   if (said == link_said_) return;
   link_said_ = std::move(said);
-  if (!link_said_.empty()) context_.logger->info("{}", link_said_);
+  if (!link_said_.empty()) context_.logger->log(lost ? spdlog::level::warn : spdlog::level::info, "{}", link_said_);
 }
 
 void KickerDriverNode::on_referee(const msg::Referee& word) {

@@ -30,7 +30,7 @@ class KickerDriverNode {
   std::int64_t now_t_ns() const;
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
-  void say_link();
+  void say_link(bool lost);
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;

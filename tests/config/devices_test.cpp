@@ -97,6 +97,17 @@ TEST(IoBoard, IsRefusedWithALeverThatItDoesNotHaveAndWhereItIsNotTheKicker) {
   EXPECT_THAT(refusal({"hal.kicker = \"sim\"", "hal.ioboard.lever = 20"}), HasSubstr("unknown key"));
 }
 
+TEST(ReKick, HasItsSettingsInATableOfItsName) {
+  const Settings settings = with({"hal.kicker = \"rekick\"", "hal.rekick.port = \"can1\"",
+                                  "hal.rekick.pulse_us_per_power = 1.0", "hal.rekick.max_voltage_v = 200"});
+  const auto board = std::get<ReKickDevice>(settings.hal.kicker);
+  EXPECT_EQ(board.port, "can1");
+  EXPECT_EQ(board.pulse_us_per_power, 1.0);
+  EXPECT_EQ(board.max_voltage_v, 200);
+  EXPECT_THAT(refusal({"hal.kicker = \"rekick\"", "hal.rekick.max_voltage_v = 331"}),
+              HasSubstr("hal.rekick.max_voltage_v = 331: must lie in [1, 330]"));
+}
+
 TEST(Scanner, IsSimulatedOrAnAddress) {
   const auto of = [](const std::string& device) {
     Settings settings;
