@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hal/board/board_kicker.hpp"
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
@@ -215,6 +216,11 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<SimKicker*>(open_kicker(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
+  for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
+                                            config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {
+    const config::Hal boards{config::SimDevice{}, board, ""};
+    EXPECT_NE(dynamic_cast<BoardKicker*>(open_kicker(boards, owner).get()), nullptr);
+  }
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);
 }
 
