@@ -33,7 +33,7 @@ class Line {
   virtual bool write(std::string_view bytes, Deadline deadline) = 0;
 
   /// Bytes of write() that the other side has not acknowledged; 0 also where the line cannot tell.
-  virtual std::size_t unacknowledged_B() const { return 0; }
+  virtual std::size_t unacknowledged_bytes() const { return 0; }
 
   /// What was written and has not left yet is not sent, where the system can take it back: a serial device whose
   /// driver flushes can, TCP and a pseudo-terminal cannot.

@@ -83,10 +83,11 @@ class TcpLine final : public Line {
     return fd_.read(bytes, deadline, why_);
   }
   bool write(std::string_view bytes, Deadline deadline) override { return fd_.write(bytes, deadline, why_); }
-  std::size_t unacknowledged_B() const override {
-    int waiting_B = 0;
-    return fd_ && ::ioctl(fd_.get(), SIOCOUTQ, &waiting_B) == 0 && waiting_B > 0 ? static_cast<std::size_t>(waiting_B)
-                                                                                 : 0;
+  std::size_t unacknowledged_bytes() const override {
+    int waiting_bytes = 0;
+    return fd_ && ::ioctl(fd_.get(), SIOCOUTQ, &waiting_bytes) == 0 && waiting_bytes > 0
+               ? static_cast<std::size_t>(waiting_bytes)
+               : 0;
   }
   void close() noexcept override { fd_.reset(); }
   int descriptor() const override { return fd_.get(); }

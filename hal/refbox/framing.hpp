@@ -23,7 +23,7 @@ class Framing {
   std::vector<Framed> add(std::string_view bytes);
 
   /// Bytes of an object that has not ended.
-  std::size_t pending_B() const { return pending_.size(); }
+  std::size_t pending_bytes() const { return pending_.size(); }
 
  private:
   void extend(std::string_view part);

@@ -77,7 +77,7 @@ void RefboxClient::hear(Clock::time_point deadline) {
 }
 
 void RefboxClient::look_at_acknowledgements() {
-  const auto age = unacknowledged_.age(line_->unacknowledged_B(), Clock::now());
+  const auto age = unacknowledged_.age(line_->unacknowledged_bytes(), Clock::now());
   if (age <= patience_) return;
   lose(fmt::format("it has not acknowledged for {:.2f} s what we sent", std::chrono::duration<double>(age).count()));
 }

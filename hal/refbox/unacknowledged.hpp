@@ -15,24 +15,24 @@ class Unacknowledged {
   using Instant = std::chrono::steady_clock::time_point;
 
   /// So many bytes more were given to the connection.
-  void sent(std::size_t bytes_B, Instant at) {
-    sent_B_ += bytes_B;
-    writes_.push_back({sent_B_, at});
+  void sent(std::size_t bytes, Instant at) {
+    sent_bytes_ += bytes;
+    writes_.push_back({sent_bytes_, at});
   }
 
-  /// The age of the oldest of them at `now`, when `waiting_B` are not acknowledged; 0: all are.
-  std::chrono::nanoseconds age(std::size_t waiting_B, Instant now) {
-    const std::uint64_t acknowledged_B = sent_B_ - std::min<std::uint64_t>(waiting_B, sent_B_);
-    while (!writes_.empty() && writes_.front().end_B <= acknowledged_B) writes_.pop_front();
+  /// The age of the oldest of them at `now`, when `waiting_bytes` are not acknowledged; 0: all are.
+  std::chrono::nanoseconds age(std::size_t waiting_bytes, Instant now) {
+    const std::uint64_t acknowledged_bytes = sent_bytes_ - std::min<std::uint64_t>(waiting_bytes, sent_bytes_);
+    while (!writes_.empty() && writes_.front().end_bytes <= acknowledged_bytes) writes_.pop_front();
     return writes_.empty() ? std::chrono::nanoseconds{0} : now - writes_.front().at;
   }
 
  private:
   struct Written {
-    std::uint64_t end_B;
+    std::uint64_t end_bytes;
     Instant at;
   };
-  std::uint64_t sent_B_ = 0;
+  std::uint64_t sent_bytes_ = 0;
   std::deque<Written> writes_;
 };
 

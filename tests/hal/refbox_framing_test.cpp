@@ -19,7 +19,7 @@ std::vector<std::string> texts(const std::vector<Framed>& framed) {
 TEST(RefboxFraming, AnObjectEndsWithItsNul) {
   Framing framing;
   EXPECT_THAT(texts(framing.add("{}\0"s)), ElementsAre("{}"));
-  EXPECT_EQ(framing.pending_B(), 0U);
+  EXPECT_EQ(framing.pending_bytes(), 0U);
 }
 
 TEST(RefboxFraming, OneReadMayBringSeveralObjectsAndABeginning) {
@@ -53,7 +53,7 @@ TEST(RefboxFraming, AnEndlessObjectTakesNoMemory) {
   Framing framing;
   for (int i = 0; i < 1000; ++i) {
     EXPECT_THAT(framing.add(std::string(10'000, 'x')), IsEmpty());
-    ASSERT_LE(framing.pending_B(), kLongestObject_B);
+    ASSERT_LE(framing.pending_bytes(), kLongestObject_B);
   }
   EXPECT_THAT(texts(framing.add("\0{}\0"s)), ElementsAre("overlong", "{}"));
 }

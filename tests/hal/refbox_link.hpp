@@ -83,10 +83,10 @@ inline hal::Descriptor connect_from(const char* address, std::uint16_t port) {
 }
 
 /// What comes until the other side closes, or until so many bytes are there.
-inline std::string read_all(const hal::Descriptor& socket, std::size_t most_B = 1U << 20) {
+inline std::string read_all(const hal::Descriptor& socket, std::size_t most_bytes = 1U << 20) {
   std::string all, why;
   std::array<char, 4096> bytes;
-  while (all.size() < most_B) {
+  while (all.size() < most_bytes) {
     const auto count = socket.read(bytes, BoxLink::Clock::now() + kBoxPatience, why);
     if (!count || *count == 0) return all;
     all.append(bytes.data(), *count);
