@@ -31,12 +31,11 @@ struct Group {
 const std::vector<Group>& groups() {
   static const std::vector<Group> all{
       {"Play", {cli::add_match, cli::add_simulate}},
-      {"Referee", {cli::add_refbox}},
       {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
       {"After a match",
        {cli::add_report, cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
-      {"On the robot, one kick", {cli::add_solve, cli::add_align, cli::add_predict, cli::add_emulate}}};
+      {"On the robot", {cli::add_solve, cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate}}};
   return all;
 }
 

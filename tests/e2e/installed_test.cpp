@@ -53,7 +53,7 @@ TEST_F(Installed, EveryProgramFindsTheInstalledConfiguration) {
     EXPECT_THAT(output_of(entry.path(), {"--version"}), HasSubstr("\nconfiguration: " + config() + "\n"));
     ++programs;
   }
-  EXPECT_EQ(programs, 10);
+  EXPECT_EQ(programs, 11);
 }
 
 TEST_F(Installed, NoProgramNamesTheSources) {

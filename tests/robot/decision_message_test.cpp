@@ -36,7 +36,7 @@ TEST(WireEnums, CarryTheAlgorithmsLabels) {
     EXPECT_EQ(to_wire(ours), reason.value);
     EXPECT_STREQ(kicking::name(ours), bus::label(to_wire(ours)));
   }
-  EXPECT_EQ(bus::enumeration<msg::DecisionReason>::enumerators.size(), static_cast<std::size_t>(Reason::kWaiting) + 1);
+  EXPECT_EQ(bus::enumeration<msg::DecisionReason>::enumerators.size(), static_cast<std::size_t>(Reason::kOwnHalf) + 1);
   for (const auto& outcome : bus::enumeration<msg::Outcome>::enumerators) {
     EXPECT_STREQ(kicking::name(static_cast<kicking::Outcome>(outcome.value)), outcome.label);
   }
