@@ -145,7 +145,8 @@ struct Match::State {
     if (const auto& shot = world.shot()) {
       if (!shot->result()) return;
       const ShotResult& result = *shot->result();
-      if (result.outcome == kicking::Outcome::kOnTarget && !result.saved) ++goals;
+      const bool counts = !scenario.rules.opponents_half_only || shot->released().position_m.y() > 0.0;
+      if (result.outcome == kicking::Outcome::kOnTarget && !result.saved && counts) ++goals;
       events.kicks.push_back({.t_ns = result.t_ns,
                               .kick_id = world.shot_kick_id(),
                               .half = half,

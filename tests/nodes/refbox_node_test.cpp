@@ -90,7 +90,7 @@ TEST_F(RefboxNodeTest, RepeatsWhatItSaid) {
   say(CommandKind::kStart);
   const std::uint64_t first = wait_for_play(true).seq;
   const auto began = Clock::now();
-  const auto last = wait_for([first](const msg::Referee& word) { return word.seq == first + 10; });
+  const auto last = wait_for([first](const msg::Referee& word) { return word.seq >= first + 10; });
   EXPECT_TRUE(last.playing);
   EXPECT_EQ(last.command_counter, 2U);
   EXPECT_GT(Clock::now() - began, std::chrono::milliseconds{500}) << "not more often than it is told to";

@@ -89,6 +89,17 @@ TEST(Match, TheRefereeStopsWhoCarriesTheBallTooFar) {
   for (const auto& p : play(s, 5, 1, 0.3, ahead).possessions) EXPECT_NE(p.ending, PossessionEnd::kStopped);
 }
 
+TEST(Match, ABallFromTheOwnHalfIsNoGoalWhereTheRulesSaySo) {
+  Scenario s = alone();
+  s.possession.goal_distance_min_m = s.possession.goal_distance_max_m = s.field.goal_line_y_m + 0.5;
+  s.possession.aim_error_sd_rad = s.possession.speed_min_mps = s.possession.speed_max_mps = 0.0;
+  s.possession.lateral_max_m = 0.5;
+  const auto goals = [&s] { return play(s, 7, 1, 1.0, fire_at_once(30)).sensors.back().referee.goals; };
+  EXPECT_GT(goals(), 3U);
+  s.rules.opponents_half_only = true;
+  EXPECT_EQ(goals(), 0U);
+}
+
 TEST(Match, AKickEndsThePossessionAndItsTruthNamesIt) {
   const Record record = play(alone(), 7, 1, 0.5, fire_at_once(25));
   ASSERT_GT(record.kicks.size(), 5U);
