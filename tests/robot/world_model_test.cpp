@@ -23,8 +23,15 @@ struct Play {
   Pose truth{2.0, 3.0, 0.5};
   Pose odometry{};
   Twist twist{};
-  std::optional<msg::Referee> referee =
-      msg::Referee{.robot_id = 1, .seq = 1, .t_ns = 0, .half = 2, .playing = true, .possession_id = 7};
+  std::optional<msg::Referee> referee = [] {
+    msg::Referee word{};
+    word.robot_id = 1;
+    word.seq = 1;
+    word.half = 2;
+    word.playing = true;
+    word.possession_id = 7;
+    return word;
+  }();
   std::optional<Eigen::Vector2d> ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
   std::optional<Eigen::Vector2d> opponent_in_robot_m;
   bool localises = true;
