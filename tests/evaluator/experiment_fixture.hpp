@@ -156,7 +156,8 @@ class TestExperiment {
 
   void word(double at_s, Int half, bool playing, Int id) {
     auto& sink = log_.row(referee_, session_id_);
-    for (const log::Value& cell : referee_cells(1, ++seq_, static_cast<Int>(at_s * 1e9), half, playing, id)) {
+    const auto cells = referee_cells(1, ++seq_, static_cast<Int>(at_s * 1e9), half, playing, id);
+    for (const log::Value& cell : cells) {  // texts are read where they are when the row ends
       if (const auto* const text = std::get_if<std::string>(&cell)) {
         sink.text(text->c_str());
       } else {

@@ -18,7 +18,7 @@ struct PackedFile {
 inline std::string zip_of(const std::vector<PackedFile>& files) {
   const auto number = [](std::uint64_t value, int bytes) {
     std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
+    for (int i = 0; i < bytes; ++i, value >>= 8) text += static_cast<char>(value & 0xFF);
     return text;
   };
   const auto deflated = [](const std::string& text) {
