@@ -118,6 +118,7 @@ void add_query(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", arguments->json, "JSON instead of a table of text")->excludes(csv);
   verb->add_flag("--list", arguments->list, "What the metrics are, with their columns")->excludes(log);
   verb->callback([arguments, &exit_code] {
+    exit_code = kDone;
     if (arguments->list) return print_metrics();
     if (arguments->log.empty()) throw UsageError{"give a match log, or --list"};
     const evaluator::log::Reader reader(arguments->log);
@@ -127,7 +128,6 @@ void add_query(CLI::App& app, int& exit_code) {
       throw UsageError{fmt::format("cannot ask that: {}", bad.what())};
     }
     for (const std::string& warning : reader.warnings()) warn(warning);
-    exit_code = kDone;
   });
 }
 
