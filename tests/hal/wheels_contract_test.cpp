@@ -7,11 +7,11 @@
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
-#include "hal/sim/sim_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/sim/sim_wheels.hpp"
+#include "hal/bus/bus_wheels.hpp"
 #include "tests/hal/recorded_log.hpp"
-#include "tests/hal/sim_world.hpp"
+#include "tests/hal/bus_world.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -23,14 +23,14 @@ const std::vector<WheelSample> kSaid{{20'000'000, 3, {1.5, -2.5, 3.5, 0.0}, 0.25
                                      {40'000'000, 3, {1.75, -2.0, 3.0, 0.0}, std::nullopt},
                                      {60'000'000, 4, {1.0, 2.0, 3.0, 4.0}, -0.5}};
 
-class SimRig {
+class BusRig {
  public:
-  SimRig() { EXPECT_TRUE(device->connected(kPlenty)); }
+  BusRig() { EXPECT_TRUE(device->connected(kPlenty)); }
 
   /// Makes the device say sample i.
   void say(std::size_t i, std::uint8_t robot_id = kRobot) {
     const WheelSample& said = kSaid[i];
-    msg::SimWheels sample{};
+    msg::DeviceWheels sample{};
     sample.robot_id = robot_id;
     sample.t_ns = said.t_ns;
     sample.wheel_count = static_cast<std::uint8_t>(said.wheel_count);
@@ -52,8 +52,8 @@ class SimRig {
     return followed(1);
   }
 
-  SimWorld<msg::SimWheels, msg::SimDrive> world;
-  std::unique_ptr<Wheels> device = std::make_unique<SimWheels>(world.here, kRobot);
+  BusWorld<msg::DeviceWheels, msg::DeviceDrive> world;
+  std::unique_ptr<Wheels> device = std::make_unique<BusWheels>(world.here, kRobot);
 };
 
 class ReplayRig {
@@ -96,7 +96,7 @@ class WheelsContract : public testing::Test {
     }
   }
 };
-using Rigs = testing::Types<SimRig, ReplayRig>;
+using Rigs = testing::Types<BusRig, ReplayRig>;
 TYPED_TEST_SUITE(WheelsContract, Rigs);
 
 TYPED_TEST(WheelsContract, SamplesComeWholeAndInTimeOrder) {
@@ -166,8 +166,8 @@ TYPED_TEST(WheelsContract, DestructionLeavesTheBaseAtRest) {
   EXPECT_EQ(followed.omega_radps, 0.0);
 }
 
-TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
-  SimRig rig;
+TEST(BusWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
+  BusRig rig;
   rig.say(1);
   EXPECT_EQ(rig.device->read(kPlenty)->t_ns, 40'000'000);
   rig.say(0);
@@ -178,8 +178,8 @@ TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
   EXPECT_FALSE(rig.device->read(milliseconds(1)));
 }
 
-TEST(SimWheels, AreNotConnectedWithoutASimulator) {
-  SimWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
+TEST(BusWheels, AreNotConnectedWithoutASimulator) {
+  BusWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
   EXPECT_FALSE(wheels.connected(milliseconds(20)));
 }
 
@@ -212,9 +212,9 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   const Owner owner{participant, kRobot};
   const config::Hal simulated;
   const config::Hal replayed{config::ReplayDevice{}, config::ReplayDevice{}, log.file()};
-  EXPECT_NE(dynamic_cast<SimWheels*>(open_wheels(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusWheels*>(open_wheels(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
-  EXPECT_NE(dynamic_cast<SimKicker*>(open_kicker(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusKicker*>(open_kicker(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
   for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
                                             config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {

@@ -1,18 +1,18 @@
-#include "hal/sim/sim_wheels.hpp"
+#include "hal/bus/bus_wheels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
-#include "hal/sim/sim_streams.hpp"
+#include "hal/bus/bus_streams.hpp"
 #include "idl/none.hpp"
 
 namespace trivela::hal {
 
-SimWheels::SimWheels(const bus::Participant& participant, std::uint8_t robot_id)
+BusWheels::BusWheels(const bus::Participant& participant, std::uint8_t robot_id)
     : robot_id_(robot_id), samples_(participant), drives_(participant) {}
 
-SimWheels::~SimWheels() {
+BusWheels::~BusWheels() {
   try {
     drive({}, drive_t_ns_);
   } catch (const std::exception&) {
@@ -20,9 +20,9 @@ SimWheels::~SimWheels() {
   }
 }
 
-bool SimWheels::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, drives_, timeout); }
+bool BusWheels::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, drives_, timeout); }
 
-std::optional<WheelSample> SimWheels::read(std::chrono::nanoseconds timeout) {
+std::optional<WheelSample> BusWheels::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
   WheelSample sample{.t_ns = received->t_ns,
@@ -33,12 +33,12 @@ std::optional<WheelSample> SimWheels::read(std::chrono::nanoseconds timeout) {
   return sample;
 }
 
-void SimWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
+void BusWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
   const bool finite =
       std::isfinite(set_point.vx_mps) && std::isfinite(set_point.vy_mps) && std::isfinite(set_point.omega_radps);
   const kicking::Twist twist = finite ? set_point : kicking::Twist{};
   drive_t_ns_ = t_ns;
-  msg::SimDrive command{};
+  msg::DeviceDrive command{};
   command.robot_id = robot_id_;
   command.seq = ++drive_seq_;
   command.t_ns = t_ns;

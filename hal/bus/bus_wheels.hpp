@@ -11,15 +11,15 @@
 
 namespace trivela::hal {
 
-/// The base of a simulated robot: sim/wheels in, sim/drive out. A sample that was not read before the next arrived is
+/// The base of a simulated robot: device/wheels in, device/drive out. A sample that was not read before the next arrived is
 /// gone, as with a device register.
-class SimWheels final : public Wheels {
+class BusWheels final : public Wheels {
  public:
   /// Throws bus::Error if the bus refuses.
-  SimWheels(const bus::Participant& participant, std::uint8_t robot_id);
-  ~SimWheels() override;
-  SimWheels(const SimWheels&) = delete;
-  SimWheels& operator=(const SimWheels&) = delete;
+  BusWheels(const bus::Participant& participant, std::uint8_t robot_id);
+  ~BusWheels() override;
+  BusWheels(const BusWheels&) = delete;
+  BusWheels& operator=(const BusWheels&) = delete;
 
   bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
@@ -28,8 +28,8 @@ class SimWheels final : public Wheels {
 
  private:
   std::uint8_t robot_id_;
-  bus::Reader<msg::SimWheels> samples_;
-  bus::Writer<msg::SimDrive> drives_;
+  bus::Reader<msg::DeviceWheels> samples_;
+  bus::Writer<msg::DeviceDrive> drives_;
   std::optional<std::int64_t> read_t_ns_;
   std::uint64_t drive_seq_ = 0;
   std::int64_t drive_t_ns_ = 0;

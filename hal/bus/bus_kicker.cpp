@@ -1,6 +1,6 @@
-#include "hal/sim/sim_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
 
-#include "hal/sim/sim_streams.hpp"
+#include "hal/bus/bus_streams.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -20,23 +20,23 @@ KickerFault fault_of(msg::KickerFault fault) {
 
 }  // namespace
 
-SimKicker::SimKicker(const bus::Participant& participant, std::uint8_t robot_id)
+BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
     : robot_id_(robot_id),
       samples_(participant),
       // The simulated coil hears one driver, however long that says nothing.
       fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
 
-bool SimKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
+bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
 
-std::optional<KickerSample> SimKicker::read(std::chrono::nanoseconds timeout) {
+std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
   return KickerSample{received->t_ns, received->charge, received->armed, fault_of(received->fault)};
 }
 
-void SimKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
+void BusKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
   if (safe_) return;
-  msg::SimFire order{};
+  msg::DeviceFire order{};
   order.robot_id = robot_id_;
   order.seq = ++fire_seq_;
   order.t_ns = t_ns;
@@ -45,8 +45,8 @@ void SimKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
   fires_.write(order);
 }
 
-void SimKicker::withdraw(std::int64_t kick_id) {
-  msg::SimFire word{};
+void BusKicker::withdraw(std::int64_t kick_id) {
+  msg::DeviceFire word{};
   word.robot_id = robot_id_;
   word.seq = ++fire_seq_;
   word.kick_id = kick_id;
