@@ -1,6 +1,7 @@
 #include "hal/bus/bus_kicker.hpp"
 
 #include "hal/bus/bus_streams.hpp"
+#include "idl/none.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -23,7 +24,7 @@ KickerFault fault_of(msg::KickerFault fault) {
 BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
     : robot_id_(robot_id),
       samples_(participant),
-      // The simulated coil hears one driver, however long that says nothing.
+      // The coil hears one driver, however long that says nothing.
       fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
 
 bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
@@ -31,7 +32,18 @@ bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(s
 std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
-  return KickerSample{received->t_ns, received->charge, received->armed, fault_of(received->fault)};
+  if (received->emulated) emulated_ = true;
+  const auto voltage_v = msg::optional_of(received->voltage_v);
+  capabilities_ = {.charge_control = received->charge_control,
+                   .voltage = voltage_v.has_value(),
+                   .discharge = received->discharge,
+                   .watchdog = received->watchdog};
+  return KickerSample{.t_ns = received->t_ns,
+                      .charge = received->charge,
+                      .armed = received->armed,
+                      .fault = fault_of(received->fault),
+                      .charge_modelled = received->charge_modelled,
+                      .voltage_v = voltage_v};
 }
 
 void BusKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {

@@ -12,8 +12,8 @@
 
 namespace trivela::hal {
 
-/// The kicker of a simulated robot: device/kicker in, device/fire out. An order is for the simulator that is there: before
-/// connected() here, and before the simulator's reader knows this writer, it is lost.
+/// The kicker behind a bridge: device/kicker in, device/fire out. An order is for the bridge that is there: before
+/// connected() here, and before the bridge's reader knows this writer, it is lost.
 class BusKicker final : public Kicker {
  public:
   /// Throws bus::Error if the bus refuses.
@@ -28,6 +28,9 @@ class BusKicker final : public Kicker {
   void withdraw(std::int64_t kick_id) override;
   void make_safe() noexcept override { safe_ = true; }
   bool ended() const override { return false; }
+  /// As the latest sample says.
+  KickerCapabilities capabilities() const override { return capabilities_; }
+  bool emulated() const override { return emulated_; }
 
  private:
   std::uint8_t robot_id_;
@@ -35,6 +38,8 @@ class BusKicker final : public Kicker {
   bus::Writer<msg::DeviceFire> fires_;
   std::optional<std::int64_t> read_t_ns_;
   std::uint64_t fire_seq_ = 0;
+  std::atomic<KickerCapabilities> capabilities_{};
+  std::atomic<bool> emulated_ = false;
   std::atomic<bool> safe_ = false;
 };
 

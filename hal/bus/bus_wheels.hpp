@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -11,8 +12,8 @@
 
 namespace trivela::hal {
 
-/// The base of a simulated robot: device/wheels in, device/drive out. A sample that was not read before the next arrived is
-/// gone, as with a device register.
+/// The base behind a bridge: device/wheels in, device/drive out. A sample that was not read before the next arrived is
+/// gone, as with a device register. A sample without a gyro is given the latest of device/gyro, if that is of its time.
 class BusWheels final : public Wheels {
  public:
   /// Throws bus::Error if the bus refuses.
@@ -25,12 +26,21 @@ class BusWheels final : public Wheels {
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
   bool ended() const override { return false; }
+  bool emulated() const override { return emulated_; }
+  bool gyro_emulated() const override { return gyro_emulated_; }
 
  private:
+  std::optional<double> gyro_at(std::int64_t t_ns);
+
   std::uint8_t robot_id_;
   bus::Reader<msg::DeviceWheels> samples_;
   bus::Writer<msg::DeviceDrive> drives_;
   std::optional<std::int64_t> read_t_ns_;
+  bus::Reader<msg::DeviceGyro> turns_;
+  std::optional<std::int64_t> turn_t_ns_;
+  double turn_radps_ = 0.0;
+  std::atomic<bool> emulated_ = false;
+  std::atomic<bool> gyro_emulated_ = false;
   std::uint64_t drive_seq_ = 0;
   std::int64_t drive_t_ns_ = 0;
 };

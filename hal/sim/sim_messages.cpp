@@ -31,6 +31,7 @@ msg::DeviceWheels wheels_message(const sim::Sensors& sensors) {
   out.wheel_count = static_cast<std::uint8_t>(sensors.wheels.wheel_count);
   std::copy(sensors.wheels.wheel_radps.begin(), sensors.wheels.wheel_radps.end(), out.wheel_radps);
   out.gyro_radps = sensors.wheels.gyro_radps;
+  out.emulated = true;
   return out;
 }
 
@@ -40,6 +41,8 @@ msg::DeviceKicker kicker_message(const sim::Sensors& sensors) {
   out.charge = sensors.kicker.charge;
   out.armed = sensors.kicker.armed;
   out.fault = msg::FAULT_NONE;
+  out.voltage_v = msg::kNone;
+  out.emulated = true;
   return out;
 }
 

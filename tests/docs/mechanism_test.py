@@ -153,8 +153,8 @@ class Mechanism(unittest.TestCase):
 
     def test_paths_that_are_not_there_are_named(self):
         (self.root / "docs/x.md").write_text("there\n")
-        text = "`docs/x.md` `docs/NAME.md` `docs/*.md` [x](x.md) `device/fire` `elsewhere/x`\n`docs/y.md`\n[y](y.md#z)\n```\n[a](b)\n```\n"
-        found = list(dead_paths(self.root, "docs/z.md", text, {"docs", "sim"}, {"device/fire"}))
+        text = "`docs/x.md` `docs/NAME.md` `docs/*.md` [x](x.md) `sim/fire` `elsewhere/x`\n`docs/y.md`\n[y](y.md#z)\n```\n[a](b)\n```\n"
+        found = list(dead_paths(self.root, "docs/z.md", text, {"docs", "sim"}, {"sim/fire"}))
         self.assertEqual(found, [(2, "docs/y.md"), (3, "y.md")])
 
 

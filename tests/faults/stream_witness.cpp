@@ -37,7 +37,7 @@ StreamWitness::~StreamWitness() = default;
 std::vector<std::string> StreamWitness::deaf_within(std::chrono::milliseconds span) {
   const auto until = std::chrono::steady_clock::now() + span;
   std::map<std::string, int> heard{{"odometry hears device/wheels", 0},      {"world_state hears odometry", 0},
-                                   {"world_state hears vision", 0},       {"kick_decision hears world_state", 0},
+                                   {"world_state hears vision", 0},          {"kick_decision hears world_state", 0},
                                    {"kicker_driver hears device/kicker", 0}, {"kick_decision hears kicker_status", 0},
                                    {"the witness hears the simulator", 0}};
   int decided = 0;

@@ -53,7 +53,7 @@ static int describe_decision(char* line, size_t size, const char* topic, const v
 }
 
 static int describe_fire(char* line, size_t size, const char* topic, const void* sample) {
-  const trivela_msg_SimFire* fire = sample;
+  const trivela_msg_DeviceFire* fire = sample;
   (void)topic;
   return snprintf(line, size, "fire %" PRId64 " %" PRId64 " %d", fire->t_ns, fire->kick_id, fire->withdrawn);
 }

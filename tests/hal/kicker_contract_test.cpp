@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "hal/replay/replay_kicker.hpp"
 #include "hal/bus/bus_kicker.hpp"
+#include "hal/replay/replay_kicker.hpp"
 #include "tests/hal/board_on_a_line.hpp"
-#include "tests/hal/recorded_log.hpp"
 #include "tests/hal/bus_world.hpp"
+#include "tests/hal/recorded_log.hpp"
 
 namespace trivela::hal {
 namespace {

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bus_wheels.hpp"
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
-#include "hal/bus/bus_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/bus/bus_wheels.hpp"
-#include "tests/hal/recorded_log.hpp"
 #include "tests/hal/bus_world.hpp"
+#include "tests/hal/recorded_log.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -218,7 +218,7 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
   for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
                                             config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {
-    const config::Hal boards{config::SimDevice{}, board, ""};
+    const config::Hal boards{config::BusDevice{}, board, ""};
     EXPECT_NE(dynamic_cast<BoardKicker*>(open_kicker(boards, owner).get()), nullptr);
   }
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);
