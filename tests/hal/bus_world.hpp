@@ -13,7 +13,7 @@ namespace trivela::hal {
 inline constexpr std::chrono::seconds kPlenty{10};
 inline constexpr std::uint8_t kRobot = 3;
 
-/// The simulator's end of a device's two topics, over sockets as from another process.
+/// A bridge's end of a device's two topics, over sockets as from another process.
 template <class Sample, class Command>
 struct BusWorld {
   bus::WirePair domains = bus::fresh_wire_pair();

@@ -264,6 +264,36 @@ TEST(BusKicker, DestructionEnergisesNothing) {
   EXPECT_TRUE(rig.energised().empty());
 }
 
+TEST(BusKicker, HandsOnWhatTheBoardCanDoAndWhatItMeasures) {
+  BusRig rig;
+  EXPECT_EQ(rig.device->capabilities(), KickerCapabilities{});
+  msg::DeviceKicker sample{};
+  sample.robot_id = kRobot;
+  sample.t_ns = 20'000'000;
+  sample.charge_modelled = true;
+  sample.voltage_v = std::nan("");
+  rig.world.samples.write(sample);
+  const auto modelled = rig.device->read(kPlenty);
+  ASSERT_TRUE(modelled);
+  EXPECT_TRUE(modelled->charge_modelled);
+  EXPECT_EQ(modelled->voltage_v, std::nullopt);
+  EXPECT_EQ(rig.device->capabilities(), KickerCapabilities{});
+  EXPECT_FALSE(rig.device->emulated());
+
+  sample.t_ns = 40'000'000;
+  sample.charge_modelled = false;
+  sample.voltage_v = 312.5;
+  sample.charge_control = sample.discharge = sample.watchdog = sample.emulated = true;
+  rig.world.samples.write(sample);
+  const auto measured = rig.device->read(kPlenty);
+  ASSERT_TRUE(measured);
+  EXPECT_FALSE(measured->charge_modelled);
+  EXPECT_EQ(measured->voltage_v, 312.5);
+  EXPECT_EQ(rig.device->capabilities(),
+            (KickerCapabilities{.charge_control = true, .voltage = true, .discharge = true, .watchdog = true}));
+  EXPECT_TRUE(rig.device->emulated());
+}
+
 TEST(ReplayKicker, EndsWithTheLog) {
   ReplayRig rig;
   for (std::size_t i = 0; i < kSaid.size(); ++i) rig.device->read(kPlenty);

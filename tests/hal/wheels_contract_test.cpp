@@ -178,7 +178,110 @@ TEST(BusWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
   EXPECT_FALSE(rig.device->read(milliseconds(1)));
 }
 
-TEST(BusWheels, AreNotConnectedWithoutASimulator) {
+/// A gyro that another process reads: its sample is of the wheels' time or it is none.
+class GyroBeside : public testing::Test {
+ protected:
+  void turn(std::int64_t t_ns, double gyro_radps, std::uint8_t robot_id = kRobot, bool emulated = false) {
+    msg::DeviceGyro sample{};
+    sample.robot_id = robot_id;
+    sample.t_ns = t_ns;
+    sample.gyro_radps = gyro_radps;
+    sample.emulated = emulated;
+    gyro_.write(sample);
+  }
+  /// That wheels of this instant are given, which have none.
+  std::optional<double> gyro_at(std::int64_t t_ns) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    sample.gyro_radps = std::nan("");
+    rig_.world.samples.write(sample);
+    const auto read = rig_.device->read(kPlenty);
+    EXPECT_TRUE(read);
+    return read ? read->gyro_radps : std::nullopt;
+  }
+
+  BusRig rig_;
+  bus::Writer<msg::DeviceGyro> gyro_{rig_.world.there};
+
+ private:
+  /// From the first that arrives on what follows does, too, before what is written after it.
+  void SetUp() override {
+    turn(1'000'000, 0.5);
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    std::int64_t t_ns = 1'000'000;
+    while (gyro_at(++t_ns) != 0.5) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  }
+};
+
+TEST_F(GyroBeside, IsGivenToWheelsThatHaveNone) {
+  turn(30'000'000, 1.5);
+  turn(35'000'000, 2.5);
+  EXPECT_EQ(gyro_at(40'000'000), 2.5);
+  rig_.say(2);
+  EXPECT_EQ(rig_.device->read(kPlenty).value().gyro_radps, -0.5) << "the wheels have their own";
+  EXPECT_FALSE(rig_.device->gyro_emulated());
+}
+
+TEST_F(GyroBeside, IsNoneOfAnotherRobotsNorOfAnotherTime) {
+  turn(80'000'000, 1.5, kRobot + 1);
+  EXPECT_EQ(gyro_at(80'000'000), std::nullopt);
+  turn(90'000'000, 2.5);
+  EXPECT_EQ(gyro_at(141'000'000), std::nullopt) << "it stands still";
+  turn(300'000'000, 3.5);
+  EXPECT_EQ(gyro_at(249'000'000), std::nullopt) << "it runs ahead";
+  EXPECT_EQ(gyro_at(251'000'000), 3.5);
+}
+
+TEST_F(GyroBeside, ThatSaysNoNumberIsNone) {
+  turn(30'000'000, std::nan(""));
+  EXPECT_EQ(gyro_at(40'000'000), std::nullopt);
+}
+
+TEST_F(GyroBeside, SaysWhetherItIsEmulated) {
+  turn(30'000'000, 1.5, kRobot, true);
+  EXPECT_EQ(gyro_at(40'000'000), 1.5);
+  EXPECT_TRUE(rig_.device->gyro_emulated());
+  EXPECT_FALSE(rig_.device->emulated());
+}
+
+TEST(BusWheels, SayWhetherTheyAreEmulated) {
+  BusRig rig;
+  rig.say(0);
+  ASSERT_TRUE(rig.device->read(kPlenty));
+  EXPECT_FALSE(rig.device->emulated());
+  msg::DeviceWheels sample{};
+  sample.robot_id = kRobot;
+  sample.t_ns = kSaid[1].t_ns;
+  sample.wheel_count = 3;
+  sample.emulated = true;
+  rig.world.samples.write(sample);
+  ASSERT_TRUE(rig.device->read(kPlenty));
+  EXPECT_TRUE(rig.device->emulated());
+}
+
+TEST(BusWheels, RefuseTheFutureAndAnotherClock) {
+  bus::WirePair domains = bus::fresh_wire_pair();
+  const bus::Participant there{domains.a, bus::RealTime{}};
+  const bus::Participant here{domains.b, bus::RealTime{}};
+  bus::Writer<msg::DeviceWheels> bridge{there};
+  BusWheels wheels{here, kRobot};
+  const std::int64_t now_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::int64_t of_the_day_ns = std::chrono::system_clock::now().time_since_epoch().count();
+  for (const std::int64_t t_ns : {now_ns, now_ns + 600'000'000'000, of_the_day_ns, std::int64_t{-1}, now_ns + 1}) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    bridge.write(sample);
+    const bool ours = t_ns - now_ns <= 1 && t_ns >= now_ns;
+    const auto read = wheels.read(ours ? kPlenty : std::chrono::nanoseconds{milliseconds(20)});
+    EXPECT_EQ(read.has_value(), ours) << t_ns;
+  }
+}
+
+TEST(BusWheels, AreNotConnectedWithoutABridge) {
   BusWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
   EXPECT_FALSE(wheels.connected(milliseconds(20)));
 }
