@@ -17,6 +17,7 @@ struct KickerSample {
   KickerFault fault = KickerFault::kNone;
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
   std::optional<double> voltage_v{};  ///< of the capacitor; none: not measured
+  bool emulated = false;              ///< the board is a program
 };
 
 /// What a device can do beyond firing and saying whether it may.

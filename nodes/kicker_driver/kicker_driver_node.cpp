@@ -16,6 +16,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)),
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
@@ -29,7 +30,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         return sample;
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
-      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::SimFire, msg::StepDone>());
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
+                  msg::StepDone>());
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -37,7 +39,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   } else {
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
-                           bus::writes<msg::KickReceipt, msg::SimFire>(), words);
+                           bus::writes<msg::KickReceipt, msg::DeviceFire>(), words);
     orders.liveliness_of = own_decision_;
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
@@ -46,7 +48,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   }
   node_.on<msg::KickOrder>(
       [this](const msg::KickOrder& order, const bus::SampleInfo& info) { on_order(order, order_by(info)); },
-      bus::writes<msg::KickReceipt, msg::SimFire, msg::StepDone>(), orders);
+      bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.
@@ -65,6 +67,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
+  emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
   status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
