@@ -8,6 +8,7 @@
 
 #include "evaluator/log/before_version_4.sql.hpp"
 #include "evaluator/log/before_version_5.sql.hpp"
+#include "evaluator/log/before_version_6.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
@@ -17,6 +18,7 @@
 #include "evaluator/log/schema_version_2.sql.hpp"
 #include "evaluator/log/schema_version_3.sql.hpp"
 #include "evaluator/log/schema_version_4.sql.hpp"
+#include "evaluator/log/schema_version_5.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
@@ -91,6 +93,8 @@ std::string_view schema_of(const LogKind& kind, int version) {
       return kSchemaVersion3Sql;
     case 4:
       return kSchemaVersion4Sql;
+    case 5:
+      return kSchemaVersion5Sql;
     default:
       return match_schema();
   }
@@ -120,6 +124,7 @@ void create_reading_views(SQLite::Database& database, int version) {
     database.exec(kicks_with_nulls());
   }
   if (version < 5) database.exec(kBeforeVersion5Sql);
+  if (version < 6) database.exec(kBeforeVersion6Sql);
   database.exec(kReadingViewsSql);
 }
 

@@ -1,4 +1,4 @@
--- Schema of a match log, version 5. One file holds one session or several merged ones.
+-- Schema of a match log, version 6. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -98,6 +98,7 @@ CREATE TABLE odometry (                    -- wheel odometry with the samples it
   var_omega_rad2ps2 REAL NOT NULL,         -- variance of omega, rad2/s2
   var_position_m2 REAL NOT NULL,           -- variance of x and of y, m2
   var_heading_rad2 REAL NOT NULL,          -- variance of the heading, rad2
+  obeyed TEXT NOT NULL CHECK (obeyed = 'nobody' OR obeyed = 'kick_decision' OR obeyed = 'team'), -- whose command the wheels have
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -192,12 +193,27 @@ CREATE TABLE drive_commands (              -- how the robot shall move until the
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE team_drives (                 -- how the team's own program wants the robot to move
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  seq INTEGER NOT NULL,                    -- sequence number of the stream
+  t_ns INTEGER NOT NULL,                   -- instant of the command
+  vx_mps REAL NOT NULL,                    -- in R, right, m/s
+  vy_mps REAL NOT NULL,                    -- in R, forward, m/s
+  omega_radps REAL NOT NULL,               -- counter-clockwise, rad/s
+  PRIMARY KEY (session_id, robot_id, seq)
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE kicker_status (               -- the state of the kicker
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot
   seq INTEGER NOT NULL,                    -- sequence number of the stream
   t_ns INTEGER NOT NULL,                   -- instant of the device sample
+  state TEXT NOT NULL CHECK (state = 'off' OR state = 'charging' OR state = 'ready' OR state = 'firing'
+    OR state = 'cooling' OR state = 'fault'), -- of the driver
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
+  charge_modelled INTEGER NOT NULL CHECK (charge_modelled IN (0, 1)), -- 1: computed from the time since the last shot
+  voltage_v REAL,                          -- of the capacitor, V; NULL: not measured
   armed INTEGER NOT NULL CHECK (armed IN (0, 1)), -- 1: switch on and game playing
   ready INTEGER NOT NULL CHECK (ready IN (0, 1)), -- 1: armed, charged, no fault, no kick under way
   fault TEXT NOT NULL CHECK (fault = 'none' OR fault = 'charger' OR fault = 'coil' OR fault = 'link'), -- of the device
@@ -289,6 +305,7 @@ CREATE TABLE kick_orders (                 -- the command to kick
   power REAL NOT NULL,                     -- set-point of the robot's own table
   fire_t_ns INTEGER NOT NULL,              -- earliest instant to energise the coil
   valid_until_t_ns INTEGER NOT NULL,       -- afterwards the driver refuses it
+  possession INTEGER NOT NULL CHECK (possession IN (0, 1)), -- 1: the ball lay in the handler in the world state
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -303,7 +320,7 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the coil was energised
   refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
     OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'
-    OR refusal = 'referee_silent'), -- why it was refused
+    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger'), -- why it was refused
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused
   release_t_ns INTEGER NOT NULL,           -- expected release of the ball; 0: refused

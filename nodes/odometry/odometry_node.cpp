@@ -50,8 +50,14 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
   }
   out->robot_id = context_.robot_id();
   out->seq = ++seq_;
+  out->obeyed = obeyed();
   odometry_out_.write(*out);
   stop_without_commands();
+}
+
+msg::DriveSource OdometryNode::obeyed() {
+  const std::lock_guard lock{drive_mutex_};
+  return driving_ ? msg::DRIVE_KICK_DECISION : msg::DRIVE_NOBODY;
 }
 
 /// A robot that nobody drives any more stands still. In lockstep the next command is waited for instead.

@@ -22,6 +22,7 @@ class OdometryNode {
   void on_wheels(const hal::WheelSample& sample);
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
+  msg::DriveSource obeyed();
 
   NodeContext& context_;
   std::unique_ptr<hal::Wheels> wheels_;

@@ -120,6 +120,7 @@ msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judge
   out.power = *judgement.power;
   out.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
   out.valid_until_t_ns = world.t_ns + validity_ns_;
+  out.possession = world.possession;
   last_order_ = out;
   last_order_possession_id_ = world.possession_id;
   return out;

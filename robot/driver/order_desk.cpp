@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {
@@ -28,9 +29,15 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
   out.seq = ++statuses_;
   out.t_ns = sample.t_ns;
   out.charge = sample.charge;
+  out.charge_modelled = sample.charge_modelled;
+  out.voltage_v = msg::wire_of(sample.voltage_v);
   out.armed = gate_.armed();
   out.ready = gate_.ready(now_t_ns);
   out.fault = static_cast<msg::KickerFault>(sample.fault);
+  out.state = out.fault != msg::FAULT_NONE ? msg::STATE_FAULT
+              : !out.armed                 ? msg::STATE_OFF
+              : out.ready                  ? msg::STATE_READY
+                                           : msg::STATE_CHARGING;
   out.last_kick_id = gate_.last_kick_id();
   out.last_accepted = gate_.last_accepted();
   out.orders_handled = gate_.handled();

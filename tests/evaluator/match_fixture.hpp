@@ -23,8 +23,8 @@ class MatchLog {
                                              "target_y_m", "target_z_m",    "distance_m",   "alpha_rad",
                                              "beta_rad",   "aligned",       "left_m",       "right_m",
                                              "charge",     "shadow_count",  "fire_after_s", "assignment_probability"})),
-        orders_(writer_.table("kick_orders",
-                              {"robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"})),
+        orders_(writer_.table("kick_orders", {"robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns",
+                                              "valid_until_t_ns", "possession"})),
         receipts_(writer_.table(
             "kick_receipts", {"robot_id", "seq", "t_ns", "kick_id", "accepted", "refusal", "order_t_ns", "fired_t_ns",
                               "release_t_ns", "power", "received_steady_ns", "fired_steady_ns"})),
@@ -35,9 +35,9 @@ class MatchLog {
             {"robot_id", "seq", "t_ns", "kick_id", "half", "possession_id", "outcome", "x_cross_m", "release_t_ns",
              "release_x_m", "release_y_m", "release_vx_mps", "release_vy_mps", "release_vz_mps", "saved", "bounced"})),
         referee_(writer_.table("referee", referee_columns())),
-        statuses_(
-            writer_.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault",
-                                            "last_kick_id", "last_accepted", "orders_handled", "orders_refused"})) {}
+        statuses_(writer_.table("kicker_status",
+                                {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id",
+                                 "last_accepted", "orders_handled", "orders_refused", "state", "charge_modelled"})) {}
 
   /// A decision that fires; returns its kick_id. Half 1 is played stopped, half 2 moving.
   Int decide(Int half) {
@@ -53,7 +53,9 @@ class MatchLog {
                               0.0,      Int{1}, 0.3,    0.3,     1.0,  Int{0},  0.0,    1.0});
   }
 
-  void order(Int kick_id) { writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40}); }
+  void order(Int kick_id) {
+    writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40, Int{1}});
+  }
 
   void receipt(Int kick_id, const std::string& refusal = "none") {
     writer_.push(receipts_, {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none"}, refusal, t_ns(), t_ns(), t_ns(),
@@ -88,7 +90,8 @@ class MatchLog {
 
   /// What the kicker's driver has counted so far.
   void status(Int handled, Int refused) {
-    writer_.push(statuses_, {robot_id, ++seq_, t_ns(), 1.0, Int{1}, Int{1}, "none", Int{0}, Int{0}, handled, refused});
+    writer_.push(statuses_, {robot_id, ++seq_, t_ns(), 1.0, Int{1}, Int{1}, "none", Int{0}, Int{0}, handled, refused,
+                             "ready", Int{0}});
   }
 
   log::Writer& writer() { return writer_; }

@@ -68,8 +68,17 @@ inline void insert_half(const OlderRows& rows, int half) {
   for (const bool playing : {true, false}) {
     rows.insert(
         "referee", "robot_id, seq, t_ns, half, playing, possession_id",
-        "1, " + n + (playing ? "0, " : "1, ") + (playing ? start : end) + ", " + n + (playing ? ", 1, 1" : ", 0, 1"));
+        "1, " + n + (playing ? "0, " : "1, ") + (playing ? start : end) + ", " + n + (playing ? ", 1, 1" : ", 0, 1"), 5,
+        ", stage, restart, ours, goals_own, goals_other, command_counter", ", 'unknown', 'none', 0, 0, 0, 0");
   }
+  rows.insert("odometry",
+              "robot_id, seq, t_ns, vx_mps, vy_mps, omega_radps, x_m, y_m, heading_rad, var_v_m2ps2, "
+              "var_omega_rad2ps2, var_position_m2, var_heading_rad2",
+              "1, " + n + ", " + start + ", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0");
+  rows.insert("kicker_status",
+              "robot_id, seq, t_ns, charge, armed, ready, fault, last_kick_id, last_accepted, orders_handled, "
+              "orders_refused",
+              "1, " + n + ", " + start + ", 1, 1, 1, 'none', " + n + ", 1, " + n + ", 0");
   rows.insert(
       "kick_decisions",
       "robot_id, seq, t_ns, kick_id, half, possession_id, policy, fire, reason, x_m, y_m, heading_rad, vx_mps, "
@@ -97,7 +106,7 @@ inline void insert_half(const OlderRows& rows, int half) {
       ", saved", ", 0");
 }
 
-/// A closed session in a match log of version 1, 2, 3 or 4, with a kick on target of each of two policies, in half a
+/// A closed session in a match log of version 1 to 5, with a kick on target of each of two policies, in half a
 /// minute each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =

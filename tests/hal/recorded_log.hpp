@@ -56,6 +56,8 @@ class RecordedLog {
       columns.emplace_back(belief);
       values.emplace_back(0.0);
     }
+    columns.emplace_back("obeyed");
+    values.emplace_back("kick_decision");
     row("odometry", columns, std::move(values));
   }
 
@@ -63,9 +65,9 @@ class RecordedLog {
               const std::string& fault) {
     row("kicker_status",
         {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id", "last_accepted",
-         "orders_handled", "orders_refused"},
+         "orders_handled", "orders_refused", "state", "charge_modelled"},
         {robot_id, seq, t_ns, charge, std::int64_t{armed}, std::int64_t{0}, fault, std::int64_t{0}, std::int64_t{0},
-         std::int64_t{0}, std::int64_t{0}});
+         std::int64_t{0}, std::int64_t{0}, std::string{"off"}, std::int64_t{0}});
   }
 
   /// Ends the recording: the log can be read.

@@ -37,11 +37,11 @@ class LogPlaceTest : public NodeTest {
     Writer log{path, session, {}};
     const auto statuses =
         log.table("kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id",
-                                    "last_accepted", "orders_handled", "orders_refused"});
+                                    "last_accepted", "orders_handled", "orders_refused", "state", "charge_modelled"});
     const std::int64_t t_ns = session.started_t_ns + 1;
     for (const std::int64_t n : {std::int64_t{0}, handled})
       log.push(statuses, {std::int64_t{1}, n + 1, t_ns, 1.0, std::int64_t{1}, std::int64_t{1}, "none", std::int64_t{0},
-                          std::int64_t{0}, n, std::int64_t{0}});
+                          std::int64_t{0}, n, std::int64_t{0}, "ready", std::int64_t{0}});
     log.finalise();
     return Reader{path}.sessions().at(0).uuid;
   }

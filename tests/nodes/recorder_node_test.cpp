@@ -85,6 +85,7 @@ TEST_F(RecorderNodeTest, RecordsEveryStreamOfEveryRobot) {
   say_of_two_robots<msg::Referee>(participant);
   say_of_two_robots<msg::WorldState>(participant);
   say_of_two_robots<msg::DriveCommand>(participant);
+  say_of_two_robots<msg::TeamDrive>(participant);
   say_of_two_robots<msg::KickerStatus>(participant);
   say_of_two_robots<msg::KickDecision>(participant);
   say_of_two_robots<msg::KickOrder>(participant);
@@ -93,9 +94,9 @@ TEST_F(RecorderNodeTest, RecordsEveryStreamOfEveryRobot) {
   say_of_two_robots<msg::KickTruth>(participant);
   say_of_two_robots<msg::PossessionTruth>(participant);
   const auto reader = read();
-  for (const std::string table :
-       {"odometry", "vision_frames", "flight_frames", "referee", "world_states", "drive_commands", "kicker_status",
-        "kick_decisions", "kick_orders", "kick_receipts", "kick_outcomes", "kick_truths", "possession_truths"}) {
+  for (const std::string table : {"odometry", "vision_frames", "flight_frames", "referee", "world_states",
+                                  "drive_commands", "team_drives", "kicker_status", "kick_decisions", "kick_orders",
+                                  "kick_receipts", "kick_outcomes", "kick_truths", "possession_truths"}) {
     EXPECT_EQ(count(reader, table + " WHERE robot_id = 1"), 3) << table;
     EXPECT_EQ(count(reader, table + " WHERE robot_id = 2"), 2) << table;
     const auto counted = loss(reader, table);
