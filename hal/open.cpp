@@ -6,6 +6,7 @@
 
 #include "hal/board/board_kicker.hpp"
 #include "hal/can/can_line.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
 #include "hal/rekick/rekick.hpp"
@@ -19,7 +20,7 @@
 namespace trivela::hal {
 namespace {
 
-using config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
+using config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
     config::SimDevice;
 
 std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
@@ -27,6 +28,10 @@ std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner)
 }
 std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner) {
+  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
 }
 
 std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner) {

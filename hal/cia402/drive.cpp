@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "kicking/geometry/time.hpp"
 
@@ -30,7 +31,6 @@ void Drive::open(std::int64_t now_ns, Frames& out) { start(now_ns, out); }
 void Drive::start(std::int64_t now_ns, Frames& out) {
   start_up_.emplace(node_, settings_, was_enabled_ ? StartUp::Reset::kNo : StartUp::Reset::kYes);
   stage_ = Stage::kStarting;
-  emergency_ = 0;
   ask(now_ns, out);
 }
 
@@ -54,20 +54,21 @@ void Drive::go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out) 
       out.push_back(nmt(Nmt::kStart, node_));
       stage_ = Stage::kRunning;
       scale_ = start_up_->scale();
-      running_ns_ = beat_ns_ = answer_ns_ = now_ns;
+      running_ns_ = beat_ns_ = asked_ns_ = now_ns;
       state_ = DriveState::kUnknown;
       controlword_ = 0;
-      answered_ = false;
+      answered_ = asked_ = false;
       problem_.clear();
   }
 }
 
 void Drive::take(const can::Frame& frame, std::int64_t now_ns, Frames& out) {
   if (const auto code = emergency_of(frame, node_)) emergency_ = *code;
+  if (heartbeat_of(frame, node_) == NodeState::kBootUp) emergency_ = 0;
   if (stage_ == Stage::kStarting) return go_on(start_up_->take(frame), now_ns, out);
   if (stage_ != Stage::kRunning) return;
   if (const auto state = heartbeat_of(frame, node_)) return take_heartbeat(*state, now_ns, out);
-  if (const auto pdo = tx_pdo_of(frame, node_)) take_pdo(*pdo, now_ns);
+  if (const auto pdo = tx_pdo_of(frame, node_)) take_pdo(*pdo);
 }
 
 void Drive::take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out) {
@@ -77,9 +78,9 @@ void Drive::take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out) {
     lose("it is not operational any more", now_ns, out);
 }
 
-void Drive::take_pdo(const TxPdo& pdo, std::int64_t now_ns) {
+void Drive::take_pdo(const TxPdo& pdo) {
   answered_ = true;
-  answer_ns_ = now_ns;
+  asked_ = false;
   velocity_ = pdo.velocity;
   state_ = state_of(pdo.statusword);
   if (state_ == DriveState::kEnabled) {
@@ -94,13 +95,14 @@ void Drive::step(std::int64_t now_ns, Frames& out) {
   if (stage_ != Stage::kRunning) return;
   if (now_ns - beat_ns_ >= silence_ns_)
     return lose(fmt::format("no heartbeat for {:g} s", kicking::seconds(silence_ns_)), now_ns, out);
-  if (now_ns - answer_ns_ >= silence_ns_)
+  if (asked_ && now_ns - asked_ns_ >= silence_ns_)
     lose(fmt::format("no answer to SYNC for {:g} s", kicking::seconds(silence_ns_)), now_ns, out);
 }
 
 std::int64_t Drive::next_ns() const {
   if (stage_ == Stage::kClosed) return std::numeric_limits<std::int64_t>::max();
-  return stage_ == Stage::kRunning ? std::min(beat_ns_, answer_ns_) + silence_ns_ : due_ns_;
+  if (stage_ != Stage::kRunning) return due_ns_;
+  return (asked_ ? std::min(beat_ns_, asked_ns_) : beat_ns_) + silence_ns_;
 }
 
 void Drive::lose(const std::string& why, std::int64_t now_ns, Frames& out) {
@@ -119,6 +121,7 @@ can::Frame Drive::command(double motor_rpm, std::int64_t now_ns) {
   may_reset_ = !was_enabled_ && now_ns - running_ns_ < kResets_ns;
   controlword_ = next_controlword(state_, may_reset_, controlword_);
   answered_ = false;
+  if (!std::exchange(asked_, true)) asked_ns_ = now_ns;
   const double units = std::round(std::clamp(motor_rpm / scale_.rpm_per_unit, -kMost, kMost));
   return rx_pdo(node_, enabled() ? static_cast<std::int32_t>(units) : 0, controlword_);
 }

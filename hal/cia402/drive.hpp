@@ -60,7 +60,7 @@ class Drive {
   void go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out);
   void ask(std::int64_t now_ns, Frames& out);
   void take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out);
-  void take_pdo(const TxPdo& pdo, std::int64_t now_ns);
+  void take_pdo(const TxPdo& pdo);
   void lose(const std::string& why, std::int64_t now_ns, Frames& out);
   std::string fault() const;
 
@@ -74,12 +74,13 @@ class Drive {
   std::int64_t due_ns_ = 0;      // starting: of the answer; paused: of the next start
   std::int64_t running_ns_ = 0;  // since then
   std::int64_t beat_ns_ = 0;
-  std::int64_t answer_ns_ = 0;
+  std::int64_t asked_ns_ = 0;  // of the first SYNC that it has not answered, if `asked_`
   DriveState state_ = DriveState::kUnknown;
   std::uint16_t controlword_ = 0;
   std::int32_t velocity_ = 0;
   std::uint16_t emergency_ = 0;
-  bool answered_ = false;
+  bool answered_ = false;  // since the last SYNC
+  bool asked_ = false;
   bool was_enabled_ = false;
   bool may_reset_ = true;
   std::string problem_;

@@ -14,7 +14,7 @@
 namespace trivela::hal::cia402 {
 namespace {
 
-constexpr std::int64_t kOpenPause_ns = 200'000'000;
+constexpr std::int64_t kOpenPause_ns = 100'000'000;
 constexpr std::int64_t kNoteStands_ns = 1'000'000'000;
 constexpr int kMostReads = 64;    // so that a flood keeps no command waiting
 constexpr Line::Deadline kNow{};  // does not wait
