@@ -8,7 +8,7 @@ namespace trivela::hal {
 
 /// One reading of a gyro.
 struct GyroSample {
-  std::int64_t t_ns = 0;  ///< of the sample on the steady clock, as in hal/kicker.hpp
+  std::int64_t t_ns = 0;    ///< of the sample on the steady clock, as in hal/kicker.hpp
   double gyro_radps = 0.0;  ///< counter-clockwise
 };
 

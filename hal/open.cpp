@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "hal/board/board_kicker.hpp"
 #include "hal/can/can_line.hpp"
 #include "hal/cia402/cia402_wheels.hpp"
+#include "hal/gyro_wheels.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
+#include "hal/mti/mti.hpp"
 #include "hal/rekick/rekick.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
@@ -20,8 +23,8 @@
 namespace trivela::hal {
 namespace {
 
-using config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
-    config::SimDevice;
+using config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice,
+    config::ScipDevice, config::SimDevice;
 
 std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
   return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
@@ -32,6 +35,11 @@ std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Ow
 
 std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner) {
   return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
+}
+
+std::unique_ptr<Wheels> with_gyro(const config::WheelsGyro&, std::unique_ptr<Wheels> wheels) { return wheels; }
+std::unique_ptr<Wheels> with_gyro(const config::MtiDevice& gyro, std::unique_ptr<Wheels> wheels) {
+  return std::make_unique<GyroWheels>(std::move(wheels), std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro));
 }
 
 std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner) {
@@ -58,7 +66,8 @@ std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner
 }  // namespace
 
 std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner) {
-  return std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
+  auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
+  return std::visit([&](const auto& gyro) { return with_gyro(gyro, std::move(opened)); }, devices.gyro);
 }
 
 std::unique_ptr<Kicker> open_kicker(const Hal& devices, const Owner& owner) {

@@ -46,6 +46,10 @@ std::vector<Frame> decode(std::string_view bytes) {
   return frames;
 }
 
+Frame bus_off_frame() {
+  return {.id = CAN_ERR_BUSOFF, .extended = false, .error = true, .size = CAN_ERR_DLC, .data = {}};
+}
+
 bool is_bus_off(const Frame& frame) { return frame.error && (frame.id & CAN_ERR_BUSOFF) != 0; }
 
 std::string describe_error(const Frame& frame) {

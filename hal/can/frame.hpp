@@ -38,6 +38,9 @@ std::vector<Frame> decode(std::string_view bytes);
 /// What an error frame says, in words: "bus off", "no acknowledgement".
 std::string describe_error(const Frame& frame);
 
+/// What an interface says when it has left the bus.
+Frame bus_off_frame();
+
 /// The controller has left the bus.
 bool is_bus_off(const Frame& frame);
 

@@ -39,9 +39,9 @@ class MessageParser {
 struct Reading {
   static constexpr std::int64_t kTick_ns = 100'000;  ///< of sample_time
 
-  std::optional<std::uint32_t> sample_time;             ///< 0x1060: ticks of its own clock, in 32 bits
-  std::optional<std::array<double, 3>> rate_radps;      ///< 0x802_: about its own axes
-  bool fixed_point = false;                             ///< its rate is there, but in a format that is not read
+  std::optional<std::uint32_t> sample_time;         ///< 0x1060: ticks of its own clock, in 32 bits
+  std::optional<std::array<double, 3>> rate_radps;  ///< 0x802_: about its own axes
+  bool fixed_point = false;                         ///< its rate is there, but in a format that is not read
 };
 
 /// None: it is another message, or its parts do not fill it.

@@ -63,7 +63,8 @@ void Mti::take(const Reading& reading, std::int64_t now_ns) {
   const double rate_radps = sign_ * (*reading.rate_radps)[2];
   if (!std::isfinite(rate_radps)) return;
   newest_ = GyroSample{t_ns, rate_radps};
-  status_ = line_->name() + ": MTi" + (reading.sample_time ? "" : ", without its sample time (0x1060): taken by arrival");
+  status_ =
+      line_->name() + ": MTi" + (reading.sample_time ? "" : ", without its sample time (0x1060): taken by arrival");
 }
 
 void Mti::lose(const std::string& why, std::int64_t now_ns) {

@@ -15,8 +15,8 @@
 namespace trivela::hal::mti {
 
 /// An MTi on its line. Nothing is ever written to it: what it says is set once with its maker's program. A sample is of
-/// the instant of its sample time (0x1060), where it says that, else of its arrival. Silent for kSilence_ns: the line is
-/// opened again between pauses.
+/// the instant of its sample time (0x1060), where it says that, else of its arrival. Silent for kSilence_ns: the line
+/// is opened again between pauses.
 class Mti final : public LineClient {
  public:
   static constexpr std::int64_t kSilence_ns = 500'000'000;

@@ -45,7 +45,8 @@ void OdometryNode::say_status(bool heard) {
   std::string said = wheels_->status();
   if (said == status_said_) return;
   status_said_ = std::move(said);
-  if (!status_said_.empty()) context_.logger->log(heard ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
+  if (!status_said_.empty())
+    context_.logger->log(heard ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
 }
 
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
@@ -100,8 +101,8 @@ void OdometryNode::on_drive(const msg::DriveCommand& command) {
 
 int odometry_main(int argc, char** argv) {
   return node_main(argc, argv, "odometry", [](NodeContext& context) {
-    OdometryNode node{context, hal::open_wheels(context.settings.hal,
-                                                {context.participant, context.robot_id(), context.robot.base})};
+    OdometryNode node{
+        context, hal::open_wheels(context.settings.hal, {context.participant, context.robot_id(), context.robot.base})};
     run(context, node.node());
   });
 }

@@ -11,8 +11,8 @@
 namespace trivela::hal::cia402 {
 namespace {
 
-using tests::DrivesOnABus;
 using ::testing::HasSubstr;
+using tests::DrivesOnABus;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
@@ -98,16 +98,18 @@ TEST_F(Cia402DrivesTest, WithoutOurHeartbeatTheWheelsStandByThemselves) {
 TEST_F(Cia402DrivesTest, ADriveThatCannotWatchOurHeartbeatIsRefusedInWords) {
   bus_.drive(2).faults.refuses_heartbeat = true;
   bus_.run(1.0);
-  EXPECT_EQ(status(), "can0: drive 2: it refuses object 1016: no such object (06020000): its wheel would turn on when "
-                      "this program dies");
+  EXPECT_EQ(status(),
+            "can0: drive 2: it refuses object 1016: no such object (06020000): its wheel would turn on when "
+            "this program dies");
   EXPECT_NE(bus_.drive(2).state(), DriveState::kEnabled);
 }
 
 TEST_F(Cia402DrivesTest, ADriveThatForgetsTheHeartbeatIsRefused) {
   bus_.drive(3).faults.forgets_heartbeat = true;
   bus_.run(1.0);
-  EXPECT_THAT(status(), HasSubstr("drive 3: it does not keep the heartbeat that it is to watch (object 1016 is 00000000, "
-                                  "not 007F00C8)"));
+  EXPECT_THAT(status(),
+              HasSubstr("drive 3: it does not keep the heartbeat that it is to watch (object 1016 is 00000000, "
+                        "not 007F00C8)"));
 }
 
 TEST_F(Cia402DrivesTest, ADriveThatDoesNotStopWithoutUsIsRefused) {

@@ -17,7 +17,8 @@ TEST(CanOpen, SpeaksAsARecordedDriveDoes) {
   EXPECT_EQ(nmt(Nmt::kPreOperational, 3), standard_frame(0x000, {0x80, 0x03}));
   EXPECT_EQ(static_cast<int>(Nmt::kReset), 0x81);
   EXPECT_EQ(heartbeat_of(standard_frame(0x703, {0x00}), 3), NodeState::kBootUp);
-  EXPECT_EQ(sdo_write(3, {0x1017, 0}, 1000, 2), standard_frame(0x603, {0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03, 0x00, 0x00}));
+  EXPECT_EQ(sdo_write(3, {0x1017, 0}, 1000, 2),
+            standard_frame(0x603, {0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03, 0x00, 0x00}));
   EXPECT_EQ(sdo_read(3, {0x6041, 0}), standard_frame(0x603, {0x40, 0x41, 0x60, 0x00, 0x00, 0x00, 0x00, 0x00}));
   const auto written = sdo_reply_of(standard_frame(0x583, {0x60, 0x17, 0x10, 0x00, 0x00, 0x00, 0x00, 0x00}), 3);
   ASSERT_TRUE(written);
@@ -32,7 +33,8 @@ TEST(CanOpen, SpeaksAsARecordedDriveDoes) {
 }
 
 TEST(CanOpen, WritesOfEverySizeAndTheMastersOwnFrames) {
-  EXPECT_EQ(sdo_write(1, {0x1016, 1}, 0x007F0064, 4), standard_frame(0x601, {0x23, 0x16, 0x10, 0x01, 0x64, 0x00, 0x7F, 0x00}));
+  EXPECT_EQ(sdo_write(1, {0x1016, 1}, 0x007F0064, 4),
+            standard_frame(0x601, {0x23, 0x16, 0x10, 0x01, 0x64, 0x00, 0x7F, 0x00}));
   EXPECT_EQ(sdo_write(1, {0x6060, 0}, 3, 1), standard_frame(0x601, {0x2F, 0x60, 0x60, 0x00, 0x03, 0x00, 0x00, 0x00}));
   EXPECT_EQ(heartbeat(127, NodeState::kOperational), standard_frame(0x77F, {0x05}));
   EXPECT_EQ(sync(), standard_frame(0x080, {}));
@@ -77,9 +79,11 @@ TEST(CanOpen, SaysAbortsAndEmergenciesInWords) {
 
 TEST(DriveState, IsReadByItsMaskWhateverTheOtherBitsSay) {
   constexpr std::pair<std::uint16_t, DriveState> kWords[] = {
-      {0x0200, DriveState::kNotReady},  {0x0250, DriveState::kSwitchOnDisabled}, {0x0231, DriveState::kReady},
-      {0x0233, DriveState::kSwitchedOn}, {0x1637, DriveState::kEnabled},          {0x0217, DriveState::kQuickStop},
-      {0x021F, DriveState::kFaultReaction}, {0x0218, DriveState::kFault},         {0x0262, DriveState::kUnknown}};
+      {0x0200, DriveState::kNotReady},      {0x0250, DriveState::kSwitchOnDisabled},
+      {0x0231, DriveState::kReady},         {0x0233, DriveState::kSwitchedOn},
+      {0x1637, DriveState::kEnabled},       {0x0217, DriveState::kQuickStop},
+      {0x021F, DriveState::kFaultReaction}, {0x0218, DriveState::kFault},
+      {0x0262, DriveState::kUnknown}};
   for (const auto& [word, state] : kWords) EXPECT_EQ(name(state_of(word)), name(state)) << std::hex << word;
   for (int i = 0; i < static_cast<int>(DriveState::kUnknown); ++i)
     EXPECT_EQ(state_of(statusword_of(static_cast<DriveState>(i))), static_cast<DriveState>(i));

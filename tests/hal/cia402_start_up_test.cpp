@@ -32,8 +32,8 @@ TEST(Cia402StartUp, ResetsThenAsksObjectByObjectUntilTheDriveCanBeStarted) {
       asked.push_back(request->object.index);
   }
   EXPECT_EQ(progress, Progress::kDone);
-  EXPECT_EQ(asked, (std::vector<std::uint16_t>{0x1016, 0x1016, 0x6007, 0x605A, 0x1017, 0x6060,                   //
-                                               0x1400, 0x1400, 0x1600, 0x1600, 0x1600, 0x1600, 0x1400,          //
+  EXPECT_EQ(asked, (std::vector<std::uint16_t>{0x1016, 0x1016, 0x6007, 0x605A, 0x1017, 0x6060,          //
+                                               0x1400, 0x1400, 0x1600, 0x1600, 0x1600, 0x1600, 0x1400,  //
                                                0x1800, 0x1800, 0x1A00, 0x1A00, 0x1A00, 0x1A00, 0x1A00, 0x1800}));
 }
 

@@ -79,7 +79,8 @@ TEST(Cia402Process, ThatIsKilledLeavesWheelsThatStandWithinTheHeartbeatsTime) {
   Emulator emulator{std::uint8_t{3}};
   process.connect_to(emulator.address());
   const auto whirl = [](const EmulatedDrive& drive) { return drive.rpm(tests::steady_ns()) > 1000.0; };
-  ASSERT_TRUE(emulator.wait(kPatience, [&](const auto& drives) { return std::ranges::all_of(drives.drives(), whirl); }));
+  ASSERT_TRUE(
+      emulator.wait(kPatience, [&](const auto& drives) { return std::ranges::all_of(drives.drives(), whirl); }));
   process.kill();
   ASSERT_TRUE(emulator.wait(kPatience, stand));
   emulator.with_board([](const EmulatedDrives& drives) {

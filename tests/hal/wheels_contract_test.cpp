@@ -107,7 +107,8 @@ class Cia402Rig {
   Cia402Rig() {
     device->drive({0.0, 0.0, kTurn_radps}, 1);
     EXPECT_TRUE(line.emulator.wait(kPlenty, [](const cia402::EmulatedDrives& drives) {
-      return std::ranges::all_of(drives.drives(), [](const auto& drive) { return drive.rpm(tests::steady_ns()) > 1.0; });
+      return std::ranges::all_of(drives.drives(),
+                                 [](const auto& drive) { return drive.rpm(tests::steady_ns()) > 1.0; });
     }));
     line.wait_for_cycles(10);  // their ramps take a millisecond
   }

@@ -49,7 +49,8 @@ TEST(OmniKinematics, TurnsAMotionIntoTheSpeedsThatTheEquationGives) {
   for (const auto& base : {kThree, kFour}) {
     const auto speeds = OmniKinematics{base}.wheel_speeds_radps(twist);
     const auto expected = wheel_speeds_radps(base, twist);
-    for (std::size_t i = 0; i < speeds.size(); ++i) EXPECT_NEAR(speeds[i], i < expected.size() ? expected[i] : 0, 1e-12);
+    for (std::size_t i = 0; i < speeds.size(); ++i)
+      EXPECT_NEAR(speeds[i], i < expected.size() ? expected[i] : 0, 1e-12);
   }
 }
 
