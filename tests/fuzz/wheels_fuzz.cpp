@@ -1,7 +1,7 @@
-// Whatever drives, a gyro or their lines say: no crash, a next instant that is not over, samples that are finite, in time
-// order and of the past; and no drive is told to turn but by PDO while every drive is in operation. The first byte picks
-// the device; each step is a byte of how many ms later it is, one of what happens, and what is said: noise, or a frame
-// that is put together so that the drives come up.
+// Whatever drives, a gyro or their lines say: no crash, a next instant that is not over, samples that are finite, in
+// time order and of the past; and no drive is told to turn but by PDO while every drive is in operation. The first byte
+// picks the device; each step is a byte of how many ms later it is, one of what happens, and what is said: noise, or a
+// frame that is put together so that the drives come up.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -48,7 +48,7 @@ void answer(tests::ScriptedEnd& end, std::uint8_t spoilt) {
     for (const hal::can::Frame& frame : hal::can::decode(written)) {
       for (const std::uint8_t node : {1, 2, 3}) {
         if (frame == nmt(Nmt::kReset, node)) end.incoming += hal::can::encode(heartbeat(node, NodeState::kBootUp));
-        if (frame == sync())
+        if (frame == hal::cia402::sync())
           end.incoming += hal::can::encode(
               frame_of({spoilt * 1000, 0, statusword_of(static_cast<DriveState>((4 + spoilt) % 9))}, node));
         const auto request = sdo_request_of(frame, node);
@@ -99,7 +99,7 @@ void play_gyro(Script& script) {
     const std::uint8_t what = script.byte();
     end.plugged = what % 16 != 0;
     if (what % 2 == 1) {  // data of any kind in a message that is whole
-      end.incoming += encode({hal::mti::kMtData2, script.take(what / 2)});
+      end.incoming += hal::mti::encode({hal::mti::kMtData2, script.take(what / 2)});
     } else {
       end.incoming += script.take(what / 2);
     }
