@@ -66,6 +66,7 @@ struct MtiDevice {
 /// The turn rate that the wheels' device measures itself, if it does.
 struct WheelsGyro {
   static constexpr std::string_view kName = "wheels";
+  static constexpr bool kInLockstep = true;
 };
 
 /// A scanner that speaks SCIP, by its address.

@@ -45,6 +45,7 @@ void check_lockstep(const Settings& settings, const std::string& source) {
                     source, key, text_of(device))};
   };
   check("hal.wheels", settings.hal.wheels);
+  check("hal.gyro", settings.hal.gyro);
   check("hal.kicker", settings.hal.kicker);
 }
 

@@ -101,6 +101,9 @@ TEST(Lockstep, IsForDevicesWithoutATimeOfTheirOwn) {
   for (const std::string device : {"ioboard", "rekick"})
     EXPECT_THAT(refusal({"run.lockstep = true", "hal.kicker = \"" + device + "\""}),
                 HasSubstr("run.lockstep = true, but hal.kicker = \"" + device + "\" has a time of its own"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.wheels = \"cia402\""}),
+              HasSubstr("run.lockstep = true, but hal.wheels = \"cia402\" has a time of its own"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.gyro = \"mti\""}), HasSubstr("but hal.gyro = \"mti\" has a time"));
   EXPECT_TRUE(with({"run.lockstep = true"}).run.lockstep);
   EXPECT_NO_THROW(with({"hal.kicker = \"ioboard\""}));
 }
