@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/gyro_wheels.hpp"
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
@@ -287,6 +288,9 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   }
   const config::Hal drives{config::Cia402Device{.port = "/nowhere/can"}, config::SimDevice{}, ""};
   EXPECT_NE(dynamic_cast<cia402::Cia402Wheels*>(open_wheels(drives, owner).get()), nullptr);
+  config::Hal turning = replayed;
+  turning.gyro = config::MtiDevice{.port = "/nowhere/tty"};
+  EXPECT_NE(dynamic_cast<GyroWheels*>(open_wheels(turning, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);
 }
 
