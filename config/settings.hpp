@@ -37,6 +37,7 @@ struct Odometry {
   double wheel_sd_radps = 1.0;        ///< noise and slip of one wheel's speed
   double gyro_sd_radps = 0.02;        ///< noise of the gyro
   double drive_timeout_s = 0.2;       ///< without a drive command for longer the base stops
+  double team_drive_timeout_s = 0.2;  ///< the same of the team's own program, where it is in charge
   double drift_ratio = 0.05;          ///< position error per metre driven
   double heading_drift_ratio = 0.02;  ///< heading error per radian turned
 };
@@ -57,6 +58,10 @@ struct WorldState {
   double possession_debounce_s = 0.04;
 };
 
+/// When the robot moves as kick_decision says: always, while the ball lies in its handler, or never, which leaves its
+/// `drive` a proposal. Otherwise it moves as the team's own program says, on `team_drive`.
+enum class DriveMode : std::uint8_t { kAlways, kWithBall, kAdvice };
+
 /// Who is in charge: `random`, where it names policies, before `policy_by_robot`, where that does, before the halves.
 struct KickDecision {
   std::vector<kicking::PolicyName> policy_by_half = {kicking::PolicyName::kMoving};  ///< the last one goes on
@@ -67,6 +72,7 @@ struct KickDecision {
   std::string learned_model;       ///< file of `trivela learn`, read into policy.learned; policy "learned" needs one
   bool shadows = true;             ///< judge with the other policies as well
   double order_validity_s = 0.05;  ///< an order older than this is refused
+  DriveMode drive = DriveMode::kAlways;
 };
 
 /// What the driver refuses.

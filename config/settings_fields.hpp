@@ -40,6 +40,12 @@ struct Names<kicking::Extension> {
       {{"max", kicking::Extension::kMax}, {"add", kicking::Extension::kAdd}}};
 };
 
+template <>
+struct Names<DriveMode> {
+  static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
+      {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
+};
+
 }  // namespace trivela::config
 
 namespace trivela::kicking {
@@ -187,6 +193,7 @@ void fields(V& v, Odometry& o) {
   v("wheel_sd_radps", o.wheel_sd_radps, Range{1e-6, 100.0});
   v("gyro_sd_radps", o.gyro_sd_radps, Range{1e-6, 10.0});
   v("drive_timeout_s", o.drive_timeout_s, Range{0.01, 10.0});
+  v("team_drive_timeout_s", o.team_drive_timeout_s, Range{0.01, 10.0});
   v("drift_ratio", o.drift_ratio, Range{0.0, 1.0});
   v("heading_drift_ratio", o.heading_drift_ratio, Range{0.0, 1.0});
 }
@@ -217,6 +224,7 @@ void fields(V& v, KickDecision& k) {
   v("learned_model", k.learned_model);
   v("shadows", k.shadows);
   v("order_validity_s", k.order_validity_s, Range{0.001, 1.0});
+  v("drive", k.drive);
 }
 
 template <class V>

@@ -19,7 +19,7 @@ struct Inputs {
   }
 };
 
-using OdometryInputs = Inputs<msg::SimWheels, msg::DriveCommand>;
+using OdometryInputs = Inputs<msg::SimWheels, msg::DriveCommand, msg::TeamDrive, msg::WorldState>;
 using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee>;
 using KickDecisionInputs = Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome>;
 using KickerDriverInputs = Inputs<msg::SimKicker, msg::KickOrder, msg::Referee>;
