@@ -11,8 +11,8 @@
 
 namespace trivela::nodes {
 
-/// Owns the base: wheel samples in, Odometry out; DriveCommand and TeamDrive in, set-points to the wheels. Whose command
-/// they get is the DriveArbiter's; without one the base stops, whether or not its wheels say anything.
+/// Owns the base: wheel samples in, Odometry out; DriveCommand and TeamDrive in, set-points to the wheels. Whose
+/// command they get is the DriveArbiter's; without one the base stops, whether or not its wheels say anything.
 class OdometryNode {
  public:
   OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels);
