@@ -43,6 +43,7 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)
     told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
+  decider_.hear(referee);
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns);
   arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.in_charge.judgement.drive, sensors.t_ns);
