@@ -22,7 +22,8 @@ struct Run {
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
-  std::string log_level = "info";                   ///< trace, debug, info, warn, error, off
+  std::string field_file;          ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
+  std::string log_level = "info";  ///< trace, debug, info, warn, error, off
 };
 
 /// The DDS domain.
@@ -30,6 +31,11 @@ struct Domain {
   std::uint32_t domain_id = 42;
   std::string tag = "trivela";  ///< discovery tag: participants of different tags never hear each other
   std::string dds_file;         ///< a Cyclone configuration for a team network; empty: loopback
+};
+
+/// The field around the goal.
+struct FieldLines {
+  double side_line_x_m = 6.0;  ///< of the 18 x 12 m field, whose goal lines are at goal.y_m and -goal.y_m
 };
 
 /// Noise of the wheel odometry.
@@ -144,6 +150,7 @@ struct Settings {
   Domain domain;
   Hal hal;
   kicking::Goal goal;
+  FieldLines field;
   kicking::PolicyConfig policy;
   Odometry odometry;
   WorldState world_state;

@@ -156,7 +156,13 @@ void fields(V& v, Run& r) {
   v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);
   v("scenario", r.scenario);
+  v("field_file", r.field_file);
   v("log_level", r.log_level);
+}
+
+template <class V>
+void fields(V& v, FieldLines& f) {
+  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
 }
 
 template <class V>
@@ -299,6 +305,7 @@ void fields(V& v, Settings& s) {
   v("domain", s.domain);
   v("hal", s.hal);
   v("goal", s.goal);
+  v("field", s.field);
   v("rules", s.policy.rules);
   v("policy", s.policy);
   v("odometry", s.odometry);
