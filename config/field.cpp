@@ -4,9 +4,18 @@
 
 #include <utility>
 
+#include "config/toml_source.hpp"
+#include "sim/scenario_fields.hpp"
 #include "sim/shot.hpp"
 
 namespace trivela::config {
+
+template <class V>
+void fields(V& v, FieldFile& f) {
+  v("field", f.field);
+  v("rules", f.rules);
+}
+
 namespace {
 
 /// The first key of [goal] and [rules] in which they differ and whose value in the settings is not `but_for`'s.
@@ -25,10 +34,22 @@ std::optional<std::string> first_difference(const sim::Scenario& scenario, const
 
 }  // namespace
 
-Settings on_field_of(const sim::Scenario& scenario, Settings settings) {
-  settings.goal = sim::goal_of(scenario.field);
-  settings.policy.rules = scenario.rules;
+FieldFile load_field(const std::filesystem::path& path) {
+  FieldFile field;
+  read_into(parse_file(path), field);
+  return field;
+}
+
+Settings on_field(const FieldFile& field, Settings settings) {
+  settings.goal = sim::goal_of(field.field);
+  settings.field.side_line_x_m = field.field.side_line_x_m;
+  settings.policy.rules = field.rules;
   return settings;
+}
+
+Settings on_field_of(const sim::Scenario& scenario, Settings settings) {
+  settings.run.field_file.clear();
+  return on_field({scenario.field, scenario.rules}, std::move(settings));
 }
 
 std::optional<std::string> field_difference(const sim::Scenario& scenario, const Settings& settings) {
@@ -37,7 +58,7 @@ std::optional<std::string> field_difference(const sim::Scenario& scenario, const
 
 std::optional<std::string> field_contradiction(const sim::Scenario& scenario, const Settings& settings) {
   const Settings defaults;
-  return first_difference(scenario, settings, &defaults);
+  return first_difference(scenario, settings, settings.run.field_file.empty() ? &defaults : nullptr);
 }
 
 }  // namespace trivela::config

@@ -7,7 +7,8 @@
 
 namespace trivela::config {
 
-/// Reads config/scenarios/NAME.toml; what it does not name keeps the default of sim::Scenario. Throws Error.
+/// Reads config/scenarios/NAME.toml; what it does not name keeps the default of sim::Scenario. Where it names a
+/// field_file, relative to its own folder, [field] and [rules] are that file's (config/field.hpp). Throws Error.
 sim::Scenario load_scenario(const std::filesystem::path& path);
 
 /// Sets what a line of TOML names, e.g. "keeper.reaction_s = 0.15". Throws Error naming the line's key and value

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "config/field.hpp"
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
@@ -33,6 +34,23 @@ void read_learned_model(Settings& settings, const std::string& source) {
         "{}: policy \"{}\" needs kick_decision.learned_model, a file that `trivela learn` has written, such as "
         "--set 'kick_decision.learned_model=\"config/learned.toml\"'",
         source, name(*who))};
+  }
+}
+
+/// Brings goal, field and rules in line with run.field_file. Throws Error naming the first line of `said` that says
+/// otherwise.
+void follow_field_file(Settings& settings, const std::vector<TomlSource>& said) {
+  if (settings.run.field_file.empty()) return;
+  const auto own = setting_values(settings);
+  settings = on_field(load_field(settings.run.field_file), settings);
+  for (const auto& [key, value] : setting_values(settings)) {
+    if (value == own.at(key)) continue;
+    for (const TomlSource& source : said) {
+      const toml::node_view node = source.root.at_path(key);
+      if (!node) continue;
+      throw Error{fmt::format("{}:{}: {} = {}, but run.field_file, {}, says {}", source.file,
+                              node.node()->source().begin.line, key, own.at(key), settings.run.field_file, value)};
+    }
   }
 }
 
@@ -63,15 +81,18 @@ void settle(Settings& settings, const std::string& source) {
 
 Settings load_settings(const std::filesystem::path& path) {
   Settings settings;
-  const TomlSource source = parse_file(path);
-  read_into(source, settings);
+  std::vector<TomlSource> said;  // moved, not copied: a copy forgets its lines
+  said.push_back(parse_file(path));
+  read_into(said.front(), settings);
   const std::filesystem::path folder = path.parent_path();
   make_relative_to(folder, settings.run.robot);
   make_relative_to(folder, settings.run.scenario);
+  make_relative_to(folder, settings.run.field_file);
   make_relative_to(folder, settings.domain.dds_file);
   make_relative_to(folder, settings.hal.replay_log);
   make_relative_to(folder, settings.kick_decision.learned_model);
-  settle(settings, source.file);
+  follow_field_file(settings, said);
+  settle(settings, said.front().file);
   return settings;
 }
 
@@ -100,7 +121,9 @@ void check_policies(const KickDecision& settings, const std::string& source) {
 }
 
 void override_settings(Settings& settings, const std::vector<std::string>& lines, const std::string& called) {
-  for (const std::string& line : lines) read_into(parse_text(line, called), settings);
+  std::vector<TomlSource> said;
+  for (const std::string& line : lines) read_into(said.emplace_back(parse_text(line, called)), settings);
+  follow_field_file(settings, said);
   settle(settings, "the settings");
 }
 

@@ -22,7 +22,8 @@ struct Run {
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
-  std::string log_level = "info";                   ///< trace, debug, info, warn, error, off
+  std::string field_file;          ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
+  std::string log_level = "info";  ///< trace, debug, info, warn, error, off
 };
 
 /// The DDS domain.
@@ -32,11 +33,17 @@ struct Domain {
   std::string dds_file;         ///< a Cyclone configuration for a team network; empty: loopback
 };
 
+/// The field around the goal.
+struct FieldLines {
+  double side_line_x_m = 6.0;  ///< of the 18 x 12 m field, whose goal lines are at goal.y_m and -goal.y_m
+};
+
 /// Noise of the wheel odometry.
 struct Odometry {
   double wheel_sd_radps = 1.0;        ///< noise and slip of one wheel's speed
   double gyro_sd_radps = 0.02;        ///< noise of the gyro
   double drive_timeout_s = 0.2;       ///< without a drive command for longer the base stops
+  double team_drive_timeout_s = 0.2;  ///< the same of the team's own program, where it is in charge
   double drift_ratio = 0.05;          ///< position error per metre driven
   double heading_drift_ratio = 0.02;  ///< heading error per radian turned
 };
@@ -57,6 +64,10 @@ struct WorldState {
   double possession_debounce_s = 0.04;
 };
 
+/// When the robot moves as kick_decision says: always, while the ball lies in its handler, or never, which leaves its
+/// `drive` a proposal. Otherwise it moves as the team's own program says, on `team_drive`.
+enum class DriveMode : std::uint8_t { kAlways, kWithBall, kAdvice };
+
 /// Who is in charge: `random`, where it names policies, before `policy_by_robot`, where that does, before the halves.
 struct KickDecision {
   std::vector<kicking::PolicyName> policy_by_half = {kicking::PolicyName::kMoving};  ///< the last one goes on
@@ -67,6 +78,7 @@ struct KickDecision {
   std::string learned_model;       ///< file of `trivela learn`, read into policy.learned; policy "learned" needs one
   bool shadows = true;             ///< judge with the other policies as well
   double order_validity_s = 0.05;  ///< an order older than this is refused
+  DriveMode drive = DriveMode::kAlways;
 };
 
 /// What a kicker's board may be able to do beyond firing (hal::KickerCapabilities).
@@ -144,6 +156,7 @@ struct Settings {
   Domain domain;
   Hal hal;
   kicking::Goal goal;
+  FieldLines field;
   kicking::PolicyConfig policy;
   Odometry odometry;
   WorldState world_state;

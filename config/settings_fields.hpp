@@ -48,6 +48,11 @@ struct Names<Capability> {
        {"discharge", Capability::kDischarge},
        {"watchdog", Capability::kWatchdog}}};
 };
+template <>
+struct Names<DriveMode> {
+  static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
+      {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
+};
 
 }  // namespace trivela::config
 
@@ -159,7 +164,13 @@ void fields(V& v, Run& r) {
   v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);
   v("scenario", r.scenario);
+  v("field_file", r.field_file);
   v("log_level", r.log_level);
+}
+
+template <class V>
+void fields(V& v, FieldLines& f) {
+  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
 }
 
 template <class V>
@@ -218,6 +229,7 @@ void fields(V& v, Odometry& o) {
   v("wheel_sd_radps", o.wheel_sd_radps, Range{1e-6, 100.0});
   v("gyro_sd_radps", o.gyro_sd_radps, Range{1e-6, 10.0});
   v("drive_timeout_s", o.drive_timeout_s, Range{0.01, 10.0});
+  v("team_drive_timeout_s", o.team_drive_timeout_s, Range{0.01, 10.0});
   v("drift_ratio", o.drift_ratio, Range{0.0, 1.0});
   v("heading_drift_ratio", o.heading_drift_ratio, Range{0.0, 1.0});
 }
@@ -248,6 +260,7 @@ void fields(V& v, KickDecision& k) {
   v("learned_model", k.learned_model);
   v("shadows", k.shadows);
   v("order_validity_s", k.order_validity_s, Range{0.001, 1.0});
+  v("drive", k.drive);
 }
 
 template <class V>
@@ -325,6 +338,7 @@ void fields(V& v, Settings& s) {
   v("domain", s.domain);
   v("hal", s.hal);
   v("goal", s.goal);
+  v("field", s.field);
   v("rules", s.policy.rules);
   v("policy", s.policy);
   v("odometry", s.odometry);

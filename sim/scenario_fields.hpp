@@ -14,6 +14,7 @@ template <class V>
 void fields(V& v, MatchRules& r) {
   v("opponents_half_only", r.opponents_half_only);
   v("carry_limit_m", r.carry_limit_m, Range{0.0, 60.0});
+  v("set_piece_s", r.set_piece_s, Range{0.0, 60.0});
 }
 
 }  // namespace trivela::kicking

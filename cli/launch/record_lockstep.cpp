@@ -37,8 +37,8 @@ config::Settings lockstep_settings(config::Settings settings, int domain, const 
   settings.run.lockstep = true;
   settings.recorder.log = fs::absolute(log).string();
   settings.scan_recorder.file = fs::absolute(settings.scan_recorder.file).string();
-  for (std::string* file :
-       {&settings.run.robot, &settings.run.scenario, &settings.hal.replay_log, &settings.kick_decision.learned_model}) {
+  for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.run.field_file,
+                            &settings.hal.replay_log, &settings.kick_decision.learned_model}) {
     if (!file->empty()) *file = fs::absolute(*file).string();
   }
   return settings;

@@ -7,13 +7,30 @@ CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER 
 CREATE TEMP VIEW imported_sessions AS
 SELECT session_id FROM sessions
 WHERE config_sha256 IN (SELECT sha256 FROM texts WHERE substr(text, 1, 11) = '### import' || char(10));
--- Kicks with what counts as their outcome: 'outside' where somebody saw by eye that it was outside and did not say how.
+-- Sessions whose rules count no goal from the own half: [rules] of their configuration, with how far before a robot's
+-- centre it says that the ball lies.
+CREATE TEMP VIEW opponents_half_sessions AS
+SELECT s.session_id,
+  CAST(substr(t.text, instr(t.text, char(10) || 'ball_offset_m = ') + length(char(10) || 'ball_offset_m = ')) AS REAL)
+    AS ball_offset_m
+FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256
+WHERE instr(t.text, char(10) || 'opponents_half_only = true' || char(10)) > 0;
+-- Kicks with own_half, 1 where the rules count no goal from where the ball lay when the kick was decided, and with what
+-- counts as their outcome: 'own_half' of one on target from there, 'outside' where somebody saw by eye that it was
+-- outside and did not say how.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
       AND k.session_id IN (SELECT session_id FROM imported_sessions)
-    THEN 'outside' ELSE k.outcome END AS label
-FROM temp.kicks AS k;
+    THEN 'outside'
+    WHEN k.own_half AND k.outcome = 'on_target' THEN 'own_half'
+    ELSE k.outcome END AS label
+FROM (
+  SELECT j.*, CASE WHEN j.session_id IN (SELECT session_id FROM opponents_half_sessions) THEN EXISTS (
+    SELECT 1 FROM kick_decisions AS d JOIN opponents_half_sessions AS s ON s.session_id = d.session_id
+    WHERE d.session_id = j.session_id AND d.robot_id = j.robot_id AND d.seq = j.seq
+      AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0) ELSE 0 END AS own_half
+  FROM temp.kicks AS j) AS k;
 CREATE TEMP VIEW counted_kicks AS
 SELECT k.* FROM labelled_kicks AS k
 WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)

@@ -5,6 +5,6 @@ SELECT policy, count(bounced) AS observed, coalesce(sum(bounced), 0) AS observed
   count(truth_bounced) AS truth, coalesce(sum(truth_bounced), 0) AS truth_bounced
 FROM counted_kicks
 WHERE accepted IS NOT 0
-  AND outcome = 'on_target'
+  AND label = 'on_target'
 GROUP BY policy
 ORDER BY policy;

@@ -1,7 +1,9 @@
 -- Kicks that the driver did not refuse, in the order of their time.
--- Columns: session_id, robot_id, half, possession_id, policy, outcome, truth_outcome (NULL: not known), distance_m (NULL:
--- of an imported kick), observed_p_on_target, bounced, truth_bounced, truth_saved (NULL: not said), kick_id.
-SELECT session_id, robot_id, half, possession_id, policy, label AS outcome, truth_outcome,
+-- Columns: session_id, robot_id, half, possession_id, policy, outcome, truth_outcome (NULL: not known; both
+-- own_half: on target from where the rules count no goal), distance_m (NULL: of an imported kick), observed_p_on_target,
+-- bounced, truth_bounced, truth_saved (NULL: not said), kick_id.
+SELECT session_id, robot_id, half, possession_id, policy, label AS outcome,
+  CASE WHEN own_half AND truth_outcome = 'on_target' THEN 'own_half' ELSE truth_outcome END AS truth_outcome,
   CASE WHEN session_id IN (SELECT session_id FROM imported_sessions) THEN NULL ELSE distance_m END AS distance_m,
   observed_p_on_target,
   bounced, truth_bounced, truth_saved, kick_id

@@ -8,6 +8,7 @@
 
 #include "evaluator/metrics/kicked_tracks.sql.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
+#include "evaluator/report/own_half.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
@@ -42,7 +43,7 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     stats::LabelDoubt& doubt = quality.doubts[policy];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
-    } else {
+    } else if (label != kOwnHalf) {  // however sure it is that it was inside
       doubt.outside += p_inside.value_or(0.0);
     }
   };

@@ -14,6 +14,7 @@
 #include "evaluator/metrics/opportunities.sql.hpp"
 #include "evaluator/report/log_minutes.hpp"
 #include "evaluator/report/log_sessions.hpp"
+#include "evaluator/report/own_half.hpp"
 #include "evaluator/report/played_length.hpp"
 
 namespace trivela::evaluator {
@@ -150,7 +151,7 @@ Places add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedO
 
 void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, const Places& places, bool truth,
                LoggedOpportunities& logged) {
-  std::int64_t alone = 0;
+  std::int64_t alone = 0, from_own_half = 0;
   for (const SeenKick& kick : kicks) {
     if (!book.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
     const ComparedSession& session = logged.sessions[kick.session];
@@ -171,7 +172,9 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, cons
     const bool no_ball = truth && kick.outcome.empty() && session.simulated;
     o.ending = no_ball ? Ending::kNoKick : ending_of(kick.outcome);
     o.distance_m = kick.distance_m;
-    o.doubt = !kick.p_inside                 ? 0.0
+    const bool own_half = kick.outcome == kOwnHalf;
+    from_own_half += own_half ? 1 : 0;
+    o.doubt = !kick.p_inside || own_half     ? 0.0
               : o.ending == Ending::kInside  ? 1.0 - *kick.p_inside
               : o.ending == Ending::kOutside ? *kick.p_inside
                                              : 0.0;
@@ -180,6 +183,12 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, cons
     o.truth_bounced = kick.truth_bounced;
     o.saved = kick.saved;
     o.goal = kick.goal;
+  }
+  if (from_own_half > 0) {
+    logged.not_counted.push_back(
+        fmt::format("{} {} on target from the own half {} outside: the rules of the session count no goal from there",
+                    from_own_half, from_own_half == 1 ? "kick" : "kicks", from_own_half == 1 ? "is" : "are"));
+    logged.remarks.push_back(logged.not_counted.back());
   }
   if (alone > 0 && !places.empty()) {
     logged.remarks.push_back(

@@ -1,4 +1,5 @@
 #include "evaluator/report/json_values.hpp"
+#include "evaluator/report/own_half.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
@@ -8,6 +9,7 @@ Json policy_json(const PolicyRow& row) {
   Json misses = Json::object();
   for (const std::string& miss : kMisses) misses[miss] = row.of(miss);
   if (row.of("outside") > 0) misses["outside"] = row.of("outside");
+  if (row.of(kOwnHalf) > 0) misses[kOwnHalf] = row.of(kOwnHalf);
   return {{"policy", row.policy},
           {"inside", row.inside()},
           {"outside", row.outside()},

@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 
+#include "evaluator/report/own_half.hpp"
 #include "evaluator/report/table2.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
@@ -130,11 +131,14 @@ std::string misses(const Report& report) {
   for (const std::string& miss : kMisses) table[0].push_back(words(miss));
   const bool unsaid = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of("outside") > 0; });
   if (unsaid) table[0].push_back("not said");
+  const bool own_half = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of(kOwnHalf) > 0; });
+  if (own_half) table[0].push_back(words(kOwnHalf));
   table[0].push_back("unknown");
   for (const PolicyRow& row : report.policies) {
     table.push_back({row.policy});
     for (const std::string& miss : kMisses) table.back().push_back(number(row.of(miss)));
     if (unsaid) table.back().push_back(number(row.of("outside")));
+    if (own_half) table.back().push_back(number(row.of(kOwnHalf)));
     table.back().push_back(number(row.unknown()));
   }
   return "\nWhy the misses missed\n" + text_table(table);

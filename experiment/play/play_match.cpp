@@ -80,8 +80,7 @@ class Game {
     std::optional<sim::TrueState> truth;
     if (oracle_) truth = match_.true_state();
     if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
-      const kicking::Twist& drive = decision->in_charge.judgement.drive;
-      commands.drive = drive;
+      commands.drive = chain.drive().twist;
       note_assignment(referee, chain);
       if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
         record_->decisions.push_back(chain.record());

@@ -26,7 +26,8 @@ RobotChain::RobotChain(const config::Settings& settings, const config::Robot& ro
       model_(settings.world_state, robot.model.ball_offset_m),
       decider_({settings.kick_decision, settings.policy, settings.goal}, robot_.model, robot_id, session,
                std::move(oracle)),
-      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id) {}
+      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id),
+      arbiter_(settings.kick_decision.drive, settings.odometry) {}
 
 const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,
                                               const std::optional<msg::KickOutcome>& outcome,
@@ -42,8 +43,11 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)
     told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
+  decider_.hear(referee);
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
+  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.in_charge.judgement.drive, sensors.t_ns);
+  drive_ = arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession});
   return &decision;
 }
 

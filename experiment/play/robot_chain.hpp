@@ -8,6 +8,7 @@
 #include "robot/belief/world_model.hpp"
 #include "robot/decision/decider.hpp"
 #include "robot/driver/order_desk.hpp"
+#include "robot/odometry/drive_arbiter.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
@@ -31,6 +32,9 @@ class RobotChain {
   /// The driver's answer to the order of this cycle; none: it held.
   const std::optional<msg::KickReceipt>& receipt() const { return receipt_; }
 
+  /// What the wheels are told in this cycle, where no team's program speaks.
+  const robot::ObeyedDrive& drive() const { return drive_; }
+
   const msg::WorldState& world() const { return world_; }
 
   /// The record of this cycle's decision.
@@ -46,6 +50,8 @@ class RobotChain {
   robot::WorldModel model_;
   robot::Decider decider_;
   robot::OrderDesk desk_;
+  robot::DriveArbiter arbiter_;
+  robot::ObeyedDrive drive_;
   msg::WorldState world_{};
   msg::KickerStatus status_{};
   std::optional<msg::KickReceipt> receipt_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kicking/geometry/time.hpp"
 #include "kicking/policy/rule.hpp"
 #include "kicking/policy/shot.hpp"
@@ -46,6 +48,13 @@ inline bool may_shoot(const PolicyConfig& config, const RobotModel& robot, const
   if (!config.rules.opponents_half_only) return true;
   return may_shoot_from(config, held_ball(input.pose, robot).y()) &&
          (!judgement.predicted || may_shoot_from(config, judgement.predicted->release_m.y()));
+}
+
+/// The last instant of a coil that takes our set piece in time [s from now]; infinite where there is none to take, or
+/// none that could still be taken in time.
+inline double last_fire_after_s(const RobotModel& robot, const PolicyInput& input) {
+  const double last_s = input.set_piece_left_s.value_or(-1.0) - robot.delay_s;
+  return last_s >= 0.0 ? last_s : std::numeric_limits<double>::infinity();
 }
 
 /// Does an order of this possession still have its time?

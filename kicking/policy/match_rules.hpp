@@ -11,6 +11,7 @@ namespace trivela::kicking {
 struct MatchRules {
   bool opponents_half_only = false;  ///< a goal counts only where the ball was kicked in the opponents' half
   double carry_limit_m = 0.0;        ///< the ball is carried at most so far from where it was taken; 0: no limit
+  double set_piece_s = 0.0;          ///< our set piece is taken within so long of its START; 0: no limit
 
   friend bool operator==(const MatchRules&, const MatchRules&) = default;
 };

@@ -57,6 +57,7 @@ struct PolicyInput {
   std::optional<double> opponent_distance_m;   ///< nearest opponent to the ball; stopped and moving do not look at it
   std::optional<double> opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
   std::optional<SeenKick> last_kick;           ///< the latest one with an outcome; the turn drive alone looks at it
+  std::optional<double> set_piece_left_s;      ///< a kick that takes our set piece is released until then
 };
 
 /// One decision with every number behind it.

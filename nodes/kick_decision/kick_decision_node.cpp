@@ -41,6 +41,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
       step_done_(step_done_writer(context, node_)),
       kicker_(node_.stores<msg::KickerStatus>()),
       outcome_(node_.stores<msg::KickOutcome>()),
+      referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   refuse_oracle(decider_.assignment());
   refuse_twin(context_, order_out_, "kick_decision");
@@ -58,6 +59,9 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (!context_.participant.believes(world.t_ns)) return;
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
+  if (context_.settings.policy.rules.set_piece_s > 0.0) {
+    if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.hear(*word);
+  }
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
   if (decision.order) {
     order_out_.write(*decision.order);

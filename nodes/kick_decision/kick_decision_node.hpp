@@ -32,6 +32,7 @@ class KickDecisionNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker_;
   std::shared_ptr<bus::Mailbox<msg::KickOutcome>> outcome_;
+  std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;  // looked up where the rules know set pieces
   FirstCycle first_;
   std::uint64_t drives_ = 0;
   std::chrono::steady_clock::time_point asserted_{};

@@ -8,12 +8,13 @@
 #include "hal/wheels.hpp"
 #include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/odometry/drive_arbiter.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 
 namespace trivela::nodes {
 
-/// Owns the base: wheel samples in, Odometry out; DriveCommand in, set-points to the wheels. Without commands for
-/// odometry.drive_timeout_s the base stops, whether or not its wheels say anything; a command that is older is none.
+/// Owns the base: wheel samples in, Odometry out; DriveCommand and TeamDrive in, set-points to the wheels. Whose
+/// command they get is the DriveArbiter's; without one the base stops, whether or not its wheels say anything.
 class OdometryNode {
  public:
   OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wheels);
@@ -25,6 +26,9 @@ class OdometryNode {
   void on_wheels(const hal::WheelSample& sample);
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
+  void on_team_drive(const msg::TeamDrive& command);
+  void drive_wheels(std::int64_t now_ns, bool anew);
+  void say_who_drives(std::int64_t now_ns, const robot::DriveSituation& situation);
   msg::DriveSource obeyed();
 
   NodeContext& context_;
@@ -38,9 +42,10 @@ class OdometryNode {
   std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
   std::string status_said_;
-  std::mutex drive_mutex_;  // device thread and drive reaction
-  std::int64_t commanded_t_ns_ = 0;
-  bool driving_ = false;
+  std::shared_ptr<bus::Mailbox<msg::WorldState>> world_;
+  std::mutex drive_mutex_;  // device thread and drive reactions
+  robot::DriveArbiter arbiter_;
+  msg::DriveSource obeyed_ = msg::DRIVE_NOBODY;
 };
 
 }  // namespace trivela::nodes

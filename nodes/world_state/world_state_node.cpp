@@ -8,6 +8,7 @@ namespace trivela::nodes {
 WorldStateNode::WorldStateNode(NodeContext& context)
     : context_(context),
       model_(context.settings.world_state, context.robot.model.ball_offset_m),
+      field_watch_(context.settings.goal.y_m, context.settings.field.side_line_x_m),
       node_(context.participant, "world_state", context.robot_id()),
       world_out_(node_.writer<msg::WorldState>()),
       vision_(node_.stores<msg::VisionFrame>()),
@@ -35,6 +36,7 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
   world.robot_id = context_.robot_id();
   world.seq = ++seq_;
   world_out_.write(world);
+  for (const std::string& sentence : field_watch_.see(world)) context_.logger->warn("{}", sentence);
 }
 
 /// In real time the word is the last one that came, however long ago.

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "nodes/runtime/node_context.hpp"
+#include "robot/belief/field_watch.hpp"
 #include "robot/belief/world_model.hpp"
 #include "robot/watch/referee_watch.hpp"
 
 namespace trivela::nodes {
 
 /// Odometry in, with the newest vision frame and the referee's word; WorldState out. Nobody plays by the word of a
-/// referee who has fallen silent.
+/// referee who has fallen silent. Warns where the belief contradicts the field of the settings.
 class WorldStateNode {
  public:
   explicit WorldStateNode(NodeContext& context);
@@ -19,6 +20,7 @@ class WorldStateNode {
 
   NodeContext& context_;
   robot::WorldModel model_;
+  robot::FieldWatch field_watch_;
   bus::Node node_;
   bus::Output<msg::WorldState> world_out_;
   std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;

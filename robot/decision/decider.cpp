@@ -36,6 +36,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       goal_(settings.goal),
       oracle_(std::move(oracle)),
       assignment_(settings.assignment, robot_id),
+      set_piece_(settings.policy.rules.set_piece_s),
       validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
       kick_id_{session, robot_id} {
@@ -69,6 +70,7 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   kicking::PolicyInput input = policy_input(world, kicker);
   input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
   if (const auto seen = last_kick(outcome)) input.last_kick = seen;
+  input.set_piece_left_s = set_piece_.left_s(world);
   const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
   // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.
   new (&decision_.in_charge) Judged{chosen.policy, judge(chosen.policy, input, truth)};

@@ -10,6 +10,7 @@
 #include "kicking/kick_id.hpp"
 #include "kicking/policy/policy.hpp"
 #include "robot/decision/assignment.hpp"
+#include "robot/referee/set_piece_clock.hpp"
 
 namespace trivela::robot {
 
@@ -50,6 +51,9 @@ class Decider {
   Decider(const DeciderSettings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
           std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
 
+  /// What the referee says, before the cycle that hears it: when a set piece of ours is to be taken.
+  void hear(const msg::Referee& word) { set_piece_.hear(word); }
+
   /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
   /// was seen, if any. `truth`: what the oracle is told where it may be in charge. `world_age_s`: how long ago `world`
   /// held, in real time. The reference holds until the next call.
@@ -79,6 +83,7 @@ class Decider {
   kicking::Goal goal_;
   std::optional<OracleSeat> oracle_;
   PolicyAssignment assignment_;
+  SetPieceClock set_piece_;
   std::vector<kicking::PolicyName> shadows_;
   std::int64_t validity_ns_;
   std::uint8_t robot_id_;

@@ -16,6 +16,7 @@ config::Settings set_up(config::Settings settings) {
   settings.scan_recorder.file = config::ScanRecorder{}.file;
   settings.run.robot = config::Run{}.robot;
   settings.run.scenario = config::Run{}.scenario;
+  settings.run.field_file = config::Run{}.field_file;
   settings.run.log_level = config::Run{}.log_level;
   settings.hal.replay_log = std::filesystem::path{settings.hal.replay_log}.filename().string();
   return settings;

@@ -48,9 +48,9 @@ class MatchLog {
 
   void write_decision(Int kick_id, Int half) {
     const char* const policy = half == 1 ? "stopped" : "moving";
-    writer_.push(decisions_, {robot_id, ++seq_, t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0,
-                              4.0,      0.0,    0.0,    0.0,     0.0,  0.0,     9.0,    0.7,    5.0,    0.0,
-                              0.0,      Int{1}, 0.3,    0.3,     1.0,  Int{0},  0.0,    1.0});
+    writer_.push(decisions_, {robot_id, ++seq_,      t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0,
+                              y_m,      heading_rad, 0.0,    0.0,     0.0,  0.0,     9.0,    0.7,    5.0,    0.0,
+                              0.0,      Int{1},      0.3,    0.3,     1.0,  Int{0},  0.0,    1.0});
   }
 
   void order(Int kick_id) {
@@ -98,6 +98,8 @@ class MatchLog {
   void close() { writer_.finalise(); }
 
   Int robot_id = 1;
+  double y_m = 4.0;  ///< of the robot at its next decision, in F
+  double heading_rad = 0.0;
 
  private:
   Int t_ns() const { return seq_ * 20'000'000; }

@@ -331,6 +331,25 @@ TEST_F(PolicyComparisonTest, TheSameLogTwiceCountsOnce) {
   EXPECT_THAT(to_text(result), HasSubstr("stand in an earlier log, too, and count once"));
 }
 
+TEST_F(PolicyComparisonTest, ABallFromTheOwnHalfIsNoGoalAsSeenOrInTruthWhereTheRulesSaySo) {
+  log::Session ruled = session();
+  ruled.config_toml = "### settings\n[rules]\nopponents_half_only = true\n\n### robot\nball_offset_m = 0.27\n";
+  MatchLog match(path(), ruled, options());
+  for (const int half : {1, 2}) {
+    for (int kick = 0; kick < 10; ++kick) {
+      match.y_m = half == 1 && kick < 4 ? -1.0 : 3.0;
+      match.truth(match.kick(half, "on_target"), "on_target");
+    }
+  }
+  match.close();
+  for (const bool truth : {false, true}) {
+    const auto result = compared({.truth = truth});
+    EXPECT_EQ(result.groups[0].inside, 6) << truth;
+    EXPECT_EQ(result.groups[1].inside, 10) << truth;
+    EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target from the own half are outside")) << truth;
+  }
+}
+
 TEST_F(PolicyComparisonTest, LogsWithoutKicksGiveASentence) {
   {
     MatchLog match(path(), session(), options());

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/merged_log.hpp"
@@ -51,6 +52,56 @@ TEST_F(ReportOfALog, ThePapersKicksGiveThePapersTable) {
   EXPECT_THAT(text, HasSubstr("  moving      100       32        0      75.8 %  67.8 % to 82.3 %        -"));
   EXPECT_THAT(text, HasSubstr("  stopped         11           0    20      0     0    0        0        0"));
   EXPECT_THAT(text, HasSubstr("trivela compare --counts stopped=34/65 moving=100/132"));
+}
+
+/// A configuration as sessions have it, of a robot whose ball lies 0.5 m before its centre.
+std::string config_with(const std::string& opponents_half_only) {
+  return "### settings\n[rules]\nopponents_half_only = " + opponents_half_only +
+         "\ncarry_limit_m = 0.0\n\n### robot\nball_offset_m = 0.5\n";
+}
+
+/// Kicks on target with the ball 0.1 m before and behind the half-way line, whichever way the robot faces.
+void kick_about_the_line(MatchLog& match) {
+  constexpr double kPi = 3.141592653589793;
+  for (const auto& [y_m, heading_rad] :
+       {std::pair{-0.4, 0.0}, std::pair{-0.6, 0.0}, std::pair{0.6, kPi}, std::pair{0.4, kPi}, std::pair{-0.1, 1.5}}) {
+    match.y_m = y_m;
+    match.heading_rad = heading_rad;
+    match.kick(2, "on_target");
+  }
+  match.kick(2, "over");
+}
+
+TEST_F(ReportOfALog, ABallFromTheOwnHalfIsNoGoalWhereTheRulesOfTheSessionSaySo) {
+  log::Session ruled = session();
+  ruled.config_toml = config_with("true");
+  MatchLog match(path(), ruled, options());
+  kick_about_the_line(match);
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  const PolicyRow moving = row_of(report, "moving");
+  EXPECT_EQ(moving.inside(), 2);
+  EXPECT_EQ(moving.outside(), 4);
+  EXPECT_EQ(moving.of("own_half"), 3);
+  const std::string line =
+      "3 kicks on target from the own half are outside: the rules of the session count no goal from there";
+  EXPECT_THAT(report.not_counted, ElementsAre(line));
+  EXPECT_THAT(to_text(report), AllOf(HasSubstr(line), HasSubstr("own half  unknown")));
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["policies"][1]["misses"]["own_half"], 3);
+}
+
+TEST_F(ReportOfALog, WithoutTheRuleABallFromTheOwnHalfCountsAsAnyOther) {
+  for (const std::string rule : {"false", "no word of it"}) {
+    log::Session free = session();
+    free.config_toml = config_with(rule);
+    MatchLog match(path(rule), free, options());
+    kick_about_the_line(match);
+    match.close();
+    const Report report = make_report(log::Reader(path(rule)));
+    EXPECT_EQ(row_of(report, "moving").inside(), 5) << rule;
+    EXPECT_THAT(report.not_counted, IsEmpty()) << rule;
+    EXPECT_THAT(to_text(report), Not(HasSubstr("own half"))) << rule;
+  }
 }
 
 TEST_F(ReportOfALog, JsonHasTheSameNumbers) {

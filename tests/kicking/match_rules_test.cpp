@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "kicking/policy/shot.hpp"
 #include "tests/kicking/play.hpp"
@@ -117,6 +119,64 @@ TEST_P(RuledPolicy, HasANewReachWithANewPossession) {
   EXPECT_NEAR(std::hypot(drive().vx_mps, drive().vy_mps), 0.0, 1e-9);
   input.possession_id = 2;
   EXPECT_GT(std::hypot(drive().vx_mps, drive().vy_mps), 0.3);
+}
+
+/// Plays a set piece of which so much is left at the beginning; none: no rule.
+tests::Played set_piece(std::optional<double> left_s, const PolicyInput& from, std::vector<Reason>* reasons = nullptr) {
+  const PolicyConfig config;
+  PolicyMemory memory;
+  tests::Played played;
+  PolicyInput input = from;
+  for (; played.seconds < 3.0; played.seconds += config.cycle_s) {
+    if (left_s && *left_s > played.seconds) {
+      input.set_piece_left_s = *left_s - played.seconds;
+    } else {
+      input.set_piece_left_s.reset();
+    }
+    const Judgement judgement = judge(PolicyName::kPredictive, config, {}, {}, input, memory);
+    if (reasons != nullptr) reasons->push_back(judgement.reason);
+    if (judgement.fire) {
+      played.fired = judgement;
+      return played;
+    }
+    input.twist = judgement.drive;
+    input.pose = advance(input.pose, input.twist, config.cycle_s);
+    input.t_ns += 20'000'000;
+  }
+  return played;
+}
+
+TEST(SetPiece, IsTakenBeforeItsTimeIsOverWhereThePlanWouldWaitForABetterMoment) {
+  const PolicyInput from = ready_at({1.5, 4.0, 0.8});
+  const RobotModel robot;
+  std::vector<Reason> reasons;
+  const auto free = set_piece({}, from, &reasons);
+  ASSERT_TRUE(free.fired);
+  ASSERT_GT(free.seconds, 0.06);
+  EXPECT_EQ(reasons.front(), Reason::kWaiting);
+  const double left_s = free.seconds - 0.04 + robot.delay_s;
+  const auto hurried = set_piece(left_s, from);
+  ASSERT_TRUE(hurried.fired);
+  EXPECT_LE(hurried.seconds + hurried.fired->fire_after_s + robot.delay_s, left_s + 1e-9);
+  EXPECT_GE(*hurried.fired->p_on_target, PolicyConfig{}.predictive.threshold);
+  EXPECT_LT(*hurried.fired->p_on_target, *free.fired->p_on_target);
+}
+
+TEST(SetPiece, OfWhichMoreIsLeftThanAPlanLooksAheadChangesNothing) {
+  const PolicyInput from = ready_at({1.5, 4.0, 0.5});
+  const auto free = set_piece({}, from), easy = set_piece(6.0, from);
+  ASSERT_TRUE(free.fired && easy.fired);
+  EXPECT_EQ(free.seconds, easy.seconds);
+  EXPECT_EQ(free.fired->power, easy.fired->power);
+}
+
+TEST(SetPiece, ThatCannotBeTakenInTimeIsHeldAndPlayedOnAfterwards) {
+  const PolicyInput from = ready_at({1.5, 4.0, 2.5});  // it faces away
+  std::vector<Reason> reasons;
+  const auto late = set_piece(0.2, from, &reasons), free = set_piece({}, from);
+  ASSERT_TRUE(late.fired && free.fired);
+  EXPECT_EQ(reasons.front(), Reason::kUnlikely) << "and no `waiting` for what comes too late";
+  EXPECT_GT(late.seconds, 0.2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, RuledPolicy,

@@ -116,6 +116,32 @@ TEST_F(KickDecisionNodeTest, OneFireIsOneOrder) {
   }
 }
 
+TEST_F(KickDecisionNodeTest, InASetPieceOfOursItDoesNotWaitForWhatComesTooLate) {
+  context.settings.policy.rules.set_piece_s = 0.1;
+  context.settings.kick_decision.policy_by_half = {kicking::PolicyName::kPredictive};
+  Says<msg::Referee> referee_says{participant};
+  start();
+  msg::Referee word{};
+  word.t_ns = t_ns;
+  word.restart = msg::RESTART_FREEKICK;
+  word.ours = true;
+  referee_says(word);
+  auto stopped = world(0.8);
+  stopped.playing = false;
+  cycle(stopped);
+  word.t_ns = t_ns;
+  word.playing = true;
+  word.restart = msg::RESTART_NONE;
+  word.ours = false;
+  referee_says(word);
+  cycle(world(0.8));
+  t_ns += 100'000'000;
+  cycle(world(0.8));
+  EXPECT_EQ(decision.nth(1).reason, msg::REASON_NOT_PLAYING);
+  EXPECT_EQ(decision.nth(2).reason, msg::REASON_UNLIKELY) << "it cannot turn within 0.1 s";
+  EXPECT_EQ(decision.nth(3).reason, msg::REASON_WAITING) << "the set piece is over";
+}
+
 TEST_F(KickDecisionNodeTest, HoldsAndTurnsWhileItIsNotAligned) {
   start();
   const auto command = cycle(world(0.8));

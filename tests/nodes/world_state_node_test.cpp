@@ -103,6 +103,23 @@ TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
   }
 }
 
+TEST_F(WorldStateNodeTest, WarnsOnceOfARobotThatPlaysBeyondTheFieldOfItsSettings) {
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  referee_says(referee());
+  for (std::int64_t second = 1; second <= 6; ++second) {
+    auto frame = vision(50 * second);
+    frame.y_m = -10.5;  // of the 18 x 12 m field
+    frame.ball_seen = false;
+    camera_says(frame);
+    wheels_say(odometry(50 * second));
+    world.first(static_cast<std::size_t>(second));
+    EXPECT_EQ(log_lines->count("the robot has been outside the field of 18.0 x 12.0 m"), second < 3 ? 0u : 1u)
+        << second;
+  }
+}
+
 TEST_F(WorldStateNodeTest, WithoutCameraAndRefereeNobodyPlays) {
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};

@@ -37,7 +37,8 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       start_(settled(config, input, memory)),
       model_(config.predictive, robot, goal, spread_of(config.predictive, input, memory)),
       survival_(config.predictive, memory.opponent),
-      opponent_(memory.opponent) {
+      opponent_(memory.opponent),
+      last_fire_after_s_(last_fire_after_s(robot, input)) {
   guess_.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
   ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
 }
@@ -120,7 +121,7 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
   }
   for (CandidatePlan& candidate : ways.candidates) {
     candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
-    candidate.value_later = candidate.values[2];
+    candidate.value_later = config_.cycle_s <= last_fire_after_s_ ? candidate.values[2] : 0.0;
   }
 }
 
@@ -128,7 +129,8 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
 void LookaheadSearch::look_ahead(Ways& ways) {
   const PredictiveConfig& settings = config_.predictive;
   double best = std::max(ways.candidates[0].value(), ways.candidates[ways.count - 1].value());
-  for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= settings.horizon_s;
+  const double horizon_s = std::min(settings.horizon_s, last_fire_after_s_);
+  for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= horizon_s;
        fire_after_s += settings.step_s) {
     const double survival = survival_(fire_after_s);
     if (survival <= best) return;

@@ -69,6 +69,7 @@ class LookaheadSearch {
   ShotModel model_;
   Survival survival_;
   const OpponentWatch& opponent_;
+  double last_fire_after_s_;  // no plan waits longer
   ShotGuess guess_{};
   double ball_speed_mps_;
 };
