@@ -1,11 +1,11 @@
 -- Kicks that the driver did not refuse, in the order of their time.
 -- Columns: session_id, robot_id, half, possession_id (the robot's own count), true_possession_id (the simulator's; NULL:
--- it has no truth of the kick), t_ns, policy, outcome, truth_outcome (NULL: not known), distance_m (NULL: of an imported
+-- it has no truth of the kick), policy, outcome, truth_outcome (NULL: not known), distance_m (NULL: of an imported
 -- kick), observed_p_on_target, bounced, truth_bounced, truth_saved (NULL: not said), kick_id.
 SELECT session_id, robot_id, half, possession_id,
   (SELECT max(t.possession_id) FROM kick_truths AS t
    WHERE t.session_id = k.session_id AND t.robot_id = k.robot_id AND t.kick_id = k.kick_id) AS true_possession_id,
-  t_ns, policy, label AS outcome, truth_outcome,
+  policy, label AS outcome, truth_outcome,
   CASE WHEN session_id IN (SELECT session_id FROM imported_sessions) THEN NULL ELSE distance_m END AS distance_m,
   observed_p_on_target, bounced, truth_bounced, truth_saved, kick_id
 FROM labelled_kicks AS k

@@ -1,8 +1,8 @@
 -- Spans of play by possession: a word of the referee holds until the next one of the same half. A simulator's referee
 -- counts the possessions. Elsewhere each robot counts its own: that robot's word of them, from the first one that it has
 -- the ball.
--- Columns: session_id, of_robot (NULL: of all), half, possession_id, from_t_ns (by the clock of the log), from_ns, to_ns (by
--- UTC, in lockstep by the simulator's clock), played_ns.
+-- Columns: session_id, of_robot (NULL: of all), half, possession_id, from_ns, to_ns (by UTC, in lockstep by the
+-- simulator's clock), played_ns.
 WITH
   counting AS (
     SELECT s.session_id, CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END AS offset_ns,
@@ -21,7 +21,7 @@ WITH
     SELECT session_id, of_robot, robot_id, half, possession_id, playing, t_ns, gained_t_ns,
       lead(t_ns) OVER (PARTITION BY session_id, robot_id, half ORDER BY t_ns) AS next_t_ns
     FROM words)
-SELECT h.session_id, of_robot, half, possession_id, min(t_ns) AS from_t_ns, min(t_ns) + offset_ns AS from_ns,
+SELECT h.session_id, of_robot, half, possession_id, min(t_ns) + offset_ns AS from_ns,
   max(next_t_ns) + offset_ns AS to_ns, sum(next_t_ns - t_ns) AS played_ns
 FROM held AS h
 JOIN counting AS c ON c.session_id = h.session_id

@@ -55,10 +55,10 @@ void see_assigned(const log::Reader& reader, const SessionPlaces& sessions, cons
                   PossessionPlaces& places, std::vector<LoggedOpportunity>& opportunities) {
   reader.query(kAssignedPossessionsSql,
                [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id,
-                   std::optional<std::int64_t> t_ns, const std::string& policy, double probability) {
+                   std::optional<std::int64_t> /*t_ns*/, const std::string& policy, double probability) {
                  const auto session = sessions.find(session_id);
                  if (session == sessions.end()) return;
-                 const std::int64_t id = truths.number({session_id, robot_id, half, own_id, t_ns});
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
                  const PossessionKey key{session->second, robot_id, half, id};
                  const bool alone = id != 0 && !truths.has(session_id);
                  if (alone && places.try_emplace(key, opportunities.size()).second) {
@@ -97,10 +97,10 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
   see_assigned(reader, sessions, truths, places, seen.opportunities);
   reader.query(kFirstDecisionsSql,
                [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::int64_t /*seq*/,
-                   std::int64_t t_ns, double distance_m, double x_m, std::optional<double> opponent_distance_m) {
+                   double distance_m, double x_m, std::optional<double> opponent_distance_m) {
                  const auto session = sessions.find(session_id);
                  if (session == sessions.end()) return;
-                 const std::int64_t id = truths.number({session_id, robot_id, half, own_id, t_ns});
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
                  const auto place = places.find({session->second, robot_id, half, id});
                  if (place == places.end() || seen.opportunities[place->second].first) return;
                  seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
@@ -109,31 +109,30 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
 
 void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, bool truth,
                SeenRows& seen) {
-  reader.query(kComparedKicksSql,
-               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id,
-                   std::optional<std::int64_t> true_id, std::int64_t t_ns, const std::string& policy,
-                   std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
-                   std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
-                   std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
-                 const auto session = sessions.find(session_id);
-                 if (session == sessions.end()) return;
-                 const bool saved = truth_saved.value_or(false);
-                 const bool goal = truth_outcome == "on_target" && !saved;
-                 seen.kicks.push_back(
-                     {.session = session->second,
-                      .robot_id = robot_id,
-                      .half = half,
-                      .possession_id = true_id ? *true_id : truths.number({session_id, robot_id, half, own_id, t_ns}),
-                      .policy = policy,
-                      .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
-                      .distance_m = distance_m,
-                      .kick_id = kick_id,
-                      .p_inside = truth ? std::nullopt : p_inside,
-                      .bounced = bounced,
-                      .truth_bounced = truth_bounced,
-                      .saved = saved,
-                      .goal = goal});
-               });
+  reader.query(
+      kComparedKicksSql,
+      [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::optional<std::int64_t> true_id,
+          const std::string& policy, std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
+          std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
+          std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
+        const auto session = sessions.find(session_id);
+        if (session == sessions.end()) return;
+        const bool saved = truth_saved.value_or(false);
+        const bool goal = truth_outcome == "on_target" && !saved;
+        seen.kicks.push_back({.session = session->second,
+                              .robot_id = robot_id,
+                              .half = half,
+                              .possession_id = true_id ? *true_id : truths.number(session_id, robot_id, half, own_id),
+                              .policy = policy,
+                              .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
+                              .distance_m = distance_m,
+                              .kick_id = kick_id,
+                              .p_inside = truth ? std::nullopt : p_inside,
+                              .bounced = bounced,
+                              .truth_bounced = truth_bounced,
+                              .saved = saved,
+                              .goal = goal});
+      });
 }
 
 // What a recording lacks another one of the play may have.

@@ -36,9 +36,8 @@ class PossessionCount {
     kick_id_ = now.kick_id;
     if (now.possession) {
       hold(now);
-    } else {
-      kicked_ = kicked_ || (held_ && kicked_t_ns_ && now.t_ns - *kicked_t_ns_ <= kLeaves_ns);
-      held_ = false;
+    } else if (held_) {
+      leave(now.t_ns);
     }
     return number_;
   }
@@ -68,15 +67,21 @@ class PossessionCount {
     held_t_ns_ = now.t_ns;
   }
 
+  void leave(std::int64_t t_ns) {
+    held_ = false;
+    if (kicked_t_ns_) kicked_ = t_ns - *kicked_t_ns_ <= kLeaves_ns;
+    kicked_t_ns_.reset();
+  }
+
   std::optional<std::uint8_t> half_;
   std::uint32_t number_ = 0;
   bool playing_ = false;
   bool played_ = false;  // in play the robot had the ball of this number
   bool held_ = false;
-  bool kicked_ = false;  // and it has left
+  bool kicked_ = false;  // it has left by a kick
   std::int64_t held_t_ns_ = 0;
   std::int64_t kick_id_ = 0;
-  std::optional<std::int64_t> kicked_t_ns_;
+  std::optional<std::int64_t> kicked_t_ns_;  // none: or the ball has left since
 };
 
 }  // namespace trivela::robot
