@@ -17,13 +17,13 @@ OmniKinematics::OmniKinematics(const config::WheelBase& base) {
     throw std::invalid_argument{fmt::format("wheel radius {} m and distance {} m must be positive", base.wheel_radius_m,
                                             base.wheel_distance_m)};
   }
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> forward(count, 3);  // twist -> wheel speeds
+  forward_.resize(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double angle = base.wheel_angles_rad[static_cast<std::size_t>(i)];
-    forward.row(i) << -std::sin(angle), std::cos(angle), base.wheel_distance_m;
+    forward_.row(i) << -std::sin(angle), std::cos(angle), base.wheel_distance_m;
   }
-  forward /= base.wheel_radius_m;
-  const auto decomposition = forward.completeOrthogonalDecomposition();
+  forward_ /= base.wheel_radius_m;
+  const auto decomposition = forward_.completeOrthogonalDecomposition();
   if (decomposition.rank() < 3) throw std::invalid_argument{"the wheels' directions do not span the plane"};
   backward_ = decomposition.pseudoInverse();
 }
@@ -33,6 +33,15 @@ kicking::Twist OmniKinematics::twist(std::span<const double> wheel_radps) const 
   const Eigen::Map<const Eigen::VectorXd> speeds{wheel_radps.data(), backward_.cols()};
   const Eigen::Vector3d v = backward_ * speeds;
   return {v.x(), v.y(), v.z()};
+}
+
+std::optional<kicking::Twist> OmniKinematics::one_wheel(int wheel, double radps) const {
+  assert(wheel >= 0 && wheel < wheel_count());
+  const Eigen::VectorXd alone = radps * Eigen::VectorXd::Unit(wheel_count(), wheel);
+  const Eigen::Vector3d v = backward_ * alone;
+  constexpr double kStill_ratio = 1e-9;
+  if ((forward_ * v - alone).norm() > kStill_ratio * std::abs(radps)) return std::nullopt;
+  return kicking::Twist{v.x(), v.y(), v.z()};
 }
 
 Eigen::Vector3d OmniKinematics::twist_variance(double wheel_sd_radps) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "config/robot.hpp"
@@ -23,10 +24,15 @@ class OmniKinematics {
   /// Body twist in R of the first wheel_count() speeds.
   kicking::Twist twist(std::span<const double> wheel_radps) const;
 
+  /// The twist at which `wheel`, counted from 0, turns with `radps` and no other does. None: others would, as always
+  /// where there are four.
+  std::optional<kicking::Twist> one_wheel(int wheel, double radps) const;
+
   /// Variances (vx, vy, omega) that independent wheel noise of standard deviation `wheel_sd_radps` leaves in twist().
   Eigen::Vector3d twist_variance(double wheel_sd_radps) const;
 
  private:
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> forward_;   // twist -> wheel speeds
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4> backward_;  // wheel speeds -> twist, least squares
 };
 
