@@ -200,10 +200,10 @@ std::string kicker_text(const hal::KickerSample& sample) {
 std::string wheels_text(const hal::WheelSample& sample) {
   std::string text;
   for (int i = 0; i < sample.wheel_count; ++i)
-    text +=
-        fmt::format("{}wheel {} {:.2f}", i == 0 ? "" : ", ", i + 1, sample.wheel_radps[static_cast<std::size_t>(i)]);
+    text += fmt::format("{}wheel {} {:.2f}", i == 0 ? "" : ", ", i + 1,
+                        sample.wheel_radps[static_cast<std::size_t>(i)] + 0.0);
   text += " rad/s";
-  return sample.gyro_radps ? text + fmt::format("; gyro {:.2f} rad/s", *sample.gyro_radps) : text;
+  return sample.gyro_radps ? text + fmt::format("; gyro {:.2f} rad/s", *sample.gyro_radps + 0.0) : text;
 }
 
 std::unique_ptr<Fixture> held_by(const std::string& name, const std::string& device, const std::string& node) {

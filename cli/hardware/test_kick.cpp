@@ -52,6 +52,8 @@ bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::Kick
   return true;
 }
 
+bool sound(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
+
 int not_fired(const std::string& why) {
   warn(why + ": nothing was fired");
   return kFailed;
@@ -78,7 +80,8 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   robot::OrderGate gate{settings.kicker_driver, powers, settings.run.cycle_s};
   gate.referee(robot::RefereeSays::kPlay);
   std::optional<hal::KickerSample> newest;
-  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals, [&] { return newest.has_value(); }))
+  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
+              [&] { return newest && sound(*newest); }))
     return not_fired("stopped");
   if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
   say(
@@ -89,7 +92,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   if (!person.confirms("kick")) return not_fired("not confirmed");
   newest.reset();  // what waited while the person thought is too old
   if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
-              [&] { return newest && gate.ready(kick_now_ns()); }))
+              [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =
       order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));
