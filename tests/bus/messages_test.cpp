@@ -43,8 +43,9 @@ TEST(Messages, ANestedStructHasFieldsButNoTopic) {
 
 TEST(Messages, FieldNamesAreKnownAtCompileTimeInTheOrderOfTheIdl) {
   constexpr auto names = field_names<msg::KickOrder>();
-  static_assert(names.size() == 7);
-  EXPECT_THAT(names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"));
+  static_assert(names.size() == 8);
+  EXPECT_THAT(
+      names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns", "possession"));
 }
 
 TEST(Messages, KeysAreMarked) {
