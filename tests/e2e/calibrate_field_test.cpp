@@ -58,7 +58,7 @@ TEST_F(CalibrateInField, ASecondStartGoesOnWhereTheFirstOneEnded) {
   answer(*second, "Enter: begin; q: leave for today: ", "");
   EXPECT_THAT(second->output(), HasSubstr("floor, m: 0.050 (measured before)"));
   EXPECT_THAT(second->output(), HasSubstr("1_standing: played before, from its records"));
-  EXPECT_TRUE(wait_for_change(folder_.path(), second->watch(), [&] { return exists("1_standing_2.db"); }));
+  EXPECT_TRUE(wait_for_change(folder_.path() / "drives", second->watch(), [&] { return exists("1_standing_2.db"); }));
   second->signal(SIGINT);
   EXPECT_EQ(second->wait(), 1);
 
