@@ -71,6 +71,19 @@ msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) 
   return order;
 }
 
+/// Fires what the gate has passed, and says what became of it.
+int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder& order, SignalInbox& signals) {
+  std::optional<hal::KickerSample> newest;
+  const std::string before = kicker.status();
+  kicker.fire(order.kick_id, order.power, order.t_ns);
+  listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
+  const std::string status = kicker.status();
+  if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));
+  if (status.find("was not fired") != std::string::npos) return kFailed;  // as Kicker::status() says it
+  say(fmt::format("fired with set-point {:.2f}; {}\n", order.power, newest ? kicker_text(*newest) : "no sample"));
+  return kDone;
+}
+
 }  // namespace
 
 int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
@@ -99,14 +112,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   const msg::Refusal refusal = gate.judge(order, kick_now_ns());
   if (refusal != msg::REFUSAL_NONE)
     return not_fired(fmt::format("refused, {}; {}", bus::label(refusal), newest ? kicker_text(*newest) : "no sample"));
-  const std::string before = kicker.status();
-  kicker.fire(order.kick_id, order.power, order.t_ns);
-  listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
-  const std::string status = kicker.status();
-  if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));
-  if (status.find("was not fired") != std::string::npos) return kFailed;  // as Kicker::status() says it
-  say(fmt::format("fired with set-point {:.2f}; {}\n", order.power, newest ? kicker_text(*newest) : "no sample"));
-  return kDone;
+  return carry_out(kicker, gate, order, signals);
 }
 
 }  // namespace trivela::cli
