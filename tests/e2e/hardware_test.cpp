@@ -25,7 +25,8 @@ class Hardware : public testing::Test {
     what.insert(what.begin(), "hardware");
     for (const std::string& setting :
          {std::string{"domain.domain_id=63"}, "domain.tag=\"hardware-" + folder_.path().filename().string() + "\"",
-          std::string{"hal.kicker=\"ioboard\""}, "hal.ioboard.port=\"" + board_.address() + "\""}) {
+          std::string{"hal.kicker=\"ioboard\""}, std::string{"hal.ioboard.charge_time_s=0.5"},
+          "hal.ioboard.port=\"" + board_.address() + "\""}) {
       what.emplace_back("--set");
       what.push_back(setting);
     }
