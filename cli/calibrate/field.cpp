@@ -30,9 +30,7 @@ Field field_of(const RunFlags& flags) {
   Field field{config::load_settings(flags.config), {}, {}};
   config::override_settings(field.settings, flags.overrides, "--set");
   field.settings.run.log_level = flags.log_level;
-  const bool rehearsal = std::holds_alternative<config::SimDevice>(field.settings.hal.wheels) &&
-                         std::holds_alternative<config::SimDevice>(field.settings.hal.kicker);
-  if (!rehearsal) {
+  if (!flags.rehearse) {
     field.settings = experiment::evening_settings(std::move(field.settings));
     return field;
   }
@@ -114,7 +112,7 @@ int calibrate_in_field(const RunFlags& flags) {
   Field field = field_of(flags);
   const fs::path file = place_of(flags);
   SignalInbox signals;
-  if (field.world) say("A REHEARSAL: [hal] is the simulator's, so the drives are played in its world.\n");
+  if (field.world) say("A REHEARSAL: the drives are played in the simulator's world.\n");
   try {
     return play_in(std::move(field), flags, file, signals);
   } catch (const LeftForToday& left) {

@@ -99,6 +99,7 @@ namespace {
 
 int calibrate_in_simulation(const RunFlags& flags) {
   if (!flags.overrides.empty()) throw UsageError{"--set goes with --in field"};
+  if (flags.rehearse) throw UsageError{"--rehearse goes with --in field"};
   const Worlds worlds = worlds_of(flags);
   const experiment::EveningOptions options = options_of(flags, worlds.drives);
   const config::Settings& settings = options.settings;
@@ -174,15 +175,14 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
       "passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,\n"
       "scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m\n"
       "sideways (medians).\n"
-      "--in field asks before each step and goes on, started again, where it ended; where [hal] is the simulator's, "
-      "it\n"
-      "is a rehearsal in the world of --scenario.");
+      "--in field asks before each step and goes on, started again, where it ended.");
   add_place_options(*verb, *flags);
   add_drive_options(*verb, *flags);
   add_effort_options(*verb, flags->effort);
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+  verb->add_flag("--rehearse", flags->rehearse, "field: the same questions, played in the world of --scenario");
   verb->add_flag("--in-process", flags->in_process,
                  "without bus, nodes and records: the same robot in seconds; nothing but its file is written");
   verb->add_flag("--json", flags->json, "report as JSON on standard output");

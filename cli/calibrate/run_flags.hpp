@@ -26,6 +26,7 @@ struct RunFlags {
   std::int64_t seed = 1;
   calibration::CalibrationEffort effort;
   std::vector<std::string> overrides;  ///< field: settings on top
+  bool rehearse = false;  ///< field: in the simulated world of the scenario
   bool in_process = false;
   bool json = false;
 };

@@ -33,7 +33,10 @@ class SafeAfterwards {
   explicit SafeAfterwards(hal::Kicker& kicker) : kicker_(kicker) {}
   SafeAfterwards(const SafeAfterwards&) = delete;
   SafeAfterwards& operator=(const SafeAfterwards&) = delete;
-  ~SafeAfterwards() { kicker_.make_safe(); }
+  ~SafeAfterwards() {
+    kicker_.charge(hal::ChargeWord::kEmpty);  // where the device can
+    kicker_.make_safe();
+  }
 
  private:
   hal::Kicker& kicker_;
@@ -103,13 +106,14 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                   "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
                   kicker_text(*newest), powers.min, robot.name));
   if (!person.confirms("kick")) return not_fired("not confirmed");
+  kicker.charge(hal::ChargeWord::kUp);
   newest.reset();  // what waited while the person thought is too old
   if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
               [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =
       order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));
-  const msg::Refusal refusal = gate.judge(order, kick_now_ns());
+  const msg::Refusal refusal = gate.judge(order, kick_now_ns(), robot::OrderBy::kOwnDecision);
   if (refusal != msg::REFUSAL_NONE)
     return not_fired(fmt::format("refused, {}; {}", bus::label(refusal), newest ? kicker_text(*newest) : "no sample"));
   return carry_out(kicker, gate, order, signals);

@@ -7,7 +7,6 @@
 namespace trivela::hal::ioboard {
 namespace {
 
-constexpr std::string_view kVersionText = "00000003";
 constexpr auto kPulseUnit_ns = static_cast<std::int64_t>(kPulseUnit_us * 1000.0);
 // A start, as noise has it, and not enough bytes for a frame.
 constexpr std::string_view kNoise{"\x00\x5A\xFF\x13\x5A\x08", 6};
@@ -21,6 +20,16 @@ std::vector<std::string> EmulatedBoard::take(std::string_view bytes, std::int64_
     if (!answered.empty()) said.push_back(answered);
   }
   return said;
+}
+
+/// As fast as the line carries.
+std::vector<std::string> EmulatedBoard::tick(std::int64_t now_ns) {
+  constexpr std::int64_t kPeriod_ns = 5'000'000;
+  constexpr int kPieces = 10;  // 60 bytes in 5 ms at 115200 Bd
+  next_noise_ns_ = now_ns + kPeriod_ns;
+  std::string noise;
+  for (int i = 0; i < kPieces; ++i) noise += kNoise;
+  return {noise};
 }
 
 /// The board sends back the frame that it took, with what was asked for filled in.
@@ -40,7 +49,7 @@ Frame EmulatedBoard::answer(Frame question, std::int64_t now_ns) {
       question.payload[1] = software_on ? 1 : 0;
       break;
     case Command::kVersion:
-      std::ranges::copy(kVersionText, question.payload.begin());
+      std::ranges::copy(kEmulatedVersion, question.payload.begin());
       break;
     default:
       question.command = Command::kUnknown;

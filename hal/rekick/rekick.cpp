@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::hal::rekick {
 namespace {
 
@@ -45,6 +47,9 @@ std::string ReKick::shoot(double power, std::int64_t now_ns) {
     return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 1 to {:g}", power,
                        power * settings_.pulse_us_per_power, kLongestPulse_us);
   if (last_kick_ns_ && now_ns - *last_kick_ns_ < kBetweenKicks_ns) return "the last kick was less than 0.1 s before";
+  if (unanswered_since_ns_ && now_ns - *unanswered_since_ns_ > kDoubt_ns)
+    return fmt::format("the board has not answered for {:.0f} ms",
+                       1e3 * kicking::seconds(*unanswered_since_ns_, now_ns));
   last_kick_ns_ = now_ns;
   send(kick(*pulse_us), now_ns);
   return up() ? std::string{} : status_;
@@ -56,6 +61,7 @@ void ReKick::open(std::int64_t now_ns) {
   if (bus_->open(kAtOnce) != Line::Opening::kOpen)
     return lose(fmt::format("no bus {}: {}", bus_->name(), bus_->why()), now_ns);
   phase_ = Phase::kAsking;
+  emulated_ = false;
   unanswered_since_ns_.reset();
   next_ns_ = next_ping_ns_ = now_ns;
   text_.clear();
@@ -81,6 +87,7 @@ void ReKick::take(const can::Frame& frame, std::int64_t now_ns) {
     return;
   }
   if (const auto state = state_of(frame)) return take_state(*state);
+  if (is_emulated_pong(frame)) emulated_ = true;
   const auto answer = answer_of(frame);
   if (answer == Command::kReset) {
     status_ = fmt::format("{}: the board was reset: {}", bus_->name(), reset_cause(frame));
@@ -104,7 +111,8 @@ void ReKick::take_state(const State& state) {
                          .armed = state.supply_on,
                          .fault = state.error ? KickerFault::kCharger : KickerFault::kNone,
                          .charge_modelled = false,
-                         .voltage_v = state.capacitor_v};
+                         .voltage_v = state.capacitor_v,
+                         .emulated = emulated_};
 }
 
 /// Texts come in pieces of seven characters and end with a line.

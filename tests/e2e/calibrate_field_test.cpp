@@ -19,8 +19,8 @@ using testing::Not;
 class CalibrateInField : public testing::Test {
  protected:
   std::unique_ptr<Program> start(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"calibrate", "run",    "--in",    "field", "--robot", "newcomer",
-                                       "--out-dir", "drives", "--kicks", "2",     "--lobs",  "2"};
+    std::vector<std::string> arguments{"calibrate", "run",    "--in",    "field", "--rehearse", "--robot", "newcomer",
+                                       "--out-dir", "drives", "--kicks", "2",     "--lobs",     "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return std::make_unique<Program>("trivela", arguments, folder_.path(), [this] { person_.become_input(); });
   }

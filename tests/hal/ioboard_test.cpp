@@ -75,6 +75,17 @@ TEST_F(IoBoardTest, ASampleIsOfTheInstantOfItsQuestion) {
   EXPECT_EQ(sample().t_ns, 21 * kMs);
 }
 
+TEST_F(IoBoardTest, IsEmulatedWhereItsVersionSaysSo) {
+  bring_up();
+  answer(switches(1, 1), 2);
+  EXPECT_FALSE(sample().emulated);
+  make();
+  step(0);
+  answer(encode({Command::kVersion, {'e', 'm', 'u', 'l', 'a', 't', 'e', 'd'}}), 1);
+  answer(switches(1, 1), 2);
+  EXPECT_TRUE(sample().emulated);
+}
+
 TEST_F(IoBoardTest, ChargesEvenlyFromTheFirstAnswerAndFromEachShot) {
   bring_up({.charge_time_s = 2.0});
   answer(switches(1, 1), 2);
@@ -98,6 +109,15 @@ TEST_F(IoBoardTest, AShotIsOneWriteOfTheBoardsFrame) {
   bring_up();
   EXPECT_EQ(board_->shoot(100.0, 5 * kMs), "");
   EXPECT_THAT(end_.written, ElementsAre(shot(100)));
+}
+
+TEST_F(IoBoardTest, SendsNoShotIntoALineThatHasNotAnsweredForAWhile) {
+  bring_up();  // it was asked for its switches after 1 ms
+  EXPECT_EQ(board_->shoot(100.0, 31 * kMs), "");
+  EXPECT_EQ(board_->shoot(100.0, 32 * kMs), "the board has not answered for 31 ms");
+  answer(switches(1, 1), 33);
+  EXPECT_EQ(board_->shoot(100.0, 34 * kMs), "");
+  EXPECT_EQ(std::ranges::count(end_.written, shot(100)), 2);
 }
 
 TEST_F(IoBoardTest, AShotIsNeverSentAgain) {

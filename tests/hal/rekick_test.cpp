@@ -68,6 +68,18 @@ TEST_F(ReKickTest, OvervoltageErrorAndMissingSupplyShow) {
   EXPECT_EQ(said.fault, KickerFault::kCharger);
 }
 
+TEST_F(ReKickTest, IsEmulatedWhereItsAnswerToAPingSaysSo) {
+  bring_up();
+  const auto emulated_after = [this](const can::Frame& pong, std::int64_t t_ms) {
+    hear(pong, t_ms);
+    step(t_ms + 20);
+    hear(frame_of({.supply_on = true}), t_ms + 21);
+    return sample().emulated;
+  };
+  EXPECT_FALSE(emulated_after(from_board({0xF1}), 20));
+  EXPECT_TRUE(emulated_after(emulated_pong(), 60));
+}
+
 TEST_F(ReKickTest, AKickIsOneFrame) {
   bring_up();
   EXPECT_EQ(board_.shoot(30.0, 5 * kMs), "");
@@ -84,6 +96,16 @@ TEST_F(ReKickTest, RefusesAKickThatComesTooSoonOrIsOutOfRange) {
   EXPECT_EQ(board_.shoot(120.0, 1300 * kMs), "set-point 120 is a pulse of 4000 us, the board's are 1 to 3499");
   EXPECT_NE(board_.shoot(std::nan(""), 1300 * kMs), "");
   EXPECT_EQ(end_.written.size(), 2u);
+}
+
+TEST_F(ReKickTest, SendsNoKickToABusThatHasNotAnsweredForAWhile) {
+  bring_up();
+  step(20);  // asks
+  end_.written.clear();
+  EXPECT_EQ(board_.shoot(30.0, 51 * kMs), "the board has not answered for 31 ms");
+  EXPECT_TRUE(end_.written.empty());
+  hear(frame_of({.supply_on = true, .capacitor_v = 330.0}), 52);
+  EXPECT_EQ(board_.shoot(30.0, 53 * kMs), "");
 }
 
 TEST_F(ReKickTest, AsksAgainAndIsLostAfterASilence) {
