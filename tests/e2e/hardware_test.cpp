@@ -114,7 +114,7 @@ TEST_F(Hardware, ItListsWhatIsThereAndFailsWhereADeviceIsNot) {
       start({"hardware", "--set", "domain.domain_id=64", "--set", "domain.tag=\"hardware\"", "--set",
              "hal.kicker=\"rekick\"", "--set", "hal.rekick.port=\"" + rekick.address() + "\"", "--seconds", "1"});
   EXPECT_EQ(trivela->wait(), 1) << trivela->errors();
-  EXPECT_THAT(trivela->output(), testing::ContainsRegex("wheels +sim +NOT THERE"));
+  EXPECT_THAT(trivela->output(), testing::ContainsRegex("wheels +bus +NOT THERE"));
   EXPECT_THAT(trivela->output(), HasSubstr("rekick on " + rekick.address()));
   EXPECT_THAT(trivela->output(), HasSubstr("volts are measured"));
   EXPECT_THAT(trivela->output(), testing::ContainsRegex("kicker: charge [01][.][0-9]+, [0-9]+ V, armed"));
