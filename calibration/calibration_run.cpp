@@ -230,4 +230,14 @@ DriveSummary CalibrationRun::straight() {
   return summary;
 }
 
+std::vector<DriveSummary> CalibrationRun::evening(const std::function<void(const DriveSummary&)>& said) {
+  std::vector<DriveSummary> drives;
+  for (const auto step : {&CalibrationRun::standing, &CalibrationRun::delay, &CalibrationRun::direction,
+                          &CalibrationRun::lateral, &CalibrationRun::turn, &CalibrationRun::straight}) {
+    drives.push_back((this->*step)());
+    if (said) said(drives.back());
+  }
+  return drives;
+}
+
 }  // namespace trivela::calibration

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ class CalibrationRun {
   DriveSummary lateral();    ///< alpha (section 3.2)
   DriveSummary turn();       ///< beta (section 3.3)
   DriveSummary straight();   ///< transfer, forward and backward
+
+  /// All of them in that order, each said when it is done.
+  std::vector<DriveSummary> evening(const std::function<void(const DriveSummary&)>& said);
 
   const RobotUpdate& robot() const { return update_; }
 

@@ -14,18 +14,23 @@ class GyroWheels final : public Wheels {
  public:
   static constexpr std::int64_t kSameInstant_ns = 50'000'000;
 
-  GyroWheels(std::unique_ptr<Wheels> wheels, std::unique_ptr<Gyro> gyro)
-      : wheels_(std::move(wheels)), gyro_(std::move(gyro)) {}
+  /// `emulated`: the gyro is a program.
+  GyroWheels(std::unique_ptr<Wheels> wheels, std::unique_ptr<Gyro> gyro, bool emulated = false)
+      : wheels_(std::move(wheels)), gyro_(std::move(gyro)), emulated_(emulated) {}
 
   bool connected(std::chrono::nanoseconds timeout) override { return wheels_->connected(timeout); }
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override { wheels_->drive(set_point, t_ns); }
+  bool drive_wheel(int wheel, double radps, std::int64_t t_ns) override {
+    return wheels_->drive_wheel(wheel, radps, t_ns);
+  }
   bool ended() const override { return wheels_->ended(); }
   std::string status() const override;
 
  private:
   std::unique_ptr<Wheels> wheels_;
   std::unique_ptr<Gyro> gyro_;
+  bool emulated_;
 };
 
 }  // namespace trivela::hal

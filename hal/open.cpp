@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "hal/board/board_kicker.hpp"
@@ -37,9 +39,16 @@ std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Own
   return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
 }
 
+/// Whether the port's other end is a program.
+bool is_pseudo_terminal(const std::string& port) {
+  std::error_code none;
+  return std::filesystem::canonical(port, none).string().starts_with("/dev/pts/");
+}
+
 std::unique_ptr<Wheels> with_gyro(const config::WheelsGyro&, std::unique_ptr<Wheels> wheels) { return wheels; }
 std::unique_ptr<Wheels> with_gyro(const config::MtiDevice& gyro, std::unique_ptr<Wheels> wheels) {
-  return std::make_unique<GyroWheels>(std::move(wheels), std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro));
+  return std::make_unique<GyroWheels>(std::move(wheels), std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro),
+                                      is_pseudo_terminal(gyro.port));
 }
 
 std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {

@@ -36,6 +36,10 @@ class Wheels {
   /// is not finite is one of zero.
   virtual void drive(const kicking::Twist& set_point, std::int64_t t_ns) = 0;
 
+  /// Asks one wheel, counted from 0, for a speed and the others for rest, as drive() does for the base. False: this
+  /// device takes velocities of the base alone, and was told nothing.
+  virtual bool drive_wheel(int /*wheel*/, double /*radps*/, std::int64_t /*t_ns*/) { return false; }
+
   /// No sample will ever come again.
   virtual bool ended() const = 0;
 

@@ -44,7 +44,15 @@ config::Settings settings_of_drive(const calibration::DrivePlan& plan, const cal
   return lockstep_settings(std::move(settings), -1, record.log);
 }
 
-/// Takes what the drive's log and scans hold into its record.
+}  // namespace
+
+calibration::DriveRecord drive_files(const fs::path& folder, const calibration::DrivePlan& plan) {
+  calibration::DriveRecord record;
+  record.log = (folder / (plan.name + ".db")).string();
+  if (plan.laser) record.scans = (folder / (plan.name + ".scans.db")).string();
+  return record;
+}
+
 void read_back(calibration::DriveRecord& record) {
   const evaluator::log::Reader reader{record.log};
   record.kicks = reader.kicks();
@@ -57,8 +65,6 @@ void read_back(calibration::DriveRecord& record) {
   record.lobs = calibration::lobs_of_scans(scans);
 }
 
-}  // namespace
-
 DriveMatches::DriveMatches(sim::Scenario world, config::Settings settings, fs::path folder, fs::path robot_file,
                            SignalInbox& signals)
     : world_(std::move(world)),
@@ -68,9 +74,7 @@ DriveMatches::DriveMatches(sim::Scenario world, config::Settings settings, fs::p
       signals_(signals) {}
 
 calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
-  calibration::DriveRecord record;
-  record.log = (folder_ / (plan.name + ".db")).string();
-  if (plan.laser) record.scans = (folder_ / (plan.name + ".scans.db")).string();
+  calibration::DriveRecord record = drive_files(folder_, plan);
   const fs::path scenario_file = folder_ / (plan.name + ".scenario.toml");
   refuse_written(record.scans);
   refuse_written(scenario_file);

@@ -9,6 +9,12 @@
 
 namespace trivela::cli {
 
+/// The files of a drive in the folder, by their names; nothing is read.
+calibration::DriveRecord drive_files(const std::filesystem::path& folder, const calibration::DrivePlan& plan);
+
+/// Takes what the drive's log and scans hold into its record.
+void read_back(calibration::DriveRecord& record);
+
 /// Plays matches in lockstep through the real nodes, one after another; each leaves NAME.db, with a laser
 /// NAME.scans.db, and the scenario that it played, NAME.scenario.toml, in one folder.
 class DriveMatches : public calibration::DriveSource {

@@ -7,6 +7,7 @@
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
@@ -25,24 +26,6 @@ namespace fs = std::filesystem;
 // What a calibration is held to (medians over 3 to 8 m, stopped, without noise).
 constexpr double kHeightGate_m = 0.10;
 constexpr double kSidewaysGate_m = 0.15;
-
-struct RunFlags {
-  std::string in;
-  std::string robot = "simulated";
-  std::string start = config::shipped("robots/uncalibrated.toml").string();
-  std::string scenario = config::shipped("scenarios/calibration.toml").string();
-  std::string check = config::shipped("scenarios/noise_free.toml").string();
-  std::string config = config::shipped("default.toml").string();
-  std::string team;          ///< scenario of the matches
-  std::uint32_t number = 1;  ///< whose kicker it is
-  std::string out_dir = "calibration";
-  std::string out;
-  std::string log_level = "warn";
-  std::int64_t seed = 1;
-  calibration::CalibrationEffort effort;
-  bool in_process = false;
-  bool json = false;
-};
 
 /// Where the robot's file goes. Throws UsageError where it exists.
 fs::path robot_file(const RunFlags& flags) {
@@ -84,7 +67,8 @@ experiment::EveningOptions options_of(const RunFlags& flags, const sim::Scenario
           .date = today()};
 }
 
-/// Where the robot's file can be written and is not yet. Makes --out-dir.
+}  // namespace
+
 fs::path place_of(const RunFlags& flags) {
   robot_target(flags.robot, flags.out);  // refuses what is no name
   fs::path file = robot_file(flags);
@@ -95,16 +79,15 @@ fs::path place_of(const RunFlags& flags) {
   return file;
 }
 
-calibration::DrivePlan check_plan(const RunFlags& flags, const sim::Scenario& world) {
+calibration::DrivePlan check_plan(const RunFlags& flags, bool laser) {
   return {.name = "6_check",
           .policy = kicking::PolicyName::kStopped,
-          .laser = world.laser.enabled,
+          .laser = laser,
           .possessions = flags.effort.check_kicks,
           .seed = flags.seed,
           .settings = {}};
 }
 
-/// Does the calibration hold what it is held to? If not, says so.
 bool passes_gate(const experiment::AimErrors& observed) {
   if (observed.median_height_m <= kHeightGate_m && observed.median_sideways_m <= kSidewaysGate_m) return true;
   fmt::print(stderr, "trivela: the check missed its gate: {} m in height and {} m sideways\n", kHeightGate_m,
@@ -112,7 +95,11 @@ bool passes_gate(const experiment::AimErrors& observed) {
   return false;
 }
 
-int calibrate(const RunFlags& flags) {
+namespace {
+
+int calibrate_in_simulation(const RunFlags& flags) {
+  if (!flags.overrides.empty()) throw UsageError{"--set goes with --in field"};
+  if (flags.rehearse) throw UsageError{"--rehearse goes with --in field"};
   const Worlds worlds = worlds_of(flags);
   const experiment::EveningOptions options = options_of(flags, worlds.drives);
   const config::Settings& settings = options.settings;
@@ -130,7 +117,8 @@ int calibrate(const RunFlags& flags) {
       options, *source_in(worlds.drives), [&](const calibration::DriveSummary& summary) { report.add(summary); });
   evening.robot.write(file);
 
-  const calibration::DriveRecord played = source_in(worlds.check)->play(check_plan(flags, worlds.check), evening.robot);
+  const calibration::DriveRecord played =
+      source_in(worlds.check)->play(check_plan(flags, worlds.check.laser.enabled), evening.robot);
   std::error_code none;
   fs::remove(part, none);
   const experiment::AimErrors observed = experiment::observed_errors(played.kicks, settings);
@@ -140,7 +128,9 @@ int calibrate(const RunFlags& flags) {
 }
 
 void add_place_options(CLI::App& verb, RunFlags& flags) {
-  verb.add_option("--in", flags.in, "the world: simulation")->required()->check(CLI::IsMember({"simulation"}));
+  verb.add_option("--in", flags.in, "simulation, or field: on a robot, asking a person for each step")
+      ->required()
+      ->check(CLI::IsMember({"simulation", "field"}));
   verb.add_option("--robot", flags.robot, "name of the calibrated robot")->capture_default_str();
   verb.add_option("--seed", flags.seed, "same seed, same drives")->check(CLI::Range(0, 1000000))->capture_default_str();
   verb.add_option("--out-dir", flags.out_dir, "folder of the records")->capture_default_str();
@@ -156,6 +146,7 @@ void add_drive_options(CLI::App& verb, RunFlags& flags) {
       ->check(readable_file());
   verb.add_option("--number", flags.number, "which robot of the team")->check(CLI::Range(1, 5))->capture_default_str();
   verb.add_option("--config", flags.config, "configuration of the nodes")->capture_default_str();
+  verb.add_option("--set", flags.overrides, "field: one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
 }
 
 void add_effort_options(CLI::App& verb, calibration::CalibrationEffort& effort) {
@@ -183,17 +174,21 @@ void add_calibrate_run(CLI::App& calibrate_verb, int& exit_code) {
       "lateral\n"
       "passes (alpha), turns on the spot (beta), straight runs (transfer), and a check with the finished robot. Logs,\n"
       "scans and scenarios stay in --out-dir. Exit code 3: the check was off by more than 0.10 m in height or 0.15 m\n"
-      "sideways (medians).");
+      "sideways (medians).\n"
+      "--in field asks before each step and goes on, started again, where it ended.");
   add_place_options(*verb, *flags);
   add_drive_options(*verb, *flags);
   add_effort_options(*verb, flags->effort);
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+  verb->add_flag("--rehearse", flags->rehearse, "field: the same questions, played in the world of --scenario");
   verb->add_flag("--in-process", flags->in_process,
                  "without bus, nodes and records: the same robot in seconds; nothing but its file is written");
   verb->add_flag("--json", flags->json, "report as JSON on standard output");
-  verb->callback([flags, &exit_code] { exit_code = calibrate(*flags); });
+  verb->callback([flags, &exit_code] {
+    exit_code = flags->in == "field" ? calibrate_in_field(*flags) : calibrate_in_simulation(*flags);
+  });
 }
 
 }  // namespace trivela::cli

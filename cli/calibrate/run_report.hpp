@@ -47,12 +47,21 @@ class RunReport {
     document_["drives"].push_back(json_of_drive(summary));
   }
 
+  /// On a field, where nobody knows the truth. `check`: what was played, in words.
+  void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
+              const std::string& check = "stopped, as the robot saw it") {
+    begin(update, file, observed);
+    if (json_) {
+      fmt::print("{}", evaluator::json_text(document_));
+      return;
+    }
+    say_changes(update, observed, check);
+    fmt::print("\n{}\n", file);
+  }
+
   void finish(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed,
               const experiment::AimErrors& truth, const std::vector<experiment::WorldFigure>& world) {
-    document_["file"] = file;
-    document_["robot"] = update.robot().name;
-    document_["changes"] = update.changes();
-    document_["check"] = json_of_aim(observed);
+    begin(update, file, observed);
     evaluator::Json simulator{{"check", json_of_aim(truth)}, {"figures", evaluator::Json::array()}};
     for (const experiment::WorldFigure& figure : world) {
       simulator["figures"].push_back({{"key", figure.key},
@@ -65,9 +74,7 @@ class RunReport {
       fmt::print("{}", evaluator::json_text(document_));
       return;
     }
-    fmt::print("\n");
-    for (const std::string& line : update.changes()) fmt::print("{}\n", line);
-    fmt::print("\ncheck, stopped and without noise, as the robot saw it: {}\n", text_of_aim(observed));
+    say_changes(update, observed, "stopped and without noise, as the robot saw it");
     fmt::print("\nThe simulator's truth, which no fit has seen\ncheck: {}\n", text_of_aim(truth));
     fmt::print("{:<26}{:>12}{:>12}{:>12}\n", "", "calibrated", "world", "difference");
     for (const experiment::WorldFigure& figure : world) {
@@ -78,6 +85,20 @@ class RunReport {
   }
 
  private:
+  void begin(const calibration::RobotUpdate& update, const std::string& file, const experiment::AimErrors& observed) {
+    document_["file"] = file;
+    document_["robot"] = update.robot().name;
+    document_["changes"] = update.changes();
+    document_["check"] = json_of_aim(observed);
+  }
+
+  static void say_changes(const calibration::RobotUpdate& update, const experiment::AimErrors& observed,
+                          const std::string& check) {
+    fmt::print("\n");
+    for (const std::string& line : update.changes()) fmt::print("{}\n", line);
+    fmt::print("\ncheck, {}: {}\n", check, text_of_aim(observed));
+  }
+
   bool json_;
   evaluator::Json document_{{"drives", evaluator::Json::array()}};
 };

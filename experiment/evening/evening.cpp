@@ -31,8 +31,7 @@ sim::Scenario evening_scenario(const sim::Scenario& evening, const sim::Scenario
   return scenario;
 }
 
-config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario) {
-  settings.run.cycle_s = settings.policy.cycle_s = scenario.cycle_s;
+config::Settings evening_settings(config::Settings settings) {
   settings.kick_decision.shadows = false;
   // The check aims at a height and stands for it, whatever the stopped policy plays by.
   kicking::PolicyConfig& policy = settings.policy;
@@ -41,6 +40,12 @@ config::Settings evening_settings(config::Settings settings, const sim::Scenario
   policy.settle_s = policy.test_drive.settle_s;
   policy.rest_speed_mps = policy.test_drive.rest_speed_mps;
   policy.rest_turn_rate_radps = policy.test_drive.rest_turn_rate_radps;
+  return settings;
+}
+
+config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario) {
+  settings = evening_settings(std::move(settings));
+  settings.run.cycle_s = settings.policy.cycle_s = scenario.cycle_s;
   const double ball_y_m = scenario.field.goal_line_y_m - scenario.possession.goal_distance_max_m;
   settings.scan_recorder.mount_x_m = scenario.laser.y_m - ball_y_m;
   settings.scan_recorder.mount_z_m = scenario.laser.z_m;
@@ -64,13 +69,7 @@ Evening play_evening(const EveningOptions& options, calibration::DriveSource& so
                                   options.effort,
                                   options.seed * 100,
                                   calibration::RobotUpdate{robot, command, options.date}};
-  std::vector<calibration::DriveSummary> drives;
-  for (const auto step : {&calibration::CalibrationRun::standing, &calibration::CalibrationRun::delay,
-                          &calibration::CalibrationRun::direction, &calibration::CalibrationRun::lateral,
-                          &calibration::CalibrationRun::turn, &calibration::CalibrationRun::straight}) {
-    drives.push_back((run.*step)());
-    if (said) said(drives.back());
-  }
+  std::vector<calibration::DriveSummary> drives = run.evening(said);
   return {run.robot(), std::move(drives)};
 }
 

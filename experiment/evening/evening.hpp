@@ -37,7 +37,10 @@ EveningOptions default_evening();
 /// drifts.
 sim::Scenario evening_scenario(const sim::Scenario& evening, const sim::Scenario& world, std::uint32_t number = 1);
 
-/// The settings that all matches of an evening share. The scanner's place beside the field is measured with a tape: it
+/// The settings that all drives share, on a field too: no shadows, and a check that stands and aims as the drives do.
+config::Settings evening_settings(config::Settings settings);
+
+/// The same in a world, by its cycle. The scanner's place beside the field is measured with a tape: it
 /// is the operator's knowledge.
 config::Settings evening_settings(config::Settings settings, const sim::Scenario& scenario);
 

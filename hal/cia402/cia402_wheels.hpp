@@ -37,6 +37,10 @@ class Cia402Wheels final : public Wheels {
   void drive(const kicking::Twist& set_point, std::int64_t /*t_ns*/) override {
     thread_.with_client([&] { drives_.drive(set_point); });
   }
+  bool drive_wheel(int wheel, double radps, std::int64_t /*t_ns*/) override {
+    thread_.with_client([&] { drives_.drive_wheel(wheel, radps); });
+    return true;
+  }
   bool ended() const override { return false; }
   std::string status() const override {
     return thread_.with_client([this] { return drives_.status(); });

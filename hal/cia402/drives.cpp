@@ -113,7 +113,8 @@ void Drives::finish_sample() {
   sample_ = WheelSample{.t_ns = *std::exchange(sync_ns_, std::nullopt),
                         .wheel_count = kinematics_.wheel_count(),
                         .wheel_radps = {},
-                        .gyro_radps = std::nullopt};
+                        .gyro_radps = std::nullopt,
+                        .emulated = settings_.port.find('/') != std::string::npos};  // no interface's name has one
   for (std::size_t i = 0; i < drives_.size(); ++i) sample_->wheel_radps[i] = drives_[i].wheel_radps();
 }
 
@@ -130,11 +131,10 @@ void Drives::cycle(std::int64_t now_ns) {
 
 /// Of each drive; scaled down as a whole where one would turn too fast.
 std::vector<double> Drives::motor_rpm() const {
-  const auto wheel_radps = kinematics_.wheel_speeds_radps(set_point_);
   std::vector<double> rpm(drives_.size(), 0.0);
   double fastest = 0.0;
   for (std::size_t i = 0; i < rpm.size() && up(); ++i) {
-    rpm[i] = drives_[i].motor_rpm(wheel_radps[i]);
+    rpm[i] = drives_[i].motor_rpm(wheel_radps_[i]);
     fastest = std::max(fastest, std::abs(rpm[i]));
   }
   if (!std::isfinite(fastest)) return std::vector<double>(drives_.size(), 0.0);
@@ -145,7 +145,12 @@ std::vector<double> Drives::motor_rpm() const {
 void Drives::drive(const kicking::Twist& set_point) {
   const bool finite =
       std::isfinite(set_point.vx_mps) && std::isfinite(set_point.vy_mps) && std::isfinite(set_point.omega_radps);
-  set_point_ = finite ? set_point : kicking::Twist{};
+  wheel_radps_ = kinematics_.wheel_speeds_radps(finite ? set_point : kicking::Twist{});
+}
+
+void Drives::drive_wheel(int wheel, double radps) {
+  wheel_radps_ = {};
+  wheel_radps_.at(static_cast<std::size_t>(wheel)) = std::isfinite(radps) ? radps : 0.0;
 }
 
 void Drives::stop() noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -33,6 +34,9 @@ class Drives final : public LineClient {
   /// From the next cycle on; one that is not finite is standstill.
   void drive(const kicking::Twist& set_point);
 
+  /// One wheel's speed [rad/s], the others at rest; one that is not finite is 0.
+  void drive_wheel(int wheel, double radps);
+
   /// Every drive is told a quick stop, and nothing is sent any more.
   void stop() noexcept;
 
@@ -60,8 +64,8 @@ class Drives final : public LineClient {
   config::Cia402Device settings_;
   kicking::OmniKinematics kinematics_;
   std::vector<Drive> drives_;
-  Drive::Frames out_;  // to be sent
-  kicking::Twist set_point_;
+  Drive::Frames out_;                    // to be sent
+  std::array<double, 4> wheel_radps_{};  // asked for
   bool open_ = false;
   bool stopped_ = false;
   std::int64_t next_open_ns_ = 0;

@@ -49,6 +49,15 @@ std::array<double, 4> OmniKinematics::wheel_speeds_radps(const Twist& twist) con
   return speeds;
 }
 
+std::optional<Twist> OmniKinematics::one_wheel(int wheel, double radps) const {
+  assert(wheel >= 0 && wheel < wheel_count());
+  const Eigen::VectorXd alone = radps * Eigen::VectorXd::Unit(wheel_count(), wheel);
+  const Eigen::Vector3d v = backward_ * alone;
+  constexpr double kStill_ratio = 1e-9;
+  if ((forward_ * v - alone).norm() > kStill_ratio * std::abs(radps)) return std::nullopt;
+  return Twist{v.x(), v.y(), v.z()};
+}
+
 Eigen::Vector3d OmniKinematics::twist_variance(double wheel_sd_radps) const {
   return (backward_ * backward_.transpose()).diagonal() * (wheel_sd_radps * wheel_sd_radps);
 }

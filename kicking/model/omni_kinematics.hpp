@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,10 @@ class OmniKinematics {
 
   /// Speeds of the wheels that give the twist [rad/s]; those beyond wheel_count() are 0.
   std::array<double, 4> wheel_speeds_radps(const Twist& twist) const;
+
+  /// The twist at which `wheel`, counted from 0, turns with `radps` and no other does. None: others would, as always
+  /// where there are four.
+  std::optional<Twist> one_wheel(int wheel, double radps) const;
 
   /// Variances (vx, vy, omega) that independent wheel noise of standard deviation `wheel_sd_radps` leaves in twist().
   Eigen::Vector3d twist_variance(double wheel_sd_radps) const;

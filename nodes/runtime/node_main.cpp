@@ -35,12 +35,12 @@ void NodeContext::idle(std::chrono::nanoseconds timeout) const {
   poll(&requested, 1, static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()));
 }
 
-namespace {
-
 bus::DomainConfig domain_of(const config::Domain& domain) {
   return domain.dds_file.empty() ? bus::loopback(domain.domain_id, domain.tag)
                                  : bus::from_file(domain.domain_id, domain.dds_file);
 }
+
+namespace {
 
 std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string& level) {
   const auto errors = std::make_shared<spdlog::sinks::stderr_sink_mt>();

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "bus/domain.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
@@ -10,6 +11,9 @@ namespace trivela::nodes {
 /// bus, runs `body` until it returns or SIGTERM or SIGINT requests the stop, and turns exceptions into one line on
 /// standard error. Returns the exit code: 0 stopped, 1 failed, 2 bad usage.
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body);
+
+/// Where the nodes of these settings meet.
+bus::DomainConfig domain_of(const config::Domain& domain);
 
 /// Runs one node until the stop: in listeners where the settings allow it, in a waitset thread in lockstep, where
 /// reactions wait for the other inputs of a cycle. In real time an InputWatch warns of inputs that fall silent.

@@ -187,6 +187,7 @@ TEST(Usage, TheHelpGroupsEveryVerbByWhatAPersonWantsWithALineEach) {
   EXPECT_THAT(verbs["Compare:"], Contains("compare"));
   EXPECT_THAT(verbs["After a match:"], Contains("report"));
   EXPECT_THAT(verbs["On the robot:"], Contains("predict"));
+  EXPECT_THAT(verbs["On the robot:"], Contains("hardware"));
   EXPECT_THAT(help.output(), testing::Not(HasSubstr("Subcommands")));
 }
 

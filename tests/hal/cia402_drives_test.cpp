@@ -67,6 +67,17 @@ TEST_F(Cia402DrivesTest, EachWheelTurnsByItsShareOfTheMotion) {
     EXPECT_EQ(bus_.drive(node).target_rpm(), std::lround(wheels[node - 1U] * 12.0 * kRpm));
 }
 
+TEST_F(Cia402DrivesTest, OneWheelTurnsAlone) {
+  bus_.bring_up();
+  bus_.client->drive_wheel(1, 3.0);
+  bus_.run(1.0);
+  for (const std::uint8_t node : {1, 2, 3})
+    EXPECT_EQ(bus_.drive(node).target_rpm(), node == 2 ? std::lround(3.0 * 12.0 * kRpm) : 0);
+  bus_.client->drive_wheel(1, std::nan(""));
+  bus_.run(1.0);
+  EXPECT_EQ(bus_.drive(2).target_rpm(), 0);
+}
+
 TEST_F(Cia402DrivesTest, StandsStillUntilEveryDriveIsInOperation) {
   bus_.drive(2).faults.deaf = true;
   bus_.client->drive({1.0, 0.0, 0.0});

@@ -54,6 +54,20 @@ TEST(OmniKinematics, TurnsAMotionIntoTheSpeedsThatTheEquationGives) {
   }
 }
 
+TEST(OmniKinematics, OneOfThreeWheelsTurnsAloneAndOneOfFourNever) {
+  const WheelBase base;
+  const auto twist = OmniKinematics{base}.one_wheel(1, 2.0);
+  ASSERT_TRUE(twist);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double angle = base.wheel_angles_rad[i];
+    const double radps = (-std::sin(angle) * twist->vx_mps + std::cos(angle) * twist->vy_mps +
+                          base.wheel_distance_m * twist->omega_radps) /
+                         base.wheel_radius_m;
+    EXPECT_NEAR(radps, i == 1 ? 2.0 : 0.0, 1e-9);
+  }
+  EXPECT_FALSE(OmniKinematics{kFour}.one_wheel(0, 2.0));
+}
+
 TEST(OmniKinematics, AFourthWheelSpreadsAnErrorInsteadOfPassingItOn) {
   const OmniKinematics kinematics{kFour};
   auto w = wheel_speeds_radps(kFour, {0.0, 1.0, 0.0});

@@ -1,0 +1,55 @@
+#include "cli/calibrate/asked_drives.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/calibrate/drive_match.hpp"
+#include "cli/output.hpp"
+#include "config/parse_number.hpp"
+
+namespace trivela::cli {
+namespace {
+
+std::string answer_to(Person& person, const std::string& question, const calibration::EveningBook& book) {
+  const auto answer = person.ask(question);
+  if (!answer || *answer == "q")
+    throw LeftForToday{
+        fmt::format("left for today; the same command goes on from here, with {}", book.folder().string())};
+  return *answer;
+}
+
+}  // namespace
+
+double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::EveningBook& book,
+               Person& person) {
+  if (const auto known = book.measured(measure.name)) {
+    say(fmt::format("{}: {:.3f} (measured before)\n", measure.question, *known));
+    return *known;
+  }
+  for (;;) {
+    const std::string answer = answer_to(person, fmt::format("{} [{:.3f}]: ", measure.question, proposed), book);
+    const auto value = answer.empty() ? std::optional{proposed} : config::parse_number(answer);
+    if (value && *value >= measure.least_m && *value <= measure.most_m) {
+      book.measure(measure.name, *value);
+      return *value;
+    }
+    say(fmt::format("'{}' is no length from {:.1f} to {:.1f} m.\n", answer, measure.least_m, measure.most_m));
+  }
+}
+
+calibration::DriveRecord AskedDrives::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
+  if (book_.finished(plan.name)) {
+    say(fmt::format("{}: played before, from its records\n", plan.name));
+    calibration::DriveRecord record = drive_files(book_.folder(), plan);
+    read_back(record);
+    return record;
+  }
+  if (calibration::set_aside(book_.folder(), plan.name) > 0)
+    say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
+  say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
+  answer_to(person_, "Enter: begin; q: leave for today: ", book_);
+  calibration::DriveRecord record = played_by_.play(plan, robot);
+  book_.finish(plan.name);
+  return record;
+}
+
+}  // namespace trivela::cli

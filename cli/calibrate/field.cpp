@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "cli/calibrate/asked_drives.hpp"
+#include "cli/calibrate/drive_match.hpp"
+#include "cli/calibrate/robot_drives.hpp"
+#include "cli/calibrate/robot_file.hpp"
+#include "cli/calibrate/run_flags.hpp"
+#include "cli/calibrate/run_report.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "config/scenario.hpp"
+#include "experiment/evening/evening.hpp"
+
+namespace trivela::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the evening takes place.
+struct Field {
+  config::Settings settings;
+  std::optional<sim::Scenario> world;        ///< a rehearsal's
+  std::optional<sim::Scenario> check_world;  ///< the same
+};
+
+Field field_of(const RunFlags& flags) {
+  Field field{config::load_settings(flags.config), {}, {}};
+  config::override_settings(field.settings, flags.overrides, "--set");
+  field.settings.run.log_level = flags.log_level;
+  if (!flags.rehearse) {
+    field.settings = experiment::evening_settings(std::move(field.settings));
+    return field;
+  }
+  field.world = config::load_scenario(flags.scenario);
+  field.check_world = config::load_scenario(flags.check);
+  field.settings = experiment::evening_settings(std::move(field.settings), *field.world);
+  return field;
+}
+
+void refuse_flags_of_simulation(const RunFlags& flags) {
+  if (flags.in_process) throw UsageError{"--in-process goes with --in simulation: a field has its nodes"};
+  if (!flags.team.empty())
+    throw UsageError{"--team goes with --in simulation: on a field the robot is as fast as it is"};
+  if (flags.json) throw UsageError{"--json goes with --in simulation: on a field standard output is for questions"};
+}
+
+/// What an evening must have been begun with to go on: the rest is of no consequence for its records.
+std::string arguments_of(const RunFlags& flags, bool rehearsal) {
+  return fmt::format("--in field{} --robot {} --seed {} --kicks {} --lobs {} --drive-kicks {} --turn-kicks {}",
+                     rehearsal ? " (rehearsal)" : "", flags.robot, flags.seed, flags.effort.kicks, flags.effort.lobs,
+                     flags.effort.drive_kicks, flags.effort.turn_kicks);
+}
+
+calibration::RobotUpdate robot_of(const RunFlags& flags, bool rehearsal) {
+  config::Robot robot = config::load_robot(flags.start);
+  robot.source = fmt::format("{}: trivela calibrate run --in field; what [calibration] does not name comes from: {}",
+                             rehearsal ? "simulated" : "measured", robot.source);
+  robot.name = flags.robot;
+  robot.calibration.reset();
+  return {robot, fmt::format("trivela calibrate run --in field --robot {}", flags.robot), today()};
+}
+
+std::unique_ptr<calibration::DriveSource> drives_in(const std::optional<sim::Scenario>& world,
+                                                    const config::Settings& settings, const fs::path& folder,
+                                                    const fs::path& part, SignalInbox& signals) {
+  if (world) return std::make_unique<DriveMatches>(*world, settings, folder, part, signals);
+  return std::make_unique<RobotDrives>(settings, folder, part, signals);
+}
+
+int play_in(Field field, const RunFlags& flags, const fs::path& file, SignalInbox& signals) {
+  const fs::path folder = fs::absolute(flags.out_dir);
+  fs::path part = file;
+  part += ".part";  // until every figure is in it
+  calibration::EveningBook book{folder, arguments_of(flags, field.world.has_value())};
+  Person person{signals};
+  config::Settings& settings = field.settings;
+  const double standing_m = ask_for(calibration::standing_distance(),
+                                    field.world ? field.world->possession.goal_distance_max_m : 6.0, book, person);
+  settings.scan_recorder.mount_x_m =
+      ask_for(calibration::laser_ahead(), settings.scan_recorder.mount_x_m, book, person);
+  settings.scan_recorder.mount_z_m =
+      ask_for(calibration::laser_height(), settings.scan_recorder.mount_z_m, book, person);
+  RunReport report{false};
+  const auto played = drives_in(field.world, settings, folder, part, signals);
+  AskedDrives asked{*played, settings, book, person};
+  calibration::CalibrationRun run{asked,        standing_m,       settings,
+                                  flags.effort, flags.seed * 100, robot_of(flags, field.world.has_value())};
+  run.evening([&](const calibration::DriveSummary& summary) {
+    report.add(summary);
+    std::fflush(stdout);
+  });
+  const auto checked_by = drives_in(field.check_world, settings, folder, part, signals);
+  AskedDrives check{*checked_by, settings, book, person};
+  const calibration::DriveRecord checked = check.play(check_plan(flags, false), run.robot());
+  run.robot().write(file);
+  std::error_code none;
+  fs::remove(part, none);
+  const experiment::AimErrors observed = experiment::observed_errors(checked.kicks, settings);
+  report.finish(run.robot(), file.string(), observed);
+  return passes_gate(observed) ? kDone : kDoneWithLoss;
+}
+
+}  // namespace
+
+int calibrate_in_field(const RunFlags& flags) {
+  refuse_flags_of_simulation(flags);
+  if (!Person::is_there())
+    throw std::runtime_error{"--in field asks a person for each step: standard input is no terminal"};
+  Field field = field_of(flags);
+  const fs::path file = place_of(flags);
+  SignalInbox signals;
+  if (field.world) say("A REHEARSAL: the drives are played in the simulator's world.\n");
+  try {
+    return play_in(std::move(field), flags, file, signals);
+  } catch (const LeftForToday& left) {
+    say(fmt::format("{}\n", left.what()));
+    return kFailed;
+  }
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,196 @@
+#include "cli/calibrate/robot_drives.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "bus/reader.hpp"
+#include "cli/calibrate/drive_match.hpp"
+#include "cli/hardware/claims.hpp"
+#include "cli/launch/child_process.hpp"
+#include "cli/launch/config_file.hpp"
+#include "cli/launch/record_lockstep.hpp"
+#include "cli/output.hpp"
+#include "hal/refbox/emulated_box.hpp"
+#include "kicking/geometry/time.hpp"
+#include "nodes/runtime/node_main.hpp"
+
+namespace trivela::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using DriveClock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kStopPatience{10};
+constexpr std::chrono::milliseconds kLookAtNodes{100};
+constexpr const char* kOwnGroup = "224.16.32.1";  // on the loopback, between this process and its refbox node
+
+/// Ends nodes, the recorder last, so that it hears what the others say on their way out.
+class NodesOfADrive {
+ public:
+  NodesOfADrive(const config::Settings& settings, const fs::path& config_file, bool refbox) {
+    const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
+    std::vector<std::string> names{"recorder",      "odometry",      "world_state",
+                                   "kick_decision", "kicker_driver", "shot_observer"};
+    for (const std::string& more : more_nodes(settings)) names.push_back(more);
+    if (refbox) names.emplace_back("refbox");
+    for (const std::string& name : names)
+      nodes_.emplace_back(name, programs / ("trivela-" + name),
+                          std::vector<std::string>{"--config", config_file.string()});
+  }
+  ~NodesOfADrive() { stop(); }
+  NodesOfADrive(const NodesOfADrive&) = delete;
+  NodesOfADrive& operator=(const NodesOfADrive&) = delete;
+
+  /// A node that has ended, as a sentence; empty: all run.
+  std::string casualty() {
+    for (ChildProcess& node : nodes_) {
+      if (node.ended()) return fmt::format("{} died ({})", node.name(), node.how_it_ended());
+    }
+    return {};
+  }
+
+  void stop() {
+    for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].terminate();
+    for (; !nodes_.empty(); nodes_.pop_back()) {
+      if (nodes_.size() == 1) nodes_.back().terminate();
+      nodes_.back().wait(kStopPatience);
+    }
+  }
+
+ private:
+  std::deque<ChildProcess> nodes_;
+};
+
+/// Somebody who says START, and STOP when he goes.
+class OwnReferee {
+ public:
+  OwnReferee() : box_({.port = 0, .groups = {kOwnGroup, "224.16.32.2"}}) {}
+  ~OwnReferee() { say_word(hal::refbox::CommandKind::kStop); }
+  OwnReferee(const OwnReferee&) = delete;
+  OwnReferee& operator=(const OwnReferee&) = delete;
+
+  std::uint16_t port() const { return box_.port(); }
+  bool start_when_connected() {
+    if (!box_.wait_for_teams(1, kLookAtNodes)) return false;
+    say_word(hal::refbox::CommandKind::kFirstHalf);
+    say_word(hal::refbox::CommandKind::kStart);
+    return true;
+  }
+
+ private:
+  void say_word(hal::refbox::CommandKind kind) { box_.act(hal::refbox::Said{kind, {}, {}}); }
+  hal::refbox::EmulatedBox box_;
+};
+
+/// How far the drive has come, by what its nodes say.
+class DriveProgress {
+ public:
+  DriveProgress(const bus::Participant& participant, std::uint8_t robot_id, std::uint32_t kicks, double aftermath_s)
+      : receipts_(participant),
+        decisions_(participant),
+        robot_id_(robot_id),
+        kicks_(kicks),
+        aftermath_(kicking::nanoseconds(aftermath_s)) {}
+
+  /// True once all is kicked and the last ball has come down.
+  bool over() {
+    receipts_.take([&](const msg::KickReceipt& receipt) {
+      if (receipt.robot_id != robot_id_ || !receipt.accepted) return;
+      ++kicked_;
+      last_ = DriveClock::now();
+      say(fmt::format("  kick {} of {}, set-point {:.2f}\n", kicked_, kicks_, receipt.power));
+      std::fflush(stdout);
+    });
+    decisions_.take([&](const msg::KickDecision& decision) {
+      if (decision.robot_id == robot_id_ && decision.reason == msg::REASON_DRIVE_FINISHED) finished_ = true;
+    });
+    return (finished_ || kicked_ >= kicks_) && DriveClock::now() - last_ > aftermath_;
+  }
+  std::uint32_t kicked() const { return kicked_; }
+
+ private:
+  bus::Reader<msg::KickReceipt> receipts_;
+  bus::Reader<msg::KickDecision> decisions_;
+  std::uint8_t robot_id_;
+  std::uint32_t kicks_;
+  std::chrono::nanoseconds aftermath_;
+  std::uint32_t kicked_ = 0;
+  bool finished_ = false;
+  DriveClock::time_point last_{};
+};
+
+/// Throws where somebody else's nodes have the robot. True: somebody writes `referee`.
+bool somebody_referees(const bus::Participant& participant, std::uint8_t robot_id) {
+  const Claims claims{participant, robot_id};
+  claims.require_wheels();
+  claims.require_kicker();
+  return claims.referee_is_written();
+}
+
+config::Settings settings_of_robot_drive(const calibration::DrivePlan& plan, const calibration::DriveRecord& record,
+                                         const fs::path& robot_file, config::Settings settings) {
+  settings.run.robot = robot_file.string();
+  settings.run.lockstep = false;
+  settings.recorder.log = record.log;
+  settings.kick_decision.policy_by_half = {plan.policy};
+  settings.kick_decision.policy_by_robot.clear();
+  settings.kick_decision.random.clear();
+  settings.kick_decision.random_probabilities.clear();
+  settings.scan_recorder.enabled = plan.laser;
+  if (plan.laser) settings.scan_recorder.file = record.scans;
+  config::override_settings(settings, plan.settings);
+  return settings;
+}
+
+}  // namespace
+
+RobotDrives::RobotDrives(config::Settings settings, fs::path folder, fs::path robot_file, SignalInbox& signals)
+    : settings_(std::move(settings)),
+      folder_(std::move(folder)),
+      robot_file_(std::move(robot_file)),
+      signals_(signals) {}
+
+calibration::DriveRecord RobotDrives::play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) {
+  calibration::DriveRecord record = drive_files(folder_, plan);
+  robot.write(robot_file_);
+  config::Settings settings = settings_of_robot_drive(plan, record, robot_file_, settings_);
+  const auto robot_id = static_cast<std::uint8_t>(settings.run.robot_id);
+  const bus::Participant participant{nodes::domain_of(settings.domain)};
+  std::optional<OwnReferee> referee;
+  if (!somebody_referees(participant, robot_id)) {
+    referee.emplace();
+    settings.refbox = config::Refbox{};
+    settings.refbox.port = referee->port();
+    settings.refbox.group = kOwnGroup;
+  }
+  DriveProgress progress{participant, robot_id, plan.possessions, settings.shot_observer.time_out_s};
+  const ConfigFile config{config::to_toml_text(settings)};
+  const auto began = DriveClock::now();
+  NodesOfADrive nodes{settings, config.path(), referee.has_value()};
+  std::string trouble;
+  for (bool started = !referee; trouble.empty() && !progress.over();) {
+    if (!started) started = referee->start_when_connected();
+    pollfd inbox{signals_.file_descriptor(), POLLIN, 0};
+    ::poll(&inbox, 1, static_cast<int>(kLookAtNodes.count()));
+    trouble = signals_.stop_requested() ? "interrupted" : nodes.casualty();
+  }
+  referee.reset();
+  nodes.stop();
+  record.played_s = record.wall_s = std::chrono::duration<double>(DriveClock::now() - began).count();
+  if (!trouble.empty())
+    throw std::runtime_error{fmt::format("{}: {} after {} of {} kicks; what was recorded until then is in {}",
+                                         plan.name, trouble, progress.kicked(), plan.possessions, folder_.string())};
+  if (lost_rows(record.log) > 0) throw std::runtime_error{plan.name + ": rows were lost"};
+  read_back(record);
+  return record;
+}
+
+}  // namespace trivela::cli

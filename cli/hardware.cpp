@@ -1,0 +1,154 @@
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/participant.hpp"
+#include "cli/hardware/claims.hpp"
+#include "cli/hardware/fixtures.hpp"
+#include "cli/hardware/spin.hpp"
+#include "cli/hardware/test_kick.hpp"
+#include "cli/hardware/watching.hpp"
+#include "cli/launch/person.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "config/installation.hpp"
+#include "config/robot.hpp"
+#include "config/settings.hpp"
+#include "nodes/runtime/node_main.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct HardwareFlags {
+  std::string config = config::shipped("default.toml").string();
+  std::vector<std::string> overrides;
+  std::optional<double> seconds;
+  std::optional<int> spin;  ///< wheel, counted from 1
+  double radps = 2.0;
+  bool kick = false;
+  bool armed = false;
+};
+
+/// One robot's devices, while nobody else has them.
+struct Bench {
+  config::Settings settings;
+  config::Robot robot;
+  SignalInbox& signals;
+  bus::Participant participant;
+  Claims claims;
+
+  hal::Owner owner() const { return {participant, static_cast<std::uint8_t>(settings.run.robot_id), robot.base}; }
+  config::Hal devices() const { return config::hal_for(settings.hal, robot); }
+};
+
+Bench bench_of(const HardwareFlags& flags, SignalInbox& signals) {
+  config::Settings settings = config::load_settings(flags.config);
+  config::override_settings(settings, flags.overrides, "--set");
+  if (settings.run.lockstep) throw UsageError{"run.lockstep = true: devices wait for nobody"};
+  config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
+  bus::Participant participant{nodes::domain_of(settings.domain)};
+  Claims claims{participant, static_cast<std::uint8_t>(settings.run.robot_id)};
+  return {std::move(settings), std::move(robot), signals, std::move(participant), std::move(claims)};
+}
+
+void say_who(const Bench& bench) {
+  say(fmt::format("robot {} ({}) in domain {}\n", bench.settings.run.robot_id, bench.robot.name,
+                  bench.settings.domain.domain_id));
+}
+
+int list_and_watch(const Bench& bench, std::optional<double> seconds) {
+  const config::Settings& settings = bench.settings;
+  const std::string wheels = device_text(settings.hal.wheels), kicker = device_text(settings.hal.kicker);
+  std::vector<std::unique_ptr<Fixture>> fixtures;
+  fixtures.push_back(bench.claims.odometry_runs()
+                         ? held_by("wheels", wheels, "odometry")
+                         : wheels_fixture(hal::open_wheels(settings.hal, bench.owner()), wheels));
+  fixtures.push_back(bench.claims.kicker_driver_runs()
+                         ? held_by("kicker", kicker, "kicker_driver")
+                         : kicker_fixture(hal::open_kicker(bench.devices(), bench.owner()), kicker));
+  fixtures.push_back(range_finder_fixture(settings.scan_recorder, bench.owner()));
+  fixtures.push_back(bench.claims.referee_is_written() ? held_by("referee box", "none", "a writer of referee")
+                                                       : referee_box_fixture(settings.refbox));
+  say_who(bench);
+  return watch(fixtures, seconds, bench.signals);
+}
+
+int spin(const Bench& bench, const HardwareFlags& flags) {
+  const std::size_t wheels = bench.robot.base.wheel_angles_rad.size();
+  if (static_cast<std::size_t>(*flags.spin) > wheels)
+    throw UsageError{fmt::format("--spin {}: {} has wheels 1 to {}", *flags.spin, bench.robot.name, wheels)};
+  if (!Person::is_there()) throw std::runtime_error{"--spin asks before it does it: standard input is no terminal"};
+  bench.claims.require_wheels();
+  const auto device = hal::open_wheels(bench.settings.hal, bench.owner());
+  if (!device->connected(std::chrono::seconds(3)))
+    throw std::runtime_error{fmt::format("wheels, {}: no answer", device_text(bench.settings.hal.wheels))};
+  const Spin what{.wheel = *flags.spin - 1, .radps = flags.radps, .seconds = flags.seconds.value_or(2.0)};
+  say_who(bench);
+  say(fmt::format(
+      "Wheel {} is to turn with {:.2f} rad/s for {:.1f} s, counter-clockwise about the robot's centre where "
+      "positive.\nDo all wheels hang free, and nobody's hand near them?\n",
+      *flags.spin, what.radps, what.seconds));
+  Person person{bench.signals};
+  if (!person.confirms(fmt::format("spin {}", *flags.spin))) {
+    warn("not confirmed: no wheel was turned");
+    return kFailed;
+  }
+  return spin_wheel(what, *device, bench.robot.base, bench.signals);
+}
+
+int kick(const Bench& bench) {
+  if (!Person::is_there()) throw std::runtime_error{"--kick asks before it does it: standard input is no terminal"};
+  bench.claims.require_kicker();
+  const auto device = hal::open_kicker(bench.devices(), bench.owner());
+  say_who(bench);
+  Person person{bench.signals};
+  return fire_test_kick(*device, bench.settings, bench.robot, person, bench.signals);
+}
+
+int run_hardware(const HardwareFlags& flags) {
+  if (flags.kick && !flags.armed)
+    throw UsageError{"--kick fires the kicker: it needs --armed, and nobody in front of the robot"};
+  if (flags.armed && !flags.kick) throw UsageError{"--armed goes with --kick"};
+  constexpr double kLongestSpin_s = 10.0;
+  if (flags.spin && flags.seconds.value_or(0.0) > kLongestSpin_s)
+    throw UsageError{fmt::format("--seconds {}: a wheel is turned for 10 s at most", *flags.seconds)};
+  if (flags.radps == 0.0) throw UsageError{"--radps 0: the wheel would stand"};
+  SignalInbox signals;  // before the threads of bus and devices, which must not take them
+  const Bench bench = bench_of(flags, signals);
+  if (flags.spin) return spin(bench, flags);
+  if (flags.kick) return kick(bench);
+  return list_and_watch(bench, flags.seconds);
+}
+
+}  // namespace
+
+void add_hardware(CLI::App& app, int& exit_code) {
+  auto* verb = app.add_subcommand("hardware", "List a robot's devices, show what they say, try one at a time");
+  auto flags = std::make_shared<HardwareFlags>();
+  verb->footer(
+      "Opens what the nodes of this configuration would open. A device whose node runs is left to it.\n"
+      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, a wheel did\n"
+      "something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
+  verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
+  verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
+  verb->add_option("--seconds", flags->seconds,
+                   "show values for so long (a line a second in a pipe); a spin's length, up to 10")
+      ->check(between(0.1, 86400.0));
+  auto* wheel = verb->add_option("--spin", flags->spin, "turn this wheel, counted from 1, after a typed confirmation")
+                    ->check(CLI::Range(1, 4));
+  verb->add_option("--radps", flags->radps, "spin: speed of the wheel, either way")
+      ->needs(wheel)
+      ->check(between(-5.0, 5.0))
+      ->capture_default_str();
+  verb->add_flag("--kick", flags->kick, "one kick with the lowest set-point, after a typed confirmation")
+      ->excludes(wheel);
+  verb->add_flag("--armed", flags->armed, "kick: the kicker may be fired");
+  verb->callback([flags, &exit_code] { exit_code = run_hardware(*flags); });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,236 @@
+#include "cli/hardware/fixtures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+#include "hal/refbox/refbox_client.hpp"
+#include "nodes/refbox/refbox_node.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using std::chrono::nanoseconds;
+/// A device that never runs dry, such as a recorded one, is left after so many samples of one look.
+constexpr int kMostOfALook = 64;
+
+/// "NAME on PORT", where the backend has one.
+template <class Backend>
+std::string backend_text(const Backend& backend) {
+  if constexpr (requires { backend.port; } && !std::is_same_v<Backend, config::ScipDevice>)
+    return fmt::format("{} on {}", Backend::kName, backend.port);
+  else
+    return config::text_of(backend);
+}
+
+class HeldByANode final : public Fixture {
+ public:
+  HeldByANode(const std::string& name, const std::string& device, const std::string& node)
+      : Fixture(name, device), says_(node + " runs and has it; it was not opened") {}
+  bool found() override { return true; }
+  std::string says() const override { return says_; }
+  void look() override {}
+  std::string values() override { return "with its node"; }
+
+ private:
+  std::string says_;
+};
+
+class NotWanted final : public Fixture {
+ public:
+  NotWanted(const std::string& name, std::string why) : Fixture(name, "none"), why_(std::move(why)) {}
+  bool wanted() const override { return false; }
+  bool found() override { return false; }
+  std::string says() const override { return why_; }
+  void look() override {}
+  std::string values() override { return "-"; }
+
+ private:
+  std::string why_;
+};
+
+class WheelsFixture final : public Fixture {
+ public:
+  WheelsFixture(std::unique_ptr<hal::Wheels> wheels, const std::string& device)
+      : Fixture("wheels", device), wheels_(std::move(wheels)) {}
+  bool found() override { return wheels_->connected(nanoseconds{0}); }
+  std::string says() const override {
+    const std::string status = wheels_->status();
+    if (!newest_) return status;
+    return fmt::format("{} wheels, {} gyro{}{}", newest_->wheel_count, newest_->gyro_radps ? "a" : "no",
+                       status.empty() ? "" : "; ", status);
+  }
+  void look() override {
+    for (int i = 0; i < kMostOfALook; ++i) {
+      const auto sample = wheels_->read(nanoseconds{0});
+      if (!sample) return;
+      newest_ = sample;
+      rate_.count();
+    }
+  }
+  std::string values() override {
+    const std::string rate = rate_.text();
+    return newest_ ? fmt::format("{}; {}", wheels_text(*newest_), rate) : "no sample";
+  }
+
+ private:
+  std::unique_ptr<hal::Wheels> wheels_;
+  std::optional<hal::WheelSample> newest_;
+  Rate rate_;
+};
+
+class KickerFixture final : public Fixture {
+ public:
+  KickerFixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device)
+      : Fixture("kicker", device), kicker_(std::move(kicker)) {}
+  bool found() override { return kicker_->connected(nanoseconds{0}); }
+  std::string says() const override {
+    const hal::KickerCapabilities can = kicker_->capabilities();
+    std::string text = kicker_->status();
+    for (const auto& [is, what] :
+         {std::pair{can.charge_control, "charging is controlled"}, std::pair{can.voltage, "volts are measured"},
+          std::pair{can.discharge, "it can be discharged"}, std::pair{can.watchdog, "it has a watchdog"}}) {
+      if (is) text += (text.empty() ? "" : ", ") + std::string{what};
+    }
+    return text;
+  }
+  void look() override {
+    for (int i = 0; i < kMostOfALook; ++i) {
+      const auto sample = kicker_->read(nanoseconds{0});
+      if (!sample) return;
+      newest_ = sample;
+      rate_.count();
+    }
+  }
+  std::string values() override {
+    const std::string rate = rate_.text();
+    return newest_ ? fmt::format("{}; {}", kicker_text(*newest_), rate) : "no sample";
+  }
+
+ private:
+  std::unique_ptr<hal::Kicker> kicker_;
+  std::optional<hal::KickerSample> newest_;
+  Rate rate_;
+};
+
+class RangeFinderFixture final : public Fixture {
+ public:
+  RangeFinderFixture(std::unique_ptr<hal::RangeFinder> finder, const std::string& device)
+      : Fixture("range finder", device), finder_(std::move(finder)) {}
+  bool found() override { return finder_->connected(nanoseconds{0}); }
+  std::string says() const override {
+    if (!finder_->up()) return finder_->status();
+    const auto identity = finder_->identity();
+    return fmt::format("{} {}, {} beams; {}", identity.vendor, identity.product, finder_->geometry().beams,
+                       finder_->status());
+  }
+  void look() override {
+    const auto scan = finder_->read(nanoseconds{0});
+    if (!scan) return;
+    rate_.count();
+    const std::size_t middle = scan->range_mm.size() / 2;
+    middle_mm_ = scan->range_mm.empty() ? 0 : scan->range_mm[middle];
+  }
+  std::string values() override {
+    const std::string rate = rate_.text();
+    if (!middle_mm_) return "no scan";
+    if (*middle_mm_ < kicking::lob::kFirstRange_mm) return fmt::format("nothing in front; {}", rate);
+    return fmt::format("{:.2f} m in front; {}", *middle_mm_ / 1000.0, rate);
+  }
+
+ private:
+  std::unique_ptr<hal::RangeFinder> finder_;
+  std::optional<std::uint32_t> middle_mm_;
+  Rate rate_;
+};
+
+class RefereeBoxFixture final : public Fixture {
+ public:
+  explicit RefereeBoxFixture(std::shared_ptr<nodes::RefboxLink> link)
+      : Fixture("referee box", link->client->box()), link_(std::move(link)) {}
+  bool found() override { return link_->client->connected(); }
+  std::string says() const override { return why_; }
+  void look() override {
+    for (int i = 0; i < kMostOfALook; ++i) {
+      const auto event = link_->client->next(nanoseconds{0});
+      if (!event) return;
+      std::visit([this](const auto& what) { take(what); }, *event);
+    }
+  }
+  std::string values() override { return word_.empty() ? "it has said nothing" : "last word " + word_; }
+
+ private:
+  void take(const hal::refbox::Connected&) { why_.clear(); }
+  void take(const hal::refbox::Command& command) { word_ = hal::refbox::name(command.kind); }
+  void take(const hal::refbox::NoCommand& word) { why_ = word.why; }
+  void take(const hal::refbox::Lost& lost) { why_ = lost.why; }
+  void take(const hal::refbox::Unreachable& failure) { why_ = failure.why; }
+
+  std::shared_ptr<nodes::RefboxLink> link_;
+  std::string why_;
+  std::string word_;
+};
+
+}  // namespace
+
+std::string Rate::text() {
+  const auto now = std::chrono::steady_clock::now();
+  const double passed_s = std::chrono::duration<double>(now - since_).count();
+  const double rate_hz = passed_s > 0.0 ? static_cast<double>(now_) / passed_s : 0.0;
+  since_ = now;
+  now_ = 0;
+  return fmt::format("{:.0f}/s", rate_hz);
+}
+
+std::string device_text(const config::WheelsDevice& device) {
+  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
+}
+
+std::string device_text(const config::KickerDevice& device) {
+  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
+}
+
+std::string kicker_text(const hal::KickerSample& sample) {
+  static constexpr const char* kFaults[] = {"", ", fault of the charger", ", fault of the coil", ", link lost"};
+  return fmt::format("charge {:.2f}{}{}, {}{}", sample.charge, sample.charge_modelled ? " (modelled)" : "",
+                     sample.voltage_v ? fmt::format(", {:.0f} V", *sample.voltage_v) : "",
+                     sample.armed ? "armed" : "not armed", kFaults[static_cast<std::size_t>(sample.fault)]);
+}
+
+std::string wheels_text(const hal::WheelSample& sample) {
+  std::string text;
+  for (int i = 0; i < sample.wheel_count; ++i)
+    text += fmt::format("{}wheel {} {:.2f}", i == 0 ? "" : ", ", i + 1,
+                        sample.wheel_radps[static_cast<std::size_t>(i)] + 0.0);
+  text += " rad/s";
+  return sample.gyro_radps ? text + fmt::format("; gyro {:.2f} rad/s", *sample.gyro_radps + 0.0) : text;
+}
+
+std::unique_ptr<Fixture> held_by(const std::string& name, const std::string& device, const std::string& node) {
+  return std::make_unique<HeldByANode>(name, device, node);
+}
+
+std::unique_ptr<Fixture> wheels_fixture(std::unique_ptr<hal::Wheels> wheels, const std::string& device) {
+  return std::make_unique<WheelsFixture>(std::move(wheels), device);
+}
+
+std::unique_ptr<Fixture> kicker_fixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device) {
+  return std::make_unique<KickerFixture>(std::move(kicker), device);
+}
+
+std::unique_ptr<Fixture> range_finder_fixture(const config::ScanRecorder& settings, const hal::Owner& owner) {
+  if (!settings.enabled) return std::make_unique<NotWanted>("range finder", "scan_recorder.enabled = false");
+  return std::make_unique<RangeFinderFixture>(hal::open_range_finder(settings.device, owner),
+                                              config::text_of(settings.device));
+}
+
+std::unique_ptr<Fixture> referee_box_fixture(const config::Refbox& settings) {
+  if (settings.group.empty() && !settings.letters)
+    return std::make_unique<NotWanted>("referee box", "refbox.group is empty");
+  return std::make_unique<RefereeBoxFixture>(nodes::open_refbox(settings));
+}
+
+}  // namespace trivela::cli

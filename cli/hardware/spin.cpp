@@ -1,0 +1,119 @@
+#include "cli/hardware/spin.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "cli/hardware/fixtures.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "kicking/model/omni_kinematics.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using SpinClock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kCommandPeriod{20};  // a base stops that hears nothing for some tenths of a second
+
+std::int64_t spin_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(SpinClock::now().time_since_epoch()).count();
+}
+
+/// Leaves the base at rest, by whichever way it is left.
+class AtRestAfterwards {
+ public:
+  explicit AtRestAfterwards(hal::Wheels& wheels) : wheels_(wheels) {}
+  AtRestAfterwards(const AtRestAfterwards&) = delete;
+  AtRestAfterwards& operator=(const AtRestAfterwards&) = delete;
+  ~AtRestAfterwards() { wheels_.drive({}, spin_now_ns()); }
+
+ private:
+  hal::Wheels& wheels_;
+};
+
+void turn(const Spin& spin, hal::Wheels& wheels, const kicking::OmniKinematics& kinematics) {
+  if (wheels.drive_wheel(spin.wheel, spin.radps, spin_now_ns())) return;
+  const auto twist = kinematics.one_wheel(spin.wheel, spin.radps);
+  if (!twist)
+    throw std::runtime_error{fmt::format(
+        "wheel {} cannot be turned alone: this device takes velocities of the whole base, and a base of {} wheels has "
+        "none at which one alone turns",
+        spin.wheel + 1, kinematics.wheel_count())};
+  wheels.drive(*twist, spin_now_ns());
+}
+
+/// Sums of the samples of the second half.
+class Mean {
+ public:
+  void add(const hal::WheelSample& sample) {
+    sums_.resize(static_cast<std::size_t>(sample.wheel_count), 0.0);
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += sample.wheel_radps[i];
+    ++count_;
+  }
+  SpinReading reading() const {
+    SpinReading reading;
+    for (const double sum : sums_) reading.mean_radps.push_back(sum / count_);
+    return reading;
+  }
+
+ private:
+  std::vector<double> sums_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::string spin_problem(const Spin& spin, const SpinReading& reading) {
+  const auto wheel = static_cast<std::size_t>(spin.wheel);
+  if (wheel >= reading.mean_radps.size()) return "its speed was not reported";
+  constexpr double kStill_ratio = 0.25, kHalf_ratio = 0.5, kDouble_ratio = 2.0;
+  const double ratio = reading.mean_radps[wheel] / spin.radps;
+  for (std::size_t i = 0; i < reading.mean_radps.size(); ++i) {
+    if (i != wheel && std::abs(reading.mean_radps[i]) > kStill_ratio * std::abs(spin.radps) &&
+        std::abs(reading.mean_radps[i]) > std::abs(reading.mean_radps[wheel]))
+      return fmt::format("wheel {} turned in its place: their order is another one", i + 1);
+  }
+  if (std::abs(ratio) < kStill_ratio) return "it did not turn";
+  if (ratio < 0.0) return "it turned the other way: its sign, or that of its encoder, is wrong";
+  if (ratio < kHalf_ratio || ratio > kDouble_ratio)
+    return fmt::format("it turned {:.2f} times as fast: gear or encoder", ratio);
+  for (std::size_t i = 0; i < reading.mean_radps.size(); ++i) {
+    if (i != wheel && std::abs(reading.mean_radps[i]) > kStill_ratio * std::abs(spin.radps))
+      return fmt::format("wheel {} turned with it", i + 1);
+  }
+  return {};
+}
+
+int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& base, SignalInbox& signals) {
+  const kicking::OmniKinematics kinematics{base};
+  Mean mean;
+  std::optional<hal::WheelSample> newest;
+  const AtRestAfterwards at_rest{wheels};
+  const auto began = SpinClock::now();
+  const auto lasts = std::chrono::duration<double>(spin.seconds);
+  while (SpinClock::now() - began < lasts) {
+    turn(spin, wheels, kinematics);
+    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+    ::poll(&inbox, 1, static_cast<int>(kCommandPeriod.count()));
+    if (signals.stop_requested()) {
+      warn("stopped: the wheels are told to stand");
+      return kFailed;
+    }
+    for (auto sample = wheels.read(std::chrono::nanoseconds{0}); sample;
+         sample = wheels.read(std::chrono::nanoseconds{0})) {
+      newest = sample;
+      if (SpinClock::now() - began > lasts / 2) mean.add(*sample);
+    }
+  }
+  if (!newest) throw std::runtime_error{"the wheels say nothing"};
+  say(fmt::format("asked wheel {} for {:.2f} rad/s; {}\n", spin.wheel + 1, spin.radps, wheels_text(*newest)));
+  const std::string problem = spin_problem(spin, mean.reading());
+  if (problem.empty()) return kDone;
+  warn(fmt::format("wheel {}: {}", spin.wheel + 1, problem));
+  return kFailed;
+}
+
+}  // namespace trivela::cli

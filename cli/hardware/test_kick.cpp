@@ -1,0 +1,122 @@
+#include "cli/hardware/test_kick.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "cli/hardware/fixtures.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "kicking/geometry/time.hpp"
+#include "robot/driver/order_gate.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using KickClock = std::chrono::steady_clock;
+constexpr std::int64_t kTestKick = 1;
+constexpr std::chrono::seconds kKickerPatience{3};
+constexpr std::chrono::milliseconds kSampleWait{50};
+constexpr std::chrono::milliseconds kAftermath{500};  // until the board has said what became of the shot
+
+std::int64_t kick_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(KickClock::now().time_since_epoch()).count();
+}
+
+/// Whatever comes, nothing is energised afterwards.
+class SafeAfterwards {
+ public:
+  explicit SafeAfterwards(hal::Kicker& kicker) : kicker_(kicker) {}
+  SafeAfterwards(const SafeAfterwards&) = delete;
+  SafeAfterwards& operator=(const SafeAfterwards&) = delete;
+  ~SafeAfterwards() {
+    kicker_.charge(hal::ChargeWord::kEmpty);  // where the device can
+    kicker_.make_safe();
+  }
+
+ private:
+  hal::Kicker& kicker_;
+};
+
+/// Takes what the kicker says until `done` or the patience is over. False: somebody asked to stop.
+bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::KickerSample>& newest,
+            KickClock::time_point end, SignalInbox& signals, auto done) {
+  while (!done() && KickClock::now() < end) {
+    if (const auto sample = kicker.read(kSampleWait)) {
+      newest = sample;
+      gate.device(*sample);
+    }
+    if (signals.stop_requested()) return false;
+  }
+  return true;
+}
+
+bool sound(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
+
+int not_fired(const std::string& why) {
+  warn(why + ": nothing was fired");
+  return kFailed;
+}
+
+msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) {
+  msg::KickOrder order{};
+  order.robot_id = robot_id;
+  order.seq = 1;
+  order.kick_id = kTestKick;
+  order.t_ns = order.fire_t_ns = kick_now_ns();
+  order.valid_until_t_ns = order.t_ns + kicking::nanoseconds(validity_s);
+  order.power = power;
+  order.possession = true;  // the person has said that the ball lies there
+  return order;
+}
+
+/// Fires what the gate has passed, and says what became of it.
+int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder& order, SignalInbox& signals) {
+  std::optional<hal::KickerSample> newest;
+  const std::string before = kicker.status();
+  kicker.fire(order.kick_id, order.power, order.t_ns);
+  listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
+  const std::string status = kicker.status();
+  if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));
+  if (status.find("was not fired") != std::string::npos) return kFailed;  // as Kicker::status() says it
+  say(fmt::format("fired with set-point {:.2f}; {}\n", order.power, newest ? kicker_text(*newest) : "no sample"));
+  return kDone;
+}
+
+}  // namespace
+
+int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
+                   SignalInbox& signals) {
+  const SafeAfterwards safe{kicker};
+  const kicking::Range powers{robot.model.table.front().power, robot.model.table.back().power};
+  robot::OrderGate gate{settings.kicker_driver, powers, settings.run.cycle_s};
+  gate.referee(robot::RefereeSays::kPlay);
+  std::optional<hal::KickerSample> newest;
+  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
+              [&] { return newest && sound(*newest); }))
+    return not_fired("stopped");
+  if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
+  say(
+      fmt::format("kicker: {}\n"
+                  "One kick with set-point {:.2f}, the lowest of {}. No referee is asked: you are the referee.\n"
+                  "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
+                  kicker_text(*newest), powers.min, robot.name));
+  if (!person.confirms("kick")) return not_fired("not confirmed");
+  kicker.charge(hal::ChargeWord::kUp);
+  newest.reset();  // what waited while the person thought is too old
+  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
+              [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
+    return not_fired("stopped");
+  const msg::KickOrder order =
+      order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));
+  const msg::Refusal refusal = gate.judge(order, kick_now_ns(), robot::OrderBy::kOwnDecision);
+  if (refusal != msg::REFUSAL_NONE)
+    return not_fired(fmt::format("refused, {}; {}", bus::label(refusal), newest ? kicker_text(*newest) : "no sample"));
+  return carry_out(kicker, gate, order, signals);
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,108 @@
+#include "cli/hardware/watching.hpp"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using WatchClock = std::chrono::steady_clock;
+using Fixtures = std::vector<std::unique_ptr<Fixture>>;
+
+constexpr std::chrono::seconds kPatienceOfAListing{3};
+constexpr std::chrono::milliseconds kGlance{10};   // between two looks at the devices
+constexpr std::chrono::milliseconds kRedraw{200};  // on a terminal
+constexpr std::chrono::seconds kBetweenLines{1};   // in a pipe
+
+/// Looks at every device until `end`. False: somebody asked to stop.
+bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals) {
+  do {
+    for (const auto& fixture : fixtures) fixture->look();
+    pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+    ::poll(&inbox, 1, static_cast<int>(kGlance.count()));
+    if (signals.stop_requested()) return false;
+  } while (WatchClock::now() < end);
+  return true;
+}
+
+bool all_found(const Fixtures& fixtures) {
+  return std::ranges::all_of(fixtures, [](const auto& fixture) { return !fixture->wanted() || fixture->found(); });
+}
+
+void list(const Fixtures& fixtures) {
+  for (const auto& fixture : fixtures) {
+    const std::string says = fixture->says();
+    say(fmt::format("  {:<14}{:<28} {}{}\n", fixture->name(), fixture->device(),
+                    !fixture->wanted() ? "not used"
+                    : fixture->found() ? "there"
+                                       : "NOT THERE",
+                    says.empty() ? "" : ": " + says));
+  }
+}
+
+std::string line_of(const Fixture& fixture, const std::string& values) {
+  return fmt::format("{}: {}", fixture.name(), values);
+}
+
+/// Draws over what it drew before.
+class Board {
+ public:
+  void draw(const Fixtures& fixtures) {
+    if (drawn_ > 0) fmt::print("\x1b[{}A", drawn_);
+    drawn_ = 0;
+    for (const auto& fixture : fixtures) {
+      if (!fixture->wanted()) continue;
+      fmt::print("\r\x1b[K");
+      say("  " + line_of(*fixture, fixture->values()) + "\n");
+      ++drawn_;
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  int drawn_ = 0;
+};
+
+void say_line(const Fixtures& fixtures) {
+  std::string line;
+  for (const auto& fixture : fixtures) {
+    if (fixture->wanted()) line += (line.empty() ? "" : " | ") + line_of(*fixture, fixture->values());
+  }
+  say(line + "\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int watch(std::vector<std::unique_ptr<Fixture>>& fixtures, std::optional<double> seconds, SignalInbox& signals) {
+  const auto patience_ends = WatchClock::now() + kPatienceOfAListing;
+  bool goes_on = true;
+  while (goes_on && !all_found(fixtures) && WatchClock::now() < patience_ends)
+    goes_on = look_until(fixtures, WatchClock::now(), signals);
+  if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals);
+  list(fixtures);
+  std::fflush(stdout);
+  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
+  const double lasts_s = std::max(seconds.value_or(1.0), terminal ? 0.0 : 1.0);
+  Board board;
+  const auto began = WatchClock::now();
+  for (int i = 1; goes_on; ++i) {
+    if (!(terminal && !seconds) && std::chrono::duration<double>(step).count() * i > lasts_s) break;
+    goes_on = look_until(fixtures, began + i * step, signals);
+    if (!goes_on) break;
+    terminal ? board.draw(fixtures) : say_line(fixtures);
+  }
+  return all_found(fixtures) ? kDone : kFailed;
+}
+
+}  // namespace trivela::cli

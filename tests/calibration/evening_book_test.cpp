@@ -1,0 +1,62 @@
+// What is kept of an evening between two starts.
+#include "calibration/evening_book.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "config/error.hpp"
+#include "tests/e2e/folder.hpp"
+
+namespace trivela::calibration {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+void touch(const std::filesystem::path& file) { std::ofstream{file} << "a record"; }
+
+TEST(EveningBook, ASecondStartKnowsWhatWasMeasuredAndPlayed) {
+  const e2e::Folder folder;
+  {
+    EveningBook book{folder.path(), "--kicks 16"};
+    EXPECT_FALSE(book.measured("laser_x_m"));
+    book.measure("laser_x_m", 3.987);
+    book.finish("1_standing");
+  }
+  const EveningBook book{folder.path(), "--kicks 16"};
+  EXPECT_EQ(book.measured("laser_x_m"), 3.987);
+  EXPECT_FALSE(book.measured("laser_z_m"));
+  EXPECT_TRUE(book.finished("1_standing"));
+  EXPECT_FALSE(book.finished("3_lateral"));
+}
+
+TEST(EveningBook, OtherArgumentsAreAnotherEvening) {
+  const e2e::Folder folder;
+  const EveningBook begun{folder.path(), "--kicks 16"};
+  EXPECT_THAT([&] { EveningBook(folder.path(), "--kicks 8"); },
+              ThrowsMessage<config::BadArgument>(HasSubstr("was begun with '--kicks 16', not with '--kicks 8'")));
+}
+
+TEST(EveningBook, ABrokenBookIsNamed) {
+  const e2e::Folder folder;
+  touch(folder / "evening.json");
+  EXPECT_THAT([&] { EveningBook(folder.path(), "--kicks 16"); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("evening.json is no book of an evening")));
+}
+
+TEST(EveningBook, RecordsOfAnUnfinishedDriveAreKeptBesideTheNextOnes) {
+  const e2e::Folder folder;
+  for (int start = 1; start <= 2; ++start) {
+    for (const char* record : {"1_standing.db", "1_standing.scans.db"}) touch(folder / record);
+    touch(folder / "1_standing_2.db");  // of another drive
+    EXPECT_EQ(set_aside(folder.path(), "1_standing"), 2u);
+  }
+  EXPECT_EQ(set_aside(folder.path(), "1_standing"), 0u);
+  EXPECT_THAT(folder.files(""), testing::UnorderedElementsAre(
+                                    "1_standing.partial-1.db", "1_standing.partial-1.scans.db",
+                                    "1_standing.partial-2.db", "1_standing.partial-2.scans.db", "1_standing_2.db"));
+}
+
+}  // namespace
+}  // namespace trivela::calibration

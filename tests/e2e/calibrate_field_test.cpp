@@ -1,0 +1,87 @@
+// `trivela calibrate run --in field`, rehearsed in the simulator by somebody at a pseudo-terminal.
+#include <gmock/gmock.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "tests/e2e/folder.hpp"
+#include "tests/e2e/program.hpp"
+#include "tests/e2e/typed_terminal.hpp"
+
+namespace trivela::e2e {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class CalibrateInField : public testing::Test {
+ protected:
+  std::unique_ptr<Program> start(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"calibrate", "run",    "--in",    "field", "--rehearse", "--robot", "newcomer",
+                                       "--out-dir", "drives", "--kicks", "2",     "--lobs",     "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return std::make_unique<Program>("trivela", arguments, folder_.path(), [this] { person_.become_input(); });
+  }
+
+  /// Waits for the question, of the drive that is named before it, then types the answer.
+  void answer(const Program& run, const std::string& question, const std::string& text,
+              const std::string& drive = {}) const {
+    ASSERT_TRUE(wait_for_change(
+        folder_.path(), run.watch(),
+        [&] { return run.output().ends_with(question) && run.output().find(drive) != std::string::npos; }))
+        << run.output() << run.errors();
+    person_.type(text + "\n");
+  }
+
+  bool exists(const std::string& record) const { return std::filesystem::exists(folder_.path() / "drives" / record); }
+
+  Folder folder_;
+  TypedTerminal person_;
+};
+
+TEST_F(CalibrateInField, ASecondStartGoesOnWhereTheFirstOneEnded) {
+  const auto first = start();
+  answer(*first, "[12.000]: ", "far");
+  answer(*first, "'far' is no length from 2.0 to 12.0 m.\nStanding kicks: ball to goal line, m [12.000]: ", "");
+  answer(*first, "behind it), m [4.000]: ", "4.0");
+  answer(*first, "floor, m [0.050]: ", "");
+  answer(*first, "leave for today: ", "", "1_standing\n");
+  answer(*first, "leave for today: ", "q", "1_standing_2\n");
+  EXPECT_EQ(first->wait(), 1);
+  EXPECT_THAT(first->output(), HasSubstr("A REHEARSAL"));
+  EXPECT_THAT(first->output(), HasSubstr("left for today"));
+  EXPECT_TRUE(exists("1_standing.db"));
+
+  const auto second = start();
+  answer(*second, "Enter: begin; q: leave for today: ", "");
+  EXPECT_THAT(second->output(), HasSubstr("floor, m: 0.050 (measured before)"));
+  EXPECT_THAT(second->output(), HasSubstr("1_standing: played before, from its records"));
+  EXPECT_TRUE(wait_for_change(folder_.path() / "drives", second->watch(), [&] { return exists("1_standing_2.db"); }));
+  second->signal(SIGINT);
+  EXPECT_EQ(second->wait(), 1);
+
+  const auto third = start();
+  answer(*third, "Enter: begin; q: leave for today: ", "q");
+  EXPECT_EQ(third->wait(), 1);
+  EXPECT_THAT(third->output(), HasSubstr("1_standing_2: what was recorded of an earlier start is kept"));
+  EXPECT_TRUE(exists("1_standing_2.partial-1.scenario.toml"));
+  EXPECT_FALSE(exists("newcomer.toml"));
+}
+
+TEST_F(CalibrateInField, WhatMakesNoSenseIsRefusedBeforeAnybodyIsAsked) {
+  for (const auto& [flag, says] : std::vector<std::pair<std::string, std::string>>{
+           {"--json", "--json goes with --in simulation"}, {"--in-process", "a field has its nodes"}}) {
+    const auto run = start({flag});
+    EXPECT_EQ(run->wait(), 2);
+    EXPECT_THAT(run->errors(), HasSubstr(says));
+    EXPECT_THAT(run->output(), Not(HasSubstr("[")));
+  }
+  Program alone{"trivela", {"calibrate", "run", "--in", "field"}, folder_.path(), [] { ::close(STDIN_FILENO); }};
+  EXPECT_EQ(alone.wait(), 1);
+  EXPECT_THAT(alone.errors(), HasSubstr("standard input is no terminal"));
+}
+
+}  // namespace
+}  // namespace trivela::e2e

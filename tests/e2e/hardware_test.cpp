@@ -1,0 +1,138 @@
+// `trivela hardware`: an emulated robot's devices, listed and tried by somebody at a pseudo-terminal.
+#include <gmock/gmock.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "hal/ioboard/emulator.hpp"
+#include "hal/rekick/emulator.hpp"
+#include "tests/e2e/folder.hpp"
+#include "tests/e2e/program.hpp"
+#include "tests/e2e/typed_terminal.hpp"
+
+namespace trivela::e2e {
+namespace {
+
+using testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+class Hardware : public testing::Test {
+ protected:
+  /// A robot with the emulated ioBoard, on a bus of its own.
+  Arguments on_the_board(Arguments what) const {
+    what.insert(what.begin(), "hardware");
+    for (const std::string& setting :
+         {std::string{"domain.domain_id=63"}, "domain.tag=\"hardware-" + folder_.path().filename().string() + "\"",
+          std::string{"hal.kicker=\"ioboard\""}, std::string{"hal.ioboard.charge_time_s=0.5"},
+          "hal.ioboard.port=\"" + board_.address() + "\""}) {
+      what.emplace_back("--set");
+      what.push_back(setting);
+    }
+    return what;
+  }
+
+  std::unique_ptr<Program> start(const Arguments& arguments) const {
+    return std::make_unique<Program>("trivela", arguments, folder_.path(), [this] { person_.become_input(); });
+  }
+
+  /// What the program does once somebody has answered its question.
+  int answered(Program& trivela, const std::string& keys) const {
+    EXPECT_TRUE(wait_for_change(folder_.path(), trivela.watch(), [&] {
+      return trivela.output().find("press Enter") != std::string::npos;
+    })) << trivela.errors();
+    person_.type(keys);
+    return trivela.wait();
+  }
+
+  std::size_t pulses() {
+    std::size_t count = 0;
+    board_.with_board([&](const auto& board) { count = board.pulses().size(); });
+    return count;
+  }
+
+  Folder folder_;
+  TypedTerminal person_;
+  hal::ioboard::Emulator board_;
+};
+
+TEST_F(Hardware, TheTypedWordFiresOneKickWithTheLowestSetPoint) {
+  const auto trivela = start(on_the_board({"--kick", "--armed"}));
+  EXPECT_EQ(answered(*trivela, "kick\n"), 0) << trivela->errors();
+  EXPECT_THAT(trivela->output(), HasSubstr("fired with set-point 15.00"));
+  EXPECT_THAT(trivela->output(), HasSubstr("No referee is asked"));
+  ASSERT_EQ(pulses(), 1u);
+  board_.with_board([](const auto& board) { EXPECT_EQ(board.pulses().front().units, 15); });
+}
+
+TEST_F(Hardware, AnotherWordFiresNothing) {
+  const auto trivela = start(on_the_board({"--kick", "--armed"}));
+  EXPECT_EQ(answered(*trivela, "yes\n"), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("not confirmed: nothing was fired"));
+  EXPECT_EQ(pulses(), 0u);
+}
+
+TEST_F(Hardware, AnOpenSwitchIsRefusedByTheGateOfTheDriver) {
+  board_.with_board([](auto& board) { board.in_play = false; });
+  const auto trivela = start(on_the_board({"--kick", "--armed"}));
+  EXPECT_EQ(answered(*trivela, "kick\n"), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("refused, unarmed"));
+  EXPECT_EQ(pulses(), 0u);
+}
+
+TEST_F(Hardware, NothingIsFiredWhereNobodyCanAnswerOrSomebodyStopsIt) {
+  Program piped{"trivela", on_the_board({"--kick", "--armed"}), folder_.path(), [] { ::close(STDIN_FILENO); }};
+  EXPECT_EQ(piped.wait(), 1);
+  EXPECT_THAT(piped.errors(), HasSubstr("standard input is no terminal"));
+  const auto stopped = start(on_the_board({"--kick", "--armed"}));
+  ASSERT_TRUE(wait_for_change(folder_.path(), stopped->watch(),
+                              [&] { return stopped->output().find("press Enter") != std::string::npos; }));
+  stopped->signal(SIGTERM);
+  EXPECT_EQ(stopped->wait(), 1);
+  EXPECT_EQ(pulses(), 0u);
+}
+
+TEST_F(Hardware, ADriverThatRunsKeepsItsKicker) {
+  Arguments settings = on_the_board({});
+  settings.front() = "--config";
+  settings.insert(settings.begin() + 1, TRIVELA_SOURCE_DIR "/config/default.toml");
+  Program driver{"trivela-kicker_driver", settings, folder_.path()};
+  ASSERT_TRUE(wait_for_change(folder_.path(), driver.watch(), [&] {
+    return driver.errors().find("ioBoard version") != std::string::npos;
+  })) << driver.errors();
+  const auto trivela = start(on_the_board({"--kick", "--armed"}));
+  EXPECT_EQ(trivela->wait(), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("kicker_driver of robot 1 runs"));
+  driver.signal(SIGTERM);
+  EXPECT_EQ(driver.wait(), 0);
+}
+
+TEST_F(Hardware, ItListsWhatIsThereAndFailsWhereADeviceIsNot) {
+  const hal::rekick::Emulator rekick;
+  const auto trivela =
+      start({"hardware", "--set", "domain.domain_id=64", "--set", "domain.tag=\"hardware\"", "--set",
+             "hal.kicker=\"rekick\"", "--set", "hal.rekick.port=\"" + rekick.address() + "\"", "--seconds", "1"});
+  EXPECT_EQ(trivela->wait(), 1) << trivela->errors();
+  EXPECT_THAT(trivela->output(), testing::ContainsRegex("wheels +bus +NOT THERE"));
+  EXPECT_THAT(trivela->output(), HasSubstr("rekick on " + rekick.address()));
+  EXPECT_THAT(trivela->output(), HasSubstr("volts are measured"));
+  EXPECT_THAT(trivela->output(), testing::ContainsRegex("kicker: charge [01][.][0-9]+, [0-9]+ V, armed"));
+  EXPECT_THAT(trivela->output(), HasSubstr("not used: refbox.group is empty"));
+}
+
+TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {
+  for (const auto& [arguments, says] :
+       std::vector<std::pair<Arguments, std::string>>{{{"--kick"}, "it needs --armed"},
+                                                      {{"--armed"}, "--armed goes with --kick"},
+                                                      {{"--spin", "4"}, "has wheels 1 to 3"},
+                                                      {{"--spin", "1", "--seconds", "11"}, "10 s at most"},
+                                                      {{"--spin", "1", "--kick", "--armed"}, "excludes"}}) {
+    const auto trivela = start(on_the_board(arguments));
+    EXPECT_EQ(trivela->wait(), 2) << says;
+    EXPECT_THAT(trivela->errors(), HasSubstr(says));
+  }
+}
+
+}  // namespace
+}  // namespace trivela::e2e
