@@ -20,6 +20,9 @@ struct KickerSample {
   bool emulated = false;              ///< the board is a program
 };
 
+/// What a capacitor is to do; held, nobody charges it and nobody empties it.
+enum class ChargeWord { kHold, kUp, kEmpty };
+
 /// What a device can do beyond firing and saying whether it may.
 struct KickerCapabilities {
   bool charge_control = false;  ///< charging is switched on and off by its host
@@ -57,6 +60,10 @@ class Kicker {
 
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;
+
+  /// What the capacitor is to do, a word of t_ns. A device heeds it for 0.2 s: it is said anew with each sample. One
+  /// that cannot do it ignores it.
+  virtual void charge(ChargeWord, std::int64_t /*t_ns*/) {}
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;

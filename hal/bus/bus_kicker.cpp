@@ -1,5 +1,8 @@
 #include "hal/bus/bus_kicker.hpp"
 
+#include <chrono>
+#include <exception>
+
 #include "hal/bus/bus_streams.hpp"
 #include "idl/none.hpp"
 
@@ -25,7 +28,8 @@ BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
     : robot_id_(robot_id),
       samples_(participant),
       // The coil hears one driver, however long that says nothing.
-      fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
+      fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}),
+      charges_(participant) {}
 
 bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
 
@@ -64,6 +68,32 @@ void BusKicker::withdraw(std::int64_t kick_id) {
   word.kick_id = kick_id;
   word.withdrawn = true;
   fires_.write(word);
+}
+
+void BusKicker::charge(ChargeWord word, std::int64_t t_ns) {
+  if (!safe_) write_charge(word, t_ns);
+}
+
+void BusKicker::make_safe() noexcept {
+  safe_ = true;
+  try {
+    write_charge(ChargeWord::kEmpty, std::chrono::steady_clock::now().time_since_epoch().count());
+  } catch (const std::exception&) {
+    // The bus is gone; the bridge holds for want of words.
+  }
+}
+
+void BusKicker::write_charge(ChargeWord word, std::int64_t t_ns) {
+  const KickerCapabilities can = capabilities_;
+  if (!can.charge_control && !can.discharge) return;
+  msg::DeviceCharge out{};
+  out.robot_id = robot_id_;
+  out.seq = ++charge_seq_;
+  out.t_ns = t_ns;
+  out.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
+             : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
+                                          : msg::CHARGE_HOLD;
+  charges_.write(out);
 }
 
 }  // namespace trivela::hal

@@ -28,7 +28,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         return kicker_->read(timeout);
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
-      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceEmulated, msg::StepDone>());
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
+                  msg::StepDone>());
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
