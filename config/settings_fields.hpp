@@ -40,6 +40,15 @@ struct Names<kicking::Extension> {
       {{"max", kicking::Extension::kMax}, {"add", kicking::Extension::kAdd}}};
 };
 
+template <>
+struct Names<Capability> {
+  static constexpr std::array<std::pair<std::string_view, Capability>, 4> entries{
+      {{"charge_control", Capability::kChargeControl},
+       {"voltage", Capability::kVoltage},
+       {"discharge", Capability::kDischarge},
+       {"watchdog", Capability::kWatchdog}}};
+};
+
 }  // namespace trivela::config
 
 namespace trivela::kicking {
@@ -226,6 +235,9 @@ void fields(V& v, KickerDriver& k) {
   v("max_order_age_s", k.max_order_age_s, Range{0.001, 1.0});
   v("future_tolerance_s", k.future_tolerance_s, Range{0.0, 1.0});
   v("link_timeout_s", k.link_timeout_s, Range{0.001, 10.0});
+  v("voltage_rise_v", k.voltage_rise_v, Range{0.1, 500.0});
+  v("voltage_rise_s", k.voltage_rise_s, Range{0.1, 60.0});
+  v("demand", k.demand);
 }
 
 template <class V>

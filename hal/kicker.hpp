@@ -20,9 +20,6 @@ struct KickerSample {
   bool emulated = false;              ///< the board is a program
 };
 
-/// What a capacitor is to do; held, nobody charges it and nobody empties it.
-enum class ChargeWord { kHold, kUp, kEmpty };
-
 /// What a device can do beyond firing and saying whether it may.
 struct KickerCapabilities {
   bool charge_control = false;  ///< charging is switched on and off by its host
@@ -31,6 +28,9 @@ struct KickerCapabilities {
   bool watchdog = false;        ///< it makes itself safe when its host falls silent
   bool operator==(const KickerCapabilities&) const = default;
 };
+
+/// What a capacitor shall do: stay as it is, be charged, be emptied.
+enum class ChargeWord { kHold, kUp, kEmpty };
 
 /// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
 ///
@@ -58,12 +58,12 @@ class Kicker {
   /// ordered, changes nothing.
   virtual void withdraw(std::int64_t kick_id) = 0;
 
+  /// What the capacitor shall do from now on, where the device can be told: kUp and kHold need charge_control, kEmpty
+  /// needs discharge. Said again with each sample. By default nobody listens.
+  virtual void charge(ChargeWord word) { static_cast<void>(word); }
+
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;
-
-  /// What the capacitor is to do, a word of t_ns. A device heeds it for 0.2 s: it is said anew with each sample. One
-  /// that cannot do it ignores it.
-  virtual void charge(ChargeWord, std::int64_t /*t_ns*/) {}
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;

@@ -43,7 +43,7 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   if (truth != nullptr)
     told = oracle_input(*truth, sensors.t_ns, referee.playing, referee.possession_id, status_.ready);
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
-  if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns);
+  if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
   return &decision;
 }
 

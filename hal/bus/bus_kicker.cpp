@@ -70,26 +70,26 @@ void BusKicker::withdraw(std::int64_t kick_id) {
   fires_.write(word);
 }
 
-void BusKicker::charge(ChargeWord word, std::int64_t t_ns) {
-  if (!safe_) write_charge(word, t_ns);
+void BusKicker::charge(ChargeWord word) {
+  if (!safe_) write_charge(word);
 }
 
 void BusKicker::make_safe() noexcept {
   safe_ = true;
   try {
-    write_charge(ChargeWord::kEmpty, std::chrono::steady_clock::now().time_since_epoch().count());
+    write_charge(ChargeWord::kEmpty);
   } catch (const std::exception&) {
     // The bus is gone; the bridge holds for want of words.
   }
 }
 
-void BusKicker::write_charge(ChargeWord word, std::int64_t t_ns) {
+void BusKicker::write_charge(ChargeWord word) {
   const KickerCapabilities can = capabilities_;
   if (!can.charge_control && !can.discharge) return;
   msg::DeviceCharge out{};
   out.robot_id = robot_id_;
   out.seq = ++charge_seq_;
-  out.t_ns = t_ns;
+  out.t_ns = std::chrono::steady_clock::now().time_since_epoch().count();
   out.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
              : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
                                           : msg::CHARGE_HOLD;

@@ -27,14 +27,14 @@ class BusKicker final : public Kicker {
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
   void withdraw(std::int64_t kick_id) override;
-  void charge(ChargeWord word, std::int64_t t_ns) override;
+  void charge(ChargeWord word) override;
   void make_safe() noexcept override;
   bool ended() const override { return false; }
   /// As the latest sample says.
   KickerCapabilities capabilities() const override { return capabilities_; }
 
  private:
-  void write_charge(ChargeWord word, std::int64_t t_ns);
+  void write_charge(ChargeWord word);
 
   std::uint8_t robot_id_;
   bus::Reader<msg::DeviceKicker> samples_;

@@ -21,6 +21,10 @@ namespace trivela::nodes {
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
+  ~KickerDriverNode();
+  KickerDriverNode(const KickerDriverNode&) = delete;
+  KickerDriverNode& operator=(const KickerDriverNode&) = delete;
+
   bus::Node& node() { return node_; }
 
  private:
@@ -33,6 +37,9 @@ class KickerDriverNode {
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
   void say_link(bool lost);
+  void demand_capabilities() const;
+  void tell_charge();
+  void look_for_decision();
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
@@ -41,6 +48,7 @@ class KickerDriverNode {
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
+  bool decision_lost_ = false;
   std::string link_said_;
   robot::LoopWatch loop_;
   std::string own_decision_;  // owner of the writer whose orders count

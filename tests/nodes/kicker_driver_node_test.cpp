@@ -324,8 +324,8 @@ TEST_F(KickerDriverNodeTest, LeavesTheKickerSafe) {
 TEST_F(NodeTest, TheKickerDriverSaysWhenTheDecisionLoopFallsSilent) {
   KickerDriverNode node{context, fake_kicker()};
   const Running running{Executor::kListener, stop, {&node.node()}};
-  bus::Writer<msg::KickOrder> loop{participant,
-                                   {.period = {}, .lease = std::chrono::milliseconds{20}, .strength = 0, .owner = {}}};
+  bus::Writer<msg::KickOrder> loop{
+      participant, {.period = {}, .lease = std::chrono::milliseconds{20}, .strength = 0, .owner = "kick_decision/1"}};
   ASSERT_TRUE(loop.wait_for_readers(1, kPlenty));
   // Alive for longer than a writer is by its birth alone, or back from a lapse; and never again.
   clock_ns += 400'000'000;
