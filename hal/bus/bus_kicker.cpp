@@ -1,5 +1,8 @@
 #include "hal/bus/bus_kicker.hpp"
 
+#include <chrono>
+#include <exception>
+
 #include "hal/bus/bus_streams.hpp"
 #include "idl/none.hpp"
 
@@ -26,7 +29,7 @@ BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
       samples_(participant),
       // The coil hears one driver, however long that says nothing.
       fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}),
-      words_(participant) {}
+      charges_(participant) {}
 
 bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
 
@@ -68,17 +71,29 @@ void BusKicker::withdraw(std::int64_t kick_id) {
 }
 
 void BusKicker::charge(ChargeWord word) {
+  if (!safe_) write_charge(word);
+}
+
+void BusKicker::make_safe() noexcept {
+  safe_ = true;
+  try {
+    write_charge(ChargeWord::kEmpty);
+  } catch (const std::exception&) {
+    // The bus is gone; the bridge holds for want of words.
+  }
+}
+
+void BusKicker::write_charge(ChargeWord word) {
   const KickerCapabilities can = capabilities_;
   if (!can.charge_control && !can.discharge) return;
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  msg::DeviceCharge said{};
-  said.robot_id = robot_id_;
-  said.seq = ++word_seq_;
-  said.t_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-  said.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
-              : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
-                                           : msg::CHARGE_HOLD;
-  words_.write(said);
+  msg::DeviceCharge out{};
+  out.robot_id = robot_id_;
+  out.seq = ++charge_seq_;
+  out.t_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+  out.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
+             : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
+                                          : msg::CHARGE_HOLD;
+  charges_.write(out);
 }
 
 }  // namespace trivela::hal

@@ -39,7 +39,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   } else {
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
-                           bus::writes<msg::KickReceipt, msg::DeviceFire>(), words);
+                           bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), words);
     orders.liveliness_of = own_decision_;
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
@@ -48,7 +48,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   }
   node_.on<msg::KickOrder>(
       [this](const msg::KickOrder& order, const bus::SampleInfo& info) { on_order(order, order_by(info)); },
-      bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
+      bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::StepDone>(), orders);
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.

@@ -294,32 +294,39 @@ TEST(BusKicker, HandsOnWhatTheBoardCanDoAndWhatItMeasures) {
   EXPECT_TRUE(measured->emulated);
 }
 
-TEST(BusKicker, TellsABoardThatCanBeToldWhatItsCapacitorShallDo) {
+TEST(BusKicker, HasChargedWhatCanBeToldToAndEmptiesItInTheEnd) {
   BusRig rig;
-  bus::Reader<msg::DeviceCharge> words{rig.world.there,
-                                       {.period = {}, .keep_all = true, .on_liveliness = {}, .liveliness_of = {}}};
-  ASSERT_TRUE(words.wait_for_writers(1, kPlenty));
-  rig.device->charge(ChargeWord::kUp);  // of a board that has not said that it can be told
+  bus::Reader<msg::DeviceCharge> words{rig.world.there};
+  ASSERT_TRUE(words.wait_for_writers(2, kPlenty));  // the marker's, too
+  const auto heard = [&] {
+    msg::DeviceCharge last{};
+    EXPECT_TRUE(words.wait(kPlenty));
+    words.take([&](const msg::DeviceCharge& word) { last = word; });
+    return last;
+  };
+  rig.device->charge(ChargeWord::kUp);  // nobody knows yet whether it can
   msg::DeviceKicker sample{};
   sample.robot_id = kRobot;
   sample.t_ns = 20'000'000;
-  sample.charge_control = true;
+  sample.charge_control = sample.discharge = true;
   rig.world.samples.write(sample);
   ASSERT_TRUE(rig.device->read(kPlenty));
-  std::vector<msg::DeviceCharge> heard;
-  for (const ChargeWord word : {ChargeWord::kEmpty, ChargeWord::kHold, ChargeWord::kUp}) {
-    rig.device->charge(word);
-    ASSERT_TRUE(words.wait(kPlenty));
-    words.take([&](const msg::DeviceCharge& said) { heard.push_back(said); });
-  }
-  ASSERT_EQ(heard.size(), 3u);
-  EXPECT_EQ(heard[0].word, msg::CHARGE_EMPTY);
-  EXPECT_EQ(heard[1].word, msg::CHARGE_HOLD);
-  EXPECT_EQ(heard[2].word, msg::CHARGE_UP);
-  EXPECT_EQ(heard[2].robot_id, kRobot);
-  EXPECT_EQ(heard[2].seq, 3u);
-  EXPECT_NEAR(static_cast<double>(heard[2].t_ns),
-              static_cast<double>(std::chrono::steady_clock::now().time_since_epoch().count()), 20e9);
+  rig.device->charge(ChargeWord::kUp);
+  const msg::DeviceCharge up = heard();
+  EXPECT_EQ(up.word, msg::CHARGE_UP);
+  EXPECT_EQ(up.robot_id, kRobot);
+  EXPECT_EQ(up.seq, 1u);
+  EXPECT_LE(up.t_ns, tests::steady_ns());
+  EXPECT_GT(up.t_ns, tests::steady_ns() - 60'000'000'000);
+  rig.device->charge(ChargeWord::kHold);
+  EXPECT_EQ(heard().word, msg::CHARGE_HOLD);
+  rig.device->make_safe();
+  EXPECT_EQ(heard().word, msg::CHARGE_EMPTY);
+  rig.device->charge(ChargeWord::kUp);
+  rig.device.reset();  // safe once more
+  const msg::DeviceCharge last = heard();
+  EXPECT_EQ(last.word, msg::CHARGE_EMPTY);
+  EXPECT_EQ(last.seq, 4u);
 }
 
 TEST(ReplayKicker, EndsWithTheLog) {
