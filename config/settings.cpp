@@ -63,7 +63,10 @@ void check_lockstep(const Settings& settings, const std::string& source) {
                     source, key, text_of(device))};
   };
   check("hal.wheels", settings.hal.wheels);
+  check("hal.gyro", settings.hal.gyro);
+  check("hal.gyro", settings.hal.gyro);
   check("hal.kicker", settings.hal.kicker);
+  if (settings.scan_recorder.enabled) check("scan_recorder.device", settings.scan_recorder.device);
 }
 
 /// What follows from several settings together.

@@ -81,6 +81,9 @@ struct KickDecision {
   DriveMode drive = DriveMode::kAlways;
 };
 
+/// What a kicker's board may be able to do beyond firing (hal::KickerCapabilities).
+enum class Capability { kChargeControl, kVoltage, kDischarge, kWatchdog };
+
 /// What the driver refuses.
 struct KickerDriver {
   double min_interval_s = 0.5;        ///< between two kicks
@@ -88,6 +91,9 @@ struct KickerDriver {
   double max_order_age_s = 0.1;       ///< an order that was judged longer ago is refused, whatever it says of itself
   double future_tolerance_s = 0.025;  ///< an order from further ahead is refused; a cycle and what clocks differ by
   double link_timeout_s = 0.1;        ///< no device sample for longer: fault
+  double voltage_rise_v = 5.0;        ///< by so much a capacitor that is charged rises within voltage_rise_s, or fault
+  double voltage_rise_s = 1.0;
+  std::vector<Capability> demand;  ///< what the kicker's board must be able to do, or the driver does not start
 };
 
 /// Tracking of a shot.

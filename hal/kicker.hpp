@@ -17,6 +17,7 @@ struct KickerSample {
   KickerFault fault = KickerFault::kNone;
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
   std::optional<double> voltage_v{};  ///< of the capacitor; none: not measured
+  bool emulated = false;              ///< the board is a program
 };
 
 /// What a device can do beyond firing and saying whether it may.
@@ -27,6 +28,9 @@ struct KickerCapabilities {
   bool watchdog = false;        ///< it makes itself safe when its host falls silent
   bool operator==(const KickerCapabilities&) const = default;
 };
+
+/// What a capacitor shall do: stay as it is, be charged, be emptied.
+enum class ChargeWord { kHold, kUp, kEmpty };
 
 /// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
 ///
@@ -53,6 +57,10 @@ class Kicker {
   /// The kick `kick_id` is not carried out, if its instant still lies ahead; one that was carried out, or never
   /// ordered, changes nothing.
   virtual void withdraw(std::int64_t kick_id) = 0;
+
+  /// What the capacitor shall do from now on, where the device can be told: kUp and kHold need charge_control, kEmpty
+  /// needs discharge. Said again with each sample. By default nobody listens.
+  virtual void charge(ChargeWord word) { static_cast<void>(word); }
 
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;

@@ -3,34 +3,47 @@
 #include <fmt/core.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bus_wheels.hpp"
 #include "hal/can/can_line.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
+#include "hal/gyro_wheels.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
+#include "hal/mti/mti.hpp"
 #include "hal/rekick/rekick.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
 #include "hal/scip/scip_range_finder.hpp"
-#include "hal/sim/sim_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/sim/sim_wheels.hpp"
 
 namespace trivela::hal {
 namespace {
 
-using config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
-    config::SimDevice;
+using config::BusDevice, config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice,
+    config::ReplayDevice, config::ScipDevice, config::SimDevice;
 
-std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
-  return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
+std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<BusWheels>(owner.participant, owner.robot_id);
 }
 std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
 }
 
-std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner) {
-  return std::make_unique<SimKicker>(owner.participant, owner.robot_id);
+std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner) {
+  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
+}
+
+std::unique_ptr<Wheels> with_gyro(const config::WheelsGyro&, std::unique_ptr<Wheels> wheels) { return wheels; }
+std::unique_ptr<Wheels> with_gyro(const config::MtiDevice& gyro, std::unique_ptr<Wheels> wheels) {
+  return std::make_unique<GyroWheels>(std::move(wheels), std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro));
+}
+
+std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<BusKicker>(owner.participant, owner.robot_id);
 }
 std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayKicker>(ReplayLog::open(devices.replay_log, owner.robot_id));
@@ -53,7 +66,8 @@ std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner
 }  // namespace
 
 std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner) {
-  return std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
+  auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
+  return std::visit([&](const auto& gyro) { return with_gyro(gyro, std::move(opened)); }, devices.gyro);
 }
 
 std::unique_ptr<Kicker> open_kicker(const Hal& devices, const Owner& owner) {

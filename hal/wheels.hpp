@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "kicking/geometry/frames.hpp"
 
@@ -15,6 +16,8 @@ struct WheelSample {
   int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
   std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
   std::optional<double> gyro_radps;     ///< counter-clockwise
+  bool emulated = false;                ///< the base is a program
+  bool gyro_emulated = false;           ///< gyro_radps is a program's
 };
 
 /// The base: wheel speeds in, set-points out. read() is for one thread at a time, the commands for another.
@@ -35,6 +38,9 @@ class Wheels {
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;
+
+  /// One line on the state of the link and of the motors, for a human; empty: nothing to say.
+  virtual std::string status() const { return {}; }
 };
 
 }  // namespace trivela::hal

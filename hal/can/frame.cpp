@@ -9,6 +9,12 @@
 
 namespace trivela::hal::can {
 
+Frame standard_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data) {
+  Frame frame{.id = id, .extended = false, .error = false, .size = static_cast<std::uint8_t>(data.size()), .data = {}};
+  std::ranges::copy(data, frame.data.begin());
+  return frame;
+}
+
 Frame extended_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data) {
   Frame frame{.id = id, .extended = true, .error = false, .size = static_cast<std::uint8_t>(data.size()), .data = {}};
   std::ranges::copy(data, frame.data.begin());
@@ -38,6 +44,10 @@ std::vector<Frame> decode(std::string_view bytes) {
     frames.push_back(frame);
   }
   return frames;
+}
+
+Frame bus_off_frame() {
+  return {.id = CAN_ERR_BUSOFF, .extended = false, .error = true, .size = CAN_ERR_DLC, .data = {}};
 }
 
 bool is_bus_off(const Frame& frame) { return frame.error && (frame.id & CAN_ERR_BUSOFF) != 0; }

@@ -23,6 +23,9 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
+/// A frame with an 11-bit identifier.
+Frame standard_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data);
+
 /// A frame with a 29-bit identifier.
 Frame extended_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data);
 
@@ -34,6 +37,9 @@ std::vector<Frame> decode(std::string_view bytes);
 
 /// What an error frame says, in words: "bus off", "no acknowledgement".
 std::string describe_error(const Frame& frame);
+
+/// What an interface says when it has left the bus.
+Frame bus_off_frame();
 
 /// The controller has left the bus.
 bool is_bus_off(const Frame& frame);

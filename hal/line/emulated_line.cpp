@@ -15,6 +15,7 @@ namespace trivela::hal {
 namespace {
 
 constexpr std::int64_t kLongestWait_ns = 999'999'999;
+constexpr std::size_t kMostWaiting = 256;  // messages
 
 std::int64_t emulated_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -111,7 +112,10 @@ void EmulatedLine::receive() {
   }
 }
 
-void EmulatedLine::say(std::vector<std::string> messages) { std::ranges::move(messages, std::back_inserter(out_)); }
+/// What nobody reads for long is not kept: a device does not wait either.
+void EmulatedLine::say(std::vector<std::string> messages) {
+  if (out_.size() < kMostWaiting) std::ranges::move(messages, std::back_inserter(out_));
+}
 
 void EmulatedLine::send() {
   if (!cable_ || socket_->client() < 0) return out_.clear();

@@ -3,20 +3,17 @@
 #include <cstdint>
 #include <optional>
 
+#include "hal/line/device_clock.hpp"
+
 namespace trivela::hal::scip {
 
 /// From a scanner's clock, milliseconds in 24 bits that start over every 4.66 hours, to the host's clock.
-///
-/// A reply cannot arrive before its scan was measured, and some arrive late: the host was busy. The clocks' distance is
-/// therefore the least of all arrival - stamp - least_delay so far. It may grow by kDrift of the time that passes, so
-/// that a scanner whose clock runs slow is followed; a fast one is anyhow. A stamp that runs backwards, or ahead of the
-/// host by more than a second, starts anew.
 class ScanClock {
  public:
-  static constexpr double kDrift = 2e-4;
+  static constexpr double kDrift = DeviceClock::kDrift;
 
   /// least_delay_ns: from beam 0 to the first instant at which the reply can be here, >= 0.
-  explicit ScanClock(std::int64_t least_delay_ns) : least_delay_ns_(least_delay_ns) {}
+  explicit ScanClock(std::int64_t least_delay_ns) : clock_(1'000'000, 24, least_delay_ns) {}
 
   struct Instant {
     std::int64_t t_ns = 0;               ///< of beam 0, in the host's clock; to the scanner's millisecond
@@ -24,13 +21,13 @@ class ScanClock {
   };
 
   /// The instant of a reply with this stamp, its upper 8 bits are ignored, that arrived at arrival_ns.
-  Instant add(std::uint32_t stamp_ms, std::int64_t arrival_ns);
+  Instant add(std::uint32_t stamp_ms, std::int64_t arrival_ns) {
+    const auto [t_ns, gap_ms] = clock_.add(stamp_ms, arrival_ns);
+    return {t_ns, gap_ms};
+  }
 
  private:
-  std::int64_t least_delay_ns_;
-  bool started_ = false;
-  std::int64_t device_ms_ = 0;  // unwrapped
-  std::int64_t offset_ns_ = 0;  // host - scanner
+  DeviceClock clock_;
 };
 
 }  // namespace trivela::hal::scip

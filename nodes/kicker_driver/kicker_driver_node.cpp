@@ -16,6 +16,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)),
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
@@ -24,10 +25,13 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       "kicker",
       [this](std::chrono::nanoseconds timeout) {
         if (kicker_->ended()) context_.idle(timeout);
-        return kicker_->read(timeout);
+        auto sample = kicker_->read(timeout);
+        if (!sample) tell_charge();
+        return sample;
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
-      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::SimFire, msg::StepDone>());
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
+                  msg::StepDone>());
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -35,7 +39,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   } else {
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
-                           bus::writes<msg::KickReceipt, msg::SimFire>(), words);
+                           bus::writes<msg::KickReceipt, msg::DeviceFire>(), words);
+    orders.liveliness_of = own_decision_;
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");
@@ -43,7 +48,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   }
   node_.on<msg::KickOrder>(
       [this](const msg::KickOrder& order, const bus::SampleInfo& info) { on_order(order, order_by(info)); },
-      bus::writes<msg::KickReceipt, msg::SimFire, msg::StepDone>(), orders);
+      bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.
@@ -54,6 +59,7 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   first_.once([this] {
     expect_device(*kicker_);
+    demand_capabilities();
     expect_readers(context_, status_out_);
     expect_readers(context_, receipt_out_);
   });
@@ -61,11 +67,41 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
+  emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
   status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
   withdraw();
+  look_for_decision();
+  kicker_->charge(desk_.charge_word());
   report_done(sample.t_ns);
+}
+
+KickerDriverNode::~KickerDriverNode() { kicker_->charge(desk_.end()); }
+
+/// The device says with its first sample what it can do.
+void KickerDriverNode::demand_capabilities() const {
+  const std::string lacking = robot::missing(context_.settings.kicker_driver.demand, kicker_->capabilities());
+  if (lacking.empty()) return;
+  throw std::runtime_error{fmt::format("kicker_driver.demand: the kicker \"{}\" has no {}",
+                                       config::text_of(context_.settings.hal.kicker), lacking)};
+}
+
+/// Where no sample comes the capacitor is spoken to all the same.
+void KickerDriverNode::tell_charge() {
+  if (context_.settings.run.lockstep) return;
+  const std::lock_guard lock{mutex_};
+  look_for_decision();
+  kicker_->charge(desk_.charge_word());
+}
+
+/// A decision node that has gone takes the charge with it.
+void KickerDriverNode::look_for_decision() {
+  if (context_.settings.run.lockstep) return;
+  const bool lost = loop_.lost(context_.steady_ns());
+  if (lost && !decision_lost_) context_.logger->warn("the decision node is gone: the capacitor is to be emptied");
+  decision_lost_ = lost;
+  desk_.decision_node(!lost, now_t_ns());
 }
 
 /// In lockstep the cycle's word; in real time the last one, for as long as it counts.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/kicker.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/driver/order_desk.hpp"
 #include "robot/watch/loop_watch.hpp"
@@ -20,6 +21,10 @@ namespace trivela::nodes {
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
+  ~KickerDriverNode();
+  KickerDriverNode(const KickerDriverNode&) = delete;
+  KickerDriverNode& operator=(const KickerDriverNode&) = delete;
+
   bus::Node& node() { return node_; }
 
  private:
@@ -32,6 +37,9 @@ class KickerDriverNode {
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
   void say_link(bool lost);
+  void demand_capabilities() const;
+  void tell_charge();
+  void look_for_decision();
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
@@ -40,12 +48,14 @@ class KickerDriverNode {
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
+  bool decision_lost_ = false;
   std::string link_said_;
   robot::LoopWatch loop_;
   std::string own_decision_;  // owner of the writer whose orders count
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;
+  EmulationWord emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
   robot::RefereeWatch referee_;                                   // real time

@@ -1,6 +1,7 @@
 #include "nodes/odometry/odometry_node.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
@@ -15,6 +16,7 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
       odometry_(context.robot.base, context.settings.odometry),
       node_(context.participant, "odometry", context.robot_id()),
       odometry_out_(node_.writer<msg::Odometry>()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)),
       first_(context.settings.run.lockstep),
       world_(node_.stores<msg::WorldState>()),
@@ -24,11 +26,12 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
     context_.logger->info("kick_decision.drive = \"advice\": the base moves by team_drive alone");
   node_.on_device(
       "wheels", [this](std::chrono::nanoseconds timeout) { return next_sample(timeout); },
-      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry, msg::SimDrive>());
+      [this](const hal::WheelSample& sample) { on_wheels(sample); },
+      bus::writes<msg::Odometry, msg::DeviceDrive, msg::DeviceEmulated>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand& command) { on_drive(command); },
-                              bus::writes<msg::SimDrive, msg::StepDone>());
+                              bus::writes<msg::DeviceDrive, msg::StepDone>());
   node_.on<msg::TeamDrive>([this](const msg::TeamDrive& command) { on_team_drive(command); },
-                           bus::writes<msg::SimDrive>());
+                           bus::writes<msg::DeviceDrive>());
 }
 
 /// In lockstep the next sample waits for the drive command of the last one: a replayed log knows no other pace.
@@ -39,9 +42,19 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
   }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
+  say_status(sample.has_value());
   if (!sample) stop_without_commands();
   if (!sample && context_.settings.run.lockstep) cycle_over_.release();
   return sample;
+}
+
+/// What the device says of its link and of its motors, whenever that is something else.
+void OdometryNode::say_status(bool heard) {
+  std::string said = wheels_->status();
+  if (said == status_said_) return;
+  status_said_ = std::move(said);
+  if (!status_said_.empty())
+    context_.logger->log(heard ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
 }
 
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
@@ -49,6 +62,8 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
     expect_device(*wheels_);
     expect_readers(context_, odometry_out_);
   });
+  emulation_.see(msg::PART_WHEELS, sample.emulated, sample.t_ns);
+  emulation_.see(msg::PART_GYRO, sample.gyro_emulated, sample.t_ns);
   auto out = odometry_.update(sample);
   if (!out) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);
@@ -129,7 +144,8 @@ void OdometryNode::say_who_drives(std::int64_t now_ns, const robot::DriveSituati
 
 int odometry_main(int argc, char** argv) {
   return node_main(argc, argv, "odometry", [](NodeContext& context) {
-    OdometryNode node{context, hal::open_wheels(context.settings.hal, {context.participant, context.robot_id()})};
+    OdometryNode node{
+        context, hal::open_wheels(context.settings.hal, {context.participant, context.robot_id(), context.robot.base})};
     run(context, node.node());
   });
 }

@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 #include <semaphore>
+#include <string>
 
 #include "hal/wheels.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/odometry/drive_arbiter.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
@@ -20,6 +22,7 @@ class OdometryNode {
 
  private:
   std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
+  void say_status(bool heard);
   void on_wheels(const hal::WheelSample& sample);
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
@@ -33,10 +36,12 @@ class OdometryNode {
   robot::WheelOdometry odometry_;
   bus::Node node_;
   bus::Output<msg::Odometry> odometry_out_;
+  EmulationWord emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   FirstCycle first_;
   std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
+  std::string status_said_;
   std::shared_ptr<bus::Mailbox<msg::WorldState>> world_;
   std::mutex drive_mutex_;  // device thread and drive reactions
   robot::DriveArbiter arbiter_;

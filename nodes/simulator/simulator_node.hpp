@@ -41,22 +41,22 @@ class SimulatorNode {
 
   template <class T>
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
-  void order(const msg::SimFire& fire, sim::Commands& out);
-  std::optional<msg::SimDrive> fresh_drive();
+  void order(const msg::DeviceFire& fire, sim::Commands& out);
+  std::optional<msg::DeviceDrive> fresh_drive();
 
   NodeContext& context_;
   sim::Scenario scenario_;
   sim::Match match_;
-  bus::Writer<msg::SimWheels> wheels_;
-  bus::Writer<msg::SimKicker> kicker_;
+  bus::Writer<msg::DeviceWheels> wheels_;
+  bus::Writer<msg::DeviceKicker> kicker_;
   bus::Writer<msg::VisionFrame> vision_;
   bus::Writer<msg::FlightFrame> flight_;
   bus::Writer<msg::Referee> referee_;
   bus::Writer<msg::KickTruth> kick_truth_;
   bus::Writer<msg::PossessionTruth> possession_truth_;
   std::optional<bus::Writer<msg::SimScan>> scan_;  // where the scenario has a laser
-  bus::Mailbox<msg::SimDrive> drive_;
-  bus::Reader<msg::SimFire> fire_;
+  bus::Mailbox<msg::DeviceDrive> drive_;
+  bus::Reader<msg::DeviceFire> fire_;
   LockstepBarrier barrier_;
   std::int64_t t_ns_ = 0;
   std::uint64_t cycle_ = 0;

@@ -16,7 +16,8 @@ WorldStateNode::WorldStateNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>(
           {.period = {},
            .keep_all = false,
-           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }})),
+           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); },
+           .liveliness_of = {}})),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");
   node_.on<msg::Odometry>([this](const msg::Odometry& odometry) { on_odometry(odometry); },

@@ -18,12 +18,18 @@ kicking::Range power_range(const kicking::EffectiveTable& table) { return {table
 OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
                      std::uint8_t robot_id)
     : gate_(settings, power_range(model.table), cycle_s),
+      voltage_(settings.voltage_rise_v, settings.voltage_rise_s),
       delay_ns_(kicking::nanoseconds(model.delay_s)),
       robot_id_(robot_id) {}
 
 msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
-  gate_.device(sample);
+  hal::KickerSample judged = sample;
+  over_voltage_ = over_voltage(sample);
+  const bool stuck = voltage_.stuck(sample, stand_.state == msg::STATE_CHARGING);
+  if (judged.fault == hal::KickerFault::kNone && (stuck || over_voltage_)) judged.fault = hal::KickerFault::kCharger;
+  gate_.device(judged);
   gate_.referee(says);
+  advance(now_t_ns);
   msg::KickerStatus out{};
   out.robot_id = robot_id_;
   out.seq = ++statuses_;
@@ -32,12 +38,9 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
   out.charge_modelled = sample.charge_modelled;
   out.voltage_v = msg::wire_of(sample.voltage_v);
   out.armed = gate_.armed();
-  out.ready = gate_.ready(now_t_ns);
-  out.fault = static_cast<msg::KickerFault>(sample.fault);
-  out.state = out.fault != msg::FAULT_NONE ? msg::STATE_FAULT
-              : !out.armed                 ? msg::STATE_OFF
-              : out.ready                  ? msg::STATE_READY
-                                           : msg::STATE_CHARGING;
+  out.ready = stand_.state == msg::STATE_READY;
+  out.fault = static_cast<msg::KickerFault>(judged.fault);
+  out.state = stand_.state;
   out.last_kick_id = gate_.last_kick_id();
   out.last_accepted = gate_.last_accepted();
   out.orders_handled = gate_.handled();
@@ -45,7 +48,30 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
   return out;
 }
 
+/// The facts by now as events, those that forbid first: what is so already changes nothing.
+void OrderDesk::advance(std::int64_t now_t_ns) {
+  const bool sound = gate_.sound(now_t_ns);
+  happened(over_voltage_ ? KickerEvent::kOverVoltage : sound ? KickerEvent::kSound : KickerEvent::kFault);
+  if (!decision_there_) happened(KickerEvent::kDecisionLost);
+  happened(gate_.armed() && decision_there_ ? KickerEvent::kArmed : KickerEvent::kDisarmed);
+  if (!gate_.under_way(now_t_ns)) happened(KickerEvent::kShotOver);
+  if (gate_.rested(now_t_ns)) happened(KickerEvent::kRested);
+  happened(gate_.charged() ? KickerEvent::kCharged : KickerEvent::kUncharged);
+}
+
+void OrderDesk::decision_node(bool there, std::int64_t now_t_ns) {
+  decision_there_ = there;
+  advance(now_t_ns);
+}
+
+hal::ChargeWord OrderDesk::end() {
+  happened(KickerEvent::kEnd);
+  return stand_.word;
+}
+
 msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
+  if (by == OrderBy::kOwnDecision) decision_there_ = true;
+  advance(now_t_ns);
   const msg::Refusal refusal = gate_.judge(order, now_t_ns, by);
   msg::KickReceipt receipt{};
   receipt.robot_id = robot_id_;
@@ -56,6 +82,7 @@ msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now
   receipt.refusal = refusal;
   receipt.order_t_ns = order.t_ns;
   if (!receipt.accepted) return receipt;
+  happened(KickerEvent::kAccepted);
   receipt.power = order.power;
   receipt.fired_t_ns = std::max(now_t_ns, order.fire_t_ns);
   receipt.release_t_ns = receipt.fired_t_ns + delay_ns_;
@@ -65,6 +92,8 @@ msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now
 std::optional<msg::KickReceipt> OrderDesk::withdrawal(std::int64_t now_t_ns) {
   const auto withdrawn = gate_.withdraw(now_t_ns);
   if (!withdrawn) return std::nullopt;
+  happened(KickerEvent::kCalledOff);
+  advance(now_t_ns);
   msg::KickReceipt receipt{};
   receipt.robot_id = robot_id_;
   receipt.seq = ++receipts_;

@@ -7,13 +7,15 @@
 #include "hal/kicker.hpp"
 #include "idl/messages.hpp"
 #include "kicking/model/robot_model.hpp"
+#include "robot/driver/kicker_machine.hpp"
 #include "robot/driver/order_gate.hpp"
 
 namespace trivela::robot {
 
 /// The kicker's driver without bus and device: samples and the referee's word in, statuses out; orders in, receipts
-/// out. Whoever owns it fires what it accepts. Every now_t_ns is of the clock that the samples' and orders' t_ns are
-/// of, and never falls behind it: the steady clock, in lockstep the sample's.
+/// out; and what the capacitor shall do. The OrderGate judges orders, by the same facts that move the state machine:
+/// none is accepted but in STATE_READY. Whoever owns it fires what it accepts. Every now_t_ns is of the clock that the
+/// samples' and orders' t_ns are of, and never falls behind it: the steady clock, in lockstep the sample's.
 class OrderDesk {
  public:
   OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
@@ -23,7 +25,16 @@ class OrderDesk {
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
   /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
-  msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by = OrderBy::kOwnDecision);
+  msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by);
+
+  /// Whether the decision node is there; until somebody says otherwise it is. To be followed by charge_word().
+  void decision_node(bool there, std::int64_t now_t_ns);
+
+  /// What the capacitor shall do by now.
+  hal::ChargeWord charge_word() const { return stand_.word; }
+
+  /// The program ends: from now on the capacitor is to be emptied.
+  hal::ChargeWord end();
 
   /// What the referee's word permits by now.
   void referee(RefereeSays says) { gate_.referee(says); }
@@ -38,7 +49,14 @@ class OrderDesk {
   std::uint32_t fires() const { return gate_.handled() - gate_.refused(); }
 
  private:
+  void happened(KickerEvent event) { stand_ = next(stand_, event); }
+  void advance(std::int64_t now_t_ns);
+
   OrderGate gate_;
+  KickerStand stand_;
+  VoltageWatch voltage_;
+  bool over_voltage_ = false;
+  bool decision_there_ = true;
   std::int64_t delay_ns_;
   std::uint8_t robot_id_;
   std::uint64_t statuses_ = 0;

@@ -32,6 +32,11 @@ bool OrderGate::rested(std::int64_t now_t_ns) const {
   return !last_fire_t_ns_ || seconds_from(*last_fire_t_ns_, now_t_ns) >= settings_.min_interval_s;
 }
 
+bool OrderGate::under_way(std::int64_t now_t_ns) const {
+  constexpr double kLongestPulse_s = 0.05;
+  return accepted_ && seconds_from(accepted_->fire_t_ns, now_t_ns) < kLongestPulse_s;
+}
+
 bool OrderGate::known(const msg::KickOrder& order) const {
   return std::ranges::find(accepted_ids_, order.kick_id) != accepted_ids_.end() ||
          std::ranges::any_of(refused_orders_, [&](const msg::KickOrder& refused) { return same(refused, order); });
@@ -48,7 +53,7 @@ void OrderGate::remember(const msg::KickOrder& order, bool accepted) {
 }
 
 bool OrderGate::ready(std::int64_t now_t_ns) const {
-  return sound(now_t_ns) && armed() && rested(now_t_ns) && charged();
+  return sound(now_t_ns) && armed() && !under_way(now_t_ns) && rested(now_t_ns) && charged();
 }
 
 msg::Refusal OrderGate::disarmed() const {
@@ -67,7 +72,7 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
   if (now_t_ns > order.valid_until_t_ns || ahead_s > settings_.future_tolerance_s) return msg::REFUSAL_STALE;
   const double after_s = seconds_from(order.t_ns, order.fire_t_ns);
   if (!(after_s >= 0.0 && after_s <= cycle_s_ + kClockStep_s)) return msg::REFUSAL_STALE;
-  if (known(order) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
+  if (known(order) || under_way(now_t_ns) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
   if (!charged()) return msg::REFUSAL_CHARGING;
   return msg::REFUSAL_NONE;
 }
@@ -75,6 +80,10 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
 msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
   const msg::Refusal refusal = reason(order, now_t_ns, by);
   ++handled_;
+  if (by == OrderBy::kStranger) {
+    ++refused_;
+    return refusal;
+  }
   remember(order, refusal == msg::REFUSAL_NONE);
   last_kick_id_ = order.kick_id;
   last_accepted_ = refusal == msg::REFUSAL_NONE;

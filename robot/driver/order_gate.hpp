@@ -8,6 +8,7 @@
 #include "hal/kicker.hpp"
 #include "idl/messages.hpp"
 #include "kicking/range.hpp"
+#include "robot/driver/kicker_machine.hpp"
 #include "robot/watch/referee_watch.hpp"
 
 namespace trivela::robot {
@@ -23,8 +24,9 @@ enum class OrderBy { kOwnDecision, kStranger };
 /// referee heard and playing), the order was judged at most max_order_age_s ago and is not older than its
 /// valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be fired before it
 /// was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and the last kick is
-/// at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails is the
-/// refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double.
+/// over and at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails is
+/// the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A
+/// stranger's order is counted and leaves nothing else behind.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.
@@ -38,7 +40,7 @@ class OrderGate {
   void referee(RefereeSays says) { referee_ = says; }
 
   /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
-  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by = OrderBy::kOwnDecision);
+  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by);
 
   /// An accepted order that must not be fired after all.
   struct Withdrawal {
@@ -54,6 +56,17 @@ class OrderGate {
   /// Switch on, device heard of, game playing.
   bool armed() const { return sample_ && sample_->armed && referee_ == RefereeSays::kPlay; }
 
+  /// The device has no fault, and its status is fresh.
+  bool sound(std::int64_t now_t_ns) const;
+  /// The capacitor holds what a kick needs. A charge above the whole is a device's that cannot be believed.
+  bool charged() const {
+    return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMostCharge;
+  }
+  /// The instant of an accepted order lies ahead, or its pulse runs.
+  bool under_way(std::int64_t now_t_ns) const;
+  /// The last kick is min_interval_s ago.
+  bool rested(std::int64_t now_t_ns) const;
+
   /// An order within range that came at `now_t_ns` would be accepted.
   bool ready(std::int64_t now_t_ns) const;
 
@@ -63,16 +76,9 @@ class OrderGate {
   std::uint32_t refused() const { return refused_; }
 
  private:
-  bool sound(std::int64_t now_t_ns) const;
-  bool rested(std::int64_t now_t_ns) const;
   bool known(const msg::KickOrder& order) const;
   void remember(const msg::KickOrder& order, bool accepted);
   msg::Refusal disarmed() const;
-  /// A charge above the whole is a device's that cannot be believed.
-  bool charged() const {
-    constexpr double kMost = 1.05;
-    return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMost;
-  }
   msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const;
 
   config::KickerDriver settings_;

@@ -27,7 +27,7 @@ TEST(Messages, NameTopicAndProfileComeFromTheIdl) {
   EXPECT_EQ(meta<msg::Odometry>::profile, Profile::kState);
   EXPECT_EQ(meta<msg::KickOrder>::profile, Profile::kOrder);
   EXPECT_EQ(meta<msg::KickDecision>::profile, Profile::kEvent);
-  EXPECT_EQ(meta<msg::SimFire>::topic, "sim/fire");
+  EXPECT_EQ(meta<msg::DeviceFire>::topic, "device/fire");
 }
 
 TEST(Messages, TheDescriptorIsTheTypesOwn) {
@@ -90,7 +90,7 @@ TEST(Messages, TheVisitorSeesNamesUnitsAndValuesInOrder) {
 }
 
 TEST(Messages, TheVisitorSeesArraysEnumsAndNestedStructs) {
-  msg::SimWheels wheels{};
+  msg::DeviceWheels wheels{};
   wheels.wheel_radps[2] = 7;
   Text wheels_text;
   visit_fields(wheels, wheels_text);

@@ -101,6 +101,15 @@ TEST(Lockstep, IsForDevicesWithoutATimeOfTheirOwn) {
   for (const std::string device : {"ioboard", "rekick"})
     EXPECT_THAT(refusal({"run.lockstep = true", "hal.kicker = \"" + device + "\""}),
                 HasSubstr("run.lockstep = true, but hal.kicker = \"" + device + "\" has a time of its own"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.wheels = \"cia402\""}),
+              HasSubstr("run.lockstep = true, but hal.wheels = \"cia402\" has a time of its own"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.gyro = \"mti\""}), HasSubstr("but hal.gyro = \"mti\" has a time"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.wheels = \"cia402\""}),
+              HasSubstr("hal.wheels = \"cia402\" has a time"));
+  EXPECT_THAT(refusal({"run.lockstep = true", "hal.gyro = \"mti\""}), HasSubstr("hal.gyro = \"mti\" has a time"));
+  EXPECT_THAT(
+      refusal({"run.lockstep = true", "scan_recorder.enabled = true", "scan_recorder.device = \"/dev/ttyACM0\""}),
+      HasSubstr("scan_recorder.device = \"/dev/ttyACM0\" has a time"));
   EXPECT_TRUE(with({"run.lockstep = true"}).run.lockstep);
   EXPECT_NO_THROW(with({"hal.kicker = \"ioboard\""}));
 }
@@ -114,6 +123,33 @@ TEST(ReKick, HasItsSettingsInATableOfItsName) {
   EXPECT_EQ(board.max_voltage_v, 200);
   EXPECT_THAT(refusal({"hal.kicker = \"rekick\"", "hal.rekick.max_voltage_v = 331"}),
               HasSubstr("hal.rekick.max_voltage_v = 331: must lie in [1, 330]"));
+}
+
+TEST(Cia402, HasItsSettingsInATableOfItsName) {
+  const Settings settings =
+      with({"hal.wheels = \"cia402\"", "hal.cia402.nodes = [4, 5, 6, 7]", "hal.cia402.reversed = [5]",
+            "hal.cia402.gear = 23.0", "hal.cia402.ramp = 20000", "hal.cia402.heartbeat_s = 0.1"});
+  const auto drives = std::get<Cia402Device>(settings.hal.wheels);
+  EXPECT_EQ(drives.nodes, (std::vector<std::uint8_t>{4, 5, 6, 7}));
+  EXPECT_EQ(drives.reversed, std::vector<std::uint8_t>{5});
+  EXPECT_EQ(drives.gear, 23.0);
+  EXPECT_EQ(drives.rpm_per_unit, std::nullopt);
+  EXPECT_EQ(drives.ramp, 20000u);
+  EXPECT_EQ(drives.heartbeat_s, 0.1);
+  EXPECT_EQ(drives.port, "can0");
+  EXPECT_THAT(refusal({"hal.wheels = \"cia402\"", "hal.cia402.nodes = [0, 1, 2]"}),
+              HasSubstr("hal.cia402.nodes = 0: must lie in [1, 127]"));
+  EXPECT_THAT(refusal({"hal.wheels = \"cia402\"", "hal.cia402.heartbeat_s = 2.0"}),
+              HasSubstr("hal.cia402.heartbeat_s = 2: must lie in [0.1, 1]"));
+}
+
+TEST(Gyro, IsThatOfTheWheelsUnlessTheFileNamesOneOfItsOwn) {
+  EXPECT_TRUE(std::holds_alternative<WheelsGyro>(with({}).hal.gyro));
+  const Settings settings =
+      with({"hal.gyro = \"mti\"", "hal.mti.port = \"/dev/ttyUSB3\"", "hal.mti.upside_down = true"});
+  EXPECT_EQ(std::get<MtiDevice>(settings.hal.gyro).port, "/dev/ttyUSB3");
+  EXPECT_TRUE(std::get<MtiDevice>(settings.hal.gyro).upside_down);
+  EXPECT_THAT(refusal({"hal.gyro = \"bno055\""}), HasSubstr("expected one of: wheels, mti"));
 }
 
 TEST(Scanner, IsSimulatedOrAnAddress) {

@@ -4,10 +4,13 @@
 #include <signal.h>
 
 #include <chrono>
+#include <thread>
 
 #include "hal/board/board_kicker.hpp"
 #include "hal/can/can_line.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
 #include "hal/ioboard/io_board.hpp"
+#include "hal/mti/mti.hpp"
 #include "hal/rekick/rekick.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
@@ -58,8 +61,38 @@ TEST_F(Emulate, AReKickIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
   EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
 }
 
+TEST_F(Emulate, DrivesAreFoundAtTheAddressThatItPrintsAndSayWhatTheyDo) {
+  Program trivela{"trivela", {"emulate", "cia402", "--drives", "3"}, folder_.path()};
+  ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
+  const config::Cia402Device settings{
+      .port = trivela.output().substr(0, trivela.output().find('\n')), .gear = 12.0, .heartbeat_s = 10.0};
+  {
+    hal::cia402::Cia402Wheels wheels{hal::can::can_line(settings.port), settings, kicking::WheelBase{}};
+    ASSERT_TRUE(wheels.connected(kPatience)) << wheels.status();
+    wheels.drive({0.0, 0.0, 2.0}, now_ns());
+    EXPECT_TRUE(says(trivela, "drive 3: operation enabled\n")) << trivela.output();
+    EXPECT_TRUE(says(trivela, "the wheels turn\n")) << trivela.output();
+  }
+  EXPECT_TRUE(says(trivela, "the wheels stand\n")) << trivela.output();
+  trivela.signal(SIGTERM);
+  EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
+}
+
+TEST_F(Emulate, AnMtiIsFoundAtTheAddressThatItPrints) {
+  Program trivela{"trivela", {"emulate", "mti", "--rate-radps", "1.5", "--faults", "garbled=5"}, folder_.path()};
+  ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
+  const std::string port = trivela.output().substr(0, trivela.output().find('\n'));
+  const hal::mti::MtiGyro gyro{hal::serial_line(port), {.port = port}};
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!gyro.newest() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  ASSERT_TRUE(gyro.newest()) << gyro.status();
+  EXPECT_EQ(gyro.newest()->gyro_radps, 1.5);
+  trivela.signal(SIGTERM);
+  EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
+}
+
 TEST_F(Emulate, AFaultThatIsNoneIsBadUsage) {
-  for (const std::string board : {"ioboard", "rekick"}) {
+  for (const std::string board : {"ioboard", "rekick", "cia402", "mti"}) {
     for (const std::string fault : {"lost", "lost=0", "lost=x", "burn=1"}) {
       Program trivela{"trivela", {"emulate", board, "--faults", fault}, folder_.path()};
       EXPECT_EQ(trivela.wait(), 2);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "evaluator/log/reader.hpp"
 #include "idl/messages.hpp"
@@ -112,6 +113,17 @@ TEST_F(Installed, AnotherProjectFindsAndUsesIt) {
   bus::Writer<msg::KickDecision> writer{bus::Participant{bus::loopback(19, tag)}};
   Program listener{folder_ / "consumer/examples/listen_to_decisions", {"19", tag}, folder_.path()};
   EXPECT_TRUE(writer.wait_for_readers(1, kPatience)) << listener.errors();
+
+  const auto at_home = [&] {
+    setenv("CYCLONEDDS_URI", ("file://" + config() + "/cyclonedds/loopback.xml").c_str(), 1);
+    setenv("TRIVELA_TAG", tag.c_str(), 1);
+  };
+  bus::Reader<msg::DeviceWheels> wheels{bus::Participant{bus::loopback(19, tag)}};
+  bus::Reader<msg::FlightFrame> camera{bus::Participant{bus::loopback(19, tag)}};
+  Program bridge{folder_ / "consumer/examples/bridge/bridge", {"19"}, folder_.path(), at_home};
+  Program vision{folder_ / "consumer/examples/vision/vision", {"19"}, folder_.path(), at_home};
+  EXPECT_TRUE(wheels.wait(kPatience)) << bridge.errors();
+  EXPECT_TRUE(camera.wait(kPatience)) << vision.errors();
 }
 
 }  // namespace

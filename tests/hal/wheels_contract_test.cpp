@@ -1,17 +1,20 @@
 // What every backend of Wheels promises, run over each of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bus_wheels.hpp"
+#include "hal/gyro_wheels.hpp"
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
-#include "hal/sim/sim_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/sim/sim_wheels.hpp"
+#include "tests/hal/bus_world.hpp"
+#include "tests/hal/cia402_rig.hpp"
 #include "tests/hal/recorded_log.hpp"
-#include "tests/hal/sim_world.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -23,14 +26,27 @@ const std::vector<WheelSample> kSaid{{20'000'000, 3, {1.5, -2.5, 3.5, 0.0}, 0.25
                                      {40'000'000, 3, {1.75, -2.0, 3.0, 0.0}, std::nullopt},
                                      {60'000'000, 4, {1.0, 2.0, 3.0, 4.0}, -0.5}};
 
-class SimRig {
+/// A device that says what it is told to, and nothing by itself.
+class ToldWheels {
  public:
-  SimRig() { EXPECT_TRUE(device->connected(kPlenty)); }
+  static constexpr bool kSpeaksByItself = false;
+  static void expect_said(std::size_t i, const WheelSample& sample) {
+    EXPECT_EQ(sample.t_ns, kSaid[i].t_ns);
+    EXPECT_EQ(sample.wheel_count, kSaid[i].wheel_count);
+    EXPECT_EQ(sample.wheel_radps, kSaid[i].wheel_radps);
+    EXPECT_EQ(sample.gyro_radps, kSaid[i].gyro_radps);
+  }
+  static void fall_silent() {}
+};
+
+class BusRig : public ToldWheels {
+ public:
+  BusRig() { EXPECT_TRUE(device->connected(kPlenty)); }
 
   /// Makes the device say sample i.
   void say(std::size_t i, std::uint8_t robot_id = kRobot) {
     const WheelSample& said = kSaid[i];
-    msg::SimWheels sample{};
+    msg::DeviceWheels sample{};
     sample.robot_id = robot_id;
     sample.t_ns = said.t_ns;
     sample.wheel_count = static_cast<std::uint8_t>(said.wheel_count);
@@ -52,11 +68,11 @@ class SimRig {
     return followed(1);
   }
 
-  SimWorld<msg::SimWheels, msg::SimDrive> world;
-  std::unique_ptr<Wheels> device = std::make_unique<SimWheels>(world.here, kRobot);
+  BusWorld<msg::DeviceWheels, msg::DeviceDrive> world;
+  std::unique_ptr<Wheels> device = std::make_unique<BusWheels>(world.here, kRobot);
 };
 
-class ReplayRig {
+class ReplayRig : public ToldWheels {
  public:
   ReplayRig() {
     for (std::size_t i = 0; i < kSaid.size(); ++i) {
@@ -84,6 +100,56 @@ class ReplayRig {
   std::unique_ptr<Wheels> device;
 };
 
+/// Motors that turn at a speed of their own choice, and say so in each cycle.
+class Cia402Rig {
+ public:
+  static constexpr bool kSpeaksByItself = true;
+
+  Cia402Rig() {
+    device->drive({0.0, 0.0, kTurn_radps}, 1);
+    EXPECT_TRUE(line.emulator.wait(kPlenty, [](const cia402::EmulatedDrives& drives) {
+      return std::ranges::all_of(drives.drives(),
+                                 [](const auto& drive) { return drive.rpm(tests::steady_ns()) > 1.0; });
+    }));
+    line.wait_for_cycles(10);  // their ramps take a millisecond
+  }
+  void say(std::size_t) { said_t_ns_ = tests::steady_ns(); }
+  void expect_said(std::size_t, WheelSample sample) {
+    while (sample.t_ns < said_t_ns_) {
+      const std::int64_t before_ns = sample.t_ns;
+      sample = device->read(kPlenty).value();
+      EXPECT_GT(sample.t_ns, before_ns);
+    }
+    EXPECT_LE(sample.t_ns, tests::steady_ns());
+    EXPECT_EQ(sample.wheel_count, 3);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sample.wheel_radps[i], kTurn_radps * 0.22 / 0.05, 0.01);
+    EXPECT_EQ(sample.wheel_radps[3], 0.0);
+    EXPECT_FALSE(sample.gyro_radps);
+  }
+  void fall_silent() {
+    line.emulator.line().hold(true);
+    while (device->read(milliseconds(50))) continue;
+  }
+  kicking::Twist followed(std::size_t) {
+    line.wait_for_cycles(2);
+    return line.told();
+  }
+  kicking::Twist after_destruction() {
+    device.reset();
+    EXPECT_TRUE(line.emulator.wait(kPlenty, [](const cia402::EmulatedDrives& drives) {
+      return std::ranges::none_of(drives.drives(), [](const auto& drive) { return drive.target_rpm() != 0; });
+    }));
+    return line.told();
+  }
+
+  tests::DrivesOnALine line;
+  std::unique_ptr<Wheels>& device = line.device;
+
+ private:
+  static constexpr double kTurn_radps = 2.0;
+  std::int64_t said_t_ns_ = 0;
+};
+
 template <class Rig>
 class WheelsContract : public testing::Test {
  protected:
@@ -96,7 +162,7 @@ class WheelsContract : public testing::Test {
     }
   }
 };
-using Rigs = testing::Types<SimRig, ReplayRig>;
+using Rigs = testing::Types<BusRig, ReplayRig, Cia402Rig>;
 TYPED_TEST_SUITE(WheelsContract, Rigs);
 
 TYPED_TEST(WheelsContract, SamplesComeWholeAndInTimeOrder) {
@@ -105,15 +171,13 @@ TYPED_TEST(WheelsContract, SamplesComeWholeAndInTimeOrder) {
     this->rig_.say(i);
     const auto sample = wheels.read(kPlenty);
     ASSERT_TRUE(sample);
-    EXPECT_EQ(sample->t_ns, kSaid[i].t_ns);
-    EXPECT_EQ(sample->wheel_count, kSaid[i].wheel_count);
-    EXPECT_EQ(sample->wheel_radps, kSaid[i].wheel_radps);
-    EXPECT_EQ(sample->gyro_radps, kSaid[i].gyro_radps);
+    this->rig_.expect_said(i, *sample);
   }
 }
 
 TYPED_TEST(WheelsContract, ReadReturnsWithoutDataWhenTheTimeoutIsOver) {
   this->read_all();
+  this->rig_.fall_silent();
   auto& wheels = *this->rig_.device;
   const auto start = std::chrono::steady_clock::now();
   EXPECT_FALSE(wheels.read(milliseconds(20)));
@@ -153,7 +217,8 @@ TYPED_TEST(WheelsContract, HasNotEndedBeforeItsLastSample) {
     ASSERT_TRUE(wheels.read(kPlenty));
   }
   const bool ended = wheels.ended();
-  EXPECT_FALSE(wheels.read(milliseconds(1)));
+  const auto beyond = wheels.read(milliseconds(1));
+  EXPECT_TRUE(TypeParam::kSpeaksByItself || !beyond);
   EXPECT_EQ(wheels.ended(), ended);
 }
 
@@ -166,8 +231,8 @@ TYPED_TEST(WheelsContract, DestructionLeavesTheBaseAtRest) {
   EXPECT_EQ(followed.omega_radps, 0.0);
 }
 
-TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
-  SimRig rig;
+TEST(BusWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
+  BusRig rig;
   rig.say(1);
   EXPECT_EQ(rig.device->read(kPlenty)->t_ns, 40'000'000);
   rig.say(0);
@@ -178,8 +243,110 @@ TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
   EXPECT_FALSE(rig.device->read(milliseconds(1)));
 }
 
-TEST(SimWheels, AreNotConnectedWithoutASimulator) {
-  SimWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
+/// A gyro that another process reads: its sample is of the wheels' time or it is none.
+class GyroBeside : public testing::Test {
+ protected:
+  void turn(std::int64_t t_ns, double gyro_radps, std::uint8_t robot_id = kRobot, bool emulated = false) {
+    msg::DeviceGyro sample{};
+    sample.robot_id = robot_id;
+    sample.t_ns = t_ns;
+    sample.gyro_radps = gyro_radps;
+    sample.emulated = emulated;
+    gyro_.write(sample);
+  }
+  /// That wheels of this instant are given, which have none.
+  std::optional<double> gyro_at(std::int64_t t_ns) { return sample_at(t_ns).gyro_radps; }
+  WheelSample sample_at(std::int64_t t_ns) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    sample.gyro_radps = std::nan("");
+    rig_.world.samples.write(sample);
+    const auto read = rig_.device->read(kPlenty);
+    EXPECT_TRUE(read);
+    return read.value_or(WheelSample{});
+  }
+
+  BusRig rig_;
+  bus::Writer<msg::DeviceGyro> gyro_{rig_.world.there};
+
+ private:
+  /// From the first that arrives on what follows does, too, before what is written after it.
+  void SetUp() override {
+    turn(1'000'000, 0.5);
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    std::int64_t t_ns = 1'000'000;
+    while (gyro_at(++t_ns) != 0.5) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  }
+};
+
+TEST_F(GyroBeside, IsGivenToWheelsThatHaveNone) {
+  turn(30'000'000, 1.5);
+  turn(35'000'000, 2.5);
+  EXPECT_EQ(gyro_at(40'000'000), 2.5);
+  rig_.say(2);
+  EXPECT_EQ(rig_.device->read(kPlenty).value().gyro_radps, -0.5) << "the wheels have their own";
+}
+
+TEST_F(GyroBeside, IsNoneOfAnotherRobotsNorOfAnotherTime) {
+  turn(80'000'000, 1.5, kRobot + 1);
+  EXPECT_EQ(gyro_at(80'000'000), std::nullopt);
+  turn(90'000'000, 2.5);
+  EXPECT_EQ(gyro_at(141'000'000), std::nullopt) << "it stands still";
+  turn(300'000'000, 3.5);
+  EXPECT_EQ(gyro_at(249'000'000), std::nullopt) << "it runs ahead";
+  EXPECT_EQ(gyro_at(251'000'000), 3.5);
+}
+
+TEST_F(GyroBeside, ThatSaysNoNumberIsNone) {
+  turn(30'000'000, std::nan(""));
+  EXPECT_EQ(gyro_at(40'000'000), std::nullopt);
+}
+
+TEST_F(GyroBeside, SaysWhetherItIsEmulated) {
+  turn(30'000'000, 1.5, kRobot, true);
+  const WheelSample sample = sample_at(40'000'000);
+  EXPECT_EQ(sample.gyro_radps, 1.5);
+  EXPECT_TRUE(sample.gyro_emulated);
+  EXPECT_FALSE(sample.emulated);
+}
+
+TEST(BusWheels, SayWhetherTheyAreEmulated) {
+  BusRig rig;
+  rig.say(0);
+  EXPECT_FALSE(rig.device->read(kPlenty).value().emulated);
+  msg::DeviceWheels sample{};
+  sample.robot_id = kRobot;
+  sample.t_ns = kSaid[1].t_ns;
+  sample.wheel_count = 3;
+  sample.emulated = true;
+  rig.world.samples.write(sample);
+  EXPECT_TRUE(rig.device->read(kPlenty).value().emulated);
+}
+
+TEST(BusWheels, RefuseTheFutureAndAnotherClock) {
+  bus::WirePair domains = bus::fresh_wire_pair();
+  const bus::Participant there{domains.a, bus::RealTime{}};
+  const bus::Participant here{domains.b, bus::RealTime{}};
+  bus::Writer<msg::DeviceWheels> bridge{there};
+  BusWheels wheels{here, kRobot};
+  const std::int64_t now_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::int64_t of_the_day_ns = std::chrono::system_clock::now().time_since_epoch().count();
+  for (const std::int64_t t_ns : {now_ns, now_ns + 600'000'000'000, of_the_day_ns, std::int64_t{-1}, now_ns + 1}) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    bridge.write(sample);
+    const bool ours = t_ns - now_ns <= 1 && t_ns >= now_ns;
+    const auto read = wheels.read(ours ? kPlenty : std::chrono::nanoseconds{milliseconds(20)});
+    EXPECT_EQ(read.has_value(), ours) << t_ns;
+  }
+}
+
+TEST(BusWheels, AreNotConnectedWithoutABridge) {
+  BusWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
   EXPECT_FALSE(wheels.connected(milliseconds(20)));
 }
 
@@ -212,15 +379,20 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   const Owner owner{participant, kRobot};
   const config::Hal simulated;
   const config::Hal replayed{config::ReplayDevice{}, config::ReplayDevice{}, log.file()};
-  EXPECT_NE(dynamic_cast<SimWheels*>(open_wheels(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusWheels*>(open_wheels(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
-  EXPECT_NE(dynamic_cast<SimKicker*>(open_kicker(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusKicker*>(open_kicker(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
   for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
                                             config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {
-    const config::Hal boards{config::SimDevice{}, board, ""};
+    const config::Hal boards{config::BusDevice{}, board, ""};
     EXPECT_NE(dynamic_cast<BoardKicker*>(open_kicker(boards, owner).get()), nullptr);
   }
+  const config::Hal drives{config::Cia402Device{.port = "/nowhere/can"}, config::BusDevice{}, ""};
+  EXPECT_NE(dynamic_cast<cia402::Cia402Wheels*>(open_wheels(drives, owner).get()), nullptr);
+  config::Hal turning = replayed;
+  turning.gyro = config::MtiDevice{.port = "/nowhere/tty"};
+  EXPECT_NE(dynamic_cast<GyroWheels*>(open_wheels(turning, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);
 }
 

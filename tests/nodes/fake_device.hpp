@@ -113,6 +113,8 @@ using WheelsFarSide = FarSide<hal::WheelSample, Driven>;
 struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<bool> safe = false;
   std::atomic<std::int64_t> withdrawn = 0;  ///< kick_id that was called off last
+  std::atomic<hal::KickerCapabilities> can{};
+  std::atomic<hal::ChargeWord> told = hal::ChargeWord::kHold;  ///< the capacitor, last
 
   /// What the device says of its link.
   void say_link(const std::string& link) {
@@ -154,6 +156,8 @@ class FakeKicker : public hal::Kicker {
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
   void make_safe() noexcept override { far_side_->safe = true; }
+  void charge(hal::ChargeWord word) override { far_side_->told = word; }
+  hal::KickerCapabilities capabilities() const override { return far_side_->can; }
   std::string status() const override { return far_side_->link(); }
   bool ended() const override { return far_side_->ended(); }
 

@@ -59,7 +59,7 @@ TEST_F(NodeProgramTest, SigtermEndsWorldState) { expect_clean_end<msg::Odometry>
 TEST_F(NodeProgramTest, SigtermEndsKickDecision) { expect_clean_end<msg::WorldState>("kick_decision"); }
 TEST_F(NodeProgramTest, SigtermEndsTheKickerDriver) { expect_clean_end<msg::KickOrder>("kicker_driver"); }
 TEST_F(NodeProgramTest, SigtermEndsTheShotObserver) { expect_clean_end<msg::FlightFrame>("shot_observer"); }
-TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::SimDrive>("simulator"); }
+TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceDrive>("simulator"); }
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
 
 TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
@@ -75,15 +75,27 @@ TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
 }
 
 TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
-  bus::Writer<msg::SimWheels> wheels{participant};
+  bus::Writer<msg::DeviceWheels> wheels{participant};
   bus::Reader<msg::Odometry> odometry{participant};
   Spawned node{program("odometry"), arguments()};
   ASSERT_TRUE(wheels.wait_for_readers(1, kPlenty)) << node.said();
   ASSERT_TRUE(odometry.wait_for_writers(1, kPlenty));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  wheels.write({.robot_id = 1, .seq = 1, .t_ns = 20, .wheel_count = 3, .wheel_radps = {nan, 1, 1}, .gyro_radps = nan});
+  wheels.write({.robot_id = 1,
+                .seq = 1,
+                .t_ns = 20,
+                .wheel_count = 3,
+                .wheel_radps = {nan, 1, 1},
+                .gyro_radps = nan,
+                .emulated = false});
   ASSERT_TRUE(node.says("wheel sample of t 20 ns is unusable")) << node.said();
-  wheels.write({.robot_id = 1, .seq = 2, .t_ns = 40, .wheel_count = 3, .wheel_radps = {1, 1, 1}, .gyro_radps = nan});
+  wheels.write({.robot_id = 1,
+                .seq = 2,
+                .t_ns = 40,
+                .wheel_count = 3,
+                .wheel_radps = {1, 1, 1},
+                .gyro_radps = nan,
+                .emulated = false});
   ASSERT_TRUE(odometry.wait(kPlenty)) << node.said();
   std::int64_t t_ns = 0;
   odometry.take([&](const msg::Odometry& sample) { t_ns = sample.t_ns; });

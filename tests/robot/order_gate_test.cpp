@@ -46,14 +46,14 @@ struct Case {
       for (const auto& past : before) {
         gate.device({past.t_ns, 1.0, true, hal::KickerFault::kNone});
         gate.referee(RefereeSays::kPlay);
-        gate.judge(past, past.t_ns);
+        gate.judge(past, past.t_ns, OrderBy::kOwnDecision);
       }
     }
     if (heard) gate.device(sample);
     gate.referee(referee);
     return gate;
   }
-  msg::Refusal answer() const { return gate().judge(order, now_ns); }
+  msg::Refusal answer() const { return gate().judge(order, now_ns, OrderBy::kOwnDecision); }
 };
 
 TEST(OrderGate, LetsAnOrderPassWhenEverythingIsWell) {
@@ -74,9 +74,10 @@ TEST(OrderGate, RefusesAnOrderThatWasGivenWithoutTheBall) {
   c.order.possession = false;
   EXPECT_EQ(c.answer(), msg::REFUSAL_NO_BALL);
   OrderGate gate = c.gate();
-  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_NO_BALL);
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NO_BALL);
   c.order.possession = true;
-  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_NONE) << "a refused order keeps nobody's id";
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE)
+      << "a refused order keeps nobody's id";
 }
 
 TEST(OrderGate, RefusesAStrangersOrderWhateverItSays) {
@@ -85,7 +86,11 @@ TEST(OrderGate, RefusesAStrangersOrderWhateverItSays) {
   EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER);
   EXPECT_EQ(gate.handled(), 1u);
   EXPECT_EQ(gate.refused(), 1u);
-  EXPECT_EQ(gate.judge(order_at(kNow_ns, 2), kNow_ns), msg::REFUSAL_NONE) << "the robot's own goes on";
+  EXPECT_EQ(gate.last_kick_id(), 0) << "the decision node hears of its own alone";
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE) << "a copy of it makes no double";
+  gate = c.gate();
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 2), kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE)
+      << "the robot's own goes on";
   c.sample.fault = hal::KickerFault::kCoil;
   EXPECT_EQ(c.gate().judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER) << "nobody else is told why";
 }
@@ -177,7 +182,7 @@ std::optional<OrderGate::Withdrawal> withdrawn_after(std::int64_t passed_ms,
   OrderGate gate = Case{}.gate();
   auto later = order_at(kNow_ns, 7);
   later.fire_t_ns += 15 * kMs;
-  EXPECT_EQ(gate.judge(later, kNow_ns), msg::REFUSAL_NONE);
+  EXPECT_EQ(gate.judge(later, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
   change(gate);
   const auto withdrawal = gate.withdraw(kNow_ns + passed_ms * kMs);
   EXPECT_FALSE(gate.withdraw(kNow_ns + passed_ms * kMs)) << "once";
@@ -205,15 +210,16 @@ TEST(OrderGate, AnOrderThatWasCalledOffCountsAsRefusedAndDelaysNobody) {
   OrderGate gate = Case{}.gate();
   auto later = order_at(kNow_ns, 7);
   later.fire_t_ns += 15 * kMs;
-  gate.judge(later, kNow_ns);
+  gate.judge(later, kNow_ns, OrderBy::kOwnDecision);
   gate.referee(RefereeSays::kStop);
   ASSERT_TRUE(gate.withdraw(kNow_ns + kMs));
   EXPECT_EQ(gate.handled(), 1u);
   EXPECT_EQ(gate.refused(), 1u);
   EXPECT_FALSE(gate.last_accepted());
   gate.referee(RefereeSays::kPlay);
-  EXPECT_EQ(gate.judge(order_at(kNow_ns + 2 * kMs, 8), kNow_ns + 2 * kMs), msg::REFUSAL_NONE);
-  EXPECT_EQ(gate.judge(order_at(kNow_ns + 3 * kMs, 7), kNow_ns + 3 * kMs), msg::REFUSAL_DOUBLE) << "it was answered";
+  EXPECT_EQ(gate.judge(order_at(kNow_ns + 2 * kMs, 8), kNow_ns + 2 * kMs, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns + 3 * kMs, 7), kNow_ns + 3 * kMs, OrderBy::kOwnDecision), msg::REFUSAL_DOUBLE)
+      << "it was answered";
 }
 
 TEST(OrderGate, SurvivesTimesFromTheEndsOfTheScale) {
@@ -266,23 +272,24 @@ TEST(OrderGate, ARefusedOrderKeepsNobodysKickIdButIsKnownAgainAsAWhole) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "the true order of that kick";
   OrderGate gate = Case{}.gate();
   gate.device({kNow_ns, 0.1, true, hal::KickerFault::kNone});
-  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_CHARGING);
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_CHARGING);
   gate.device({kNow_ns, 1.0, true, hal::KickerFault::kNone});
-  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_DOUBLE) << "the same order again";
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_DOUBLE) << "the same order again";
 }
 
 TEST(OrderGate, NoFloodOfForgedOrdersMakesATrueOneDoubleOrAnOldOneNew) {
   OrderGate gate = Case{}.gate();
-  EXPECT_EQ(gate.judge(order_at(kNow_ns, 1), kNow_ns), msg::REFUSAL_NONE);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 1), kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
   for (std::int64_t id = 1; id <= 1000; ++id) {
     auto forged = order_at(kNow_ns + id, id);
     forged.power = std::nan("");
-    EXPECT_NE(gate.judge(forged, kNow_ns + id), msg::REFUSAL_NONE);
+    EXPECT_NE(gate.judge(forged, kNow_ns + id, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
   }
   const std::int64_t later_ns = kNow_ns + 600 * kMs;
   gate.device({later_ns, 1.0, true, hal::KickerFault::kNone});
-  EXPECT_EQ(gate.judge(order_at(later_ns, 1), later_ns), msg::REFUSAL_DOUBLE) << "accepted before the flood";
-  EXPECT_EQ(gate.judge(order_at(later_ns, 2), later_ns), msg::REFUSAL_NONE);
+  EXPECT_EQ(gate.judge(order_at(later_ns, 1), later_ns, OrderBy::kOwnDecision), msg::REFUSAL_DOUBLE)
+      << "accepted before the flood";
+  EXPECT_EQ(gate.judge(order_at(later_ns, 2), later_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
 }
 
 TEST(OrderGate, RemembersAsManyKickIdsAsItSaysHoweverOftenOneIsRepeated) {
@@ -371,9 +378,9 @@ TEST(OrderGate, CountsAndRemembersItsAnswers) {
   OrderGate gate = Case{}.gate();
   EXPECT_EQ(gate.handled(), 0u);
   EXPECT_EQ(gate.last_kick_id(), 0);
-  gate.judge(order_at(kNow_ns, 5), kNow_ns);
+  gate.judge(order_at(kNow_ns, 5), kNow_ns, OrderBy::kOwnDecision);
   EXPECT_TRUE(gate.last_accepted());
-  gate.judge(order_at(kNow_ns, 6), kNow_ns);
+  gate.judge(order_at(kNow_ns, 6), kNow_ns, OrderBy::kOwnDecision);
   EXPECT_EQ(gate.handled(), 2u);
   EXPECT_EQ(gate.refused(), 1u);
   EXPECT_EQ(gate.last_kick_id(), 6);
@@ -398,7 +405,7 @@ TEST(OrderGate, IsReadyExactlyWhenItWouldAccept) {
                 c.order.kick_id = 2;
                 OrderGate gate = c.gate();
                 const bool said = gate.ready(kNow_ns);
-                EXPECT_EQ(said, gate.judge(c.order, kNow_ns) == msg::REFUSAL_NONE);
+                EXPECT_EQ(said, gate.judge(c.order, kNow_ns, OrderBy::kOwnDecision) == msg::REFUSAL_NONE);
                 ++(said ? ready : not_ready);
               }
   EXPECT_GT(ready, 0);
@@ -421,7 +428,7 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
     const std::int64_t back = std::min<std::int64_t>(next_id - 1, 1 + static_cast<std::int64_t>(random() % 60));
     const std::int64_t id = again ? next_id - back : next_id++;
     repeats += again;
-    if (gate.judge(order_at(now_ns, id), now_ns) != msg::REFUSAL_NONE) continue;
+    if (gate.judge(order_at(now_ns, id), now_ns, OrderBy::kOwnDecision) != msg::REFUSAL_NONE) continue;
     EXPECT_TRUE(accepted.insert(id).second) << id;
     EXPECT_GE(now_ns - last_fire_ns, 500 * kMs);
     last_fire_ns = now_ns;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "hal/kicker.hpp"
+#include "idl/messages.hpp"
+
+namespace trivela::hal {
+
+/// The kicker behind a bridge: device/kicker in, device/fire and device/charge out. An order is for the bridge that is
+/// there: before connected() here, and before the bridge's reader knows this writer, it is lost.
+class BusKicker final : public Kicker {
+ public:
+  /// Throws bus::Error if the bus refuses.
+  BusKicker(const bus::Participant& participant, std::uint8_t robot_id);
+  ~BusKicker() override { make_safe(); }
+  BusKicker(const BusKicker&) = delete;
+  BusKicker& operator=(const BusKicker&) = delete;
+
+  bool connected(std::chrono::nanoseconds timeout) override;
+  std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
+  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void withdraw(std::int64_t kick_id) override;
+  /// Said to a bridge whose board can be told.
+  void charge(ChargeWord word) override;
+  void make_safe() noexcept override { safe_ = true; }
+  bool ended() const override { return false; }
+  /// As the latest sample says.
+  KickerCapabilities capabilities() const override { return capabilities_; }
+
+ private:
+  std::uint8_t robot_id_;
+  bus::Reader<msg::DeviceKicker> samples_;
+  bus::Writer<msg::DeviceFire> fires_;
+  bus::Writer<msg::DeviceCharge> words_;
+  std::optional<std::int64_t> read_t_ns_;
+  std::uint64_t fire_seq_ = 0;
+  std::uint64_t word_seq_ = 0;
+  std::atomic<KickerCapabilities> capabilities_{};
+  std::atomic<bool> safe_ = false;
+};
+
+}  // namespace trivela::hal

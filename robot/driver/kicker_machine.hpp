@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.hpp"
+#include "hal/kicker.hpp"
+#include "idl/messages.hpp"
+
+namespace trivela::robot {
+
+/// What can happen to a kicker, as far as its driver has to do something about it.
+enum class KickerEvent {
+  kArmed,     ///< switch on, the referee lets play, the decision node is there
+  kDisarmed,  ///< switch off, the game stands, or the referee is silent
+  kCharged,   ///< the capacitor holds what a kick needs
+  kUncharged,
+  kAccepted,      ///< an order was accepted, its instant may lie ahead
+  kCalledOff,     ///< it is not carried out after all
+  kShotOver,      ///< its instant and its pulse have passed
+  kRested,        ///< the least interval after a shot has passed
+  kFault,         ///< of the device or its charger, or no status comes any more
+  kOverVoltage,   ///< more than the capacitor may hold was measured
+  kSound,         ///< no fault is left
+  kDecisionLost,  ///< the decision node has been gone for 0.2 s
+  kEnd,           ///< this program ends
+};
+inline constexpr std::array kKickerEvents{KickerEvent::kArmed,       KickerEvent::kDisarmed, KickerEvent::kCharged,
+                                          KickerEvent::kUncharged,   KickerEvent::kAccepted, KickerEvent::kCalledOff,
+                                          KickerEvent::kShotOver,    KickerEvent::kRested,   KickerEvent::kFault,
+                                          KickerEvent::kOverVoltage, KickerEvent::kSound,    KickerEvent::kDecisionLost,
+                                          KickerEvent::kEnd};
+
+/// What the driver is about, and what it tells a board that can be told.
+struct KickerStand {
+  msg::KickerState state = msg::STATE_OFF;
+  hal::ChargeWord word = hal::ChargeWord::kHold;
+  bool operator==(const KickerStand&) const = default;
+};
+
+/// The kicker's state machine: where `event` leads from `stand`. It charges in charging, ready, firing and cooling, and
+/// in no other state; what empties the capacitor is undone by kArmed alone. docs/kicker.md has the table.
+KickerStand next(KickerStand stand, KickerEvent event);
+
+/// Whether the capacitor's voltage rises while it is charged. One that does not has a charger, a coil or a wire that is
+/// broken, and goes on being heated. A device that measures no voltage is never doubted.
+class VoltageWatch {
+ public:
+  /// `rise_v` within `within_s`, or it does not rise.
+  VoltageWatch(double rise_v, double within_s) : rise_v_(rise_v), within_s_(within_s) {}
+
+  /// A sample, and whether the board was told to charge. True: it does not rise, until the arm switch is opened.
+  bool stuck(const hal::KickerSample& sample, bool charging);
+
+ private:
+  double rise_v_;
+  double within_s_;
+  struct Mark {
+    std::int64_t t_ns;
+    double voltage_v;
+  };
+  std::optional<Mark> mark_;  // since when it has not risen
+  bool stuck_ = false;
+};
+
+/// The capabilities that are demanded and that the device does not have, as the settings name them; empty: none.
+std::string missing(const std::vector<config::Capability>& demanded, const hal::KickerCapabilities& there);
+
+/// A device that measures its capacitor finds more in it than it may hold: a charge above kMostCharge.
+bool over_voltage(const hal::KickerSample& sample);
+inline constexpr double kMostCharge = 1.05;
+
+}  // namespace trivela::robot

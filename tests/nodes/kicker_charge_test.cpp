@@ -1,0 +1,101 @@
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "nodes/kicker_driver/kicker_driver_node.hpp"
+#include "tests/nodes/node_fixture.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+using bus::Executor;
+using hal::ChargeWord;
+
+/// The driver of a kicker that can be told what its capacitor shall do.
+class KickerCharge : public NodeTest {
+ protected:
+  KickerCharge() { kicker->can = {.charge_control = true, .voltage = true, .discharge = true, .watchdog = true}; }
+  void start() {
+    node.emplace(context, fake_kicker());
+    running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
+    referee.expect_reader();
+  }
+  msg::KickerStatus sample(double charge, double voltage_v) {
+    clock_ns = t_ns += 20'000'000;
+    msg::Referee word{};
+    word.t_ns = t_ns;
+    word.playing = true;
+    referee(word);
+    kicker->put({.t_ns = t_ns, .charge = charge, .armed = true, .voltage_v = voltage_v});
+    return status.nth(++samples);
+  }
+  /// Samples until `done` says so; false: it never does.
+  bool goes_on_until(const std::function<bool(const msg::KickerStatus&)>& done, double charge, double voltage_v) {
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    while (std::chrono::steady_clock::now() < deadline)
+      if (done(sample(charge, voltage_v))) return true;
+    return false;
+  }
+
+  std::int64_t t_ns = 1'000'000'000;
+  std::size_t samples = 0;
+  Heard<msg::KickerStatus> status{participant};
+  Says<msg::Referee> referee{participant};
+  std::optional<KickerDriverNode> node;
+  std::optional<Running> running;
+};
+
+TEST_F(KickerCharge, IsToldWithEachSampleAndToEmptyWhenTheProgramEnds) {
+  start();
+  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_CHARGING; }, 0.2, 100.0));
+  EXPECT_EQ(kicker->told, ChargeWord::kUp);
+  EXPECT_EQ(sample(1.0, 300.0).state, msg::STATE_READY);
+  running.reset();
+  node.reset();
+  EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
+  EXPECT_TRUE(kicker->safe);
+}
+
+TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
+  std::optional<bus::Writer<msg::KickOrder>> decision{
+      std::in_place, participant,
+      bus::WriterOptions{.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/1"}};
+  const bus::Writer<msg::KickOrder> stranger{
+      participant, {.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/2"}};
+  start();
+  ASSERT_TRUE(decision->wait_for_readers(1, kPlenty));
+  ASSERT_TRUE(stranger.wait_for_readers(1, kPlenty));
+  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_READY; }, 1.0, 300.0));
+  decision.reset();
+  EXPECT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_OFF; }, 1.0, 300.0))
+      << "somebody else's decision node is no comfort";
+  EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
+  EXPECT_TRUE(log_lines->wait_for("the decision node is gone"));
+}
+
+TEST_F(KickerCharge, EndsWhereTheVoltageDoesNotRise) {
+  start();
+  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_CHARGING; }, 0.2, 100.0));
+  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_FAULT; }, 0.2, 100.0));
+  const msg::KickerStatus said = sample(0.2, 100.0);
+  EXPECT_EQ(said.fault, msg::FAULT_CHARGER);
+  EXPECT_EQ(said.voltage_v, 100.0);
+  EXPECT_EQ(kicker->told, ChargeWord::kHold);
+}
+
+TEST_F(KickerCharge, ADemandedCapabilityThatIsLackingIsRefused) {
+  kicker->can = {.charge_control = false, .voltage = true, .discharge = false, .watchdog = true};
+  context.settings.kicker_driver.demand = {config::Capability::kVoltage, config::Capability::kDischarge};
+  KickerDriverNode driver{context, fake_kicker()};
+  kicker->put({.t_ns = t_ns, .charge = 1.0, .armed = true, .voltage_v = 300.0});
+  try {
+    bus::Executor{Executor::kListener, stop, {&driver.node()}}.run();
+    FAIL() << "it went on";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(testing::StartsWith("kicker_driver.demand: the kicker "),
+                                             testing::EndsWith(" has no discharge")));
+  }
+}
+
+}  // namespace
+}  // namespace trivela::nodes
