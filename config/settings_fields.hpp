@@ -41,18 +41,17 @@ struct Names<kicking::Extension> {
 };
 
 template <>
-struct Names<DriveMode> {
-  static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
-      {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
-};
-
-template <>
 struct Names<Capability> {
   static constexpr std::array<std::pair<std::string_view, Capability>, 4> entries{
       {{"charge_control", Capability::kChargeControl},
        {"voltage", Capability::kVoltage},
        {"discharge", Capability::kDischarge},
        {"watchdog", Capability::kWatchdog}}};
+};
+template <>
+struct Names<DriveMode> {
+  static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
+      {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
 };
 
 }  // namespace trivela::config

@@ -29,9 +29,9 @@ class GameState {
   explicit GameState(const imports::RefereeLog& log) : part_(imports::first_part(log)) {}
 
   void hear(imports::BoxCommand command) {
-    if (const auto begun = imports::begun_part(command)) part_ = *begun;
+    if (const auto begun = refbox::begun_part(command)) part_ = *begun;
     if (command == imports::BoxCommand::kStart) playing_ = true;
-    if (command == imports::BoxCommand::kStop || imports::begun_part(command) || imports::ends_part(command))
+    if (command == imports::BoxCommand::kStop || refbox::begun_part(command) || refbox::ends_part(command))
       playing_ = false;
   }
   std::uint8_t half() const { return static_cast<std::uint8_t>(part_); }

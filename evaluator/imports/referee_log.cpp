@@ -112,8 +112,10 @@ class RefereeLogReading {
   std::optional<BoxWord> word_of(Text code, std::int64_t line) {
     if (code.starts_with('{')) return word_of_json(code, line);
     std::optional<BoxWord> word;
-    if (code.size() == 1) word = word_of_letter(code.front());
-    if (const auto command = command_of_name(code)) word = BoxWord{*command, BoxSide::kBoth};
+    if (code.size() == 1) {
+      if (const auto letter = refbox::word_of_letter(code.front())) word = BoxWord{letter->kind, side_of(letter->team)};
+    }
+    if (const auto command = refbox::kind_of(code)) word = BoxWord{*command, BoxSide::kBoth};
     if (!word) log_.faults.note("unknown command", line, "code", code);
     return word;
   }
@@ -128,7 +130,7 @@ class RefereeLogReading {
       log_.faults.note("command is not JSON", line, "code", code);
       return std::nullopt;
     }
-    const auto command = command_of_name(text_of("command"));
+    const auto command = refbox::kind_of(text_of("command"));
     if (command) return BoxWord{*command, sides_.of(text_of("targetTeam"))};
     log_.faults.note(json.contains("command") ? "unknown command" : "object without command", line, "code", code);
     return std::nullopt;

@@ -70,11 +70,12 @@ CREATE TABLE assignments (                 -- the policy in charge, by possessio
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot
   half INTEGER NOT NULL,                   -- 1, 2
-  possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
+  possession_id INTEGER NOT NULL,          -- the robot's own count
   policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
     OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
     OR policy = 'learned' OR policy = 'oracle'), -- in charge of the kicks
   probability REAL NOT NULL,               -- with which it was put in charge; 1: not at random
+  t_ns INTEGER,                            -- first decision of the possession in play; NULL: not noted
   PRIMARY KEY (session_id, robot_id, half, possession_id)
 ) STRICT, WITHOUT ROWID;
 
@@ -141,7 +142,7 @@ CREATE TABLE referee (                     -- what the referee has said
   t_ns INTEGER NOT NULL,                   -- instant of the word
   half INTEGER NOT NULL,                   -- 1, 2; 3, 4 in overtime
   playing INTEGER NOT NULL CHECK (playing IN (0, 1)), -- 0: everybody stands, no kick
-  possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half; 0: not counted
+  possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half where he counts them; 0: nobody does
   stage TEXT NOT NULL CHECK (stage = 'unknown' OR stage = 'pre_game' OR stage = 'first_half' OR stage = 'half_time'
     OR stage = 'second_half' OR stage = 'full_time' OR stage = 'first_overtime' OR stage = 'overtime_break'
     OR stage = 'second_overtime' OR stage = 'penalties' OR stage = 'game_over'), -- part of the match
@@ -162,7 +163,7 @@ CREATE TABLE world_states (                -- the robot's belief
   t_ns INTEGER NOT NULL,                   -- instant of validity
   half INTEGER NOT NULL,                   -- 1, 2
   playing INTEGER NOT NULL CHECK (playing IN (0, 1)), -- 1: the game runs
-  possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
+  possession_id INTEGER NOT NULL,          -- the robot's own count of its possessions in the half
   x_m REAL NOT NULL,                       -- pose in F, m
   y_m REAL NOT NULL,                       -- pose in F, m
   heading_rad REAL NOT NULL,               -- pose in F, rad
@@ -231,7 +232,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   t_ns INTEGER NOT NULL,                   -- world state that was judged
   kick_id INTEGER NOT NULL,                -- joins order, receipt, outcome and truth; 0: held
   half INTEGER NOT NULL,                   -- 1, 2
-  possession_id INTEGER NOT NULL,          -- of the referee; 0: not counted
+  possession_id INTEGER NOT NULL,          -- the robot's own count of its possessions in the half
   policy TEXT NOT NULL CHECK (policy = 'stopped' OR policy = 'moving' OR policy = 'standing_drive'
     OR policy = 'lateral_drive' OR policy = 'turn_drive' OR policy = 'straight_drive' OR policy = 'predictive'
     OR policy = 'learned' OR policy = 'oracle'), -- in charge

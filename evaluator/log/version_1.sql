@@ -15,7 +15,8 @@ CREATE TEMP VIEW experiments AS
 SELECT NULL AS arguments_sha256, NULL AS arguments, NULL AS matches, NULL AS matches_done WHERE 0;
 
 CREATE TEMP VIEW assignments AS
-SELECT NULL AS session_id, NULL AS robot_id, NULL AS half, NULL AS possession_id, NULL AS policy, NULL AS probability
+SELECT NULL AS session_id, NULL AS robot_id, NULL AS half, NULL AS possession_id, NULL AS policy, NULL AS probability,
+  NULL AS t_ns
 WHERE 0;
 
 CREATE TEMP VIEW kick_decisions AS

@@ -6,6 +6,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/log_sessions.hpp"
+#include "evaluator/report/truth_count.hpp"
 
 namespace trivela::evaluator {
 
@@ -33,8 +34,8 @@ struct HeardPlay {
   std::vector<PolicyOfHalf> policies;
 };
 
-/// Adds what a log says of these sessions.
-void hear_play(const log::Reader& reader, const SessionPlaces& sessions, HeardPlay& heard);
+/// Adds what a log says of these sessions. Possessions that `truths` knows go by the simulator's count.
+void hear_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, HeardPlay& heard);
 
 /// Minutes of play of each possession, once, however many recordings and robots heard the referee: the time that any of
 /// them covers. `logged` has the sessions and the opportunities, whose robots had the ball. A possession that nobody is

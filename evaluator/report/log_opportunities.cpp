@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/metrics/assigned_possessions.sql.hpp"
 #include "evaluator/metrics/compared_kicks.sql.hpp"
 #include "evaluator/metrics/first_decisions.sql.hpp"
 #include "evaluator/metrics/opportunities.sql.hpp"
@@ -16,6 +16,8 @@
 #include "evaluator/report/log_sessions.hpp"
 #include "evaluator/report/own_half.hpp"
 #include "evaluator/report/played_length.hpp"
+#include "evaluator/report/possession_places.hpp"
+#include "evaluator/report/truth_count.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -24,20 +26,6 @@ Ending ending_of(const std::string& outcome) {
   if (outcome.empty() || outcome == "unknown") return Ending::kUnknown;
   return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
 }
-
-// Place of a possession in the rows: of all recordings of a play one.
-using Key = std::tuple<std::uint32_t, int, int, std::int64_t>;  // play, robot, half, possession
-
-struct KeyHash {
-  std::size_t operator()(const Key& key) const {
-    const auto [play, robot, half, possession] = key;
-    std::uint64_t h = (static_cast<std::uint64_t>(play) << 32) ^ static_cast<std::uint64_t>(possession);
-    h ^= static_cast<std::uint64_t>(robot * 2 + half) << 56;
-    h *= 0x9E3779B97F4A7C15ULL;
-    return static_cast<std::size_t>(h ^ (h >> 29));
-  }
-};
-using Places = std::unordered_map<Key, std::size_t, KeyHash>;
 
 // A row of compared_kicks.sql.
 struct SeenKick {
@@ -63,45 +51,69 @@ struct SeenRows {
   HeardPlay play;
 };
 
-void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions, SeenRows& seen) {
+// Who was in charge of the simulator's possessions, and possessions that the robots alone counted.
+void see_assigned(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+                  PossessionPlaces& places, std::vector<LoggedOpportunity>& opportunities) {
+  reader.query(kAssignedPossessionsSql,
+               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id,
+                   std::optional<std::int64_t> /*t_ns*/, const std::string& policy, double probability) {
+                 const auto session = sessions.find(session_id);
+                 if (session == sessions.end()) return;
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
+                 const PossessionKey key{session->second, robot_id, half, id};
+                 const bool alone = id != 0 && !truths.has(session_id);
+                 if (alone && places.try_emplace(key, opportunities.size()).second) {
+                   LoggedOpportunity& o = opportunities.emplace_back();
+                   std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+                 }
+                 const auto place = places.find(key);
+                 if (place == places.end()) return;
+                 LoggedOpportunity& o = opportunities[place->second];
+                 if (o.probability) return;  // the robot took one possession for two: chance decided with the first
+                 o.policy = policy;
+                 o.probability = probability;
+               });
+}
+
+void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+                       SeenRows& seen) {
   // The goal's middle is the same all over a log; a log without a kick needs no distance.
   std::optional<double> goal_y_m;
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
                [&](std::optional<double> y_m) { goal_y_m = y_m; });
-  Places places;  // with the session in the play's place
+  PossessionPlaces places;  // with the session in the play's place
   reader.query(kOpportunitiesSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
-                                      std::optional<std::string> policy, std::optional<double> probability,
-                                      std::optional<double> x_m, std::optional<double> y_m) {
+                                      std::optional<std::string> policy, double x_m, double y_m) {
     const auto session = sessions.find(session_id);
     if (session == sessions.end()) return;
+    const PossessionKey key{session->second, robot_id, half, possession_id};
     LoggedOpportunity o;
-    o.session = session->second;
-    o.robot_id = robot_id;
-    o.half = half;
-    o.possession_id = possession_id;
+    std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
     o.policy = std::move(policy).value_or("");
-    o.probability = probability;
     o.start_x_m = x_m;
-    if (x_m && y_m && goal_y_m) o.start_distance_m = std::hypot(*x_m, *goal_y_m - *y_m);
-    places[{o.session, o.robot_id, o.half, o.possession_id}] = seen.opportunities.size();
+    if (goal_y_m) o.start_distance_m = std::hypot(x_m, *goal_y_m - y_m);
+    places[key] = seen.opportunities.size();
     seen.opportunities.push_back(std::move(o));
   });
+  see_assigned(reader, sessions, truths, places, seen.opportunities);
   reader.query(kFirstDecisionsSql,
-               [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id, std::int64_t /*seq*/,
+               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::int64_t /*seq*/,
                    double distance_m, double x_m, std::optional<double> opponent_distance_m) {
                  const auto session = sessions.find(session_id);
                  if (session == sessions.end()) return;
-                 const auto place = places.find({session->second, robot_id, half, possession_id});
-                 if (place != places.end())
-                   seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
+                 const auto place = places.find({session->second, robot_id, half, id});
+                 if (place == places.end() || seen.opportunities[place->second].first) return;
+                 seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
                });
 }
 
-void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, bool truth, SeenRows& seen) {
+void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, bool truth,
+               SeenRows& seen) {
   reader.query(
       kComparedKicksSql,
-      [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id, const std::string& policy,
-          std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
+      [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::optional<std::int64_t> true_id,
+          const std::string& policy, std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
           std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
           std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
         const auto session = sessions.find(session_id);
@@ -111,7 +123,7 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, bool tr
         seen.kicks.push_back({.session = session->second,
                               .robot_id = robot_id,
                               .half = half,
-                              .possession_id = possession_id,
+                              .possession_id = true_id ? *true_id : truths.number(session_id, robot_id, half, own_id),
                               .policy = policy,
                               .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
                               .distance_m = distance_m,
@@ -133,8 +145,8 @@ void complete(LoggedOpportunity& o, LoggedOpportunity&& other) {
   if (!o.first) o.first = other.first;
 }
 
-Places add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedOpportunities& logged) {
-  Places places;
+PossessionPlaces add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedOpportunities& logged) {
+  PossessionPlaces places;
   for (LoggedOpportunity& o : opportunities) {
     const ComparedSession& session = logged.sessions[o.session];
     if (!session.counts || session.halves_left_out.contains(o.half)) continue;
@@ -149,7 +161,7 @@ Places add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedO
   return places;
 }
 
-void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, const Places& places, bool truth,
+void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, const PossessionPlaces& places, bool truth,
                LoggedOpportunities& logged) {
   std::int64_t alone = 0, from_own_half = 0;
   for (const SeenKick& kick : kicks) {
@@ -157,13 +169,10 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, cons
     const ComparedSession& session = logged.sessions[kick.session];
     const auto place = places.find({session.play, kick.robot_id, kick.half, kick.possession_id});
     if (place == places.end()) {
-      LoggedOpportunity o;
-      o.session = kick.session;
-      o.robot_id = kick.robot_id;
-      o.half = kick.half;
-      o.possession_id = kick.possession_id;
+      LoggedOpportunity& o = logged.rows.emplace_back();
+      std::tie(o.session, o.robot_id, o.half, o.possession_id) =
+          std::tie(kick.session, kick.robot_id, kick.half, kick.possession_id);
       o.has_possession = false;
-      logged.rows.push_back(std::move(o));
       ++alone;
     }
     LoggedOpportunity& o = place == places.end() ? logged.rows.back() : logged.rows[place->second];
@@ -203,9 +212,10 @@ class OpportunityReading {
 
   SessionPlaces add(const log::Reader& reader, const std::string& name) {
     SessionPlaces fresh = book_.add(reader, name);
-    see_opportunities(reader, fresh, seen_);
-    see_kicks(reader, fresh, truth_, seen_);
-    hear_play(reader, fresh, seen_.play);
+    const TruthCount truths(reader);
+    see_opportunities(reader, fresh, truths, seen_);
+    see_kicks(reader, fresh, truths, truth_, seen_);
+    hear_play(reader, fresh, truths, seen_.play);
     reader.query("SELECT count(*) FROM assignments WHERE possession_id = 0 AND probability < 1.0",
                  [&](std::int64_t draws) { logged_.draws_of_halves += draws; });
     std::int64_t missing = 0;
@@ -226,7 +236,7 @@ class OpportunityReading {
     logged_.not_counted = book_.not_counted();
     logged_.remarks = book_.remarks();
     logged_.remarks.insert(logged_.remarks.end(), logged_.not_counted.begin(), logged_.not_counted.end());
-    const Places places = add_opportunities(std::move(seen_.opportunities), logged_);
+    const PossessionPlaces places = add_opportunities(std::move(seen_.opportunities), logged_);
     add_kicks(seen_.kicks, book_, places, truth_, logged_);
     logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
     remark_lengths();

@@ -8,13 +8,14 @@
 
 namespace trivela::experiment {
 
-/// Who was in charge of a possession, and with which probability.
+/// Who was in charge of a possession, and with which probability. The possession is the robot's own count.
 struct Assignment {
   std::uint8_t robot_id = 1;
   std::uint8_t half = 1;
   std::uint32_t possession_id = 0;
   kicking::PolicyName policy{};
   double probability = 1.0;
+  std::int64_t t_ns = 0;  ///< the first decision of it in play
 };
 
 /// The messages of a match that a log of it holds, in the order of their sequence numbers.

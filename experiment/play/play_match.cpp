@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "config/field.hpp"
 #include "experiment/play/oracle.hpp"
@@ -81,7 +83,7 @@ class Game {
     if (oracle_) truth = match_.true_state();
     if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
       commands.drive = chain.drive().twist;
-      note_assignment(referee, chain);
+      note_assignment(chain);
       if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
         record_->decisions.push_back(chain.record());
       if (decision->order) commands.fire = send(*decision, chain);
@@ -89,24 +91,28 @@ class Game {
     settle(match_.step(commands));
   }
 
-  /// The referee's word, as everybody hears it; a new possession begins with it.
+  /// The referee's word, as everybody hears it. A new possession begins where the simulator counts one: what is paired
+  /// goes by the truth's count, what a robot draws by its own.
   msg::Referee hear(const sim::Sensors& sensors) {
     msg::Referee word = hal::referee_message(sensors.t_ns, sensors.referee);
     robot_id_ = sensors.carrier;
     word.robot_id = 1;  // the whole team hears him
     word.seq = played_.cycles;
-    const bool anew = played_.possessions.empty() || word.possession_id != played_.possessions.back().possession_id;
+    const std::uint32_t possession_id = sensors.referee.possession_id;
+    const bool anew = played_.possessions.empty() || possession_id != played_.possessions.back().possession_id;
     if (anew) {
       PlayedPossession next;
       next.match_id = match_id_;
-      next.possession_id = word.possession_id;
+      next.possession_id = possession_id;
       next.robot_id = robot_id_;
       played_.possessions.push_back(next);
+      noted_ = false;
       kick_ids_.push_back(0);
     }
     if (word.playing) played_.possessions.back().played_s += scenario_.cycle_s;
     if (record_ && (anew || word.playing != playing_)) record_->referee.push_back(word);
     playing_ = word.playing;
+    if (!first_word_) first_word_ = word;
     return word;
   }
 
@@ -146,20 +152,28 @@ class Game {
     kick.p_on_target = judgement.p_on_target;
     kick.predicted = judgement.predicted;
     played_.possessions.back().kick = kick;
+    played_.possessions.back().policy = decision.in_charge.policy;
+    played_.possessions.back().assignment_probability = decision.assignment_probability;
     kick_ids_.back() = receipt.kick_id;
     return sim::Fire{receipt.fired_t_ns, receipt.kick_id, receipt.power};
   }
 
-  void note_assignment(const msg::Referee& referee, const RobotChain& chain) {
-    const std::uint32_t possession_id = chain.world().possession_id;
-    if (assigned_ == possession_id || !chain.world().possession) return;
-    assigned_ = possession_id;
-    const robot::PolicyChance chance = chain.decider().assignment().in_charge(referee.half, possession_id);
-    PlayedPossession& current = played_.possessions.back();
-    current.policy = chance.policy;
-    current.assignment_probability = chance.probability;
+  /// Who is in charge is known from the first decision in play. A robot may lose the ball and have it again in one of
+  /// the simulator's possessions: what counts there is whom it put in charge first.
+  void note_assignment(const RobotChain& chain) {
+    const msg::WorldState& world = chain.world();
+    const std::pair assigned{robot_id_, world.possession_id};
+    if (assigned_ == assigned || !world.possession || !world.playing) return;
+    assigned_ = assigned;
+    const robot::PolicyChance chance = chain.decider().assignment().in_charge(world.half, world.possession_id);
+    if (!noted_) {
+      noted_ = true;
+      played_.possessions.back().policy = chance.policy;
+      played_.possessions.back().assignment_probability = chance.probability;
+    }
     if (record_)
-      record_->assignments.push_back({robot_id_, referee.half, possession_id, chance.policy, chance.probability});
+      record_->assignments.push_back(
+          {robot_id_, world.half, world.possession_id, chance.policy, chance.probability, world.t_ns});
   }
 
   void settle(const sim::StepEvents& events) {
@@ -194,6 +208,7 @@ class Game {
     if (!chains_[index]) {
       chains_[index] = std::make_unique<RobotChain>(settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id),
                                                     robot_id, session_, seat(robot_id));
+      chains_[index]->hear(*first_word_);
     }
     return *chains_[index];
   }
@@ -229,7 +244,9 @@ class Game {
   std::optional<msg::KickOutcome> outcome_;
   std::uint8_t robot_id_ = 1;
   bool playing_ = false;
-  std::uint32_t assigned_ = 0;
+  std::optional<msg::Referee> first_word_;
+  std::pair<std::uint8_t, std::uint32_t> assigned_{};  // robot and its possession
+  bool noted_ = false;                                 // of the possession, who is in charge
   std::uint64_t outcomes_ = 0;
   std::uint64_t kick_truths_ = 0;
   std::uint64_t possession_truths_ = 0;

@@ -38,7 +38,7 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   status_ = desk_.status(kicker_sample(sensors),
                          referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop, sensors.t_ns);
   const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
-  world_ = model_.update(*odometry, &frame, &referee);
+  world_ = model_.update(*odometry, &frame, &referee, &status_);
   world_.robot_id = robot_id_;
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)

@@ -24,6 +24,9 @@ class RobotChain {
   RobotChain(const RobotChain&) = delete;
   RobotChain& operator=(const RobotChain&) = delete;
 
+  /// The referee's word before the first cycle, as a robot hears it that has no ball.
+  void hear(const msg::Referee& word) { model_.hear(word); }
+
   /// Decides the cycle of `sensors`. nullptr: its wheel sample is not newer than the last one.
   /// `truth`: of the same instant, where the oracle may be in charge.
   const robot::CycleDecision* cycle(const sim::Sensors& sensors, const msg::Referee& referee,

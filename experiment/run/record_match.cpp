@@ -51,7 +51,8 @@ void MatchTables::write(const MatchRecord& record, std::int64_t session_id) {
   write(possession_truths_, record.possession_truths, session_id);
   for (const Assignment& assignment : record.assignments) {
     robot::write_assignment(log_.row(assignments_, session_id), assignment.robot_id, assignment.half,
-                            assignment.possession_id, kicking::name(assignment.policy), assignment.probability);
+                            assignment.possession_id, kicking::name(assignment.policy), assignment.probability,
+                            assignment.t_ns);
     log_.end_row();
   }
 }

@@ -27,35 +27,6 @@ Side side_of(std::string_view target, std::string_view group) {
   return of_two_alike ? Side::kOurs : Side::kTheirs;
 }
 
-struct Letter {
-  char letter;
-  CommandKind kind;
-  Side side;  // kOurs: of the team whose case it is
-};
-
-using enum CommandKind;
-constexpr std::array kCommonLetters{Letter{'S', kStop, Side::kBoth},
-                                    Letter{'s', kStart, Side::kBoth},
-                                    Letter{'W', kWelcome, Side::kBoth},
-                                    Letter{'Z', kReset, Side::kBoth},
-                                    Letter{'U', kTestModeOn, Side::kBoth},
-                                    Letter{'u', kTestModeOff, Side::kBoth},
-                                    Letter{'1', kFirstHalf, Side::kBoth},
-                                    Letter{'2', kSecondHalf, Side::kBoth},
-                                    Letter{'3', kFirstHalfOvertime, Side::kBoth},
-                                    Letter{'4', kSecondHalfOvertime, Side::kBoth},
-                                    Letter{'h', kHalfTime, Side::kBoth},
-                                    Letter{'e', kEndGame, Side::kBoth},
-                                    Letter{'z', kGameOver, Side::kBoth},
-                                    Letter{'L', kPark, Side::kBoth},
-                                    Letter{'N', kDropBall, Side::kBoth}};
-constexpr std::array kTeamLetters{Letter{'a', kGoal, Side::kOurs},     Letter{'d', kSubGoal, Side::kOurs},
-                                  Letter{'k', kKickOff, Side::kOurs},  Letter{'f', kFreeKick, Side::kOurs},
-                                  Letter{'g', kGoalKick, Side::kOurs}, Letter{'t', kThrowIn, Side::kOurs},
-                                  Letter{'c', kCorner, Side::kOurs},   Letter{'p', kPenalty, Side::kOurs},
-                                  Letter{'o', kRepair, Side::kOurs},   Letter{'y', kYellowCard, Side::kOurs},
-                                  Letter{'r', kRedCard, Side::kOurs},  Letter{'b', kDoubleYellow, Side::kOurs}};
-
 }  // namespace
 
 Word read_object(std::string_view object, std::string_view group) {
@@ -72,7 +43,8 @@ Word read_object(std::string_view object, std::string_view group) {
   if (!kind) return no_command("a command that nobody knows", object);
   Command command{.kind = *kind};
   const auto target = json.find("targetTeam");
-  if (target != json.end() && !target->is_null() && *kind != kStop) {  // a stop is everybody's, whatever else it says
+  if (target != json.end() && !target->is_null() &&
+      *kind != CommandKind::kStop) {  // a stop is everybody's, whatever else it says
     const std::string* const team = text_of("targetTeam");
     if (team == nullptr) return no_command("a targetTeam that is no text", object);
     command.side = side_of(*team, group);
@@ -85,16 +57,10 @@ Word read_object(std::string_view object, std::string_view group) {
 }
 
 Word read_letter(char letter, Colour ours) {
-  for (const Letter& known : kCommonLetters) {
-    if (known.letter == letter) return Command{known.kind, known.side};
-  }
-  const bool cyan = letter >= 'A' && letter <= 'Z';
-  const char lower = cyan ? static_cast<char>(letter - 'A' + 'a') : letter;
-  for (const Letter& known : kTeamLetters) {
-    if (known.letter == lower)
-      return Command{known.kind, cyan == (ours == Colour::kCyan) ? Side::kOurs : Side::kTheirs};
-  }
-  return no_command("a letter that nobody knows", std::string_view{&letter, 1});
+  const auto known = trivela::refbox::word_of_letter(letter);
+  if (!known) return no_command("a letter that nobody knows", std::string_view{&letter, 1});
+  if (!known->team) return Command{known->kind, Side::kBoth};
+  return Command{known->kind, *known->team == ours ? Side::kOurs : Side::kTheirs};
 }
 
 std::vector<Word> WordStream::add(std::string_view bytes) {

@@ -24,10 +24,7 @@ using Word = std::variant<Command, NoCommand>;
 /// both teams, our group is ours, also with the ":1" that a box adds where a team plays itself; any other is theirs.
 Word read_object(std::string_view object, std::string_view group);
 
-/// The colour that the protocol before 2016 knows a team by: magenta in lower case, cyan in upper case.
-enum class Colour : std::uint8_t { kCyan, kMagenta };
-
-/// A command of that protocol, one letter (RefBox wiki "Basestation-Protocol", to version 1.5.0).
+/// A command of the protocol before 2016, one letter.
 Word read_letter(char letter, Colour ours);
 
 /// Which of them the box speaks.

@@ -121,10 +121,11 @@ void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {
 }
 
 void RecorderNode::store_beside(const msg::KickDecision& decision, std::int64_t seq) {
-  if (state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
+  const bool in_play = decision.reason != msg::REASON_NOT_PLAYING;
+  if (in_play && state_->assigned.insert({decision.robot_id, decision.half, decision.possession_id}).second) {
     robot::RowCells row;
     robot::write_assignment(row, decision.robot_id, decision.half, decision.possession_id, bus::label(decision.policy),
-                            decision.assignment_probability);
+                            decision.assignment_probability, decision.t_ns);
     log_.push(assignments_, std::move(row.cells));
   }
   const auto count = std::min<std::int64_t>(decision.shadow_count, std::ssize(decision.shadows));

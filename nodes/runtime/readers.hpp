@@ -20,7 +20,7 @@ struct Inputs {
 };
 
 using OdometryInputs = Inputs<msg::DeviceWheels, msg::DriveCommand, msg::TeamDrive, msg::WorldState>;
-using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee>;
+using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee, msg::KickerStatus>;
 using KickDecisionInputs = Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome, msg::Referee>;
 using KickerDriverInputs = Inputs<msg::DeviceKicker, msg::KickOrder, msg::Referee>;
 using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;

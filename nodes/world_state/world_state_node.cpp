@@ -18,6 +18,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
            .keep_all = false,
            .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); },
            .liveliness_of = {}})),
+      kicker_(node_.stores<msg::KickerStatus>()),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");
   node_.on<msg::Odometry>([this](const msg::Odometry& odometry) { on_odometry(odometry); },
@@ -32,7 +33,9 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
   if (frame && !context_.participant.believes(frame->t_exposure_ns)) frame.reset();
   auto referee = input_of_cycle(context_, *referee_, odometry.t_ns);
   if (!context_.settings.run.lockstep) trust_no_silence(referee);
-  msg::WorldState world = model_.update(odometry, frame ? &*frame : nullptr, referee ? &*referee : nullptr);
+  const auto kicker = input_of_cycle(context_, *kicker_, odometry.t_ns);
+  msg::WorldState world =
+      model_.update(odometry, frame ? &*frame : nullptr, referee ? &*referee : nullptr, kicker ? &*kicker : nullptr);
   world.robot_id = context_.robot_id();
   world.seq = ++seq_;
   world_out_.write(world);

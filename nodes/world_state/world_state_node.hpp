@@ -7,8 +7,8 @@
 
 namespace trivela::nodes {
 
-/// Odometry in, with the newest vision frame and the referee's word; WorldState out. Nobody plays by the word of a
-/// referee who has fallen silent. Warns where the belief contradicts the field of the settings.
+/// Odometry in, with the newest vision frame, the referee's word and what the kicker did last; WorldState out. Nobody
+/// plays by the word of a referee who has fallen silent. Warns where the belief contradicts the field of the settings.
 class WorldStateNode {
  public:
   explicit WorldStateNode(NodeContext& context);
@@ -27,6 +27,7 @@ class WorldStateNode {
   robot::RefereeWatch referee_watch_;  // real time
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
   std::optional<msg::Referee> heard_;
+  std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;
 };

@@ -52,6 +52,17 @@ void WorldModel::filter_velocity(const msg::Odometry& odometry) {
   twist_t_ns_ = odometry.t_ns;
 }
 
+std::uint32_t WorldModel::count(std::int64_t t_ns, const msg::Referee& word, bool possession) {
+  return possessions_.see({.t_ns = t_ns,
+                           .half = word.half,
+                           .playing = word.playing,
+                           .half_time_s = word.half_time_s,
+                           .possession = possession,
+                           .kick_id = kick_id_});
+}
+
+void WorldModel::hear(const msg::Referee& word) { count(word.t_ns, word, false); }
+
 void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out) {
   out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
       msg::kNone;
@@ -79,7 +90,7 @@ void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::W
 }
 
 msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
-                                   const msg::Referee* referee) {
+                                   const msg::Referee* referee, const msg::KickerStatus* kicker) {
   const bool believed = sound(odometry);
   if (believed) {
     filter_velocity(odometry);
@@ -93,7 +104,6 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   msg::WorldState out{};
   out.t_ns = odometry.t_ns;
   out.half = referee ? referee->half : 0;
-  out.possession_id = referee ? referee->possession_id : 0;
   const TurnedPose* const localised = pose_.pose();
   out.playing = believed && localised && referee && referee->playing;
   const TurnedPose& pose = localised ? *localised : kOrigin;
@@ -106,8 +116,8 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   out.sd_position_m = pose_.sd_position_m();
   out.sd_heading_rad = pose_.sd_heading_rad();
   describe_ball(pose, odometry.t_ns, out);
-  const std::uint32_t own = gains_.see(out.t_ns, out.half, out.playing, out.possession);
-  if (referee && out.possession_id == 0) out.possession_id = own;
+  if (kicker && kicker->last_accepted) kick_id_ = kicker->last_kick_id;
+  if (referee) out.possession_id = count(out.t_ns, *referee, out.possession);
   return out;
 }
 

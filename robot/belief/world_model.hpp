@@ -7,8 +7,8 @@
 #include "idl/messages.hpp"
 #include "robot/belief/ball_filter.hpp"
 #include "robot/belief/decay.hpp"
-#include "robot/belief/gain_count.hpp"
 #include "robot/belief/pose_filter.hpp"
+#include "robot/belief/possession_count.hpp"
 
 namespace trivela::robot {
 
@@ -25,21 +25,28 @@ class WorldModel {
   /// A frame, once; a second call with the same exposure changes nothing.
   void vision(const msg::VisionFrame& frame);
 
+  /// The referee's word in a cycle in which the robot is not asked for its belief.
+  void hear(const msg::Referee& word);
+
   /// The belief at the instant of `odometry`. `frame` is the newest vision frame, nullptr where there is none, and
   /// `referee` his latest word: pictures older than odometry correct the past, so that the pose holds now. A robot that
   /// has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite or farther off
   /// than any robot drives, which changes no belief. Where no frame came for longer, the ball is forgotten as if it had
-  /// not been seen. A referee who counts no possessions (0) leaves it to the robot to count its own.
-  msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee);
+  /// not been seen. The possessions are the robot's own count, whatever the referee numbers; `kicker` says which kick
+  /// ended one (nullptr: none).
+  msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee,
+                         const msg::KickerStatus* kicker = nullptr);
 
  private:
   void filter_velocity(const msg::Odometry& odometry);
+  std::uint32_t count(std::int64_t t_ns, const msg::Referee& word, bool possession);
   void describe_ball(const kicking::TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
 
   config::WorldState settings_;
   PoseFilter pose_;
   BallFilter ball_;
-  GainCount gains_;
+  PossessionCount possessions_;
+  std::int64_t kick_id_ = 0;  // the last one that the driver accepted
   Decay velocity_decay_;
   kicking::Twist twist_{};
   std::int64_t twist_t_ns_ = 0;

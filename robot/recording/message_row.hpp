@@ -67,16 +67,17 @@ void write_shadow(auto& sink, std::int64_t robot_id, std::int64_t seq, std::int6
   write_cells(sink, shadow);
 }
 
-/// Who was in charge of a possession.
+/// Who was in charge of a possession, and the instant of the first decision of it in play.
 inline std::vector<std::string> assignment_columns() {
-  return {"robot_id", "half", "possession_id", "policy", "probability"};
+  return {"robot_id", "half", "possession_id", "policy", "probability", "t_ns"};
 }
 
 void write_assignment(auto& sink, std::int64_t robot_id, std::int64_t half, std::int64_t possession_id,
-                      const char* policy, double probability) {
+                      const char* policy, double probability, std::int64_t t_ns) {
   for (const std::int64_t key : {robot_id, half, possession_id}) sink.integer(key);
   sink.text(policy);
   sink.number(probability);
+  sink.integer(t_ns);
 }
 
 }  // namespace trivela::robot

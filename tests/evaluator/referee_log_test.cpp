@@ -63,7 +63,7 @@ TEST(RefereeLog, CommandsOfJsonAreThoseOfLettersAndKnowTheSideOfAnAcceptedTeam) 
       "1000,00:01(00:00),Pre-Game,{\"command\":\"GAME_OVER\",\"targetTeam\":\"\"},Game over, at last\n");
   EXPECT_THAT(log.faults.sentences(), IsEmpty());
   ASSERT_EQ(log.lines.size(), 3u);
-  EXPECT_EQ(log.lines[0].command, BoxCommand::kKickoff);
+  EXPECT_EQ(log.lines[0].command, BoxCommand::kKickOff);
   EXPECT_EQ(log.lines[0].side, BoxSide::kMagenta);
   EXPECT_EQ(log.lines[1].side, BoxSide::kBoth);
   EXPECT_EQ(log.lines[2].command, BoxCommand::kGameOver);
@@ -126,14 +126,16 @@ TEST(PlayStatistics, OfALogWithoutPlayHasNoRates) {
 }
 
 TEST(BoxCommand, EveryNameLeadsBackToItsCommand) {
-  for (int i = 0; i <= static_cast<int>(BoxCommand::kTestModeOff); ++i) {
+  for (int i = 0; i <= static_cast<int>(BoxCommand::kIsAlive); ++i) {
     const auto command = static_cast<BoxCommand>(i);
-    EXPECT_EQ(command_of_name(name_of(command)), command);
+    EXPECT_EQ(refbox::kind_of(name(command)), command);
   }
-  EXPECT_EQ(command_of_name(" WELCOME"), BoxCommand::kWelcome);
-  EXPECT_EQ(command_of_name("HELLO"), std::nullopt);
-  EXPECT_EQ(word_of_letter('T')->side, BoxSide::kCyan);
-  EXPECT_FALSE(word_of_letter('q'));
+  EXPECT_EQ(refbox::kind_of(" WELCOME"), BoxCommand::kWelcome);
+  EXPECT_EQ(refbox::kind_of("HELLO"), std::nullopt);
+  EXPECT_EQ(side_of(refbox::word_of_letter('T')->team), BoxSide::kCyan);
+  EXPECT_EQ(side_of(refbox::word_of_letter('t')->team), BoxSide::kMagenta);
+  EXPECT_EQ(side_of(refbox::word_of_letter('s')->team), BoxSide::kBoth);
+  EXPECT_FALSE(refbox::word_of_letter('q'));
 }
 
 }  // namespace

@@ -57,9 +57,10 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"idl", {}},
     {"sim", {"kicking/"}},
     {"config", {"kicking/", "sim/"}},
-    {"evaluator", {"kicking/"}},
+    {"refbox", {}},
+    {"evaluator", {"kicking/", "refbox/"}},
     {"bus", {"idl/"}},
-    {"hal", {"kicking/", "sim/", "idl/", "config/devices.hpp"}},
+    {"hal", {"kicking/", "refbox/", "sim/", "idl/", "config/devices.hpp"}},
     {"hal/bus", {"bus/"}},
     {"hal/sim", {"bus/"}},
     {"hal/replay", {"evaluator/log/"}},
@@ -76,9 +77,9 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
 };
 
-const std::vector<std::string> kRooms{"kicking",    "idl",   "sim",   "config",  "evaluator",
-                                      "bus",        "hal",   "robot", "nodes",   "calibration",
-                                      "experiment", "pages", "cli",   "include", "examples"};
+const std::vector<std::string> kRooms{"kicking", "refbox", "idl",     "sim",     "config",      "evaluator",
+                                      "bus",     "hal",    "robot",   "nodes",   "calibration", "experiment",
+                                      "pages",   "cli",    "include", "examples"};
 
 std::string room_of(const std::string& path) {
   const auto slash = path.find('/');

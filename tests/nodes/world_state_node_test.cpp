@@ -95,7 +95,7 @@ TEST_F(WorldStateNodeTest, JoinsOdometryVisionAndReferee) {
     EXPECT_EQ(last.t_ns, 5 * kCycle_ns);
     EXPECT_TRUE(last.playing);
     EXPECT_EQ(last.half, 1);
-    EXPECT_EQ(last.possession_id, 3u);
+    EXPECT_EQ(last.possession_id, 1u) << "its own count, not the referee's";
     EXPECT_NEAR(last.x_m, 1.0, 1e-9);
     EXPECT_NEAR(last.heading_rad, 0.5, 1e-9);
     EXPECT_TRUE(last.possession);

@@ -34,6 +34,7 @@ struct Play {
   }();
   std::optional<Eigen::Vector2d> ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
   std::optional<Eigen::Vector2d> opponent_in_robot_m;
+  std::optional<msg::KickerStatus> kicker;
   bool localises = true;
   bool sees = true;
 
@@ -74,7 +75,8 @@ struct Play {
       truth = kicking::advance(truth, twist, 0.02);
       odometry = kicking::advance(odometry, twist, 0.02);
       const auto picture = frame();
-      world = model.update(wheels(), sees ? &picture : nullptr, referee ? &*referee : nullptr);
+      world =
+          model.update(wheels(), sees ? &picture : nullptr, referee ? &*referee : nullptr, kicker ? &*kicker : nullptr);
     }
     return world;
   }
@@ -97,7 +99,6 @@ TEST(WorldModel, PassesTheRefereesWordOnAndStandsWithoutOne) {
   auto world = play.cycle(3);
   EXPECT_TRUE(world.playing);
   EXPECT_EQ(world.half, 2);
-  EXPECT_EQ(world.possession_id, 7u);
   EXPECT_EQ(world.t_ns, play.t_ns);
   play.referee->playing = false;
   EXPECT_FALSE(play.cycle().playing);
@@ -107,44 +108,48 @@ TEST(WorldModel, PassesTheRefereesWordOnAndStandsWithoutOne) {
   EXPECT_EQ(world.half, 0);
 }
 
-TEST(WorldModel, CountsItsOwnGainsOfTheBallWhereTheRefereeCountsNone) {
+TEST(WorldModel, CountsItsOwnPossessionsWhateverTheRefereeNumbers) {
   Play play;
-  play.referee->possession_id = 0;
-  const auto first = play.cycle(20);
-  ASSERT_TRUE(first.possession);
-  EXPECT_NE(first.possession_id, 0u);
-  EXPECT_EQ(play.cycle(100).possession_id, first.possession_id) << "as long as it has the ball";
+  EXPECT_EQ(play.cycle(20).possession_id, 1u) << "not the referee's 7";
+  play.referee->possession_id = 8;
+  EXPECT_EQ(play.cycle(50).possession_id, 1u) << "as long as it has the ball";
+  play.referee->playing = false;
+  EXPECT_EQ(play.cycle().possession_id, 2u);
+  play.referee->playing = true;
+  EXPECT_EQ(play.cycle(10).possession_id, 2u);
   play.ball_in_robot_m = Eigen::Vector2d{0.0, 3.0};
-  play.cycle(50);
+  EXPECT_EQ(play.cycle(50).possession_id, 2u);
   play.ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
-  const auto second = play.cycle(20);
-  ASSERT_TRUE(second.possession);
-  EXPECT_GT(second.possession_id, first.possession_id);
-  play.referee->possession_id = 7;
-  EXPECT_EQ(play.cycle().possession_id, 7u) << "the referee's count goes before";
+  EXPECT_EQ(play.cycle(20).possession_id, 3u);
 }
 
-TEST(GainCount, ABallThatBouncesInTheHandlerIsOnePossession) {
-  GainCount gains;
-  const std::uint32_t number = gains.see(kCycle_ns, 1, true, true);
-  EXPECT_EQ(gains.see(2 * kCycle_ns, 1, true, false), number);
-  EXPECT_EQ(gains.see(20 * kCycle_ns, 1, true, true), number);
-  EXPECT_GT(gains.see(60 * kCycle_ns, 1, true, true), number);
+TEST(WorldModel, AKickEndsAPossession) {
+  Play play;
+  play.kicker.emplace();
+  EXPECT_EQ(play.cycle(20).possession_id, 1u);
+  play.kicker->last_kick_id = 5;
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, 3.0};
+  play.cycle(15);
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
+  EXPECT_EQ(play.cycle(5).possession_id, 1u) << "refused";
+  play.kicker->last_kick_id = 6;
+  play.kicker->last_accepted = true;
+  play.cycle();
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, 3.0};
+  play.cycle(15);
+  play.ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
+  EXPECT_EQ(play.cycle(5).possession_id, 2u) << "a defender threw it back within 0.3 s";
 }
 
-TEST(GainCount, PlayThatBeginsAndAnotherHalfAreOtherPossessions) {
-  GainCount gains;
-  const std::uint32_t stopped = gains.see(50 * kCycle_ns, 1, false, true);
-  const std::uint32_t begun = gains.see(60 * kCycle_ns, 1, true, true);
-  EXPECT_GT(begun, stopped);
-  EXPECT_EQ(gains.see(61 * kCycle_ns, 2, true, false), 0u) << "not gained yet in this half";
-  EXPECT_GT(gains.see(80 * kCycle_ns, 2, true, true), begun);
-}
-
-TEST(GainCount, ANodeThatIsStartedAnewDoesNotNumberLikeTheOneBefore) {
-  GainCount before, after;
-  const std::uint32_t number = before.see(3'600'000'000'000, 1, true, true);
-  EXPECT_NE(after.see(3'601'000'000'000, 1, true, true), number);
+TEST(WorldModel, ARefereeHeardWithoutTheBallCountsOnFromTheHalfsBeginning) {
+  Play heard, late;
+  for (Play* const play : {&heard, &late}) play->referee->half_time_s = 100.0;
+  msg::Referee first = *heard.referee;
+  first.playing = false;
+  first.half_time_s = kNaN;
+  heard.model.hear(first);
+  EXPECT_EQ(heard.cycle(20).possession_id, 1u);
+  EXPECT_GT(late.cycle(20).possession_id, 1000u) << "a number that nobody has given";
 }
 
 TEST(WorldModel, AHeldBallMovesWithTheRobot) {
