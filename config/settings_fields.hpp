@@ -48,6 +48,7 @@ struct Names<Capability> {
        {"discharge", Capability::kDischarge},
        {"watchdog", Capability::kWatchdog}}};
 };
+
 template <>
 struct Names<DriveMode> {
   static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
