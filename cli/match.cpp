@@ -139,10 +139,9 @@ void add_match(CLI::App& app, int& exit_code) {
       ->check(between(0.01, 1000.0))
       ->capture_default_str();
   verb->add_option("--seed", flags->seed, "same seed, same match")->check(seeds())->capture_default_str();
-  verb->add_option(
-          "--devices", flags->devices,
-          "sim: the simulator's topics, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
-          "else an ioBoard) at a line and a referee box on TCP, in real time")
+  verb->add_option("--devices", flags->devices,
+                   "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
+                   "else an ioBoard) at a line and a referee box on TCP, in real time")
       ->check(CLI::IsMember({"sim", kEmulated}))
       ->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")

@@ -10,7 +10,12 @@
 /// lists them in `fields`; they stand in the table that has its name, beside the device's key.
 namespace trivela::config {
 
-/// The simulator's, over the bus.
+/// Behind a bridge on the bus, of which the simulator is one (idl/README.md); once called sim.
+struct BusDevice {
+  static constexpr std::string_view kName = "bus";
+};
+
+/// The simulator's laser, over the bus.
 struct SimDevice {
   static constexpr std::string_view kName = "sim";
 };
@@ -45,8 +50,8 @@ struct ScipDevice {
   std::uint16_t port = 0;  ///< 0: none
 };
 
-using WheelsDevice = std::variant<SimDevice, ReplayDevice>;
-using KickerDevice = std::variant<SimDevice, ReplayDevice, IoBoardDevice, ReKickDevice>;
+using WheelsDevice = std::variant<BusDevice, ReplayDevice>;
+using KickerDevice = std::variant<BusDevice, ReplayDevice, IoBoardDevice, ReKickDevice>;
 using RangeFinderDevice = std::variant<SimDevice, ScipDevice>;
 
 /// The devices of a robot that plays.
@@ -60,6 +65,10 @@ struct Hal {
 template <class Backend>
 std::optional<Backend> backend_of(std::string_view text) {
   return text == Backend::kName ? std::optional{Backend{}} : std::nullopt;
+}
+template <>
+inline std::optional<BusDevice> backend_of(std::string_view text) {
+  return text == BusDevice::kName || text == "sim" ? std::optional{BusDevice{}} : std::nullopt;
 }
 template <>
 std::optional<ScipDevice> backend_of(std::string_view text);

@@ -62,6 +62,9 @@ class Kicker {
 
   virtual KickerCapabilities capabilities() const { return {}; }
 
+  /// The board is a program: known once a sample has come.
+  virtual bool emulated() const { return false; }
+
   /// One line on the state of the link and on a kick that was not carried out, for a human; empty: nothing to say.
   virtual std::string status() const { return {}; }
 };

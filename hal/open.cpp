@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bus_wheels.hpp"
 #include "hal/can/can_line.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
@@ -12,25 +14,23 @@
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
 #include "hal/scip/scip_range_finder.hpp"
-#include "hal/sim/sim_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/sim/sim_wheels.hpp"
 
 namespace trivela::hal {
 namespace {
 
-using config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice, config::ScipDevice,
-    config::SimDevice;
+using config::BusDevice, config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice,
+    config::ScipDevice, config::SimDevice;
 
-std::unique_ptr<Wheels> wheels(const SimDevice&, const Hal&, const Owner& owner) {
-  return std::make_unique<SimWheels>(owner.participant, owner.robot_id);
+std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<BusWheels>(owner.participant, owner.robot_id);
 }
 std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
 }
 
-std::unique_ptr<Kicker> kicker(const SimDevice&, const Hal&, const Owner& owner) {
-  return std::make_unique<SimKicker>(owner.participant, owner.robot_id);
+std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {
+  return std::make_unique<BusKicker>(owner.participant, owner.robot_id);
 }
 std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayKicker>(ReplayLog::open(devices.replay_log, owner.robot_id));

@@ -35,6 +35,10 @@ class Wheels {
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;
+
+  /// The base, its gyro, is a program: known once a sample has come.
+  virtual bool emulated() const { return false; }
+  virtual bool gyro_emulated() const { return false; }
 };
 
 }  // namespace trivela::hal

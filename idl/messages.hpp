@@ -1,6 +1,7 @@
 // Every message of the wire contract: trivela::msg types with their bus::meta.
 #pragma once
 
+#include "idl/device.hpp"
 #include "idl/kick.hpp"
 #include "idl/robot.hpp"
 #include "idl/sim.hpp"
@@ -12,6 +13,7 @@ template <class F>
 constexpr void for_each_message(F&& f) {
   for_each_message_of_robot(f);
   for_each_message_of_kick(f);
+  for_each_message_of_device(f);
   for_each_message_of_sim(f);
 }
 

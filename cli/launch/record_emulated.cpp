@@ -11,7 +11,7 @@ namespace trivela::cli {
 
 config::Settings with_emulated_devices(config::Settings settings) {
   settings.simulator.devices = config::SimulatedDevices::kEmulated;
-  if (std::holds_alternative<config::SimDevice>(settings.hal.kicker)) settings.hal.kicker = config::IoBoardDevice{};
+  if (std::holds_alternative<config::BusDevice>(settings.hal.kicker)) settings.hal.kicker = config::IoBoardDevice{};
   if (settings.refbox.group.empty()) settings.refbox.group = "224.16.32.39";
   return settings;
 }

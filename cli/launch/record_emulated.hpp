@@ -11,7 +11,7 @@ namespace trivela::cli {
 /// UsageError when `out` exists.
 int record_emulated(config::Settings settings, int domain, const std::string& out);
 
-/// The settings of a match against emulated devices: hal.kicker is an ioBoard where it was the simulator's, and the
+/// The settings of a match against emulated devices: hal.kicker is an ioBoard where it was on the bus, and the
 /// team has a multicast group.
 config::Settings with_emulated_devices(config::Settings settings);
 

@@ -25,21 +25,24 @@ msg::GameStage stage_of(int half) {
 
 }  // namespace
 
-msg::SimWheels wheels_message(const sim::Sensors& sensors) {
-  msg::SimWheels out{};
+msg::DeviceWheels wheels_message(const sim::Sensors& sensors) {
+  msg::DeviceWheels out{};
   out.t_ns = sensors.t_ns;
   out.wheel_count = static_cast<std::uint8_t>(sensors.wheels.wheel_count);
   std::copy(sensors.wheels.wheel_radps.begin(), sensors.wheels.wheel_radps.end(), out.wheel_radps);
   out.gyro_radps = sensors.wheels.gyro_radps;
+  out.emulated = true;
   return out;
 }
 
-msg::SimKicker kicker_message(const sim::Sensors& sensors) {
-  msg::SimKicker out{};
+msg::DeviceKicker kicker_message(const sim::Sensors& sensors) {
+  msg::DeviceKicker out{};
   out.t_ns = sensors.t_ns;
   out.charge = sensors.kicker.charge;
   out.armed = sensors.kicker.armed;
   out.fault = msg::FAULT_NONE;
+  out.voltage_v = msg::kNone;
+  out.emulated = true;
   return out;
 }
 

@@ -8,8 +8,8 @@
 namespace trivela::hal {
 
 /// The world's samples and truths as messages; robot_id and seq are the node's.
-msg::SimWheels wheels_message(const sim::Sensors& sensors);
-msg::SimKicker kicker_message(const sim::Sensors& sensors);
+msg::DeviceWheels wheels_message(const sim::Sensors& sensors);
+msg::DeviceKicker kicker_message(const sim::Sensors& sensors);
 msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame);
 msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame);
 /// No set piece is ever announced: each possession is gained on the run.

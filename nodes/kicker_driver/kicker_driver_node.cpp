@@ -26,7 +26,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         return kicker_->read(timeout);
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
-      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::SimFire, msg::StepDone>());
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::StepDone>());
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -34,14 +34,14 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   } else {
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
-                           bus::writes<msg::KickReceipt, msg::SimFire>(), words);
+                           bus::writes<msg::KickReceipt, msg::DeviceFire>(), words);
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");
     };
   }
   node_.on<msg::KickOrder>([this](const msg::KickOrder& order) { on_order(order); },
-                           bus::writes<msg::KickReceipt, msg::SimFire, msg::StepDone>(), orders);
+                           bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.

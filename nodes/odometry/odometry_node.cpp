@@ -20,9 +20,9 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
   refuse_twin(context_, odometry_out_, "odometry");
   node_.on_device(
       "wheels", [this](std::chrono::nanoseconds timeout) { return next_sample(timeout); },
-      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry, msg::SimDrive>());
+      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry, msg::DeviceDrive>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand& command) { on_drive(command); },
-                              bus::writes<msg::SimDrive, msg::StepDone>());
+                              bus::writes<msg::DeviceDrive, msg::StepDone>());
 }
 
 /// In lockstep the next sample waits for the drive command of the last one: a replayed log knows no other pace.

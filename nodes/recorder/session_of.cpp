@@ -56,7 +56,7 @@ std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& 
 
 Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
-  const bool simulated = settings.run.lockstep || std::holds_alternative<config::SimDevice>(settings.hal.wheels);
+  const bool simulated = settings.run.lockstep || std::holds_alternative<config::BusDevice>(settings.hal.wheels);
   Session session;
   session.simulated = simulated;
   session.simulated_clock = settings.run.lockstep;

@@ -19,15 +19,16 @@ struct Inputs {
   }
 };
 
-using OdometryInputs = Inputs<msg::SimWheels, msg::DriveCommand>;
+using OdometryInputs = Inputs<msg::DeviceWheels, msg::DriveCommand>;
 using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee>;
 using KickDecisionInputs = Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome>;
-using KickerDriverInputs = Inputs<msg::SimKicker, msg::KickOrder, msg::Referee>;
+using KickerDriverInputs = Inputs<msg::DeviceKicker, msg::KickOrder, msg::Referee>;
 using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;
 using ScanRecorderInputs = Inputs<msg::SimScan, msg::KickReceipt>;  // where it is enabled
 
-/// What the recorder leaves out: the simulated devices' own.
-using NotRecorded = Inputs<msg::SimWheels, msg::SimDrive, msg::SimKicker, msg::SimFire, msg::SimScan, msg::StepDone>;
+/// What the recorder leaves out: the devices' own.
+using NotRecorded = Inputs<msg::DeviceWheels, msg::DeviceGyro, msg::DeviceDrive, msg::DeviceKicker, msg::DeviceFire,
+                           msg::DeviceCharge, msg::SimScan, msg::StepDone>;
 
 /// How many nodes of a match read T.
 template <bus::Message T>

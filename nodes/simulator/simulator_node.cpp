@@ -173,13 +173,13 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   bus::renew_if_silent(fire_);
   drive_.keep_hearing();
   const auto take_fires = [&] {
-    fire_.take([&](const msg::SimFire& fire) {
+    fire_.take([&](const msg::DeviceFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
       order(fire, out);
     });
     return fires_ >= barrier_.fires();
   };
-  std::optional<msg::SimDrive> drive;
+  std::optional<msg::DeviceDrive> drive;
   if (context_.settings.run.lockstep) {
     const auto driven = [&](auto timeout) { return (drive = drive_.await(t_ns, timeout)).has_value(); };
     const auto fired = [&](auto timeout) { return take_fires() || (fire_.wait(timeout) && take_fires()); };
@@ -196,7 +196,7 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
 }
 
 /// What the simulated kicker does with the driver's word.
-void SimulatorNode::order(const msg::SimFire& fire, sim::Commands& out) {
+void SimulatorNode::order(const msg::DeviceFire& fire, sim::Commands& out) {
   constexpr double kLate_s = 0.05;
   if (fire.withdrawn) {
     if (out.fire && out.fire->kick_id == fire.kick_id) out.fire.reset();
@@ -230,7 +230,7 @@ std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {
   return kick_id.value_or(0);
 }
 
-std::optional<msg::SimDrive> SimulatorNode::fresh_drive() {
+std::optional<msg::DeviceDrive> SimulatorNode::fresh_drive() {
   const auto drive = drive_.latest();
   const bool fresh =
       drive && kicking::seconds(started_ns_ + t_ns_ - drive->t_ns) <= context_.settings.odometry.drive_timeout_s;

@@ -51,27 +51,27 @@ class SimulatorNode {
 
   template <class T>
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
-  void order(const msg::SimFire& fire, sim::Commands& out);
+  void order(const msg::DeviceFire& fire, sim::Commands& out);
   void take_pulses(sim::Commands& out);
   std::int64_t kick_of_pulse(std::int64_t t_ns);
-  std::optional<msg::SimDrive> fresh_drive();
+  std::optional<msg::DeviceDrive> fresh_drive();
 
   NodeContext& context_;
   EmulatedDevices* const devices_;  // of this or an earlier stay on the bus
   sim::Scenario scenario_;
   sim::Match match_;
-  bus::Writer<msg::SimWheels> wheels_;
+  bus::Writer<msg::DeviceWheels> wheels_;
   bus::Writer<msg::VisionFrame> vision_;
   bus::Writer<msg::FlightFrame> flight_;
   bus::Writer<msg::KickTruth> kick_truth_;
   bus::Writer<msg::PossessionTruth> possession_truth_;
   std::optional<bus::Writer<msg::SimScan>> scan_;          // where the scenario has a laser
-  std::optional<bus::Writer<msg::SimKicker>> kicker_;      // where it has no board
+  std::optional<bus::Writer<msg::DeviceKicker>> kicker_;   // where it has no board
   std::optional<bus::Writer<msg::Referee>> referee_;       // where there is no box
   std::optional<bus::Reader<msg::KickReceipt>> receipts_;  // where the kicker has a board
   ReceiptBook book_;
-  bus::Mailbox<msg::SimDrive> drive_;
-  bus::Reader<msg::SimFire> fire_;
+  bus::Mailbox<msg::DeviceDrive> drive_;
+  bus::Reader<msg::DeviceFire> fire_;
   LockstepBarrier barrier_;
   std::int64_t t_ns_ = 0;
   std::uint64_t cycle_ = 0;

@@ -27,7 +27,7 @@ TEST(Messages, NameTopicAndProfileComeFromTheIdl) {
   EXPECT_EQ(meta<msg::Odometry>::profile, Profile::kState);
   EXPECT_EQ(meta<msg::KickOrder>::profile, Profile::kOrder);
   EXPECT_EQ(meta<msg::KickDecision>::profile, Profile::kEvent);
-  EXPECT_EQ(meta<msg::SimFire>::topic, "sim/fire");
+  EXPECT_EQ(meta<msg::DeviceFire>::topic, "device/fire");
 }
 
 TEST(Messages, TheDescriptorIsTheTypesOwn) {
@@ -43,8 +43,9 @@ TEST(Messages, ANestedStructHasFieldsButNoTopic) {
 
 TEST(Messages, FieldNamesAreKnownAtCompileTimeInTheOrderOfTheIdl) {
   constexpr auto names = field_names<msg::KickOrder>();
-  static_assert(names.size() == 7);
-  EXPECT_THAT(names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns"));
+  static_assert(names.size() == 8);
+  EXPECT_THAT(
+      names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns", "possession"));
 }
 
 TEST(Messages, KeysAreMarked) {
@@ -89,7 +90,7 @@ TEST(Messages, TheVisitorSeesNamesUnitsAndValuesInOrder) {
 }
 
 TEST(Messages, TheVisitorSeesArraysEnumsAndNestedStructs) {
-  msg::SimWheels wheels{};
+  msg::DeviceWheels wheels{};
   wheels.wheel_radps[2] = 7;
   Text wheels_text;
   visit_fields(wheels, wheels_text);

@@ -58,9 +58,9 @@ TEST(PubSub, ASampleArrivesAsItWasWritten) {
 
 TEST(PubSub, TopicsWithASlashWork) {
   const Participant participant(fresh_domain());
-  Writer<msg::SimWheels> writer(participant);
-  Reader<msg::SimWheels> reader(participant);
-  writer.write(sample<msg::SimWheels>(1, 20));
+  Writer<msg::DeviceWheels> writer(participant);
+  Reader<msg::DeviceWheels> reader(participant);
+  writer.write(sample<msg::DeviceWheels>(1, 20));
   EXPECT_THAT(take_times(reader), ElementsAre(20));
 }
 

@@ -73,8 +73,8 @@ TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
 
 TEST(BadSettings, UnknownDeviceIsNamedWithItsLineAndTheKnownOnes) {
   EXPECT_THAT(settings_error("[hal]\nwheels = \"can\"\n"),
-              HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: sim, replay"));
-  EXPECT_THAT(settings_error("[hal]\nkicker = \"\"\n"), HasSubstr("expected one of: sim, replay"));
+              HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: bus, replay"));
+  EXPECT_THAT(settings_error("[hal]\nkicker = \"\"\n"), HasSubstr("expected one of: bus, replay"));
   EXPECT_THAT(settings_error("[scan_recorder]\ndevice = \"tcp://host\"\n"),
               AllOf(HasSubstr("bad.toml:2: scan_recorder.device = 'tcp://host'"), HasSubstr("sim, tcp://HOST:PORT")));
 }

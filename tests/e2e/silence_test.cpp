@@ -62,7 +62,7 @@ class Witness {
       referee_.wait(std::chrono::milliseconds{20});
       odometry_.take([&](const msg::Odometry& sample) { odometry_t_ns.push_back(sample.t_ns); });
       referee_.take([&](const msg::Referee& word) { referee_t_ns = word.t_ns; });
-      fire_.take([&](const msg::SimFire& fire) {
+      fire_.take([&](const msg::DeviceFire& fire) {
         if (fire.withdrawn) {
           fires.erase(fire.kick_id);
         } else {
@@ -95,7 +95,7 @@ class Witness {
   bus::Participant participant_;
   bus::Reader<msg::Odometry> odometry_;
   bus::Reader<msg::Referee> referee_;
-  bus::Reader<msg::SimFire> fire_;
+  bus::Reader<msg::DeviceFire> fire_;
 };
 
 /// All nodes of a real-time match, in a folder.

@@ -19,8 +19,8 @@ using kicking::seconds;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr std::array<const char*, 7> kPeriodic{"referee", "vision",        "odometry", "world_state",
-                                               "drive",   "kicker_status", "sim/drive"};
+constexpr std::array<const char*, 7> kPeriodic{"referee", "vision",        "odometry",    "world_state",
+                                               "drive",   "kicker_status", "device/drive"};
 constexpr double kStart_s = 90.0;    // for the whole chain, on a busy machine
 constexpr double kRefusal_s = 20.0;  // for a twin
 constexpr double kPlay_s = 5.0;      // longest stop, with what a busy machine adds

@@ -23,7 +23,7 @@ struct StreamWitness::Ears {
         decisions(participant, everything()) {}
 
   bus::Participant participant;
-  bus::Reader<msg::SimWheels> wheels;
+  bus::Reader<msg::DeviceWheels> wheels;
   bus::Reader<msg::Odometry> odometry;
   bus::Reader<msg::WorldState> world;
   bus::Reader<msg::DriveCommand> drive;
@@ -36,21 +36,21 @@ StreamWitness::~StreamWitness() = default;
 
 std::vector<std::string> StreamWitness::deaf_within(std::chrono::milliseconds span) {
   const auto until = std::chrono::steady_clock::now() + span;
-  std::map<std::string, int> heard{{"odometry hears sim/wheels", 0},      {"world_state hears odometry", 0},
-                                   {"world_state hears vision", 0},       {"kick_decision hears world_state", 0},
-                                   {"kicker_driver hears sim/kicker", 0}, {"kick_decision hears kicker_status", 0},
+  std::map<std::string, int> heard{{"odometry hears device/wheels", 0},      {"world_state hears odometry", 0},
+                                   {"world_state hears vision", 0},          {"kick_decision hears world_state", 0},
+                                   {"kicker_driver hears device/kicker", 0}, {"kick_decision hears kicker_status", 0},
                                    {"the witness hears the simulator", 0}};
   int decided = 0;
   while (std::chrono::steady_clock::now() < until) {
     ears_->wheels.wait(std::chrono::milliseconds{50});
-    ears_->wheels.take([&](const msg::SimWheels&) { ++heard["the witness hears the simulator"]; });
-    ears_->odometry.take([&](const msg::Odometry&) { ++heard["odometry hears sim/wheels"]; });
+    ears_->wheels.take([&](const msg::DeviceWheels&) { ++heard["the witness hears the simulator"]; });
+    ears_->odometry.take([&](const msg::Odometry&) { ++heard["odometry hears device/wheels"]; });
     ears_->world.take([&](const msg::WorldState& world) {
       ++heard["world_state hears odometry"];
       if (world.ball_known && world.ball_age_s < 0.3) ++heard["world_state hears vision"];
     });
     ears_->drive.take([&](const msg::DriveCommand&) { ++heard["kick_decision hears world_state"]; });
-    ears_->status.take([&](const msg::KickerStatus&) { ++heard["kicker_driver hears sim/kicker"]; });
+    ears_->status.take([&](const msg::KickerStatus&) { ++heard["kicker_driver hears device/kicker"]; });
     ears_->decisions.take([&](const msg::KickDecision& decision) {
       ++decided;
       if (decision.reason != msg::REASON_STALE_STATE) ++heard["kick_decision hears kicker_status"];

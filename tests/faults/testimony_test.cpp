@@ -17,7 +17,7 @@ TEST(Testimony, TakesInWhatAWitnessSays) {
   seen.note("1005 truth 970 17");
   seen.note("1006 outcome 17");
   seen.note("1007 outcome 17");
-  seen.note("1008 sample sim/drive");
+  seen.note("1008 sample device/drive");
   ASSERT_EQ(seen.orders.size(), 1u);
   EXPECT_EQ(seen.orders[0].arrival_ns, 1000);
   EXPECT_EQ(seen.orders[0].t_ns, 900);
@@ -36,7 +36,7 @@ TEST(Testimony, TakesInWhatAWitnessSays) {
   ASSERT_EQ(seen.truths.size(), 1u);
   EXPECT_EQ(seen.truths[0].release_t_ns, 970);
   EXPECT_EQ(seen.outcome_arrival_ns.at(17), 1006) << "the first one";
-  EXPECT_EQ(seen.last_sample_ns.at("sim/drive"), 1008);
+  EXPECT_EQ(seen.last_sample_ns.at("device/drive"), 1008);
 }
 
 TEST(Testimony, RefusesALineThatIsNone) {

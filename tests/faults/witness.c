@@ -53,7 +53,7 @@ static int describe_decision(char* line, size_t size, const char* topic, const v
 }
 
 static int describe_fire(char* line, size_t size, const char* topic, const void* sample) {
-  const trivela_msg_SimFire* fire = sample;
+  const trivela_msg_DeviceFire* fire = sample;
   (void)topic;
   return snprintf(line, size, "fire %" PRId64 " %" PRId64 " %d", fire->t_ns, fire->kick_id, fire->withdrawn);
 }
@@ -84,7 +84,7 @@ static int describe_rhythm(char* line, size_t size, const char* topic, const voi
 static const struct Stream kStreams[] = {
     {"kick_order", &trivela_msg_KickOrder_desc, describe_order, true},
     {"kick_decision", &trivela_msg_KickDecision_desc, describe_decision, false},
-    {"sim/fire", &trivela_msg_SimFire_desc, describe_fire, false},
+    {"device/fire", &trivela_msg_DeviceFire_desc, describe_fire, false},
     {"sim/kick_truth", &trivela_msg_KickTruth_desc, describe_truth, false},
     {"kick_outcome", &trivela_msg_KickOutcome_desc, describe_outcome, false},
     {"referee", &trivela_msg_Referee_desc, describe_referee, false},
@@ -93,7 +93,7 @@ static const struct Stream kStreams[] = {
     {"world_state", &trivela_msg_WorldState_desc, describe_rhythm, false},
     {"drive", &trivela_msg_DriveCommand_desc, describe_rhythm, false},
     {"kicker_status", &trivela_msg_KickerStatus_desc, describe_rhythm, false},
-    {"sim/drive", &trivela_msg_SimDrive_desc, describe_rhythm, false},
+    {"device/drive", &trivela_msg_DeviceDrive_desc, describe_rhythm, false},
 };
 
 static int64_t now_ns(void) {

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "hal/bus/bus_kicker.hpp"
 #include "hal/replay/replay_kicker.hpp"
-#include "hal/sim/sim_kicker.hpp"
 #include "tests/hal/board_on_a_line.hpp"
+#include "tests/hal/bus_world.hpp"
 #include "tests/hal/recorded_log.hpp"
-#include "tests/hal/sim_world.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -51,9 +51,9 @@ class ToldDevice {
   }
 };
 
-class SimRig : public ToldDevice {
+class BusRig : public ToldDevice {
  public:
-  SimRig() {
+  BusRig() {
     EXPECT_TRUE(device->connected(kPlenty));
     EXPECT_TRUE(marker.connected(kPlenty));
     EXPECT_TRUE(world.commands.wait_for_writers(2, kPlenty));
@@ -61,7 +61,7 @@ class SimRig : public ToldDevice {
 
   void say(std::size_t i) {
     constexpr msg::KickerFault kFaults[] = {msg::FAULT_NONE, msg::FAULT_CHARGER, msg::FAULT_COIL, msg::FAULT_LINK};
-    msg::SimKicker sample{};
+    msg::DeviceKicker sample{};
     sample.robot_id = kRobot;
     sample.t_ns = kSaid[i].t_ns;
     sample.charge = kSaid[i].charge;
@@ -79,7 +79,7 @@ class SimRig : public ToldDevice {
     std::vector<Fired> fired;
     bool over = false;
     while (!over && world.commands.wait(kPlenty)) {
-      world.commands.take([&](const msg::SimFire& order) {
+      world.commands.take([&](const msg::DeviceFire& order) {
         over = over || order.kick_id == kEnd;
         if (order.robot_id != kRobot || order.kick_id == kEnd) return;
         if (order.withdrawn)
@@ -93,9 +93,9 @@ class SimRig : public ToldDevice {
   }
 
   static constexpr std::int64_t kEnd = -1;
-  SimWorld<msg::SimKicker, msg::SimFire> world;
-  std::unique_ptr<Kicker> device = std::make_unique<SimKicker>(world.here, kRobot);
-  SimKicker marker{world.here, kRobot + 1};
+  BusWorld<msg::DeviceKicker, msg::DeviceFire> world;
+  std::unique_ptr<Kicker> device = std::make_unique<BusKicker>(world.here, kRobot);
+  BusKicker marker{world.here, kRobot + 1};
   std::int64_t now_t_ns = 0;  // of the world
 };
 
@@ -183,7 +183,7 @@ class KickerContract : public testing::Test {
  protected:
   Rig rig_;
 };
-using Rigs = testing::Types<SimRig, ReplayRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
+using Rigs = testing::Types<BusRig, ReplayRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
 TYPED_TEST_SUITE(KickerContract, Rigs);
 
 TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
@@ -258,10 +258,40 @@ TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {
   EXPECT_TRUE(kicker.read(kPlenty));  // it still speaks
 }
 
-TEST(SimKicker, DestructionEnergisesNothing) {
-  SimRig rig;
+TEST(BusKicker, DestructionEnergisesNothing) {
+  BusRig rig;
   rig.device.reset();
   EXPECT_TRUE(rig.energised().empty());
+}
+
+TEST(BusKicker, HandsOnWhatTheBoardCanDoAndWhatItMeasures) {
+  BusRig rig;
+  EXPECT_EQ(rig.device->capabilities(), KickerCapabilities{});
+  msg::DeviceKicker sample{};
+  sample.robot_id = kRobot;
+  sample.t_ns = 20'000'000;
+  sample.charge_modelled = true;
+  sample.voltage_v = std::nan("");
+  rig.world.samples.write(sample);
+  const auto modelled = rig.device->read(kPlenty);
+  ASSERT_TRUE(modelled);
+  EXPECT_TRUE(modelled->charge_modelled);
+  EXPECT_EQ(modelled->voltage_v, std::nullopt);
+  EXPECT_EQ(rig.device->capabilities(), KickerCapabilities{});
+  EXPECT_FALSE(rig.device->emulated());
+
+  sample.t_ns = 40'000'000;
+  sample.charge_modelled = false;
+  sample.voltage_v = 312.5;
+  sample.charge_control = sample.discharge = sample.watchdog = sample.emulated = true;
+  rig.world.samples.write(sample);
+  const auto measured = rig.device->read(kPlenty);
+  ASSERT_TRUE(measured);
+  EXPECT_FALSE(measured->charge_modelled);
+  EXPECT_EQ(measured->voltage_v, 312.5);
+  EXPECT_EQ(rig.device->capabilities(),
+            (KickerCapabilities{.charge_control = true, .voltage = true, .discharge = true, .watchdog = true}));
+  EXPECT_TRUE(rig.device->emulated());
 }
 
 TEST(ReplayKicker, EndsWithTheLog) {

@@ -1,4 +1,4 @@
-#include "hal/sim/sim_streams.hpp"
+#include "hal/bus/bus_streams.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@ namespace {
 
 TEST(ReadNewer, ASampleFromTheFarFutureDoesNotSilenceThoseThatFollow) {
   const bus::Participant participant{bus::fresh_domain(), bus::RealTime{}};
-  bus::Writer<msg::SimWheels> writer{participant};
-  bus::Reader<msg::SimWheels> reader{participant};
+  bus::Writer<msg::DeviceWheels> writer{participant};
+  bus::Reader<msg::DeviceWheels> reader{participant};
   std::optional<std::int64_t> after_t_ns;
   const auto say = [&](std::int64_t t_ns) {
-    msg::SimWheels sample{};
+    msg::DeviceWheels sample{};
     sample.robot_id = 1;
     sample.t_ns = t_ns;
     writer.write(sample);

@@ -4,7 +4,7 @@
 
 #include "bus/writer.hpp"
 #include "tests/bus/test_domain.hpp"
-#include "tests/hal/sim_world.hpp"
+#include "tests/hal/bus_world.hpp"
 
 namespace trivela::hal {
 namespace {

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "hal/board/board_kicker.hpp"
+#include "hal/bus/bus_kicker.hpp"
+#include "hal/bus/bus_wheels.hpp"
 #include "hal/open.hpp"
 #include "hal/replay/replay_kicker.hpp"
 #include "hal/replay/replay_wheels.hpp"
-#include "hal/sim/sim_kicker.hpp"
 #include "hal/sim/sim_range_finder.hpp"
-#include "hal/sim/sim_wheels.hpp"
+#include "tests/hal/bus_world.hpp"
 #include "tests/hal/recorded_log.hpp"
-#include "tests/hal/sim_world.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -23,14 +23,14 @@ const std::vector<WheelSample> kSaid{{20'000'000, 3, {1.5, -2.5, 3.5, 0.0}, 0.25
                                      {40'000'000, 3, {1.75, -2.0, 3.0, 0.0}, std::nullopt},
                                      {60'000'000, 4, {1.0, 2.0, 3.0, 4.0}, -0.5}};
 
-class SimRig {
+class BusRig {
  public:
-  SimRig() { EXPECT_TRUE(device->connected(kPlenty)); }
+  BusRig() { EXPECT_TRUE(device->connected(kPlenty)); }
 
   /// Makes the device say sample i.
   void say(std::size_t i, std::uint8_t robot_id = kRobot) {
     const WheelSample& said = kSaid[i];
-    msg::SimWheels sample{};
+    msg::DeviceWheels sample{};
     sample.robot_id = robot_id;
     sample.t_ns = said.t_ns;
     sample.wheel_count = static_cast<std::uint8_t>(said.wheel_count);
@@ -52,8 +52,8 @@ class SimRig {
     return followed(1);
   }
 
-  SimWorld<msg::SimWheels, msg::SimDrive> world;
-  std::unique_ptr<Wheels> device = std::make_unique<SimWheels>(world.here, kRobot);
+  BusWorld<msg::DeviceWheels, msg::DeviceDrive> world;
+  std::unique_ptr<Wheels> device = std::make_unique<BusWheels>(world.here, kRobot);
 };
 
 class ReplayRig {
@@ -96,7 +96,7 @@ class WheelsContract : public testing::Test {
     }
   }
 };
-using Rigs = testing::Types<SimRig, ReplayRig>;
+using Rigs = testing::Types<BusRig, ReplayRig>;
 TYPED_TEST_SUITE(WheelsContract, Rigs);
 
 TYPED_TEST(WheelsContract, SamplesComeWholeAndInTimeOrder) {
@@ -166,8 +166,8 @@ TYPED_TEST(WheelsContract, DestructionLeavesTheBaseAtRest) {
   EXPECT_EQ(followed.omega_radps, 0.0);
 }
 
-TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
-  SimRig rig;
+TEST(BusWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
+  BusRig rig;
   rig.say(1);
   EXPECT_EQ(rig.device->read(kPlenty)->t_ns, 40'000'000);
   rig.say(0);
@@ -178,8 +178,111 @@ TEST(SimWheels, PassesOverOtherRobotsAndSamplesOfThePast) {
   EXPECT_FALSE(rig.device->read(milliseconds(1)));
 }
 
-TEST(SimWheels, AreNotConnectedWithoutASimulator) {
-  SimWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
+/// A gyro that another process reads: its sample is of the wheels' time or it is none.
+class GyroBeside : public testing::Test {
+ protected:
+  void turn(std::int64_t t_ns, double gyro_radps, std::uint8_t robot_id = kRobot, bool emulated = false) {
+    msg::DeviceGyro sample{};
+    sample.robot_id = robot_id;
+    sample.t_ns = t_ns;
+    sample.gyro_radps = gyro_radps;
+    sample.emulated = emulated;
+    gyro_.write(sample);
+  }
+  /// That wheels of this instant are given, which have none.
+  std::optional<double> gyro_at(std::int64_t t_ns) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    sample.gyro_radps = std::nan("");
+    rig_.world.samples.write(sample);
+    const auto read = rig_.device->read(kPlenty);
+    EXPECT_TRUE(read);
+    return read ? read->gyro_radps : std::nullopt;
+  }
+
+  BusRig rig_;
+  bus::Writer<msg::DeviceGyro> gyro_{rig_.world.there};
+
+ private:
+  /// From the first that arrives on what follows does, too, before what is written after it.
+  void SetUp() override {
+    turn(1'000'000, 0.5);
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    std::int64_t t_ns = 1'000'000;
+    while (gyro_at(++t_ns) != 0.5) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+  }
+};
+
+TEST_F(GyroBeside, IsGivenToWheelsThatHaveNone) {
+  turn(30'000'000, 1.5);
+  turn(35'000'000, 2.5);
+  EXPECT_EQ(gyro_at(40'000'000), 2.5);
+  rig_.say(2);
+  EXPECT_EQ(rig_.device->read(kPlenty).value().gyro_radps, -0.5) << "the wheels have their own";
+  EXPECT_FALSE(rig_.device->gyro_emulated());
+}
+
+TEST_F(GyroBeside, IsNoneOfAnotherRobotsNorOfAnotherTime) {
+  turn(80'000'000, 1.5, kRobot + 1);
+  EXPECT_EQ(gyro_at(80'000'000), std::nullopt);
+  turn(90'000'000, 2.5);
+  EXPECT_EQ(gyro_at(141'000'000), std::nullopt) << "it stands still";
+  turn(300'000'000, 3.5);
+  EXPECT_EQ(gyro_at(249'000'000), std::nullopt) << "it runs ahead";
+  EXPECT_EQ(gyro_at(251'000'000), 3.5);
+}
+
+TEST_F(GyroBeside, ThatSaysNoNumberIsNone) {
+  turn(30'000'000, std::nan(""));
+  EXPECT_EQ(gyro_at(40'000'000), std::nullopt);
+}
+
+TEST_F(GyroBeside, SaysWhetherItIsEmulated) {
+  turn(30'000'000, 1.5, kRobot, true);
+  EXPECT_EQ(gyro_at(40'000'000), 1.5);
+  EXPECT_TRUE(rig_.device->gyro_emulated());
+  EXPECT_FALSE(rig_.device->emulated());
+}
+
+TEST(BusWheels, SayWhetherTheyAreEmulated) {
+  BusRig rig;
+  rig.say(0);
+  ASSERT_TRUE(rig.device->read(kPlenty));
+  EXPECT_FALSE(rig.device->emulated());
+  msg::DeviceWheels sample{};
+  sample.robot_id = kRobot;
+  sample.t_ns = kSaid[1].t_ns;
+  sample.wheel_count = 3;
+  sample.emulated = true;
+  rig.world.samples.write(sample);
+  ASSERT_TRUE(rig.device->read(kPlenty));
+  EXPECT_TRUE(rig.device->emulated());
+}
+
+TEST(BusWheels, RefuseTheFutureAndAnotherClock) {
+  bus::WirePair domains = bus::fresh_wire_pair();
+  const bus::Participant there{domains.a, bus::RealTime{}};
+  const bus::Participant here{domains.b, bus::RealTime{}};
+  bus::Writer<msg::DeviceWheels> bridge{there};
+  BusWheels wheels{here, kRobot};
+  const std::int64_t now_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::int64_t of_the_day_ns = std::chrono::system_clock::now().time_since_epoch().count();
+  for (const std::int64_t t_ns : {now_ns, now_ns + 600'000'000'000, of_the_day_ns, std::int64_t{-1}, now_ns + 1}) {
+    msg::DeviceWheels sample{};
+    sample.robot_id = kRobot;
+    sample.t_ns = t_ns;
+    sample.wheel_count = 3;
+    bridge.write(sample);
+    const bool ours = t_ns - now_ns <= 1 && t_ns >= now_ns;
+    const auto read = wheels.read(ours ? kPlenty : std::chrono::nanoseconds{milliseconds(20)});
+    EXPECT_EQ(read.has_value(), ours) << t_ns;
+  }
+}
+
+TEST(BusWheels, AreNotConnectedWithoutABridge) {
+  BusWheels wheels{bus::Participant{bus::fresh_domain()}, kRobot};
   EXPECT_FALSE(wheels.connected(milliseconds(20)));
 }
 
@@ -212,13 +315,13 @@ TEST(Open, GivesTheBackendThatTheSettingsName) {
   const Owner owner{participant, kRobot};
   const config::Hal simulated;
   const config::Hal replayed{config::ReplayDevice{}, config::ReplayDevice{}, log.file()};
-  EXPECT_NE(dynamic_cast<SimWheels*>(open_wheels(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusWheels*>(open_wheels(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
-  EXPECT_NE(dynamic_cast<SimKicker*>(open_kicker(simulated, owner).get()), nullptr);
+  EXPECT_NE(dynamic_cast<BusKicker*>(open_kicker(simulated, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
   for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
                                             config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {
-    const config::Hal boards{config::SimDevice{}, board, ""};
+    const config::Hal boards{config::BusDevice{}, board, ""};
     EXPECT_NE(dynamic_cast<BoardKicker*>(open_kicker(boards, owner).get()), nullptr);
   }
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);

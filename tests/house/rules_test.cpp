@@ -60,6 +60,7 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"evaluator", {"kicking/"}},
     {"bus", {"idl/"}},
     {"hal", {"kicking/", "sim/", "idl/", "config/devices.hpp"}},
+    {"hal/bus", {"bus/"}},
     {"hal/sim", {"bus/"}},
     {"hal/replay", {"evaluator/log/"}},
     {"robot",

@@ -65,7 +65,7 @@ class Running {
       : stop_(stop), probe_(nodes.front()->participant(), "probe"), wakes_(nodes.front()->participant()) {
     wakes_.write({});
     // Of one executor the last node's readers are served last.
-    probe_.on<msg::SimKicker>([this](const msg::SimKicker&) { listening_.count_down(); });
+    probe_.on<msg::DeviceKicker>([this](const msg::DeviceKicker&) { listening_.count_down(); });
     nodes.push_back(&probe_);
     thread_ = std::thread{[this, kind, nodes = std::move(nodes)] { run(kind, nodes); }};
     listening_.wait();
@@ -91,7 +91,7 @@ class Running {
   bus::Stop& stop_;
   std::latch listening_{1};
   bus::Node probe_;
-  bus::Writer<msg::SimKicker> wakes_;
+  bus::Writer<msg::DeviceKicker> wakes_;
   std::string failure_;
   std::thread thread_;
 };

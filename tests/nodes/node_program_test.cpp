@@ -59,7 +59,7 @@ TEST_F(NodeProgramTest, SigtermEndsWorldState) { expect_clean_end<msg::Odometry>
 TEST_F(NodeProgramTest, SigtermEndsKickDecision) { expect_clean_end<msg::WorldState>("kick_decision"); }
 TEST_F(NodeProgramTest, SigtermEndsTheKickerDriver) { expect_clean_end<msg::KickOrder>("kicker_driver"); }
 TEST_F(NodeProgramTest, SigtermEndsTheShotObserver) { expect_clean_end<msg::FlightFrame>("shot_observer"); }
-TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::SimDrive>("simulator"); }
+TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceDrive>("simulator"); }
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
 
 TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
@@ -75,7 +75,7 @@ TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
 }
 
 TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
-  bus::Writer<msg::SimWheels> wheels{participant};
+  bus::Writer<msg::DeviceWheels> wheels{participant};
   bus::Reader<msg::Odometry> odometry{participant};
   Spawned node{program("odometry"), arguments()};
   ASSERT_TRUE(wheels.wait_for_readers(1, kPlenty)) << node.said();

@@ -61,7 +61,7 @@ TEST_F(WholeGraphTest, WritersWaitForThoseWhoRead) {
       return std::ranges::find(inputs, bus::meta<T>::topic, &bus::Input::name) != inputs.end();
     };
     // Here the devices that read these are fakes.
-    constexpr bool device = std::is_same_v<T, msg::SimWheels> || std::is_same_v<T, msg::SimKicker>;
+    constexpr bool device = std::is_same_v<T, msg::DeviceWheels> || std::is_same_v<T, msg::DeviceKicker>;
     EXPECT_EQ(readers_of<T>(context.settings), std::ranges::count_if(nodes, reads) + device) << bus::meta<T>::topic;
   });
 }

@@ -13,9 +13,9 @@ namespace trivela::hal {
 inline constexpr std::chrono::seconds kPlenty{10};
 inline constexpr std::uint8_t kRobot = 3;
 
-/// The simulator's end of a device's two topics, over sockets as from another process.
+/// A bridge's end of a device's two topics, over sockets as from another process.
 template <class Sample, class Command>
-struct SimWorld {
+struct BusWorld {
   bus::WirePair domains = bus::fresh_wire_pair();
   bus::Participant there{domains.a};
   bus::Participant here{domains.b};

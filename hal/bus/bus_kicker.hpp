@@ -12,15 +12,15 @@
 
 namespace trivela::hal {
 
-/// The kicker of a simulated robot: sim/kicker in, sim/fire out. An order is for the simulator that is there: before
-/// connected() here, and before the simulator's reader knows this writer, it is lost.
-class SimKicker final : public Kicker {
+/// The kicker behind a bridge: device/kicker in, device/fire out. An order is for the bridge that is there: before
+/// connected() here, and before the bridge's reader knows this writer, it is lost.
+class BusKicker final : public Kicker {
  public:
   /// Throws bus::Error if the bus refuses.
-  SimKicker(const bus::Participant& participant, std::uint8_t robot_id);
-  ~SimKicker() override { make_safe(); }
-  SimKicker(const SimKicker&) = delete;
-  SimKicker& operator=(const SimKicker&) = delete;
+  BusKicker(const bus::Participant& participant, std::uint8_t robot_id);
+  ~BusKicker() override { make_safe(); }
+  BusKicker(const BusKicker&) = delete;
+  BusKicker& operator=(const BusKicker&) = delete;
 
   bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
@@ -28,13 +28,18 @@ class SimKicker final : public Kicker {
   void withdraw(std::int64_t kick_id) override;
   void make_safe() noexcept override { safe_ = true; }
   bool ended() const override { return false; }
+  /// As the latest sample says.
+  KickerCapabilities capabilities() const override { return capabilities_; }
+  bool emulated() const override { return emulated_; }
 
  private:
   std::uint8_t robot_id_;
-  bus::Reader<msg::SimKicker> samples_;
-  bus::Writer<msg::SimFire> fires_;
+  bus::Reader<msg::DeviceKicker> samples_;
+  bus::Writer<msg::DeviceFire> fires_;
   std::optional<std::int64_t> read_t_ns_;
   std::uint64_t fire_seq_ = 0;
+  std::atomic<KickerCapabilities> capabilities_{};
+  std::atomic<bool> emulated_ = false;
   std::atomic<bool> safe_ = false;
 };
 

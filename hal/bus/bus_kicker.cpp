@@ -1,0 +1,69 @@
+#include "hal/bus/bus_kicker.hpp"
+
+#include "hal/bus/bus_streams.hpp"
+#include "idl/none.hpp"
+
+namespace trivela::hal {
+namespace {
+
+KickerFault fault_of(msg::KickerFault fault) {
+  switch (fault) {
+    case msg::FAULT_NONE:
+      return KickerFault::kNone;
+    case msg::FAULT_CHARGER:
+      return KickerFault::kCharger;
+    case msg::FAULT_COIL:
+      return KickerFault::kCoil;
+    default:
+      return KickerFault::kLink;
+  }
+}
+
+}  // namespace
+
+BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
+    : robot_id_(robot_id),
+      samples_(participant),
+      // The coil hears one driver, however long that says nothing.
+      fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}) {}
+
+bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
+
+std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
+  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
+  if (!received) return std::nullopt;
+  if (received->emulated) emulated_ = true;
+  const auto voltage_v = msg::optional_of(received->voltage_v);
+  capabilities_ = {.charge_control = received->charge_control,
+                   .voltage = voltage_v.has_value(),
+                   .discharge = received->discharge,
+                   .watchdog = received->watchdog};
+  return KickerSample{.t_ns = received->t_ns,
+                      .charge = received->charge,
+                      .armed = received->armed,
+                      .fault = fault_of(received->fault),
+                      .charge_modelled = received->charge_modelled,
+                      .voltage_v = voltage_v};
+}
+
+void BusKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
+  if (safe_) return;
+  msg::DeviceFire order{};
+  order.robot_id = robot_id_;
+  order.seq = ++fire_seq_;
+  order.t_ns = t_ns;
+  order.kick_id = kick_id;
+  order.power = power;
+  fires_.write(order);
+}
+
+void BusKicker::withdraw(std::int64_t kick_id) {
+  msg::DeviceFire word{};
+  word.robot_id = robot_id_;
+  word.seq = ++fire_seq_;
+  word.kick_id = kick_id;
+  word.withdrawn = true;
+  fires_.write(word);
+}
+
+}  // namespace trivela::hal

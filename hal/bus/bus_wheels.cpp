@@ -1,0 +1,64 @@
+#include "hal/bus/bus_wheels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+#include "hal/bus/bus_streams.hpp"
+#include "idl/none.hpp"
+#include "kicking/geometry/time.hpp"
+
+namespace trivela::hal {
+
+BusWheels::BusWheels(const bus::Participant& participant, std::uint8_t robot_id)
+    : robot_id_(robot_id), samples_(participant), drives_(participant), turns_(participant) {}
+
+BusWheels::~BusWheels() {
+  try {
+    drive({}, drive_t_ns_);
+  } catch (const std::exception&) {
+    // The bus is gone; the bridge stops for want of commands.
+  }
+}
+
+bool BusWheels::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, drives_, timeout); }
+
+std::optional<WheelSample> BusWheels::read(std::chrono::nanoseconds timeout) {
+  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
+  if (!received) return std::nullopt;
+  if (received->emulated) emulated_ = true;
+  const auto gyro_radps = msg::optional_of(received->gyro_radps);
+  WheelSample sample{.t_ns = received->t_ns,
+                     .wheel_count = std::min<int>(received->wheel_count, 4),
+                     .wheel_radps = {},
+                     .gyro_radps = gyro_radps ? gyro_radps : gyro_at(received->t_ns)};
+  std::copy_n(std::begin(received->wheel_radps), sample.wheel_count, sample.wheel_radps.begin());
+  return sample;
+}
+
+/// The latest that a gyro of its own said, where it is of that instant.
+std::optional<double> BusWheels::gyro_at(std::int64_t t_ns) {
+  constexpr double kSameTime_s = 0.05;  // later than a gyro of 50 Hz with a sample or two lost
+  const auto said = read_newer(turns_, robot_id_, turn_t_ns_, std::chrono::nanoseconds::zero());
+  if (said) turn_radps_ = said->gyro_radps;
+  if (said && said->emulated) gyro_emulated_ = true;
+  const bool known = turn_t_ns_ && std::abs(kicking::seconds(t_ns - *turn_t_ns_)) <= kSameTime_s;
+  return known ? msg::optional_of(turn_radps_) : std::nullopt;
+}
+
+void BusWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
+  const bool finite =
+      std::isfinite(set_point.vx_mps) && std::isfinite(set_point.vy_mps) && std::isfinite(set_point.omega_radps);
+  const kicking::Twist twist = finite ? set_point : kicking::Twist{};
+  drive_t_ns_ = t_ns;
+  msg::DeviceDrive command{};
+  command.robot_id = robot_id_;
+  command.seq = ++drive_seq_;
+  command.t_ns = t_ns;
+  command.vx_mps = twist.vx_mps;
+  command.vy_mps = twist.vy_mps;
+  command.omega_radps = twist.omega_radps;
+  drives_.write(command);
+}
+
+}  // namespace trivela::hal

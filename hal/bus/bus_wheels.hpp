@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "hal/wheels.hpp"
+#include "idl/messages.hpp"
+
+namespace trivela::hal {
+
+/// The base behind a bridge: device/wheels in, device/drive out. A sample that was not read before the next arrived is
+/// gone, as with a device register. A sample without a gyro is given the latest of device/gyro, if that is of its time.
+class BusWheels final : public Wheels {
+ public:
+  /// Throws bus::Error if the bus refuses.
+  BusWheels(const bus::Participant& participant, std::uint8_t robot_id);
+  ~BusWheels() override;
+  BusWheels(const BusWheels&) = delete;
+  BusWheels& operator=(const BusWheels&) = delete;
+
+  bool connected(std::chrono::nanoseconds timeout) override;
+  std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
+  void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
+  bool ended() const override { return false; }
+  bool emulated() const override { return emulated_; }
+  bool gyro_emulated() const override { return gyro_emulated_; }
+
+ private:
+  std::optional<double> gyro_at(std::int64_t t_ns);
+
+  std::uint8_t robot_id_;
+  bus::Reader<msg::DeviceWheels> samples_;
+  bus::Writer<msg::DeviceDrive> drives_;
+  std::optional<std::int64_t> read_t_ns_;
+  bus::Reader<msg::DeviceGyro> turns_;
+  std::optional<std::int64_t> turn_t_ns_;
+  double turn_radps_ = 0.0;
+  std::atomic<bool> emulated_ = false;
+  std::atomic<bool> gyro_emulated_ = false;
+  std::uint64_t drive_seq_ = 0;
+  std::int64_t drive_t_ns_ = 0;
+};
+
+}  // namespace trivela::hal
