@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/open.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 
 namespace trivela::hal {
