@@ -10,7 +10,11 @@ Node::Node(Participant participant, std::string name, std::optional<std::uint8_t
       robot_id_(robot_id),
       interrupt_(std::make_shared<Guard>(participant_)) {}
 
-std::string Node::owner() const { return robot_id_ ? fmt::format("{}/{}", name_, *robot_id_) : name_; }
+std::string owner_of_robot(std::string_view node, std::uint8_t robot_id) {
+  return fmt::format("{}/{}", node, robot_id);
+}
+
+std::string Node::owner() const { return robot_id_ ? owner_of_robot(name_, *robot_id_) : name_; }
 
 Node::Slot& Node::add(const std::string& what, std::string input, std::vector<std::string> outputs) {
   auto& slot = slots_.emplace_back(std::make_unique<Slot>());

@@ -53,6 +53,9 @@ class Output {
   std::shared_ptr<Writer<T>> writer_;
 };
 
+/// The owner of the writers of a robot's node: "kick_decision/1".
+std::string owner_of_robot(std::string_view node, std::uint8_t robot_id);
+
 /// A named set of reactions to samples and devices. It says what shall happen; an Executor makes it happen.
 ///
 /// A reaction never runs twice at once, but two reactions of a node may: a device has a thread of its own, and in

@@ -16,7 +16,7 @@ struct WriterOptions {
   std::chrono::nanoseconds lease = std::chrono::milliseconds(100);
   /// Order topics: of several live writers of one robot only the strongest is heard (hot standby).
   std::int32_t strength = 0;
-  /// Who writes, e.g. "kicker_driver/1"; other_writer_exists() looks for it.
+  /// Who writes, e.g. "kicker_driver/1": other_writer_exists() looks for it, and readers are told it with each sample.
   std::string owner = {};
 };
 

@@ -47,4 +47,13 @@ Qos reader_qos(Profile profile, const ReaderOptions& options) {
   return qos;
 }
 
+std::string owner_of(const dds_qos_t* qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds_qget_userdata(qos, &data, &size)) return {};
+  std::string owner(static_cast<const char*>(data), size);
+  dds_free(data);
+  return owner;
+}
+
 }  // namespace trivela::bus

@@ -4,6 +4,7 @@
 #include <dds/dds.h>
 
 #include <memory>
+#include <string>
 
 #include "bus/options.hpp"
 #include "idl/meta.hpp"
@@ -22,5 +23,8 @@ inline constexpr dds_duration_t kAutomaticLease = DDS_SECS(1);
 
 Qos writer_qos(Profile profile, const WriterOptions& options);
 Qos reader_qos(Profile profile, const ReaderOptions& options);
+
+/// WriterOptions::owner of a writer with this QoS; empty: none.
+std::string owner_of(const dds_qos_t* qos);
 
 }  // namespace trivela::bus

@@ -154,18 +154,18 @@ bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
 }
 
 // A number made of the writer's GUID. One that has gone before its last sample is taken has its handle instead.
-std::uint64_t AnyReader::writer_of(std::int32_t reader, std::uint64_t handle) {
-  const auto known = std::find_if(writers_.begin(), writers_.end(), [&](const auto& w) { return w.first == handle; });
-  if (known != writers_.end()) return known->second;
+const AnyReader::KnownWriter& AnyReader::writer_of(std::int32_t reader, std::uint64_t handle) {
+  const auto known = std::find_if(writers_.begin(), writers_.end(), [&](const auto& w) { return w.handle == handle; });
+  if (known != writers_.end()) return *known;
   dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, handle);
-  if (endpoint == nullptr) return handle;
+  if (endpoint == nullptr) return gone_ = {handle, handle, {}};
   std::uint64_t number = 14695981039346656037ULL;  // FNV-1a
   for (const unsigned char byte : endpoint->key.v) number = (number ^ byte) * 1099511628211ULL;
+  std::string owner = owner_of(endpoint->qos);
   dds_builtintopic_free_endpoint(endpoint);
   constexpr std::size_t kMost = 64;  // writers come and go
   if (writers_.size() == kMost) writers_.erase(writers_.begin());
-  writers_.emplace_back(handle, number);
-  return number;
+  return writers_.emplace_back(KnownWriter{handle, number, std::move(owner)});
 }
 
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
@@ -181,12 +181,12 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
     for (std::size_t i = 0; i < count; ++i) {
       const auto& info = loan.info(i);
       if (!info.valid_data) continue;  // a writer went away; no sample
-      const std::uint64_t writer = writer_of(reader, info.publication_handle);
+      const KnownWriter& writer = writer_of(reader, info.publication_handle);
       if (participant_.hearing() != nullptr) {
-        if (!is_new(writer, info.source_timestamp)) continue;
+        if (!is_new(writer.number, info.source_timestamp)) continue;
         silence_->heard(Clock::now());
       }
-      sink(context, loan.sample(i), {info.source_timestamp, writer});
+      sink(context, loan.sample(i), {info.source_timestamp, writer.number, writer.owner});
       ++taken;
     }
     if (count < Loan::kMost) return taken;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@ namespace trivela::bus {
 struct SampleInfo {
   std::int64_t source_t_ns = 0;  // the writer's real-time clock when it was written
   std::uint64_t writer = 0;  // tells the writers of a topic apart: of its GUID, the same when it is lost and comes back
+  std::string_view
+      owner{};  // its WriterOptions::owner; empty: none, or it has gone. Valid while the sample is handed out
 };
 
 /// Counts since the reader was made. Lost samples are not among them: Cyclone 0.10 skips them without a word
@@ -90,7 +93,12 @@ class AnyReader {
 
  private:
   bool is_new(std::uint64_t writer, std::int64_t source_t_ns);
-  std::uint64_t writer_of(std::int32_t reader, std::uint64_t handle);
+  struct KnownWriter {
+    std::uint64_t handle;  // Cyclone's, which changes when one comes back
+    std::uint64_t number;
+    std::string owner;
+  };
+  const KnownWriter& writer_of(std::int32_t reader, std::uint64_t handle);
   std::size_t take_from(std::int32_t reader, Sink sink, void* context);
 
   struct Callbacks;  // what Cyclone's listeners point at: stays where it is when the reader moves
@@ -116,8 +124,8 @@ class AnyReader {
     std::int64_t source_t_ns;
   };
   std::vector<Newest> newest_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>>
-      writers_;                             // by Cyclone's handle, which changes when one comes back
+  std::vector<KnownWriter> writers_;
+  KnownWriter gone_{};                      // the last one that had gone before its sample was taken
   std::optional<RenewalPatience> silence_;  // in real time
   std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};

@@ -11,15 +11,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool has_owner(const dds_builtintopic_endpoint_t& endpoint, std::string_view owner) {
-  void* data = nullptr;
-  std::size_t size = 0;
-  if (!dds_qget_userdata(endpoint.qos, &data, &size)) return false;
-  const bool same = std::string_view(static_cast<const char*>(data), size) == owner;
-  dds_free(data);
-  return same;
-}
-
 }  // namespace
 
 AnyWriter::AnyWriter(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
@@ -75,7 +66,8 @@ bool AnyWriter::other_writer_exists(std::chrono::nanoseconds timeout) const {
     while (checked(dds_take(publications.handle(), &sample, &info, 1, 1), "dds_take", "DCPSPublication") > 0) {
       const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
       const bool other = info.valid_data && info.instance_state == DDS_ALIVE_INSTANCE_STATE &&
-                         info.instance_handle != self && topic_ == endpoint.topic_name && has_owner(endpoint, owner_);
+                         info.instance_handle != self && topic_ == endpoint.topic_name &&
+                         owner_of(endpoint.qos) == owner_;
       checked(dds_return_loan(publications.handle(), &sample, 1), "dds_return_loan", "DCPSPublication");
       if (other) return true;
     }

@@ -46,13 +46,6 @@ Json given_to_json(const std::string& cell) {
   return cell.empty() ? Json(nullptr) : Json(cell);
 }
 
-std::string csv_line(const std::vector<std::string>& given, const std::vector<std::string>& appended) {
-  std::vector<std::string> cells;
-  for (const auto* part : {&given, &appended})
-    std::transform(part->begin(), part->end(), std::back_inserter(cells), to_csv);
-  return fmt::format("{}\n", fmt::join(cells, ","));
-}
-
 std::string flag_of(const Column& column) {
   std::string flag = "--" + column.name;
   std::replace(flag.begin(), flag.end(), '_', '-');
@@ -78,6 +71,13 @@ std::vector<Value> compute_record(const RowVerb& verb, const std::vector<std::st
 }
 
 }  // namespace
+
+std::string csv_line(const std::vector<std::string>& given, const std::vector<std::string>& appended) {
+  std::vector<std::string> cells;
+  for (const auto* part : {&given, &appended})
+    std::transform(part->begin(), part->end(), std::back_inserter(cells), to_csv);
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
 
 ExitCode run_rows(const RowVerb& verb, std::istream& in, const std::string& file, RowFormat format, std::ostream& out,
                   std::ostream& err) {

@@ -67,4 +67,7 @@ void add_row_flags(CLI::App& app, const RowVerb& verb, RowArguments& arguments);
 /// missing or its value is impossible.
 ExitCode run_row_verb(const RowVerb& verb, const RowArguments& arguments);
 
+/// The cells of both as a line of CSV (RFC 4180).
+std::string csv_line(const std::vector<std::string>& given, const std::vector<std::string>& appended = {});
+
 }  // namespace trivela::cli

@@ -18,11 +18,13 @@ struct BusDevice {
 /// The simulator's laser, over the bus.
 struct SimDevice {
   static constexpr std::string_view kName = "sim";
+  static constexpr bool kInLockstep = true;  ///< its samples may be of simulated time
 };
 
 /// What hal.replay_log recorded; nothing that is ordered is done.
 struct ReplayDevice {
   static constexpr std::string_view kName = "replay";
+  static constexpr bool kInLockstep = true;
 };
 
 /// The Falcons' ioBoard on a serial line (docs/devices/ioboard.md).
@@ -30,7 +32,7 @@ struct IoBoardDevice {
   static constexpr std::string_view kName = "ioboard";
   std::string port = "/dev/ttyUSB0";
   double pulse_us_per_power = 128.0;    ///< the coil's pulse for one unit of the table's set-points
-  std::optional<std::uint8_t> lever{};  ///< height of the lever for this table, 0 home to 205; none: it is left alone
+  std::optional<std::uint8_t> lever{};  ///< height, 0 home to 205; none: the table's (Robot::lever), if it says one
   double charge_time_s = 3.0;           ///< from empty to full (assumed): the board does not say its charge
 };
 
@@ -72,6 +74,16 @@ inline std::optional<BusDevice> backend_of(std::string_view text) {
 }
 template <>
 std::optional<ScipDevice> backend_of(std::string_view text);
+
+/// Whether a node may wait for its samples in lockstep: a device of the real world has its own time.
+template <class... Backends>
+bool plays_in_lockstep(const std::variant<Backends...>& device) {
+  return std::visit(
+      []<class Backend>(const Backend&) {
+        return requires { Backend::kInLockstep; };
+      },
+      device);
+}
 
 /// How a file writes it.
 template <class Backend>

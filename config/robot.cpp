@@ -41,6 +41,23 @@ std::optional<kicking::AngleTable> angles_of(const TableColumns& columns, const 
   return kicking::AngleTable{points};
 }
 
+/// Throws Error naming the file where the heights are not whole, or not all the same.
+std::optional<std::uint8_t> lever_of(const TableColumns& columns, const std::string& file) {
+  if (!columns.levers) return std::nullopt;
+  require_as_long(columns, "levers", columns.levers->size(), file);
+  const double height = columns.levers->front();
+  for (std::size_t i = 0; i < columns.levers->size(); ++i) {
+    const double other = (*columns.levers)[i];
+    if (other != std::round(other)) throw Error{fmt::format("{}: table.levers[{}] = {} is no step", file, i, other)};
+    if (other != height)
+      throw Error{
+          fmt::format("{}: table.levers[{}] = {}, but [0] = {}: the lever is too slow to move before a kick; make a "
+                      "table for each of its heights",
+                      file, i, other, height)};
+  }
+  return static_cast<std::uint8_t>(height);
+}
+
 /// The columns as a height table. Throws Error naming the file.
 kicking::DistanceTable height_table_of(const DistanceColumns& columns, const std::string& file) {
   if (columns.distances_m.size() != columns.powers.size()) {
@@ -92,6 +109,7 @@ Robot load_robot_of_any_table(const std::filesystem::path& path) {
     robot.model.table = table_of<kicking::EffectiveTable>(table, source.file);
   }
   robot.model.exit_angles = angles_of(table, source.file);
+  robot.lever = lever_of(table, source.file);
   return robot;
 }
 
@@ -120,6 +138,16 @@ Robot robot_for(Robot robot, const Settings& settings) {
   return with_height_table(std::move(robot), settings, whose);
 }
 
+Hal hal_for(Hal devices, const Robot& robot) {
+  auto* const board = std::get_if<IoBoardDevice>(&devices.kicker);
+  if (board == nullptr || !robot.lever) return devices;
+  if (board->lever && *board->lever != *robot.lever)
+    throw Error{fmt::format("hal.ioboard.lever = {}, but the table of robot {} was measured with the lever at {}",
+                            *board->lever, robot.name, *robot.lever)};
+  board->lever = robot.lever;
+  return devices;
+}
+
 std::string to_toml_text(const Robot& robot) {
   RobotFile file{robot, {}, {}};
   if (robot.height_table) {
@@ -136,6 +164,7 @@ std::string to_toml_text(const Robot& robot) {
   } else {
     write_table(robot.model.table, table);
   }
+  if (robot.lever) table.levers.emplace(table.powers.size(), static_cast<double>(*robot.lever));
   if (robot.model.exit_angles) {
     auto& angles_deg = table.exit_angles_deg.emplace();
     for (const kicking::AnglePoint& point : robot.model.exit_angles->points())

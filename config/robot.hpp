@@ -31,13 +31,15 @@ struct Robot {
   std::optional<kicking::TrueTable> true_table{};        ///< in place of model.table; load_robot() refuses such a file
   std::optional<kicking::DistanceTable> height_table{};  ///< what model.table was made from, where the file has it
   std::optional<Calibration> calibration{};              ///< where measured figures come from
+  std::optional<std::uint8_t> lever{};  ///< height of the kicker's lever at which the table was measured
 };
 
 /// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be
-/// whole: kind, powers and exit speeds, and may have an exit angle for each power. In place of [table] a file may have
-/// [height_table], powers over distances: model.table is then kicking::effective_table() by the default settings' law
-/// and target height; robot_for() makes it anew for others. Throws Error: also for a table of kind "true", which the
-/// drag-free laws of the policies must not be given, and for set-points that do not rise.
+/// whole: kind, powers and exit speeds, and may have an exit angle and the lever's height for each power; the lever is
+/// too slow to be moved between a decision and its kick, so that the heights of one table are the same. In place of
+/// [table] a file may have [height_table], powers over distances: model.table is then kicking::effective_table() by the
+/// default settings' law and target height; robot_for() makes it anew for others. Throws Error: also for a table of
+/// kind "true", which the drag-free laws of the policies must not be given, and for set-points that do not rise.
 Robot load_robot(const std::filesystem::path& path);
 
 /// The law by which a height table tells exit speeds: policy.height_law where somebody in charge aims by it (stopped,
@@ -52,6 +54,10 @@ Robot robot_for(Robot robot, const Settings& settings);
 
 /// The same as load_robot() for the tools that calibrate: a table of kind "true" comes back as true_table.
 Robot load_robot_of_any_table(const std::filesystem::path& path);
+
+/// The devices as this robot has them: its kicker's lever stands at the table's height. Throws Error where hal.ioboard
+/// says another one.
+Hal hal_for(Hal devices, const Robot& robot);
 
 /// The robot as TOML that load_robot() reads back.
 std::string to_toml_text(const Robot& robot);

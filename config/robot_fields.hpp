@@ -54,6 +54,7 @@ struct TableColumns {
   std::vector<double> powers;
   std::vector<double> exit_speeds_mps;
   std::optional<std::vector<double>> exit_angles_deg;
+  std::optional<std::vector<double>> levers;
 };
 
 /// [height_table] as the file has it.
@@ -80,6 +81,7 @@ void fields(V& v, TableColumns& t) {
   v("powers", t.powers, Range{0.0, 1e6});
   v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
   v("exit_angles_deg", t.exit_angles_deg, Range{5.0, 80.0});
+  v("levers", t.levers, Range{0.0, 205.0});
 }
 
 template <class V>

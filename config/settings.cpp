@@ -36,9 +36,22 @@ void read_learned_model(Settings& settings, const std::string& source) {
   }
 }
 
+void check_lockstep(const Settings& settings, const std::string& source) {
+  const auto check = [&](const char* key, const auto& device) {
+    if (!settings.run.lockstep || plays_in_lockstep(device)) return;
+    throw Error{
+        fmt::format("{}: run.lockstep = true, but {} = \"{}\" has a time of its own: lockstep is for simulated and "
+                    "replayed devices",
+                    source, key, text_of(device))};
+  };
+  check("hal.wheels", settings.hal.wheels);
+  check("hal.kicker", settings.hal.kicker);
+}
+
 /// What follows from several settings together.
 void settle(Settings& settings, const std::string& source) {
   check_policies(settings.kick_decision, source);
+  check_lockstep(settings, source);
   settings.policy.cycle_s = settings.run.cycle_s;
   read_learned_model(settings, source);
 }

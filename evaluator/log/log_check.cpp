@@ -50,7 +50,7 @@ void check_that_rows_have_sessions(const LogFile& file) {
                            table),
                [&](std::int64_t) { damaged(file, fmt::format("{} has rows of no session", table)); });
   };
-  for (const DigestedTable& table : digested_tables()) check(table.name);
+  for (const DigestedTable& table : digested_tables(file.version())) check(table.name);
   check("digests");
 }
 

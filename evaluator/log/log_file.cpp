@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "evaluator/log/schema_check.hpp"
@@ -36,6 +37,24 @@ std::unique_ptr<SQLite::Database> connect(const std::string& path) {
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   return database;
 }
+
+/// While it lives the connection answers SELECTs and nothing else.
+class ReadingOnly {
+ public:
+  explicit ReadingOnly(sqlite3* handle) : handle_(handle) { sqlite3_set_authorizer(handle_, may, nullptr); }
+  ~ReadingOnly() { sqlite3_set_authorizer(handle_, nullptr, nullptr); }
+  ReadingOnly(const ReadingOnly&) = delete;
+  ReadingOnly& operator=(const ReadingOnly&) = delete;
+
+ private:
+  static int may(void*, int action, const char*, const char*, const char*, const char*) {
+    const bool reads =
+        action == SQLITE_SELECT || action == SQLITE_READ || action == SQLITE_FUNCTION || action == SQLITE_RECURSIVE;
+    return reads ? SQLITE_OK : SQLITE_DENY;
+  }
+
+  sqlite3* handle_;
+};
 
 }  // namespace
 
@@ -123,18 +142,48 @@ void LogFile::each_row(std::string_view sql, const RowFunction& fn) const {
   try {
     allow_steps();
     SQLite::Statement statement(*database_, std::string(sql));
-    std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
-    while (statement.executeStep()) {
-      for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
-      try {
-        fn(row);
-      } catch (const WrongCell& wrong) {
-        throw std::runtime_error(fmt::format("cannot read the {} {}: column {} of \"{:.100}\" is not {}", kind_.name,
-                                             path_, statement.getColumnName(static_cast<int>(wrong.column)),
-                                             sql.substr(0, sql.find('\n')), wrong.wanted));
-      }
-    }
+    each_row_of(statement, sql, fn);
   } catch (const SQLite::Exception& error) {
+    throw std::runtime_error(unreadable(error));
+  }
+}
+
+void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, const RowFunction& fn) const {
+  std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
+  while (statement.executeStep()) {
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
+    try {
+      fn(row);
+    } catch (const WrongCell& wrong) {
+      throw std::runtime_error(fmt::format("cannot read the {} {}: column {} of \"{:.100}\" is not {}", kind_.name,
+                                           path_, statement.getColumnName(static_cast<int>(wrong.column)),
+                                           sql.substr(0, sql.find('\n')), wrong.wanted));
+    }
+  }
+}
+
+void LogFile::ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
+                  const RowFunction& fn) const {
+  const ReadingOnly reading(database_->getHandle());
+  sqlite3_stmt* first = nullptr;
+  const char* rest = nullptr;
+  const int code = sqlite3_prepare_v2(database_->getHandle(), sql.c_str(), -1, &first, &rest);
+  const bool is_empty = first == nullptr;
+  sqlite3_finalize(first);
+  static const BadQuestion only_read("a log is only read: ask with SELECT");
+  if (code == SQLITE_AUTH) throw only_read;
+  if (code != SQLITE_OK) throw BadQuestion(sqlite3_errmsg(database_->getHandle()));
+  if (is_empty || std::string_view(rest).find_first_not_of(" \t\r\n;") != std::string_view::npos)
+    throw BadQuestion(is_empty ? "it asks nothing" : "it is more than one statement");
+  budget_->calls = std::numeric_limits<std::int64_t>::max();
+  try {
+    SQLite::Statement statement(*database_, sql);
+    std::vector<std::string> names;
+    for (int i = 0; i < statement.getColumnCount(); ++i) names.emplace_back(statement.getColumnName(i));
+    head(names);
+    each_row_of(statement, sql, fn);
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() == SQLITE_AUTH) throw only_read;  // VACUUM asks while it runs
     throw std::runtime_error(unreadable(error));
   }
 }

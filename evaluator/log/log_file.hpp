@@ -3,9 +3,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/queries.hpp"
@@ -36,6 +38,11 @@ class LogFile final : public Queries {
   /// Was, or will be, everything looked at?
   bool looks_at_everything() const { return whole_; }
 
+  /// Somebody's own question, which may take as long as it likes: `head` is called once with the names of its columns,
+  /// then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.
+  void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
+           const RowFunction& fn) const;
+
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
 
@@ -46,6 +53,7 @@ class LogFile final : public Queries {
   void open();
   void check() const;
   void allow_steps() const;
+  void each_row_of(SQLite::Statement& statement, std::string_view sql, const RowFunction& fn) const;
   std::string unreadable(const SQLite::Exception& error) const;
 
   LogKind kind_;

@@ -56,6 +56,11 @@ CellAs<T> cell_as(const Value& cell, std::size_t column) {
   }
 }
 
+/// A question that is not one SELECT of what is there.
+struct BadQuestion : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 /// What can be asked by SQL, its rows read by type and name and not by number.
 class Queries {
  public:

@@ -74,6 +74,11 @@ void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::
 
 void Reader::each_row(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
 
+void Reader::ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
+                 const RowFunction& fn) const {
+  impl_->file.ask(sql, head, fn);
+}
+
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
                           const RowFunction& fn) const {
   const auto schema = columns_of(impl_->file.database(), table);

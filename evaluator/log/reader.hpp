@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,11 @@ class Reader final : public Queries {
   /// Calls `fn` for each row of a table, ordered by session, robot and seq as far as the table has them.
   /// Throws std::runtime_error naming a table or column that does not exist.
   void for_each_row(std::string_view table, const std::vector<std::string>& columns, const RowFunction& fn) const;
+
+  /// Somebody's own question about tables, their views and counted_kicks: `head` is called once with the names of its
+  /// columns, then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.
+  void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
+           const RowFunction& fn) const;
 
   /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
   void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const;

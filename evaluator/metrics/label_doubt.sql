@@ -1,12 +1,14 @@
 -- Kicks by policy, label and sightings behind it. p_on_target: of the label's own probabilities, NULL in old logs.
 -- Columns: policy, outcome ('unknown' where none came), observations, p_on_target, p_of_label (NULL: not said),
 -- p_of_any (sum of the outcomes' probabilities, NULL: not said).
-SELECT k.policy, coalesce(k.label, 'unknown'), coalesce(k.observations, 0), k.observed_p_on_target,
+SELECT k.policy, coalesce(k.label, 'unknown') AS outcome, coalesce(k.observations, 0) AS observations,
+  k.observed_p_on_target AS p_on_target,
   CASE k.outcome
     WHEN 'on_target' THEN c.p_on_target WHEN 'wide_left' THEN c.p_wide_left WHEN 'wide_right' THEN c.p_wide_right
     WHEN 'over' THEN c.p_over WHEN 'short' THEN c.p_short WHEN 'post' THEN c.p_post WHEN 'bar' THEN c.p_bar
-    WHEN 'blocked' THEN c.p_blocked END,
+    WHEN 'blocked' THEN c.p_blocked END AS p_of_label,
   c.p_on_target + c.p_wide_left + c.p_wide_right + c.p_over + c.p_short + c.p_post + c.p_bar + c.p_blocked
+    AS p_of_any
 FROM counted_kicks AS k
 LEFT JOIN kick_outcomes AS c ON c.session_id = k.session_id AND c.robot_id = k.robot_id AND c.seq = (
   SELECT max(seq) FROM kick_outcomes

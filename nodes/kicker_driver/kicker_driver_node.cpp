@@ -12,6 +12,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     : context_(context),
       kicker_(std::move(kicker)),
       desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id()),
+      own_decision_(bus::owner_of_robot("kick_decision", context.robot_id())),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
@@ -40,8 +41,9 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         context_.logger->warn("the decision loop is silent: no order comes");
     };
   }
-  node_.on<msg::KickOrder>([this](const msg::KickOrder& order) { on_order(order); },
-                           bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
+  node_.on<msg::KickOrder>(
+      [this](const msg::KickOrder& order, const bus::SampleInfo& info) { on_order(order, order_by(info)); },
+      bus::writes<msg::KickReceipt, msg::DeviceFire, msg::StepDone>(), orders);
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.
@@ -111,12 +113,16 @@ void KickerDriverNode::withdraw() {
   receipt_out_.write(*receipt);
 }
 
-void KickerDriverNode::on_order(const msg::KickOrder& order) {
+robot::OrderBy KickerDriverNode::order_by(const bus::SampleInfo& info) const {
+  return info.owner == own_decision_ ? robot::OrderBy::kOwnDecision : robot::OrderBy::kStranger;
+}
+
+void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {
   const bool real_time = !context_.settings.run.lockstep;
   const std::int64_t received_ns = real_time ? context_.steady_ns() : 0;
   const std::lock_guard lock{mutex_};
   if (real_time) desk_.referee(referee_says({}));
-  msg::KickReceipt receipt = desk_.answer(order, now_t_ns());
+  msg::KickReceipt receipt = desk_.answer(order, now_t_ns(), by);
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
     kicker_->fire(receipt.kick_id, receipt.power, receipt.fired_t_ns);
@@ -135,7 +141,8 @@ void KickerDriverNode::report_done(std::int64_t t_ns) {
 
 int kicker_driver_main(int argc, char** argv) {
   return node_main(argc, argv, "kicker_driver", [](NodeContext& context) {
-    KickerDriverNode node{context, hal::open_kicker(context.settings.hal, {context.participant, context.robot_id()})};
+    KickerDriverNode node{context, hal::open_kicker(config::hal_for(context.settings.hal, context.robot),
+                                                    {context.participant, context.robot_id()})};
     run(context, node.node());
   });
 }

@@ -24,7 +24,8 @@ class KickerDriverNode {
 
  private:
   void on_sample(const hal::KickerSample& sample);
-  void on_order(const msg::KickOrder& order);
+  void on_order(const msg::KickOrder& order, robot::OrderBy by);
+  robot::OrderBy order_by(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word);
   void withdraw();
   std::int64_t now_t_ns() const;
@@ -41,6 +42,7 @@ class KickerDriverNode {
   bool clock_differs_ = false;
   std::string link_said_;
   robot::LoopWatch loop_;
+  std::string own_decision_;  // owner of the writer whose orders count
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;

@@ -45,8 +45,8 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
   return out;
 }
 
-msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now_t_ns) {
-  const msg::Refusal refusal = gate_.judge(order, now_t_ns);
+msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
+  const msg::Refusal refusal = gate_.judge(order, now_t_ns, by);
   msg::KickReceipt receipt{};
   receipt.robot_id = robot_id_;
   receipt.seq = ++receipts_;

@@ -23,7 +23,7 @@ class OrderDesk {
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
   /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
-  msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns);
+  msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by = OrderBy::kOwnDecision);
 
   /// What the referee's word permits by now.
   void referee(RefereeSays says) { gate_.referee(says); }

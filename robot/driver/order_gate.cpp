@@ -17,7 +17,7 @@ double seconds_from(std::int64_t from_t_ns, std::int64_t to_t_ns) {
 bool same(const msg::KickOrder& a, const msg::KickOrder& b) {
   const bool same_power = a.power == b.power || (std::isnan(a.power) && std::isnan(b.power));
   return a.kick_id == b.kick_id && a.t_ns == b.t_ns && same_power && a.fire_t_ns == b.fire_t_ns &&
-         a.valid_until_t_ns == b.valid_until_t_ns;
+         a.valid_until_t_ns == b.valid_until_t_ns && a.possession == b.possession;
 }
 
 }  // namespace
@@ -56,9 +56,11 @@ msg::Refusal OrderGate::disarmed() const {
   return switched_on && referee_ == RefereeSays::kSilent ? msg::REFUSAL_REFEREE_SILENT : msg::REFUSAL_UNARMED;
 }
 
-msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns) const {
+msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const {
+  if (by == OrderBy::kStranger) return msg::REFUSAL_STRANGER;
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
   if (!power_.contains(order.power) || order.kick_id <= 0) return msg::REFUSAL_OUT_OF_RANGE;
+  if (!order.possession) return msg::REFUSAL_NO_BALL;
   if (!armed()) return disarmed();
   if (seconds_from(order.t_ns, now_t_ns) > settings_.max_order_age_s) return msg::REFUSAL_STALE;
   const double ahead_s = seconds_from(now_t_ns, std::max(order.t_ns, order.fire_t_ns));
@@ -70,8 +72,8 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
   return msg::REFUSAL_NONE;
 }
 
-msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns) {
-  const msg::Refusal refusal = reason(order, now_t_ns);
+msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
+  const msg::Refusal refusal = reason(order, now_t_ns, by);
   ++handled_;
   remember(order, refusal == msg::REFUSAL_NONE);
   last_kick_id_ = order.kick_id;

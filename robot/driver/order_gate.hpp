@@ -12,16 +12,19 @@
 
 namespace trivela::robot {
 
+/// Who wrote an order. In one process, without a bus, there is nobody else.
+enum class OrderBy { kOwnDecision, kStranger };
+
 /// The last word on every order: the one place that decides whether the coil may be energised.
 ///
-/// An order passes when, in this order, the device is sound (no fault, samples neither older than link_timeout_s nor
-/// from more than future_tolerance_s ahead), the power is finite and inside the set-points and the kick_id above 0, the
-/// kicker is armed (switch on, referee heard and playing), the order was judged at most max_order_age_s ago and is not
-/// older than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be
-/// fired before it was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and
-/// the last kick is at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that
-/// fails is the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a
-/// double.
+/// An order passes when, in this order, the robot's own decision node wrote it, the device is sound (no fault, samples
+/// neither older than link_timeout_s nor from more than future_tolerance_s ahead), the power is finite and inside the
+/// set-points and the kick_id above 0, the ball lay in the handler where it was judged, the kicker is armed (switch on,
+/// referee heard and playing), the order was judged at most max_order_age_s ago and is not older than its
+/// valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be fired before it
+/// was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and the last kick is
+/// at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails is the
+/// refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.
@@ -35,7 +38,7 @@ class OrderGate {
   void referee(RefereeSays says) { referee_ = says; }
 
   /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
-  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns);
+  msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by = OrderBy::kOwnDecision);
 
   /// An accepted order that must not be fired after all.
   struct Withdrawal {
@@ -70,7 +73,7 @@ class OrderGate {
     constexpr double kMost = 1.05;
     return sample_ && sample_->charge >= settings_.min_charge_ratio && sample_->charge <= kMost;
   }
-  msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns) const;
+  msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const;
 
   config::KickerDriver settings_;
   kicking::Range power_;

@@ -100,6 +100,35 @@ TEST_F(CalibratedRobot, NamesAnglesThatDoNotFitTheTable) {
               ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml:5"), HasSubstr("must lie in [5, 80]"))));
 }
 
+TEST_F(CalibratedRobot, HasTheLeversHeightOfItsTable) {
+  const Robot robot = load_robot(file(kTable + "levers = [120, 120]\n"));
+  EXPECT_EQ(robot.lever, 120);
+  EXPECT_EQ(load_robot(file(to_toml_text(robot))).lever, 120);
+  EXPECT_EQ(load_robot(file(kTable)).lever, std::nullopt);
+  EXPECT_THAT([&] { load_robot(file(kTable + "levers = [120, 130]\n")); },
+              ThrowsMessage<Error>(HasSubstr("table.levers[1] = 130, but [0] = 120")));
+  EXPECT_THAT([&] { load_robot(file(kTable + "levers = [120]\n")); },
+              ThrowsMessage<Error>(HasSubstr("table.powers has 2 entries, table.levers 1")));
+  EXPECT_THAT([&] { load_robot(file(kTable + "levers = [12.5, 12.5]\n")); },
+              ThrowsMessage<Error>(HasSubstr("no step")));
+  EXPECT_THAT([&] { load_robot(file(kTable + "levers = [206, 206]\n")); },
+              ThrowsMessage<Error>(HasSubstr("must lie in [0, 205]")));
+}
+
+TEST_F(CalibratedRobot, PutsItsLeverWhereTheTableWasMeasured) {
+  const Robot robot = load_robot(file(kTable + "levers = [120, 120]\n"));
+  Hal devices;
+  EXPECT_EQ(text_of(hal_for(devices, robot).kicker), "sim") << "which has none";
+  devices.kicker = IoBoardDevice{};
+  EXPECT_EQ(std::get<IoBoardDevice>(hal_for(devices, robot).kicker).lever, 120);
+  EXPECT_EQ(std::get<IoBoardDevice>(hal_for(devices, Robot{}).kicker).lever, std::nullopt);
+  std::get<IoBoardDevice>(devices.kicker).lever = 120;
+  EXPECT_NO_THROW(hal_for(devices, robot));
+  std::get<IoBoardDevice>(devices.kicker).lever = 100;
+  EXPECT_THAT([&] { hal_for(devices, robot); },
+              ThrowsMessage<Error>(HasSubstr("hal.ioboard.lever = 100, but the table of robot")));
+}
+
 TEST_F(CalibratedRobot, OfATrueTableIsForTheToolsAlone) {
   Robot robot;
   robot.true_table.emplace({kicking::SetPoint{10, 5.1}, kicking::SetPoint{20, 7.2}});

@@ -97,6 +97,14 @@ TEST(IoBoard, IsRefusedWithALeverThatItDoesNotHaveAndWhereItIsNotTheKicker) {
   EXPECT_THAT(refusal({"hal.kicker = \"sim\"", "hal.ioboard.lever = 20"}), HasSubstr("unknown key"));
 }
 
+TEST(Lockstep, IsForDevicesWithoutATimeOfTheirOwn) {
+  for (const std::string device : {"ioboard", "rekick"})
+    EXPECT_THAT(refusal({"run.lockstep = true", "hal.kicker = \"" + device + "\""}),
+                HasSubstr("run.lockstep = true, but hal.kicker = \"" + device + "\" has a time of its own"));
+  EXPECT_TRUE(with({"run.lockstep = true"}).run.lockstep);
+  EXPECT_NO_THROW(with({"hal.kicker = \"ioboard\""}));
+}
+
 TEST(ReKick, HasItsSettingsInATableOfItsName) {
   const Settings settings = with({"hal.kicker = \"rekick\"", "hal.rekick.port = \"can1\"",
                                   "hal.rekick.pulse_us_per_power = 1.0", "hal.rekick.max_voltage_v = 200"});

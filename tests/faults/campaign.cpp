@@ -147,8 +147,10 @@ class Campaign {
     } else {
       trouble_process(fault, trial);
     }
+    // While a stranger is stronger nobody else is heard; from now on kick_decision has to be.
+    if (fault.insists == Insists::kStranger) stack_.insist(Insists::kNobody);
     recover(trial);
-    stack_.insist(false);
+    stack_.insist(Insists::kNobody);
     trial.whole_ns = now_ns();
     if (garbles_driver(trial.fault)) stack_.renew_device_witness();
     return trial;

@@ -11,6 +11,7 @@ namespace trivela::faults {
 /// What a fire may be judged for.
 enum class Offence {
   kNoOrder,      ///< nobody saw an order of this id
+  kStranger,     ///< its order was a stranger's
   kStale,        ///< its order was too old, or no longer valid
   kTwice,        ///< this id was fired before
   kStopped,      ///< the referee had stopped the game

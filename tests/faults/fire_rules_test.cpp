@@ -49,6 +49,15 @@ TEST(FireRules, AFireNeedsAnOrderOfItsIdThatOneOfTheWitnessesSaw) {
   EXPECT_THAT(offences(device, wire), IsEmpty());
 }
 
+TEST(FireRules, AStrangersOrderIsNone) {
+  constexpr std::int64_t kId = std::int64_t{0x7ffe} << 48 | 1;
+  Testimony device;
+  device.words = playing_until(2000);
+  device.orders = {order(kId, 1000)};
+  device.fires = {fire(kId, 1005)};
+  EXPECT_THAT(offences(device), ElementsAre(Offence::kStranger));
+}
+
 TEST(FireRules, AnOrderIsTooOldAfterItsValidityAndAtMostACycleIsAllowedToTheWire) {
   Testimony device;
   device.words = playing_until(2000);

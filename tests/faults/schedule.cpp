@@ -46,13 +46,14 @@ struct Target {
   std::optional<std::size_t> other;
 };
 
-/// Half of the faults that leave the way to an order alone.
-bool insists(const Fault& fault, Random& random) {
+/// In half of the faults that leave the way to an order alone; a stranger in every other one of them.
+Insists insists(const Fault& fault, Random& random, Insists before) {
   const bool drawn = random() % 2 == 0;
   for (const std::string_view name : {"odometry", "world_state", "kick_decision"}) {
-    if (fault.node == node_index(name) || fault.other == node_index(name)) return false;
+    if (fault.node == node_index(name) || fault.other == node_index(name)) return Insists::kNobody;
   }
-  return drawn;
+  if (!drawn) return Insists::kNobody;
+  return before == Insists::kStranger ? Insists::kInItsName : Insists::kStranger;
 }
 
 std::vector<Target> targets_of(FaultKind kind, bool with_links) {
@@ -152,7 +153,8 @@ std::string text(const Fault& fault) {
   if (fault.kind == FaultKind::kDelay)
     out += fmt::format(", {:.0f} to {:.0f} ms", ms(fault.way.delay), ms(fault.way.delay + fault.way.jitter));
   if (fault.kind == FaultKind::kGarble) out += fmt::format(", {:.0f} % of the frames", 100.0 * fault.way.garble);
-  if (fault.insists) out += ", insisting";
+  if (fault.insists == Insists::kInItsName) out += ", insisting";
+  if (fault.insists == Insists::kStranger) out += ", a stranger insisting";
   return out;
 }
 
@@ -165,6 +167,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
     targets.emplace_back(targets_of(static_cast<FaultKind>(kind), with_links));
   Deck<FaultKind> deck{kinds};
   std::vector<Fault> faults;
+  Insists last = Insists::kStranger;  // who insisted last
   while (faults.size() < count) {
     Fault fault;
     fault.kind = deck.draw(random);
@@ -175,7 +178,8 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
     if (fault.kind == FaultKind::kTwin && fault.node == node_index("referee")) fault.kind = FaultKind::kSilence;
     fault.waits_s = uniform(random, 0.0, 1.0);
     fault.lasts_s = length_s(fault.kind, random);
-    fault.insists = insists(fault, random);
+    fault.insists = insists(fault, random, last);
+    if (fault.insists != Insists::kNobody) last = fault.insists;
     set_way(fault, random);
     faults.push_back(fault);
   }
@@ -185,6 +189,7 @@ std::vector<Fault> draw_faults(std::size_t count, std::uint64_t seed, bool with_
 std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
   Random random{seed};
   std::vector<Fault> faults;
+  Insists last = Insists::kStranger;  // who insisted last
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t node = 0; node < kNodes.size(); ++node) {
       if (node == node_index("referee")) continue;
@@ -193,7 +198,8 @@ std::vector<Fault> draw_stalls(std::size_t rounds, std::uint64_t seed) {
       fault.node = node;
       fault.waits_s = uniform(random, 0.0, 1.0);
       fault.lasts_s = uniform(random, 0.5, 2.0);
-      fault.insists = insists(fault, random);
+      fault.insists = insists(fault, random, last);
+      if (fault.insists != Insists::kNobody) last = fault.insists;
       faults.push_back(fault);
     }
   }
@@ -204,7 +210,7 @@ std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed) {
   Random random{seed};
   const std::size_t referee = node_index("referee");
   std::vector<Fault> faults;
-  bool insisting = false;
+  Insists insisting = Insists::kNobody;
   const auto add = [&](FaultKind kind, std::optional<std::size_t> other = std::nullopt) {
     Fault fault;
     fault.kind = kind;
@@ -217,7 +223,7 @@ std::vector<Fault> draw_referee_losses(std::size_t rounds, std::uint64_t seed) {
     faults.push_back(fault);
   };
   for (std::size_t round = 0; round < rounds; ++round) {
-    insisting = round % 2 == 0;
+    insisting = round % 2 == 0 ? Insists::kInItsName : Insists::kNobody;
     for (const FaultKind kind :
          {FaultKind::kKill, FaultKind::kRestart, FaultKind::kStop, FaultKind::kSilence, FaultKind::kCut})
       add(kind);

@@ -37,6 +37,9 @@ enum class FaultKind {
 const char* name(FaultKind kind);
 bool on_link(FaultKind kind);
 
+/// Who orders beside kick_decision, all the while and with more strength.
+enum class Insists { kNobody, kInItsName, kStranger };
+
 /// One thing that goes wrong.
 struct Fault {
   FaultKind kind = FaultKind::kKill;
@@ -44,8 +47,8 @@ struct Fault {
   std::optional<std::size_t> other;  ///< of a link: its other end; none: everything that the node says and hears
   double waits_s = 0.0;              ///< from the whole chain to the fault, so that it comes anywhere in a kick
   double lasts_s = 0.0;
-  bool insists = false;  ///< fault_client orders all the while, in kick_decision's place
-  Way way;               ///< what a link does meanwhile
+  Insists insists = Insists::kNobody;  ///< what fault_client does from before the fault on; a stranger to its end
+  Way way;                             ///< what a link does meanwhile
 };
 
 /// "cut kick_decision-kicker_driver 0.42 s".

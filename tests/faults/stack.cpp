@@ -170,7 +170,7 @@ std::unique_ptr<NodeProcess> Stack::twin(std::size_t node) {
   return std::make_unique<NodeProcess>(plan);
 }
 
-void Stack::insist(bool insisting) { client_->tell(insisting ? 1 : 0); }
+void Stack::insist(Insists who) { client_->tell(static_cast<int>(who)); }
 
 void Stack::disturb(const Fault& fault) {
   if (!hub_) return;

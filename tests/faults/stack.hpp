@@ -49,7 +49,7 @@ class Stack {
   std::unique_ptr<NodeProcess> twin(std::size_t node);
 
   /// Whether fault_client orders on kick_decision's host.
-  void insist(bool insisting);
+  void insist(Insists who);
 
   /// What the links of a fault do from now on; all are sound again with sound().
   void disturb(const Fault& fault);

@@ -37,6 +37,7 @@ class KickerDriverNodeTest : public NodeTest {
     out.valid_until_t_ns = t_ns + 50'000'000;
     out.kick_id = kick_id;
     out.power = power;
+    out.possession = true;
     return out;
   }
   /// Whether it becomes true while real time goes on and the nodes' time hardly does.
@@ -56,7 +57,7 @@ class KickerDriverNodeTest : public NodeTest {
   std::size_t orders = 0;
   Heard<msg::KickerStatus> status{participant};
   Heard<msg::KickReceipt> receipt{participant};
-  Says<msg::KickOrder> order{participant};
+  Says<msg::KickOrder> order{participant, 1, "kick_decision/1"};
   std::optional<Says<msg::Referee>> referee{std::in_place, participant};
   std::optional<KickerDriverNode> node;
   std::optional<Running> running;
@@ -276,7 +277,7 @@ TEST_F(KickerDriverNodeTest, ARefereeWhoIsGoneDisarms) {
 }
 
 TEST_F(KickerDriverNodeTest, AnotherRobotsOrdersAreNotItsOwn) {
-  Says<msg::KickOrder> other{participant, 2};
+  Says<msg::KickOrder> other{participant, 2, "kick_decision/2"};
   start();
   other.expect_reader();
   play();

@@ -133,8 +133,9 @@ class Heard {
 template <bus::Message T>
 class Says {
  public:
-  explicit Says(const bus::Participant& participant, std::uint8_t robot_id = 1)
-      : writer_(participant, {.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = {}}),
+  explicit Says(const bus::Participant& participant, std::uint8_t robot_id = 1, const std::string& owner = {},
+                std::int32_t strength = 0)
+      : writer_(participant, {.period = {}, .lease = std::chrono::hours{1}, .strength = strength, .owner = owner}),
         robot_id_(robot_id) {}
 
   void operator()(T sample) {

@@ -26,6 +26,7 @@ msg::KickOrder order_at(std::int64_t t_ns, std::int64_t kick_id = 1) {
   order.valid_until_t_ns = t_ns + 50 * kMs;
   order.kick_id = kick_id;
   order.power = 25.0;
+  order.possession = true;
   return order;
 }
 
@@ -66,6 +67,27 @@ TEST(OrderGate, LetsAnOrderPassWhenEverythingIsWell) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "valid to the last instant";
   c.order = order_at(kNow_ns + 5 * kMs);
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "clocks differ a little";
+}
+
+TEST(OrderGate, RefusesAnOrderThatWasGivenWithoutTheBall) {
+  Case c;
+  c.order.possession = false;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NO_BALL);
+  OrderGate gate = c.gate();
+  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_NO_BALL);
+  c.order.possession = true;
+  EXPECT_EQ(gate.judge(c.order, kNow_ns), msg::REFUSAL_NONE) << "a refused order keeps nobody's id";
+}
+
+TEST(OrderGate, RefusesAStrangersOrderWhateverItSays) {
+  Case c;
+  OrderGate gate = c.gate();
+  EXPECT_EQ(gate.judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER);
+  EXPECT_EQ(gate.handled(), 1u);
+  EXPECT_EQ(gate.refused(), 1u);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 2), kNow_ns), msg::REFUSAL_NONE) << "the robot's own goes on";
+  c.sample.fault = hal::KickerFault::kCoil;
+  EXPECT_EQ(c.gate().judge(c.order, kNow_ns, OrderBy::kStranger), msg::REFUSAL_STRANGER) << "nobody else is told why";
 }
 
 TEST(OrderGate, RefusesAStaleOrder) {

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/csv_rows.hpp"
+#include "cli/open_file.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/metrics/metrics.hpp"
+#include "evaluator/report/text_table.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using evaluator::log::Value;
+
+struct QueryArguments {
+  std::string log;
+  std::string sql;
+  std::string metric;
+  std::string file;
+  bool list = false;
+  bool csv = false;
+  bool json = false;
+};
+
+/// NULL is an empty text; bytes are their hexadecimal digits.
+std::string text_of(const Value& cell) {
+  if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return fmt::to_string(*whole);
+  if (const auto* const number = std::get_if<double>(&cell)) return fmt::to_string(*number);
+  if (const auto* const text = std::get_if<std::string>(&cell)) return *text;
+  std::string digits;
+  if (const auto* const bytes = std::get_if<evaluator::log::Blob>(&cell)) {
+    for (const auto byte : *bytes) digits += fmt::format("{:02x}", byte);
+  }
+  return digits;
+}
+
+nlohmann::ordered_json json_of_cell(const Value& cell) {
+  if (std::holds_alternative<std::monostate>(cell)) return nullptr;
+  if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return *whole;
+  if (const auto* const number = std::get_if<double>(&cell)) return *number;
+  return text_of(cell);
+}
+
+std::vector<std::string> texts_of(std::span<const Value> row) {
+  std::vector<std::string> texts;
+  for (const Value& cell : row) texts.push_back(text_of(cell));
+  return texts;
+}
+
+std::string question(const QueryArguments& arguments) {
+  const int asked = int{!arguments.sql.empty()} + int{!arguments.metric.empty()} + int{!arguments.file.empty()};
+  if (asked != 1) throw UsageError{"give one of SQL, --metric NAME and --file FILE; --list explains the metrics"};
+  if (!arguments.sql.empty()) return arguments.sql;
+  if (arguments.metric.empty()) {
+    std::ifstream in = open_file(arguments.file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  const auto metric = evaluator::metric(arguments.metric);
+  if (!metric) throw UsageError{fmt::format("there is no metric '{}': trivela query --list", arguments.metric)};
+  return std::string(metric->sql);
+}
+
+void print_rows(const evaluator::log::Reader& reader, const QueryArguments& arguments) {
+  std::vector<std::vector<std::string>> rows;  // of a text alone: its columns are as wide as their widest cell
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  reader.ask(
+      question(arguments),
+      [&](const std::vector<std::string>& columns) {
+        names = columns;
+        if (arguments.csv) fmt::print("{}", csv_line(names));
+        if (!arguments.csv && !arguments.json) rows.push_back(names);
+      },
+      [&](std::span<const Value> row) {
+        ++count;
+        if (arguments.csv) {
+          fmt::print("{}", csv_line(texts_of(row)));
+        } else if (arguments.json) {
+          nlohmann::ordered_json object = nlohmann::ordered_json::object();
+          for (std::size_t i = 0; i < names.size(); ++i) object[names[i]] = json_of_cell(row[i]);
+          fmt::print("{}{}", count == 1 ? "[\n" : ",\n", object.dump());
+        } else {
+          rows.push_back(texts_of(row));
+        }
+      });
+  if (arguments.json) fmt::print("{}\n", count == 0 ? "[]" : "\n]");
+  if (!arguments.csv && !arguments.json) say(evaluator::text_table(rows));
+}
+
+void print_metrics() {
+  for (const evaluator::Metric& metric : evaluator::metrics()) {
+    std::string text = metric.explanation();
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 5) text.replace(at, 1, "\n    ");
+    fmt::print("{}\n    {}\n", metric.name, text);
+  }
+}
+
+}  // namespace
+
+void add_query(CLI::App& app, int& exit_code) {
+  auto* const verb = app.add_subcommand("query", "Ask a match log: a metric by its name, or one SELECT of your own");
+  verb->footer(
+      "Tables and columns are those of evaluator/log/schema.sql, in a log of an older version, too; view\n"
+      "counted_kicks has each kick once. The log is only read.");
+  const auto arguments = std::make_shared<QueryArguments>();
+  auto* const log = verb->add_option("log", arguments->log, "Match log, such as out/match.db");
+  verb->add_option("sql", arguments->sql, "One SELECT, in quotes");
+  verb->add_option("--metric", arguments->metric, "A question of --list by its name");
+  verb->add_option("-f,--file", arguments->file, "File with one SELECT");
+  auto* const csv = verb->add_flag("--csv", arguments->csv, "CSV instead of a table of text");
+  verb->add_flag("--json", arguments->json, "JSON instead of a table of text")->excludes(csv);
+  verb->add_flag("--list", arguments->list, "What the metrics are, with their columns")->excludes(log);
+  verb->callback([arguments, &exit_code] {
+    exit_code = kDone;
+    if (arguments->list) return print_metrics();
+    if (arguments->log.empty()) throw UsageError{"give a match log, or --list"};
+    const evaluator::log::Reader reader(arguments->log);
+    try {
+      print_rows(reader, *arguments);
+    } catch (const evaluator::log::BadQuestion& bad) {
+      throw UsageError{fmt::format("cannot ask that: {}", bad.what())};
+    }
+    for (const std::string& warning : reader.warnings()) warn(warning);
+  });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/verbs.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class QueryVerb : public evaluator::LogTest {
+ protected:
+  QueryVerb() {
+    evaluator::MatchLog match(path(), session(), options());
+    match.kicks(1, "on_target", 2);
+    match.kicks(2, "over", 1);
+    match.close();
+  }
+
+  std::string said(std::vector<std::string> words) const {
+    CLI::App app;
+    int exit_code = -1;
+    add_query(app, exit_code);
+    std::ranges::reverse(words);
+    words.emplace_back("query");
+    testing::internal::CaptureStdout();
+    try {
+      app.parse(words);
+    } catch (...) {
+      testing::internal::GetCapturedStdout();
+      throw;
+    }
+    EXPECT_EQ(exit_code, kDone);
+    return testing::internal::GetCapturedStdout();
+  }
+
+  std::string refusal(std::vector<std::string> words) const {
+    try {
+      return said(std::move(words));
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+  }
+};
+
+TEST_F(QueryVerb, AnswersAMetricAsTextCsvAndJson) {
+  EXPECT_THAT(said({path(), "--metric", "outcomes_by_policy"}),
+              AllOf(HasSubstr("  policy     outcome  kicks\n"), HasSubstr("  stopped  on_target      2\n")));
+  EXPECT_EQ(said({path(), "--metric", "outcomes_by_policy", "--csv"}),
+            "policy,outcome,kicks\nmoving,over,1\nstopped,on_target,2\n");
+  const auto rows = nlohmann::json::parse(said({path(), "--metric", "outcomes_by_policy", "--json"}));
+  EXPECT_EQ(rows, nlohmann::json::parse(R"([{"policy": "moving", "outcome": "over", "kicks": 1},
+                                            {"policy": "stopped", "outcome": "on_target", "kicks": 2}])"));
+}
+
+TEST_F(QueryVerb, AnswersAQuestionOfOnesOwn) {
+  const std::string sql = "SELECT 'a \"b\", c' AS text, NULL AS nobody, 0.25 AS quarter, x'00ff' AS bytes";
+  EXPECT_EQ(said({path(), sql, "--csv"}), "text,nobody,quarter,bytes\n\"a \"\"b\"\", c\",,0.25,00ff\n");
+  EXPECT_EQ(nlohmann::json::parse(said({path(), sql, "--json"})).at(0).at("nobody"), nullptr);
+  std::ofstream(path("question.sql")) << "SELECT count(*) AS n FROM kicks;\n";
+  EXPECT_EQ(said({path(), "-f", path("question.sql"), "--csv"}), "n\n3\n");
+  EXPECT_EQ(said({path(), "SELECT 1 AS n WHERE 0", "--json"}), "[]\n");
+}
+
+TEST_F(QueryVerb, WhatATerminalCouldObeyIsWrittenOut) {
+  EXPECT_THAT(said({path(), "SELECT char(27) || '[31m' AS red"}), HasSubstr("\\x1b[31m"));
+}
+
+TEST_F(QueryVerb, ListsEachMetricWithItsColumns) {
+  EXPECT_THAT(said({"--list"}), HasSubstr("refused_orders\n    Orders that the kicker's driver refused, by policy and "
+                                          "reason.\n    Columns: policy, refusal, orders.\n"));
+}
+
+TEST_F(QueryVerb, SaysWhatIsWrongWithTheQuestion) {
+  EXPECT_THAT(refusal({path()}), HasSubstr("give one of SQL, --metric NAME and --file FILE"));
+  EXPECT_THAT(refusal({path(), "SELECT 1", "--metric", "silences"}), HasSubstr("give one of"));
+  EXPECT_THAT(refusal({path(), "--metric", "goals"}), HasSubstr("there is no metric 'goals'"));
+  EXPECT_THAT(refusal({path(), "DROP TABLE referee"}), HasSubstr("cannot ask that: a log is only read"));
+  EXPECT_THAT(refusal({}), HasSubstr("give a match log"));
+}
+
+}  // namespace
+}  // namespace trivela::cli
