@@ -17,6 +17,7 @@ struct KickerSample {
   KickerFault fault = KickerFault::kNone;
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
   std::optional<double> voltage_v{};  ///< of the capacitor; none: not measured
+  bool emulated = false;              ///< the board is a program
 };
 
 /// What a device can do beyond firing and saying whether it may.
@@ -61,9 +62,6 @@ class Kicker {
   virtual bool ended() const = 0;
 
   virtual KickerCapabilities capabilities() const { return {}; }
-
-  /// The board is a program: known once a sample has come.
-  virtual bool emulated() const { return false; }
 
   /// One line on the state of the link and on a kick that was not carried out, for a human; empty: nothing to say.
   virtual std::string status() const { return {}; }

@@ -15,6 +15,8 @@ struct WheelSample {
   int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
   std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
   std::optional<double> gyro_radps;     ///< counter-clockwise
+  bool emulated = false;                ///< the base is a program
+  bool gyro_emulated = false;           ///< gyro_radps is a program's
 };
 
 /// The base: wheel speeds in, set-points out. read() is for one thread at a time, the commands for another.
@@ -35,10 +37,6 @@ class Wheels {
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;
-
-  /// The base, its gyro, is a program: known once a sample has come.
-  virtual bool emulated() const { return false; }
-  virtual bool gyro_emulated() const { return false; }
 };
 
 }  // namespace trivela::hal

@@ -25,6 +25,14 @@ struct DriverCount {
   std::int64_t orders_refused = 0;
 };
 
+/// The world of a simulated match.
+struct Simulation {
+  std::optional<std::int64_t> seed;
+  std::string scenario;               ///< its name
+  bool paired_halves = false;         ///< halves with the same possessions
+  std::optional<double> planned_s{};  ///< of the whole match
+};
+
 /// What a recording says about itself; becomes the row of table `sessions`.
 struct Session {
   std::string uuid;                     ///< version 4; empty: the writer makes one

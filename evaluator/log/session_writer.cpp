@@ -65,6 +65,16 @@ RowTable withdrawn_silence_rows() {
           .counted = false};
 }
 
+RowTable simulation_rows() {
+  return {.name = "sessions",
+          .not_null = {false, false, false, false},
+          .t_ns = {},
+          .insert_sql =
+              "UPDATE sessions SET simulated = 1, seed = coalesce(?2, seed), scenario = coalesce(?3, scenario), "
+              "paired_halves = coalesce(?4, paired_halves), planned_s = coalesce(?5, planned_s) WHERE session_id = ?1",
+          .counted = false};
+}
+
 SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table, SQLite::Statement& statement) {
   if (row.values.size() != table.not_null.size()) return Fate::kRejected;
   statement.tryReset();

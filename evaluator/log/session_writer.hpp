@@ -43,6 +43,10 @@ RowTable silence_rows();
 /// Silences (stream, robot_id, from_t_ns) that are taken back.
 RowTable withdrawn_silence_rows();
 
+/// What turned out of the session's world (seed, scenario, paired_halves, planned_s): its row is simulated from then
+/// on, and takes what is not NULL.
+RowTable simulation_rows();
+
 /// Rows that a group could not write, by stream, with the first reason of each kind.
 struct GroupResult {
   std::vector<Loss> counters;  ///< received, nan_refused and rejected of each stream in the group

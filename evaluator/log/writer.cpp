@@ -135,10 +135,11 @@ struct Writer::Impl {
   RowQueue queue;
   CommitPace pace;  // of the thread
   LossBook book;
-  std::mutex mutex;  // of the next five
+  std::mutex mutex;  // of the next six
   std::deque<RowTable> tables;
   std::optional<std::size_t> silences;
   std::optional<std::size_t> withdrawn_silences;
+  std::optional<std::size_t> simulations;
   std::set<std::string> warned;
   SessionWriter connection;  // of the thread, after its end of finalise; `describe` under the mutex
   std::atomic<std::int64_t> rows_written = 0;
@@ -197,6 +198,14 @@ void Writer::silence(const Silence& silence) {
 void Writer::withdraw(const Silence& silence) {
   push({impl_->place(impl_->withdrawn_silences, withdrawn_silence_rows)},
        {silence.stream, std::int64_t{silence.robot_id}, silence.from_t_ns});
+}
+
+bool Writer::simulated(const std::optional<Simulation>& world) {
+  const auto value = [](const auto& optional) { return optional ? Value(*optional) : Value(); };
+  std::vector<Value> values(4);
+  if (world)
+    values = {value(world->seed), world->scenario, std::int64_t{world->paired_halves}, value(world->planned_s)};
+  return push({impl_->place(impl_->simulations, simulation_rows)}, std::move(values));
 }
 
 void Writer::flush() {

@@ -75,6 +75,9 @@ class Writer {
   /// It was none: its row goes.
   void withdraw(const Silence& silence);
 
+  /// The session's row says from now on that it is simulated; with a `world`, also in which. False: the queue is full.
+  bool simulated(const std::optional<Simulation>& world);
+
   /// Waits until everything pushed so far is committed. Throws std::runtime_error where the disk refuses.
   void flush();
 

@@ -32,7 +32,6 @@ bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(s
 std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
-  if (received->emulated) emulated_ = true;
   const auto voltage_v = msg::optional_of(received->voltage_v);
   capabilities_ = {.charge_control = received->charge_control,
                    .voltage = voltage_v.has_value(),
@@ -43,7 +42,8 @@ std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
                       .armed = received->armed,
                       .fault = fault_of(received->fault),
                       .charge_modelled = received->charge_modelled,
-                      .voltage_v = voltage_v};
+                      .voltage_v = voltage_v,
+                      .emulated = received->emulated};
 }
 
 void BusKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {

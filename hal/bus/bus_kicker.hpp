@@ -30,7 +30,6 @@ class BusKicker final : public Kicker {
   bool ended() const override { return false; }
   /// As the latest sample says.
   KickerCapabilities capabilities() const override { return capabilities_; }
-  bool emulated() const override { return emulated_; }
 
  private:
   std::uint8_t robot_id_;
@@ -39,7 +38,6 @@ class BusKicker final : public Kicker {
   std::optional<std::int64_t> read_t_ns_;
   std::uint64_t fire_seq_ = 0;
   std::atomic<KickerCapabilities> capabilities_{};
-  std::atomic<bool> emulated_ = false;
   std::atomic<bool> safe_ = false;
 };
 

@@ -26,24 +26,24 @@ bool BusWheels::connected(std::chrono::nanoseconds timeout) { return both_ways(s
 std::optional<WheelSample> BusWheels::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
-  if (received->emulated) emulated_ = true;
-  const auto gyro_radps = msg::optional_of(received->gyro_radps);
   WheelSample sample{.t_ns = received->t_ns,
                      .wheel_count = std::min<int>(received->wheel_count, 4),
                      .wheel_radps = {},
-                     .gyro_radps = gyro_radps ? gyro_radps : gyro_at(received->t_ns)};
+                     .gyro_radps = msg::optional_of(received->gyro_radps),
+                     .emulated = received->emulated,
+                     .gyro_emulated = false};
   std::copy_n(std::begin(received->wheel_radps), sample.wheel_count, sample.wheel_radps.begin());
+  if (!sample.gyro_radps) add_gyro(sample);
   return sample;
 }
 
-/// The latest that a gyro of its own said, where it is of that instant.
-std::optional<double> BusWheels::gyro_at(std::int64_t t_ns) {
-  constexpr double kSameTime_s = 0.05;  // later than a gyro of 50 Hz with a sample or two lost
-  const auto said = read_newer(turns_, robot_id_, turn_t_ns_, std::chrono::nanoseconds::zero());
-  if (said) turn_radps_ = said->gyro_radps;
-  if (said && said->emulated) gyro_emulated_ = true;
-  const bool known = turn_t_ns_ && std::abs(kicking::seconds(t_ns - *turn_t_ns_)) <= kSameTime_s;
-  return known ? msg::optional_of(turn_radps_) : std::nullopt;
+/// The latest that a gyro of its own said, where it is of the sample's time.
+void BusWheels::add_gyro(WheelSample& sample) {
+  constexpr double kSameTime_s = 0.05;  // a gyro of 50 Hz may lose a sample
+  if (const auto said = read_newer(turns_, robot_id_, turn_t_ns_, std::chrono::nanoseconds::zero())) turn_ = *said;
+  if (!turn_t_ns_ || std::abs(kicking::seconds(sample.t_ns - *turn_t_ns_)) > kSameTime_s) return;
+  sample.gyro_radps = msg::optional_of(turn_.gyro_radps);
+  sample.gyro_emulated = turn_.emulated;
 }
 
 void BusWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {

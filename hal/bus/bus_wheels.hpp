@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -26,21 +25,17 @@ class BusWheels final : public Wheels {
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
   bool ended() const override { return false; }
-  bool emulated() const override { return emulated_; }
-  bool gyro_emulated() const override { return gyro_emulated_; }
 
  private:
-  std::optional<double> gyro_at(std::int64_t t_ns);
+  void add_gyro(WheelSample& sample);
 
   std::uint8_t robot_id_;
   bus::Reader<msg::DeviceWheels> samples_;
   bus::Writer<msg::DeviceDrive> drives_;
   std::optional<std::int64_t> read_t_ns_;
   bus::Reader<msg::DeviceGyro> turns_;
-  std::optional<std::int64_t> turn_t_ns_;
-  double turn_radps_ = 0.0;
-  std::atomic<bool> emulated_ = false;
-  std::atomic<bool> gyro_emulated_ = false;
+  std::optional<std::int64_t> turn_t_ns_;  // none: none has come
+  msg::DeviceGyro turn_{};
   std::uint64_t drive_seq_ = 0;
   std::int64_t drive_t_ns_ = 0;
 };

@@ -7,7 +7,6 @@
 namespace trivela::hal::ioboard {
 namespace {
 
-constexpr std::string_view kVersionText = "00000003";
 constexpr auto kPulseUnit_ns = static_cast<std::int64_t>(kPulseUnit_us * 1000.0);
 // A start, as noise has it, and not enough bytes for a frame.
 constexpr std::string_view kNoise{"\x00\x5A\xFF\x13\x5A\x08", 6};
@@ -40,7 +39,7 @@ Frame EmulatedBoard::answer(Frame question, std::int64_t now_ns) {
       question.payload[1] = software_on ? 1 : 0;
       break;
     case Command::kVersion:
-      std::ranges::copy(kVersionText, question.payload.begin());
+      std::ranges::copy(kEmulatedVersion, question.payload.begin());
       break;
     default:
       question.command = Command::kUnknown;

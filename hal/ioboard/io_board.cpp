@@ -141,7 +141,8 @@ void IoBoard::take_switches(const Frame& answer, std::int64_t asked_ns) {
                          .charge = charge(asked_ns),
                          .armed = closed && closed_once_,
                          .fault = KickerFault::kNone,
-                         .charge_modelled = true};
+                         .charge_modelled = true,
+                         .emulated = version_ == kEmulatedVersion};
   closed_once_ = closed;
 }
 

@@ -44,7 +44,7 @@ void EmulatedBoard::obey(const can::Frame& frame, std::int64_t now_ns, std::vect
   switch (static_cast<Command>(frame.data[0])) {
     case Command::kPing:
       ++pings_;
-      return answer(from_board({static_cast<std::uint8_t>(Command::kPong)}), said);
+      return answer(emulated_pong(), said);
     case Command::kKick:
       return kick(word_of(frame), now_ns);
     case Command::kMaxVoltage:

@@ -1,5 +1,6 @@
 #include "hal/rekick/messages.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trivela::hal::rekick {
@@ -62,6 +63,12 @@ can::Frame frame_of(const State& state) {
 
 can::Frame from_board(std::initializer_list<std::uint8_t> data) {
   return can::extended_frame(kNormalPriority << 16U | kBoard << 8U, data);
+}
+
+can::Frame emulated_pong() { return from_board({byte(Command::kPong), 'p', 'r', 'o', 'g', 'r', 'a', 'm'}); }
+
+bool is_emulated_pong(const can::Frame& frame) {
+  return answer_of(frame) == Command::kPong && std::ranges::equal(frame.payload(), emulated_pong().payload());
 }
 
 std::string reset_cause(const can::Frame& frame) {

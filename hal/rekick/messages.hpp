@@ -58,6 +58,10 @@ can::Frame frame_of(const State& state);
 /// A frame that the board sends.
 can::Frame from_board(std::initializer_list<std::uint8_t> data);
 
+/// The emulated board's answer to kPing, which says what it is; a board's own has no text.
+can::Frame emulated_pong();
+bool is_emulated_pong(const can::Frame& frame);
+
 /// Why the board was reset: "brown-out".
 std::string reset_cause(const can::Frame& frame);
 

@@ -56,6 +56,7 @@ void ReKick::open(std::int64_t now_ns) {
   if (bus_->open(kAtOnce) != Line::Opening::kOpen)
     return lose(fmt::format("no bus {}: {}", bus_->name(), bus_->why()), now_ns);
   phase_ = Phase::kAsking;
+  emulated_ = false;
   unanswered_since_ns_.reset();
   next_ns_ = next_ping_ns_ = now_ns;
   text_.clear();
@@ -81,6 +82,7 @@ void ReKick::take(const can::Frame& frame, std::int64_t now_ns) {
     return;
   }
   if (const auto state = state_of(frame)) return take_state(*state);
+  if (is_emulated_pong(frame)) emulated_ = true;
   const auto answer = answer_of(frame);
   if (answer == Command::kReset) {
     status_ = fmt::format("{}: the board was reset: {}", bus_->name(), reset_cause(frame));
@@ -104,7 +106,8 @@ void ReKick::take_state(const State& state) {
                          .armed = state.supply_on,
                          .fault = state.error ? KickerFault::kCharger : KickerFault::kNone,
                          .charge_modelled = false,
-                         .voltage_v = state.capacitor_v};
+                         .voltage_v = state.capacitor_v,
+                         .emulated = emulated_};
 }
 
 /// Texts come in pieces of seven characters and end with a line.

@@ -62,6 +62,7 @@ class ReKick final : public KickerBoard {
   std::optional<std::int64_t> unanswered_since_ns_;  // the first question without an answer
   std::optional<std::int64_t> fault_said_ns_;
   std::optional<std::int64_t> last_kick_ns_;
+  bool emulated_ = false;  // by its answer to the ping
   std::optional<KickerSample> sample_;
   std::string text_;  // of the board, up to the end of its line
   std::string status_;

@@ -16,6 +16,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)),
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
@@ -27,7 +28,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         return kicker_->read(timeout);
       },
       [this](const hal::KickerSample& sample) { on_sample(sample); },
-      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::StepDone>());
+      bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceEmulated, msg::StepDone>());
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -61,6 +62,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
   sample_t_ns_ = sample.t_ns;
+  emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
   status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));

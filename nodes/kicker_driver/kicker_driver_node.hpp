@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/kicker.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/driver/order_desk.hpp"
 #include "robot/watch/loop_watch.hpp"
@@ -46,6 +47,7 @@ class KickerDriverNode {
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;
+  EmulationWord emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
   robot::RefereeWatch referee_;                                   // real time

@@ -15,12 +15,14 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
       odometry_(context.robot.base, context.settings.odometry),
       node_(context.participant, "odometry", context.robot_id()),
       odometry_out_(node_.writer<msg::Odometry>()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, odometry_out_, "odometry");
   node_.on_device(
       "wheels", [this](std::chrono::nanoseconds timeout) { return next_sample(timeout); },
-      [this](const hal::WheelSample& sample) { on_wheels(sample); }, bus::writes<msg::Odometry, msg::DeviceDrive>());
+      [this](const hal::WheelSample& sample) { on_wheels(sample); },
+      bus::writes<msg::Odometry, msg::DeviceDrive, msg::DeviceEmulated>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand& command) { on_drive(command); },
                               bus::writes<msg::DeviceDrive, msg::StepDone>());
 }
@@ -43,6 +45,8 @@ void OdometryNode::on_wheels(const hal::WheelSample& sample) {
     expect_device(*wheels_);
     expect_readers(context_, odometry_out_);
   });
+  emulation_.see(msg::PART_WHEELS, sample.emulated, sample.t_ns);
+  emulation_.see(msg::PART_GYRO, sample.gyro_emulated, sample.t_ns);
   auto out = odometry_.update(sample);
   if (!out) {
     context_.logger->warn("wheel sample of t {} ns is unusable: not finite, too few wheels, or not newer", sample.t_ns);

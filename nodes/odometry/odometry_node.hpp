@@ -5,6 +5,7 @@
 #include <semaphore>
 
 #include "hal/wheels.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 
@@ -29,6 +30,7 @@ class OdometryNode {
   robot::WheelOdometry odometry_;
   bus::Node node_;
   bus::Output<msg::Odometry> odometry_out_;
+  EmulationWord emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   FirstCycle first_;
   std::counting_semaphore<> cycle_over_{1};

@@ -39,6 +39,13 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
       if (const auto table = evaluator::log::table_of_message(bus::meta<T>::name)) record<T>(*table);
     }
   });
+  node_.on<msg::DeviceEmulated>([this](const msg::DeviceEmulated&) { note_simulation(false); }, bus::writes<>());
+}
+
+void RecorderNode::note_simulation(bool truth) {
+  std::atomic<bool>& noted = truth ? state_->truth_told : state_->emulated;
+  if (noted.exchange(true)) return;
+  if (!log_.simulated(truth ? std::optional{simulation_of(context_.settings)} : std::nullopt)) noted = false;
 }
 
 void RecorderNode::note_silences() {
@@ -80,6 +87,11 @@ void RecorderNode::record(const std::string& table) {
   const TableId id = log_.table(table, robot::columns_of<T>());
   bus::ReaderOptions everything;
   everything.keep_all = true;
+  if constexpr (std::is_same_v<T, msg::KickTruth> || std::is_same_v<T, msg::PossessionTruth>) {
+    everything.on_liveliness = [this](const bus::Liveliness& writers) {
+      if (writers.alive > 0) note_simulation(true);
+    };
+  }
   // State streams have a sample a cycle.
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();

@@ -37,6 +37,9 @@ class RecorderNode {
   /// What a decision, recorded by the number `seq`, says of its possession and of who was not in charge.
   void store_beside(const msg::KickDecision& decision, std::int64_t seq);
 
+  /// A writer of truth is there, or else an emulated device: the log says so, once. For any thread.
+  void note_simulation(bool truth);
+
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
   NodeContext& context_;
@@ -49,7 +52,10 @@ class RecorderNode {
   std::shared_ptr<RecordingState> state_;
 };
 
-/// What the log says about this session.
+/// What the log says about this session before anything was heard: it is simulated where it replays what was.
 evaluator::log::Session session_of(const NodeContext& context);
+
+/// The world that the configuration names, in which the session was played if there is a writer of truth.
+evaluator::log::Simulation simulation_of(const config::Settings& settings);
 
 }  // namespace trivela::nodes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,8 @@ struct RecordingState {
   std::map<std::string, StreamWatch> streams;              ///< by table
   std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for
   std::shared_ptr<SilenceRecord> silences;                 ///< none in lockstep
+  std::atomic<bool> emulated = false;                      ///< the log says that the session is simulated
+  std::atomic<bool> truth_told = false;                    ///< and in which world
 };
 
 }  // namespace trivela::nodes

@@ -25,17 +25,9 @@ void describe_replay(const config::Hal& hal, Session& session) {
   if (sessions.size() != 1) return;  // nor does the replay find out which
   session.replays_uuid = sessions.front().uuid;
   session.paired_halves = sessions.front().paired_halves;
+  session.simulated = sessions.front().simulated;
   reader.query("SELECT 1e-9 * (max(t_ns) - min(t_ns)) FROM referee",
                [&](std::optional<double> planned_s) { session.planned_s = planned_s; });
-}
-
-void describe_simulation(const config::Settings& settings, Session& session) {
-  const config::Simulator& simulator = settings.simulator;
-  session.seed = simulator.seed;
-  session.scenario = std::filesystem::path{settings.run.scenario}.stem().string();
-  session.paired_halves = simulator.paired_halves;
-  // A half that may end with its possessions has no length that anybody could know.
-  if (simulator.max_possessions == 0) session.planned_s = simulator.halves * simulator.half_minutes * 60.0;
 }
 
 /// The policies of the halves, and of the robots that have one of their own.
@@ -54,11 +46,22 @@ std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& 
 
 }  // namespace
 
+evaluator::log::Simulation simulation_of(const config::Settings& settings) {
+  const config::Simulator& simulator = settings.simulator;
+  evaluator::log::Simulation world{.seed = simulator.seed,
+                                   .scenario = std::filesystem::path{settings.run.scenario}.stem().string(),
+                                   .paired_halves = simulator.paired_halves};
+  // A half that may end with its possessions has no length that anybody could know.
+  if (simulator.max_possessions == 0) world.planned_s = simulator.halves * simulator.half_minutes * 60.0;
+  return world;
+}
+
 Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
-  const bool simulated = settings.run.lockstep || std::holds_alternative<config::BusDevice>(settings.hal.wheels);
+  // The bridge may be the simulator.
+  const bool perhaps_simulated =
+      settings.run.lockstep || std::holds_alternative<config::BusDevice>(settings.hal.wheels);
   Session session;
-  session.simulated = simulated;
   session.simulated_clock = settings.run.lockstep;
   const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
   if (!session.simulated_clock) session.started_t_ns = now_ns(std::chrono::steady_clock::now());
@@ -66,8 +69,7 @@ Session session_of(const NodeContext& context) {
   std::optional<sim::Scenario> scenario;
   if (std::holds_alternative<config::ReplayDevice>(settings.hal.wheels)) {
     describe_replay(settings.hal, session);
-  } else if (simulated) {
-    describe_simulation(settings, session);
+  } else if (perhaps_simulated) {
     scenario = config::load_scenario(settings.run.scenario);
   }
   session.config_toml =
@@ -75,8 +77,8 @@ Session session_of(const NodeContext& context) {
   session.software_version = config::software_version();
   session.idl = robot::idl_text();
   const std::size_t by_half = settings.kick_decision.policy_by_half.size();
-  session.policies =
-      policies_of(settings.kick_decision, simulated ? settings.simulator.halves : std::max<std::size_t>(by_half, 2));
+  session.policies = policies_of(settings.kick_decision,
+                                 perhaps_simulated ? settings.simulator.halves : std::max<std::size_t>(by_half, 2));
   return session;
 }
 

@@ -39,6 +39,27 @@ TEST_F(LogWriter, WritesRowsThatAreReadBackInOrder) {
   EXPECT_THAT(warnings_, IsEmpty());
 }
 
+TEST_F(LogWriter, ASessionMayTurnOutToBeSimulated) {
+  log::Session real = session();
+  real.simulated = false;
+  real.seed.reset();
+  real.scenario.clear();
+  Writer writer(path(), real, options());
+  EXPECT_TRUE(writer.simulated({}));
+  writer.flush();
+  auto recorded = Reader(path()).sessions().at(0);
+  EXPECT_TRUE(recorded.simulated) << "at once, not at the end";
+  EXPECT_FALSE(recorded.seed);
+  EXPECT_TRUE(
+      writer.simulated(log::Simulation{.seed = 9, .scenario = "hall", .paired_halves = true, .planned_s = 60.0}));
+  EXPECT_TRUE(writer.simulated(log::Simulation{.seed = {}, .scenario = "hall"}));
+  writer.finalise();
+  recorded = Reader(path()).sessions().at(0);
+  EXPECT_EQ(recorded.seed, 9) << "what is not known takes nothing away";
+  EXPECT_EQ(recorded.scenario, "hall");
+  EXPECT_TRUE(recorded.paired_halves);
+}
+
 TEST_F(LogWriter, TheSessionIsWrittenWholeAndClosed) {
   {
     Writer writer(path(), session(), options());

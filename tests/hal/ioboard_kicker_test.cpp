@@ -56,6 +56,7 @@ TEST_F(IoBoardKickerTest, SamplesAreOfTheBoardsInstants) {
     EXPECT_GT(sample->t_ns, last_ns);
     EXPECT_LE(sample->t_ns, board().last_look_ns());
     EXPECT_TRUE(sample->charge_modelled);
+    EXPECT_TRUE(sample->emulated);
     last_ns = sample->t_ns;
   }
 }

@@ -75,6 +75,17 @@ TEST_F(IoBoardTest, ASampleIsOfTheInstantOfItsQuestion) {
   EXPECT_EQ(sample().t_ns, 21 * kMs);
 }
 
+TEST_F(IoBoardTest, IsEmulatedWhereItsVersionSaysSo) {
+  bring_up();
+  answer(switches(1, 1), 2);
+  EXPECT_FALSE(sample().emulated);
+  make();
+  step(0);
+  answer(encode({Command::kVersion, {'e', 'm', 'u', 'l', 'a', 't', 'e', 'd'}}), 1);
+  answer(switches(1, 1), 2);
+  EXPECT_TRUE(sample().emulated);
+}
+
 TEST_F(IoBoardTest, ChargesEvenlyFromTheFirstAnswerAndFromEachShot) {
   bring_up({.charge_time_s = 2.0});
   answer(switches(1, 1), 2);

@@ -278,7 +278,7 @@ TEST(BusKicker, HandsOnWhatTheBoardCanDoAndWhatItMeasures) {
   EXPECT_TRUE(modelled->charge_modelled);
   EXPECT_EQ(modelled->voltage_v, std::nullopt);
   EXPECT_EQ(rig.device->capabilities(), KickerCapabilities{});
-  EXPECT_FALSE(rig.device->emulated());
+  EXPECT_FALSE(modelled->emulated);
 
   sample.t_ns = 40'000'000;
   sample.charge_modelled = false;
@@ -291,7 +291,7 @@ TEST(BusKicker, HandsOnWhatTheBoardCanDoAndWhatItMeasures) {
   EXPECT_EQ(measured->voltage_v, 312.5);
   EXPECT_EQ(rig.device->capabilities(),
             (KickerCapabilities{.charge_control = true, .voltage = true, .discharge = true, .watchdog = true}));
-  EXPECT_TRUE(rig.device->emulated());
+  EXPECT_TRUE(measured->emulated);
 }
 
 TEST(ReplayKicker, EndsWithTheLog) {

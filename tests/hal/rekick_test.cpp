@@ -68,6 +68,18 @@ TEST_F(ReKickTest, OvervoltageErrorAndMissingSupplyShow) {
   EXPECT_EQ(said.fault, KickerFault::kCharger);
 }
 
+TEST_F(ReKickTest, IsEmulatedWhereItsAnswerToAPingSaysSo) {
+  bring_up();
+  const auto emulated_after = [this](const can::Frame& pong, std::int64_t t_ms) {
+    hear(pong, t_ms);
+    step(t_ms + 20);
+    hear(frame_of({.supply_on = true}), t_ms + 21);
+    return sample().emulated;
+  };
+  EXPECT_FALSE(emulated_after(from_board({0xF1}), 20));
+  EXPECT_TRUE(emulated_after(emulated_pong(), 60));
+}
+
 TEST_F(ReKickTest, AKickIsOneFrame) {
   bring_up();
   EXPECT_EQ(board_.shoot(30.0, 5 * kMs), "");

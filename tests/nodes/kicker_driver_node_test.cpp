@@ -63,6 +63,21 @@ class KickerDriverNodeTest : public NodeTest {
   std::optional<Running> running;
 };
 
+TEST_F(KickerDriverNodeTest, SaysOnceThatItsBoardIsEmulated) {
+  Heard<msg::DeviceEmulated> emulated{participant};
+  start();
+  sample();
+  EXPECT_TRUE(emulated.now().empty());
+  for (int i = 0; i < 2; ++i) {
+    clock_ns = t_ns += 20'000'000;
+    kicker->put({.t_ns = t_ns, .charge = 1.0, .armed = true, .emulated = true});
+    status.nth(++samples);
+  }
+  ASSERT_EQ(emulated.first(1).size(), 1u);
+  EXPECT_EQ(emulated.nth(1).part, msg::PART_KICKER);
+  EXPECT_EQ(emulated.nth(1).t_ns, t_ns - 20'000'000);
+}
+
 TEST_F(KickerDriverNodeTest, SaysHowTheKickerIs) {
   start();
   auto is = sample();

@@ -49,6 +49,29 @@ TEST_F(OdometryNodeTest, TurnsWheelSamplesIntoOdometry) {
   }
 }
 
+TEST_F(OdometryNodeTest, SaysOnceWhatIsEmulated) {
+  Heard<msg::DeviceEmulated> emulated{participant};
+  Heard<msg::Odometry> odometry{participant};
+  OdometryNode node{context, fake_wheels()};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels->put(sample({}));
+  odometry.first(1);
+  EXPECT_TRUE(emulated.now().empty());
+  hal::WheelSample said = sample({});
+  said.gyro_emulated = true;
+  wheels->put(said);
+  said.t_ns = t_ns += kCycle_ns;
+  said.emulated = true;
+  wheels->put(said);
+  wheels->put(sample({}));
+  odometry.first(4);
+  ASSERT_EQ(emulated.first(2).size(), 2u);
+  EXPECT_EQ(emulated.nth(1).part, msg::PART_GYRO);
+  EXPECT_EQ(emulated.nth(2).part, msg::PART_WHEELS);
+  EXPECT_EQ(emulated.nth(2).robot_id, 1);
+  EXPECT_EQ(emulated.nth(2).seq, 2u);
+}
+
 TEST_F(OdometryNodeTest, PassesDriveCommandsOnAndThoseOfItsRobotOnly) {
   for (const auto kind : {Executor::kListener, Executor::kWaitset}) {
     bus::Stop own_stop;

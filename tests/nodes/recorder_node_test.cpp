@@ -210,10 +210,10 @@ TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   EXPECT_FALSE(session_of(context).simulated_clock) << "in real time a simulator's samples are of the steady clock";
   context.settings.run.lockstep = true;
   const auto session = session_of(context);
-  EXPECT_TRUE(session.simulated && session.simulated_clock);
+  EXPECT_TRUE(session.simulated_clock);
   EXPECT_EQ(session.started_t_ns, 0);
-  EXPECT_EQ(session.seed, 77);
-  EXPECT_EQ(session.scenario, "default");
+  EXPECT_EQ(simulation_of(context.settings).seed, 77);
+  EXPECT_EQ(simulation_of(context.settings).scenario, "default");
   EXPECT_FALSE(session.software_version.empty());
   EXPECT_THAT(session.config_toml, HasSubstr("seed = 77"));
   EXPECT_THAT(session.config_toml, HasSubstr("cambada_1"));
@@ -222,6 +222,68 @@ TEST_F(RecorderNodeTest, TheSessionSaysHowTheMatchWasPlayed) {
   ASSERT_EQ(session.policies.size(), 2u);
   EXPECT_EQ(session.policies[0].policy, "stopped");
   EXPECT_EQ(session.policies[1].policy, "moving");
+}
+
+/// Recorders of a robot behind a bridge, of which nobody knows yet what it is.
+class SimulatedSession : public RecorderNodeTest {
+ protected:
+  SimulatedSession() {
+    context.settings.simulator.seed = 77;
+    context.settings.run.scenario = "config/scenarios/default.toml";
+  }
+  /// Whether n rows are written before long.
+  bool written(std::int64_t n) {
+    const auto deadline = std::chrono::steady_clock::now() + kPlenty;
+    while (log->stats().rows_written < n && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    return log->stats().rows_written >= n;
+  }
+};
+
+TEST_F(SimulatedSession, IsOneThatAWriterOfTruthWasThereFor) {
+  start();
+  { const bus::Writer<msg::KickTruth> truth{participant}; }  // gone at once, and it said nothing
+  ASSERT_TRUE(written(1));
+  const auto session = read().sessions().at(0);
+  EXPECT_TRUE(session.simulated);
+  EXPECT_EQ(session.seed, 77);
+  EXPECT_EQ(session.scenario, "default");
+}
+
+TEST_F(SimulatedSession, IsOneInWhichADeviceWasEmulatedAndNoWorldIsNamed) {
+  Says<msg::DeviceEmulated> emulated{participant};
+  msg::DeviceEmulated word{};
+  word.part = msg::PART_KICKER;
+  emulated(word);  // before the recorder is there
+  start();
+  ASSERT_TRUE(written(1));
+  const auto session = read().sessions().at(0);
+  EXPECT_TRUE(session.simulated);
+  EXPECT_FALSE(session.seed);
+  EXPECT_EQ(session.scenario, "");
+}
+
+TEST_F(SimulatedSession, IsNoneForTheBridgesTopicsAlone) {
+  start();
+  Says<msg::DeviceWheels> wheels_word{participant};
+  wheels_word({});
+  say_of_two_robots<msg::Odometry>(participant);
+  say_of_two_robots<msg::KickerStatus>(participant);
+  ASSERT_TRUE(written(10));
+  const auto session = read().sessions().at(0);
+  EXPECT_FALSE(session.simulated || session.seed);
+}
+
+TEST_F(SimulatedSession, SaysTheWorldAlsoWhereADeviceWasEmulatedFirst) {
+  start();
+  Says<msg::DeviceEmulated> emulated{participant};
+  emulated.expect_reader();
+  emulated({});
+  ASSERT_TRUE(written(1));
+  const bus::Writer<msg::PossessionTruth> truth{participant};
+  ASSERT_TRUE(written(2));
+  const auto session = read().sessions().at(0);
+  EXPECT_TRUE(session.simulated);
+  EXPECT_EQ(session.seed, 77);
 }
 
 msg::Odometry odometry_of(std::int64_t t_ns) {

@@ -24,17 +24,26 @@ class SessionOf : public NodeTest {
 };
 
 TEST_F(SessionOf, SaysHowLongASimulatedMatchIsToLast) {
-  EXPECT_EQ(session_of(context).planned_s, 300.0);
+  EXPECT_EQ(simulation_of(context.settings).planned_s, 300.0);
   context.settings.run.lockstep = false;
-  EXPECT_EQ(session_of(context).planned_s, 300.0) << "in real time, too";
+  EXPECT_EQ(simulation_of(context.settings).planned_s, 300.0) << "in real time, too";
   context.settings.simulator.max_possessions = 10;
-  EXPECT_FALSE(session_of(context).planned_s) << "a half may end with its possessions";
+  EXPECT_FALSE(simulation_of(context.settings).planned_s) << "a half may end with its possessions";
 }
 
 TEST_F(SessionOf, SaysWhetherTheHalvesArePaired) {
-  EXPECT_FALSE(session_of(context).paired_halves);
+  EXPECT_FALSE(simulation_of(context.settings).paired_halves);
   context.settings.simulator.paired_halves = true;
-  EXPECT_TRUE(session_of(context).paired_halves);
+  EXPECT_TRUE(simulation_of(context.settings).paired_halves);
+}
+
+TEST_F(SessionOf, DoesNotCallASessionSimulatedForItsConfiguration) {
+  for (const bool lockstep : {true, false}) {
+    context.settings.run.lockstep = lockstep;
+    const auto session = session_of(context);
+    EXPECT_FALSE(session.simulated || session.seed || session.paired_halves || session.planned_s);
+    EXPECT_EQ(session.scenario, "");
+  }
 }
 
 TEST_F(SessionOf, NamesThePoliciesOfRobotsThatHaveTheirOwn) {
@@ -53,7 +62,7 @@ TEST_F(SessionOf, NamesTheSessionThatItReplays) {
   const TemporaryFolder folder;
   const auto log = folder / "match.db";
   evaluator::log::Session recorded = session_of(context);
-  recorded.paired_halves = true;
+  recorded.paired_halves = recorded.simulated = true;
   {
     evaluator::log::Writer writer{log, recorded};
     const auto referee = writer.table("referee", evaluator::referee_columns());
@@ -66,7 +75,7 @@ TEST_F(SessionOf, NamesTheSessionThatItReplays) {
   const auto session = session_of(context);
   EXPECT_EQ(session.replays_uuid, evaluator::log::Reader{log}.sessions()[0].uuid);
   EXPECT_EQ(session.planned_s, 20.0);
-  EXPECT_TRUE(session.paired_halves);
+  EXPECT_TRUE(session.paired_halves && session.simulated);
   EXPECT_FALSE(session.seed);
 }
 
