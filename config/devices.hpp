@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 /// Devices as a file names them: a variant of backends, which hal/open.hpp opens. A backend with settings of its own
 /// lists them in `fields`; they stand in the table that has its name, beside the device's key.
@@ -44,6 +45,34 @@ struct ReKickDevice {
   std::uint16_t max_voltage_v = 330;        ///< that it charges to
 };
 
+/// A base whose drives follow CiA 402 on a CAN bus (docs/devices/cia402.md).
+struct Cia402Device {
+  static constexpr std::string_view kName = "cia402";
+  std::string port = "can0";                       ///< an interface, or the path of an emulator's socket
+  std::vector<std::uint8_t> nodes{1, 2, 3};        ///< of the drives, in the order of the robot's wheel_angles_rad
+  std::vector<std::uint8_t> reversed{};            ///< those of them whose positive turns drive their wheel clockwise
+  std::optional<double> gear{};                    ///< turns of the motor for one of the wheel; none: the drive's 6091
+  std::optional<double> rpm_per_unit{};            ///< of the drive's velocity; none: the drive's 60A9, maxon's 1 rpm
+  double max_motor_rpm = 10000.0;                  ///< a set-point beyond it is scaled down as a whole
+  std::optional<std::uint32_t> ramp{};             ///< 6083 and 6084 in the drive's unit; none: as it is
+  std::optional<std::uint32_t> quick_stop_ramp{};  ///< 6085, the same
+  std::uint8_t master = 127;                       ///< the node number of this computer
+  double heartbeat_s = 0.2;  ///< so long after our last heartbeat, or a drive's, its wheel is stopped
+  double cycle_s = 0.01;     ///< of set-points and samples
+};
+
+/// An Xsens MTi on a serial line, in place of the gyro of the wheels' device (docs/devices/mti.md).
+struct MtiDevice {
+  static constexpr std::string_view kName = "mti";
+  std::string port = "/dev/ttyUSB1";
+  bool upside_down = false;  ///< its z axis shows down
+};
+
+/// The turn rate that the wheels' device measures itself, if it does.
+struct WheelsGyro {
+  static constexpr std::string_view kName = "wheels";
+};
+
 /// A scanner that speaks SCIP, by its address.
 struct ScipDevice {
   static constexpr std::string_view kName = "tcp://HOST:PORT (Hokuyo's port is 10940) or the path of a device";
@@ -52,7 +81,8 @@ struct ScipDevice {
   std::uint16_t port = 0;  ///< 0: none
 };
 
-using WheelsDevice = std::variant<BusDevice, ReplayDevice>;
+using WheelsDevice = std::variant<BusDevice, ReplayDevice, Cia402Device>;
+using GyroDevice = std::variant<WheelsGyro, MtiDevice>;
 using KickerDevice = std::variant<BusDevice, ReplayDevice, IoBoardDevice, ReKickDevice>;
 using RangeFinderDevice = std::variant<SimDevice, ScipDevice>;
 
@@ -61,6 +91,7 @@ struct Hal {
   WheelsDevice wheels;
   KickerDevice kicker;
   std::string replay_log;  ///< the match log that `replay` reads
+  GyroDevice gyro{};
 };
 
 /// The backend that `text` stands for, if it does.

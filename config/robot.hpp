@@ -9,18 +9,12 @@
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
 #include "kicking/model/distance_table.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 #include "kicking/model/robot_model.hpp"
 
 namespace trivela::config {
 
-/// An omnidirectional base: wheel i sits at wheel_angles_rad[i], counter-clockwise from +x of R, and drives along the
-/// counter-clockwise tangent. Defaults: three wheels, two in front and one behind (an assumption; no published
-/// geometry).
-struct WheelBase {
-  std::vector<double> wheel_angles_rad{0.5235987755982988, 2.6179938779914944, 4.71238898038469};
-  double wheel_distance_m = 0.22;
-  double wheel_radius_m = 0.05;
-};
+using kicking::WheelBase;
 
 /// One robot's file: who it is, where its numbers come from, its kick model and its wheels.
 struct Robot {

@@ -38,6 +38,13 @@ void fields(V& v, RobotModel& m) {
   v("spreads", m.spreads);
 }
 
+template <class V>
+void fields(V& v, WheelBase& b) {
+  v("wheel_angles_rad", b.wheel_angles_rad, config::Range{-6.3, 6.3});
+  v("wheel_distance_m", b.wheel_distance_m, config::Range{0.02, 0.6});
+  v("wheel_radius_m", b.wheel_radius_m, config::Range{0.005, 0.3});
+}
+
 }  // namespace trivela::kicking
 
 namespace trivela::config {
@@ -82,13 +89,6 @@ void fields(V& v, TableColumns& t) {
   v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
   v("exit_angles_deg", t.exit_angles_deg, Range{5.0, 80.0});
   v("levers", t.levers, Range{0.0, 205.0});
-}
-
-template <class V>
-void fields(V& v, WheelBase& b) {
-  v("wheel_angles_rad", b.wheel_angles_rad, Range{-6.3, 6.3});
-  v("wheel_distance_m", b.wheel_distance_m, Range{0.02, 0.6});
-  v("wheel_radius_m", b.wheel_radius_m, Range{0.005, 0.3});
 }
 
 template <class V>

@@ -176,8 +176,30 @@ void fields(V& v, ReKickDevice& b) {
 }
 
 template <class V>
+void fields(V& v, Cia402Device& d) {
+  v("port", d.port);
+  v("nodes", d.nodes, Range{1, 127});
+  v("reversed", d.reversed, Range{1, 127});
+  v("gear", d.gear, Range{0.01, 1000.0});
+  v("rpm_per_unit", d.rpm_per_unit, Range{1e-9, 1e4});
+  v("max_motor_rpm", d.max_motor_rpm, Range{1.0, 1e5});
+  v("ramp", d.ramp, Range{1, 4294967295.0});
+  v("quick_stop_ramp", d.quick_stop_ramp, Range{1, 4294967295.0});
+  v("master", d.master, Range{1, 127});
+  v("heartbeat_s", d.heartbeat_s, Range{0.1, 1.0});
+  v("cycle_s", d.cycle_s, Range{0.002, 0.05});
+}
+
+template <class V>
+void fields(V& v, MtiDevice& d) {
+  v("port", d.port);
+  v("upside_down", d.upside_down);
+}
+
+template <class V>
 void fields(V& v, Hal& h) {
   v("wheels", h.wheels);
+  v("gyro", h.gyro);
   v("kicker", h.kicker);
   v("replay_log", h.replay_log);
 }

@@ -8,6 +8,7 @@
 #include "hal/bus/bus_kicker.hpp"
 #include "hal/bus/bus_wheels.hpp"
 #include "hal/can/can_line.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
 #include "hal/rekick/rekick.hpp"
@@ -19,14 +20,18 @@
 namespace trivela::hal {
 namespace {
 
-using config::BusDevice, config::Hal, config::IoBoardDevice, config::ReKickDevice, config::ReplayDevice,
-    config::ScipDevice, config::SimDevice;
+using config::BusDevice, config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice,
+    config::ReplayDevice, config::ScipDevice, config::SimDevice;
 
 std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner) {
   return std::make_unique<BusWheels>(owner.participant, owner.robot_id);
 }
 std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
   return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner) {
+  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
 }
 
 std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {

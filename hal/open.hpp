@@ -8,6 +8,7 @@
 #include "hal/kicker.hpp"
 #include "hal/range_finder.hpp"
 #include "hal/wheels.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 
 namespace trivela::bus {
 class Participant;
@@ -20,6 +21,7 @@ namespace trivela::hal {
 struct Owner {
   const bus::Participant& participant;
   std::uint8_t robot_id = 1;
+  kicking::WheelBase base{};  ///< for wheels that are driven one by one
 };
 
 std::unique_ptr<Wheels> open_wheels(const config::Hal& devices, const Owner& owner);

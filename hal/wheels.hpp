@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "kicking/geometry/frames.hpp"
 
@@ -37,6 +38,9 @@ class Wheels {
 
   /// No sample will ever come again.
   virtual bool ended() const = 0;
+
+  /// One line on the state of the link and of the motors, for a human; empty: nothing to say.
+  virtual std::string status() const { return {}; }
 };
 
 }  // namespace trivela::hal

@@ -9,6 +9,12 @@
 
 namespace trivela::hal::can {
 
+Frame standard_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data) {
+  Frame frame{.id = id, .extended = false, .error = false, .size = static_cast<std::uint8_t>(data.size()), .data = {}};
+  std::ranges::copy(data, frame.data.begin());
+  return frame;
+}
+
 Frame extended_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data) {
   Frame frame{.id = id, .extended = true, .error = false, .size = static_cast<std::uint8_t>(data.size()), .data = {}};
   std::ranges::copy(data, frame.data.begin());

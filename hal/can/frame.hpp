@@ -23,6 +23,9 @@ struct Frame {
   bool operator==(const Frame&) const = default;
 };
 
+/// A frame with an 11-bit identifier.
+Frame standard_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data);
+
 /// A frame with a 29-bit identifier.
 Frame extended_frame(std::uint32_t id, std::initializer_list<std::uint8_t> data);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ class EmulatedBoard final : public EmulatedDevice {
     std::int64_t t_ns;   ///< when the last byte of the order was read
     std::uint8_t units;  ///< of kPulseUnit_us
   };
+
+  /// Its end of a line. Throws std::runtime_error naming what the system refuses.
+  static std::unique_ptr<EmulatedSocket> open_line() { return emulated_terminal("ioboard", "kicker"); }
 
   std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
   void hang_up() override { parser_ = {}; }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/can/can_line.hpp"
 #include "hal/line/emulated_line.hpp"
 #include "hal/rekick/messages.hpp"
 
@@ -29,6 +31,9 @@ class EmulatedBoard final : public EmulatedDevice {
     std::int64_t t_ns;  ///< when the order was read
     std::uint16_t pulse_us;
   };
+
+  /// Its end of a line. Throws std::runtime_error naming what the system refuses.
+  static std::unique_ptr<EmulatedSocket> open_line() { return can::emulated_bus("rekick", "can"); }
 
   std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
   std::vector<std::string> tick(std::int64_t now_ns) override;

@@ -1,6 +1,7 @@
 #include "nodes/odometry/odometry_node.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
@@ -35,9 +36,18 @@ std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanosecon
   }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
+  say_status(sample.has_value());
   if (!sample) stop_without_commands();
   if (!sample && context_.settings.run.lockstep) cycle_over_.release();
   return sample;
+}
+
+/// What the device says of its link and of its motors, whenever that is something else.
+void OdometryNode::say_status(bool heard) {
+  std::string said = wheels_->status();
+  if (said == status_said_) return;
+  status_said_ = std::move(said);
+  if (!status_said_.empty()) context_.logger->log(heard ? spdlog::level::info : spdlog::level::warn, "{}", status_said_);
 }
 
 void OdometryNode::on_wheels(const hal::WheelSample& sample) {
@@ -94,7 +104,8 @@ void OdometryNode::on_drive(const msg::DriveCommand& command) {
 
 int odometry_main(int argc, char** argv) {
   return node_main(argc, argv, "odometry", [](NodeContext& context) {
-    OdometryNode node{context, hal::open_wheels(context.settings.hal, {context.participant, context.robot_id()})};
+    OdometryNode node{context, hal::open_wheels(context.settings.hal,
+                                                {context.participant, context.robot_id(), context.robot.base})};
     run(context, node.node());
   });
 }

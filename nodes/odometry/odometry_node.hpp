@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <semaphore>
+#include <string>
 
 #include "hal/wheels.hpp"
 #include "nodes/runtime/emulation_word.hpp"
@@ -20,6 +21,7 @@ class OdometryNode {
 
  private:
   std::optional<hal::WheelSample> next_sample(std::chrono::nanoseconds timeout);
+  void say_status(bool heard);
   void on_wheels(const hal::WheelSample& sample);
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
@@ -35,6 +37,7 @@ class OdometryNode {
   FirstCycle first_;
   std::counting_semaphore<> cycle_over_{1};
   std::uint64_t seq_ = 0;
+  std::string status_said_;
   std::mutex drive_mutex_;  // device thread and drive reaction
   std::int64_t commanded_t_ns_ = 0;
   bool driving_ = false;

@@ -8,7 +8,7 @@
 #include "hal/wheels.hpp"
 #include "idl/messages.hpp"
 #include "kicking/geometry/frames.hpp"
-#include "robot/odometry/omni_kinematics.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 
 namespace trivela::robot {
 
@@ -32,7 +32,7 @@ class WheelOdometry {
   double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }
   msg::Odometry message(const hal::WheelSample& sample, double var_omega_rad2ps2) const;
 
-  OmniKinematics kinematics_;
+  kicking::OmniKinematics kinematics_;
   config::Odometry noise_;
   Eigen::Vector3d variance_;  // of a twist by wheels alone
   std::optional<std::int64_t> last_t_ns_;

@@ -13,6 +13,7 @@
 namespace trivela::robot {
 namespace {
 
+using kicking::OmniKinematics;
 using kicking::Twist;
 
 const config::WheelBase kBase{};

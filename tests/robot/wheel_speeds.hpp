@@ -3,13 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include "config/robot.hpp"
 #include "kicking/geometry/frames.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 
 namespace trivela::robot {
 
 /// Wheel speeds that give `twist` [rad/s], by the equation of OmniKinematics.
-inline std::vector<double> wheel_speeds_radps(const config::WheelBase& base, const kicking::Twist& twist) {
+inline std::vector<double> wheel_speeds_radps(const kicking::WheelBase& base, const kicking::Twist& twist) {
   std::vector<double> speeds;
   for (const double angle : base.wheel_angles_rad) {
     speeds.push_back(

@@ -1,4 +1,4 @@
-#include "robot/odometry/omni_kinematics.hpp"
+#include "kicking/model/omni_kinematics.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,15 +9,14 @@
 #include "kicking/geometry/angle.hpp"
 #include "tests/robot/wheel_speeds.hpp"
 
-namespace trivela::robot {
+namespace trivela::kicking {
 namespace {
 
-using kicking::radians;
-using kicking::Twist;
+using robot::wheel_speeds_radps;
 using ::testing::HasSubstr;
 
-const config::WheelBase kThree{};
-const config::WheelBase kFour{{radians(45), radians(135), radians(225), radians(315)}, 0.25, 0.04};
+const WheelBase kThree{};
+const WheelBase kFour{{radians(45), radians(135), radians(225), radians(315)}, 0.25, 0.04};
 
 // Wheels at 0, 90, 180 and 270 degrees push along +y, -x, -y and +x.
 TEST(OmniKinematics, GivesEachWheelItsShareOfTheMotionByHand) {
@@ -42,6 +41,15 @@ TEST(OmniKinematics, TwistUndoesWheelSpeeds) {
       EXPECT_NEAR(back.vy_mps, twist.vy_mps, 1e-12);
       EXPECT_NEAR(back.omega_radps, twist.omega_radps, 1e-12);
     }
+  }
+}
+
+TEST(OmniKinematics, TurnsAMotionIntoTheSpeedsThatTheEquationGives) {
+  const Twist twist{0.5, -1.5, 2.0};
+  for (const auto& base : {kThree, kFour}) {
+    const auto speeds = OmniKinematics{base}.wheel_speeds_radps(twist);
+    const auto expected = wheel_speeds_radps(base, twist);
+    for (std::size_t i = 0; i < speeds.size(); ++i) EXPECT_NEAR(speeds[i], i < expected.size() ? expected[i] : 0, 1e-12);
   }
 }
 
@@ -75,7 +83,7 @@ TEST(OmniKinematics, TwistVarianceIsWhatNoisyWheelsScatter) {
   }
 }
 
-std::string refusal(const config::WheelBase& base) {
+std::string refusal(const WheelBase& base) {
   try {
     const OmniKinematics kinematics{base};
   } catch (const std::invalid_argument& error) {
@@ -95,4 +103,4 @@ TEST(OmniKinematics, RefusesABaseThatCannotDriveAndNamesTheValue) {
 }
 
 }  // namespace
-}  // namespace trivela::robot
+}  // namespace trivela::kicking
