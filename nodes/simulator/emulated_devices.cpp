@@ -37,27 +37,33 @@ const config::Settings& playable(const config::Settings& settings) {
 
 }  // namespace
 
-EmulatedDevices::EmulatedDevices(const config::Settings& settings, std::shared_ptr<spdlog::logger> logger)
+EmulatedDevices::EmulatedDevices(const config::Settings& settings, const kicking::WheelBase& base,
+                                 std::shared_ptr<spdlog::logger> logger)
     : logger_(std::move(logger)),
       kicker_(hal::emulated_kicker(playable(settings).hal.kicker)),
+      base_(hal::emulated_base(settings.hal.wheels, base)),
       box_(box_of(settings.refbox)),
       voice_(our_team(settings.refbox)) {}
 
 std::vector<std::string> EmulatedDevices::settings() const {
   std::vector<std::string> lines{"refbox.host=\"127.0.0.1\"", fmt::format("refbox.port={}", box_.port())};
   if (kicker_) lines.push_back(kicker_->setting());
+  if (base_) lines.push_back(base_->setting());
   return lines;
 }
 
 bool EmulatedDevices::wait_for_nodes(const bus::Stop& stop) {
   const auto asked = [this](auto timeout) { return !kicker_ || kicker_->wait_for_host(timeout); };
+  const auto turns = [this](auto timeout) { return !base_ || base_->wait_for_host(timeout); };
   const auto came = [this](auto timeout) { return box_.wait_for_teams(1, timeout); };
   return ready_before_stop(stop, asked, "no kicker_driver has asked the emulated board") &&
+         ready_before_stop(stop, turns, "no odometry has the emulated drives in operation") &&
          ready_before_stop(stop, came, "no refbox has come to the emulated referee box");
 }
 
 void EmulatedDevices::show(const sim::Sensors& sensors) {
   say(voice_.hear(sensors.referee));
+  if (base_) base_->show(sensors.wheels.wheel_radps);
   if (kicker_) kicker_->show(sensors.kicker.charge, sensors.kicker.armed);
 }
 

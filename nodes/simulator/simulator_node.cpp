@@ -121,8 +121,8 @@ bool SimulatorNode::nodes_are_here() {
   const bool scans = scan_ && context_.settings.scan_recorder.enabled;
   const auto heard = [this](const auto&... outputs) { return (readers_before_stop(context_, outputs) && ...); };
   const auto driver = [this](auto timeout) { return fire_.wait_for_writers(1, timeout); };
-  return (!scans || heard(*scan_)) && heard(wheels_, vision_, flight_, kick_truth_, possession_truth_) &&
-         (!referee_ || heard(*referee_)) &&
+  return (!scans || heard(*scan_)) && heard(vision_, flight_, kick_truth_, possession_truth_) &&
+         (has_drives() || heard(wheels_)) && (!referee_ || heard(*referee_)) &&
          (!kicker_ || (heard(*kicker_) && ready_before_stop(stop, driver, "no kicker_driver is there"))) &&
          (devices_ == nullptr || devices_->wait_for_nodes(stop));
 }
@@ -145,7 +145,7 @@ void SimulatorNode::publish(const sim::Sensors& sensors) {
   if (kicker_) write(*kicker_, hal::kicker_message(sensors), cycle_);
   write(vision_, hal::vision_message(t_ns_, sensors.vision), cycle_);
   write(flight_, hal::flight_message(t_ns_, sensors.flight), cycle_);
-  write(wheels_, hal::wheels_message(sensors), cycle_);
+  if (!has_drives()) write(wheels_, hal::wheels_message(sensors), cycle_);
   publish_scans(sensors);
 }
 
@@ -191,6 +191,7 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
     take_fires();
     take_pulses(out);
   }
+  if (has_drives()) out.drive = devices_->set_point();
   if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
   return out;
 }
@@ -256,7 +257,7 @@ int simulator_main(int argc, char** argv) {
   std::optional<EmulatedDevices> devices;  // where the node joins the bus anew they stay where its nodes look for them
   return node_main(argc, argv, "simulator", [&devices](NodeContext& context) {
     const bool emulated = context.settings.simulator.devices == config::SimulatedDevices::kEmulated;
-    if (emulated && !devices) devices.emplace(context.settings, context.logger);
+    if (emulated && !devices) devices.emplace(context.settings, context.robot.base, context.logger);
     SimulatorNode node{context, devices ? &*devices : nullptr};
     node.run();
     context.logger->info("played {:.1f} s", node.played_s());

@@ -22,9 +22,10 @@ sim::Scenario scenario_of(const config::Settings& settings);
 /// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
 /// the base stands.
 ///
-/// With emulated devices the kicker's board and the referee box are in place of their topics, and the world begins when
-/// the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is that of the receipt. The
-/// devices go on after the match until the stop is requested, so that no node loses them before it ends.
+/// With emulated devices the kicker's board, the base's drives and the referee box are in place of their topics, and
+/// the world begins when the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is
+/// that of the receipt. The devices go on after the match until the stop is requested, so that no node loses them
+/// before it ends.
 class SimulatorNode {
  public:
   /// `devices`: emulated ones, or nullptr: all are topics.
@@ -42,6 +43,7 @@ class SimulatorNode {
   bool nodes_are_here();
   void refuse_twins();
   void say_settings();
+  bool has_drives() const { return devices_ != nullptr && devices_->has_drives(); }
   void publish(const sim::Sensors& sensors);
   void publish_scans(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
