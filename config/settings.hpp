@@ -91,7 +91,7 @@ struct ShotObserver {
 /// What the simulated robot's devices are to its nodes.
 enum class SimulatedDevices : std::uint8_t {
   kBus,      ///< topics, and the simulator writes `referee`
-  kEmulated  ///< the board that hal.kicker names, at its end of a line, and a referee box; real time alone
+  kEmulated  ///< the board and the drives that hal names, at their ends of lines, and a referee box; real time alone
 };
 
 /// What the simulator plays.
