@@ -14,12 +14,12 @@ namespace trivela::config {
 /// Behind a bridge on the bus, of which the simulator is one (idl/README.md); once called sim.
 struct BusDevice {
   static constexpr std::string_view kName = "bus";
+  static constexpr bool kInLockstep = true;  ///< its samples may be of simulated time
 };
 
 /// The simulator's laser, over the bus.
 struct SimDevice {
   static constexpr std::string_view kName = "sim";
-  static constexpr bool kInLockstep = true;  ///< its samples may be of simulated time
 };
 
 /// What hal.replay_log recorded; nothing that is ordered is done.

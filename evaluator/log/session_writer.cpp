@@ -72,7 +72,8 @@ RowTable simulation_rows() {
           .insert_sql =
               "UPDATE sessions SET simulated = 1, seed = coalesce(?2, seed), scenario = coalesce(?3, scenario), "
               "paired_halves = coalesce(?4, paired_halves), planned_s = coalesce(?5, planned_s) WHERE session_id = ?1",
-          .counted = false};
+          .counted = false,
+          .amends = true};
 }
 
 SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table, SQLite::Statement& statement) {
@@ -128,6 +129,7 @@ GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::dequ
     }
     if (fate != Fate::kWritten) continue;
     ++result.written;
+    if (table.amends) ++result.amended;
     if (!table.t_ns) continue;
     if (const auto* const t_ns = std::get_if<std::int64_t>(&row.values[*table.t_ns])) {
       latest_t_ns = std::max(latest_t_ns, *t_ns);

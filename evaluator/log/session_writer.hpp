@@ -35,6 +35,7 @@ struct RowTable {
   std::optional<std::size_t> t_ns;  ///< place of the column t_ns
   std::string insert_sql;           ///< session_id is its first parameter
   bool counted = true;              ///< each row is a sample, for the counters of the stream
+  bool amends = false;              ///< it changes the session's row and is none
 };
 
 /// Silences as rows (stream, robot_id, from_t_ns, to_t_ns): a later one with the same beginning replaces the earlier.
@@ -52,6 +53,7 @@ struct GroupResult {
   std::vector<Loss> counters;  ///< received, nan_refused and rejected of each stream in the group
   std::vector<std::string> reasons;
   std::int64_t written = 0;
+  std::int64_t amended = 0;  ///< of those written
 };
 
 /// The connection of one session: what the writing thread does, one group a transaction. For one thread at a time.

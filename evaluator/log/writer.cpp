@@ -79,7 +79,7 @@ struct Writer::Impl {
       const GroupResult result = connection.commit(group, registered(), book);
       for (const Loss& loss : result.counters) book.add(loss);
       for (const std::string& reason : result.reasons) warn_once("", "row left out, " + reason);
-      rows_written += result.written;
+      rows_written += result.written - result.amended;
       rows_missing += static_cast<std::int64_t>(group.size()) - result.written;
       ++commits;
       const auto now = Clock::now();

@@ -12,6 +12,10 @@ namespace trivela::hal {
 /// now_ns is the steady clock's.
 class KickerBoard {
  public:
+  /// A question that has waited so long for its answer makes a line doubtful: what is written to it may lie there and
+  /// come out when nobody wants it any more. No shot is.
+  static constexpr std::int64_t kDoubt_ns = 30'000'000;
+
   virtual ~KickerBoard() = default;
 
   /// Opens the line where it is closed, takes what has come and asks what is due.
@@ -26,7 +30,8 @@ class KickerBoard {
   /// It answers: a shot can be sent.
   virtual bool up() const = 0;
 
-  /// Sends the shot now, by one write, which is never made again. Empty: it is on its way; else why not.
+  /// Sends the shot now, by one write, which is never made again. Empty: it is on its way; else why not:
+  /// also that the line has been doubtful for kDoubt_ns.
   virtual std::string shoot(double power, std::int64_t now_ns) = 0;
 
   /// The newest sample that was not taken yet. While the line is down they say KickerFault::kLink.

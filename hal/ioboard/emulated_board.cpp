@@ -22,6 +22,16 @@ std::vector<std::string> EmulatedBoard::take(std::string_view bytes, std::int64_
   return said;
 }
 
+/// As fast as the line carries.
+std::vector<std::string> EmulatedBoard::tick(std::int64_t now_ns) {
+  constexpr std::int64_t kPeriod_ns = 5'000'000;
+  constexpr int kPieces = 10;  // 60 bytes in 5 ms at 115200 Bd
+  next_noise_ns_ = now_ns + kPeriod_ns;
+  std::string noise;
+  for (int i = 0; i < kPieces; ++i) noise += kNoise;
+  return {noise};
+}
+
 /// The board sends back the frame that it took, with what was asked for filled in.
 Frame EmulatedBoard::answer(Frame question, std::int64_t now_ns) {
   if (faults.refuses) return {Command::kUnknown, question.payload};

@@ -20,6 +20,7 @@ struct EmulatedFaults {
   int lost_every = 0;
   int garbled_every = 0;
   int wrong_sums_every = 0;
+  bool floods = false;  ///< noise without end, between the answers
 };
 
 /// The behaviour of an ioBoard: a pulse under way ignores another, a lever that moves ignores another height, and both
@@ -38,6 +39,8 @@ class EmulatedBoard final : public EmulatedDevice {
   static std::unique_ptr<EmulatedSocket> open_line() { return emulated_terminal("ioboard", "kicker"); }
 
   std::vector<std::string> take(std::string_view bytes, std::int64_t now_ns) override;
+  std::int64_t next_ns() const override { return faults.floods ? next_noise_ns_ : kNever_ns; }
+  std::vector<std::string> tick(std::int64_t now_ns) override;
   void hang_up() override { parser_ = {}; }
 
   bool in_play = true;
@@ -69,6 +72,7 @@ class EmulatedBoard final : public EmulatedDevice {
   std::uint64_t shots_told_ = 0;
   std::uint64_t heights_told_ = 0;
   std::uint64_t answers_ = 0;
+  std::int64_t next_noise_ns_ = 0;
   std::uint8_t lever_ = 0;
   std::int64_t pulse_ends_ns_ = 0;
   std::int64_t lever_rests_ns_ = 0;

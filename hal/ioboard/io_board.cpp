@@ -63,6 +63,8 @@ std::string IoBoard::shoot(double power, std::int64_t now_ns) {
   if (!pulse)
     return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 0 to {:g}", power,
                        power * settings_.pulse_us_per_power, kLongestPulse * kPulseUnit_us);
+  if (question_ && now_ns - question_->first_ns > kDoubt_ns)
+    return fmt::format("the board has not answered for {:.0f} ms", 1e3 * kicking::seconds(question_->first_ns, now_ns));
   charging_since_ns_ = now_ns;
   if (line_->write(encode(frame_of(Command::kShoot, *pulse)), kNow)) {
     shot_unanswered_ns_ = now_ns;

@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "kicking/geometry/time.hpp"
+
 namespace trivela::hal::rekick {
 namespace {
 
@@ -45,6 +47,9 @@ std::string ReKick::shoot(double power, std::int64_t now_ns) {
     return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 1 to {:g}", power,
                        power * settings_.pulse_us_per_power, kLongestPulse_us);
   if (last_kick_ns_ && now_ns - *last_kick_ns_ < kBetweenKicks_ns) return "the last kick was less than 0.1 s before";
+  if (unanswered_since_ns_ && now_ns - *unanswered_since_ns_ > kDoubt_ns)
+    return fmt::format("the board has not answered for {:.0f} ms",
+                       1e3 * kicking::seconds(*unanswered_since_ns_, now_ns));
   last_kick_ns_ = now_ns;
   send(kick(*pulse_us), now_ns);
   return up() ? std::string{} : status_;

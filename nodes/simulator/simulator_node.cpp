@@ -170,8 +170,8 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
 
 std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
-  bus::renew_if_silent(fire_);
-  drive_.keep_hearing();
+  if (kicker_) bus::renew_if_silent(fire_);
+  if (!has_drives()) drive_.keep_hearing();
   const auto take_fires = [&] {
     fire_.take([&](const msg::DeviceFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;

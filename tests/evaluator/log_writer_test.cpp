@@ -52,7 +52,7 @@ TEST_F(LogWriter, ASessionMayTurnOutToBeSimulated) {
   EXPECT_FALSE(recorded.seed);
   EXPECT_TRUE(
       writer.simulated(log::Simulation{.seed = 9, .scenario = "hall", .paired_halves = true, .planned_s = 60.0}));
-  EXPECT_TRUE(writer.simulated(log::Simulation{.seed = {}, .scenario = "hall"}));
+  EXPECT_TRUE(writer.simulated(log::Simulation{.seed = {}, .scenario = "hall", .paired_halves = true}));
   writer.finalise();
   recorded = Reader(path()).sessions().at(0);
   EXPECT_EQ(recorded.seed, 9) << "what is not known takes nothing away";

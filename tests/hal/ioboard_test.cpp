@@ -111,6 +111,15 @@ TEST_F(IoBoardTest, AShotIsOneWriteOfTheBoardsFrame) {
   EXPECT_THAT(end_.written, ElementsAre(shot(100)));
 }
 
+TEST_F(IoBoardTest, SendsNoShotIntoALineThatHasNotAnsweredForAWhile) {
+  bring_up();  // it was asked for its switches after 1 ms
+  EXPECT_EQ(board_->shoot(100.0, 31 * kMs), "");
+  EXPECT_EQ(board_->shoot(100.0, 32 * kMs), "the board has not answered for 31 ms");
+  answer(switches(1, 1), 33);
+  EXPECT_EQ(board_->shoot(100.0, 34 * kMs), "");
+  EXPECT_EQ(std::ranges::count(end_.written, shot(100)), 2);
+}
+
 TEST_F(IoBoardTest, AShotIsNeverSentAgain) {
   bring_up();
   EXPECT_EQ(board_->shoot(100.0, 5 * kMs), "");

@@ -98,6 +98,16 @@ TEST_F(ReKickTest, RefusesAKickThatComesTooSoonOrIsOutOfRange) {
   EXPECT_EQ(end_.written.size(), 2u);
 }
 
+TEST_F(ReKickTest, SendsNoKickToABusThatHasNotAnsweredForAWhile) {
+  bring_up();
+  step(20);  // asks
+  end_.written.clear();
+  EXPECT_EQ(board_.shoot(30.0, 51 * kMs), "the board has not answered for 31 ms");
+  EXPECT_TRUE(end_.written.empty());
+  hear(frame_of({.supply_on = true, .capacitor_v = 330.0}), 52);
+  EXPECT_EQ(board_.shoot(30.0, 53 * kMs), "");
+}
+
 TEST_F(ReKickTest, AsksAgainAndIsLostAfterASilence) {
   bring_up();
   for (std::int64_t t_ms = 20; t_ms < 320; ++t_ms) step(t_ms);

@@ -81,9 +81,9 @@ TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
   ASSERT_TRUE(wheels.wait_for_readers(1, kPlenty)) << node.said();
   ASSERT_TRUE(odometry.wait_for_writers(1, kPlenty));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  wheels.write({.robot_id = 1, .seq = 1, .t_ns = 20, .wheel_count = 3, .wheel_radps = {nan, 1, 1}, .gyro_radps = nan});
+  wheels.write({.robot_id = 1, .seq = 1, .t_ns = 20, .wheel_count = 3, .wheel_radps = {nan, 1, 1}, .gyro_radps = nan, .emulated = false});
   ASSERT_TRUE(node.says("wheel sample of t 20 ns is unusable")) << node.said();
-  wheels.write({.robot_id = 1, .seq = 2, .t_ns = 40, .wheel_count = 3, .wheel_radps = {1, 1, 1}, .gyro_radps = nan});
+  wheels.write({.robot_id = 1, .seq = 2, .t_ns = 40, .wheel_count = 3, .wheel_radps = {1, 1, 1}, .gyro_radps = nan, .emulated = false});
   ASSERT_TRUE(odometry.wait(kPlenty)) << node.said();
   std::int64_t t_ns = 0;
   odometry.take([&](const msg::Odometry& sample) { t_ns = sample.t_ns; });
