@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/launch/record_emulated.hpp"
 #include "cli/launch/record_lockstep.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
@@ -26,12 +27,15 @@ std::vector<std::string> half_policies() {
   return names;
 }
 
+constexpr const char* kEmulated = "emulated";
+
 struct MatchFlags {
   std::vector<std::string> halves;
   std::string random;
   bool paired_halves = false;
   double minutes = 5.0;
   std::int64_t seed = 1;
+  std::string devices = "sim";
   int domain = -1;
   std::string out = "match.db";
   std::string config = config::shipped("default.toml").string();
@@ -65,6 +69,7 @@ void refuse_settings_of_flags(const std::vector<std::string>& overrides) {
       {"simulator.half_minutes", "--minutes"},
       {"simulator.paired_halves", "--paired-halves"},
       {"simulator.seed", "--seed"},
+      {"simulator.devices", "--devices"},
       {"run.log_level", "--log-level"},
   };
   for (const std::string& line : overrides) {
@@ -90,6 +95,7 @@ std::vector<std::string> drawn_policies(const std::string& random) {
 /// too.
 config::Settings settings_of(const MatchFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
+  if (flags.devices == kEmulated) settings = with_emulated_devices(std::move(settings));
   std::vector<std::string> lines;
   if (!flags.halves.empty()) lines.push_back(fmt::format("kick_decision.policy_by_half = {}", list(flags.halves)));
   if (!flags.random.empty())
@@ -133,6 +139,11 @@ void add_match(CLI::App& app, int& exit_code) {
       ->check(between(0.01, 1000.0))
       ->capture_default_str();
   verb->add_option("--seed", flags->seed, "same seed, same match")->check(seeds())->capture_default_str();
+  verb->add_option("--devices", flags->devices,
+                   "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
+                   "else an ioBoard) at a line and a referee box on TCP, in real time")
+      ->check(CLI::IsMember({"sim", kEmulated}))
+      ->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
   verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();
@@ -143,7 +154,10 @@ void add_match(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->callback([flags, &exit_code] {
     if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
-    exit_code = record_lockstep("simulator", settings_of(*flags), flags->domain, flags->out);
+    config::Settings settings = settings_of(*flags);
+    exit_code = flags->devices == kEmulated
+                    ? record_emulated(std::move(settings), flags->domain, flags->out)
+                    : record_lockstep("simulator", std::move(settings), flags->domain, flags->out);
   });
 }
 

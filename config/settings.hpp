@@ -106,6 +106,12 @@ struct ShotObserver {
   double rest_speed_mps = 0.3;      ///< slower is at rest
 };
 
+/// What the simulated robot's devices are to its nodes.
+enum class SimulatedDevices : std::uint8_t {
+  kBus,      ///< topics, and the simulator writes `referee`
+  kEmulated  ///< the board and the drives that hal names, at their ends of lines, and a referee box; real time alone
+};
+
 /// What the simulator plays.
 struct Simulator {
   std::int64_t seed = 1;
@@ -113,6 +119,7 @@ struct Simulator {
   double half_minutes = 5.0;
   std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
   bool paired_halves = false;         ///< every half has the possessions of the first
+  SimulatedDevices devices = SimulatedDevices::kBus;
 };
 
 struct Recorder {

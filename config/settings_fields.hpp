@@ -286,6 +286,12 @@ void fields(V& v, ShotObserver& s) {
   v("rest_speed_mps", s.rest_speed_mps, Range{0.0, 5.0});
 }
 
+template <>
+struct Names<SimulatedDevices> {
+  static constexpr std::array<std::pair<std::string_view, SimulatedDevices>, 2> entries{
+      {{"bus", SimulatedDevices::kBus}, {"emulated", SimulatedDevices::kEmulated}}};
+};
+
 template <class V>
 void fields(V& v, Simulator& s) {
   v("seed", s.seed, Range{0, 9e15});
@@ -293,6 +299,7 @@ void fields(V& v, Simulator& s) {
   v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
   v("max_possessions", s.max_possessions, Range{0, 1000000});
   v("paired_halves", s.paired_halves);
+  v("devices", s.devices);
 }
 
 template <class V>

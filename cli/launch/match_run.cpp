@@ -7,66 +7,21 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/progress_bar.hpp"
+#include "cli/launch/progress_pipe.hpp"
 
 namespace trivela::cli {
 namespace {
 
 constexpr std::array kNodes{"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
 constexpr std::chrono::seconds kPatience{10};
-
-/// The feeder's "t_s total_s" lines; the last one says "end".
-class ProgressPipe {
- public:
-  ProgressPipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0)
-      throw std::runtime_error{fmt::format("no pipe for the progress: {}", std::strerror(errno))};
-    fcntl(ends_[0], F_SETFL, O_NONBLOCK);
-  }
-  ProgressPipe(const ProgressPipe&) = delete;
-  ProgressPipe& operator=(const ProgressPipe&) = delete;
-  ~ProgressPipe() {
-    close(ends_[0]);
-    close_write_end();
-  }
-  int read_end() const { return ends_[0]; }
-  int write_end() const { return ends_[1]; }
-  void close_write_end() {
-    if (ends_[1] >= 0) close(ends_[1]);
-    ends_[1] = -1;
-  }
-
-  /// Takes what has come; true at the end of the stream.
-  bool take(double& played_s, double& total_s) {
-    std::array<char, 4096> chunk{};
-    ssize_t n = 0;
-    while ((n = read(ends_[0], chunk.data(), chunk.size())) > 0)
-      text_.append(chunk.data(), static_cast<std::size_t>(n));
-    for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {
-      char* rest = nullptr;
-      played_s = std::strtod(text_.c_str(), &rest);
-      total_s = std::strtod(rest, &rest);
-      whole_ = whole_ || std::strncmp(rest, " end", 4) == 0;
-      text_.erase(0, end + 1);
-    }
-    return n == 0;
-  }
-
-  /// Whether the feeder has said that all was played.
-  bool whole() const { return whole_; }
-
- private:
-  std::array<int, 2> ends_{-1, -1};
-  std::string text_;
-  bool whole_ = false;
-};
 
 /// Where nobody reads.
 class Nowhere {
@@ -91,64 +46,130 @@ std::string casualty(std::deque<ChildProcess>& children) {
   return {};
 }
 
-void stop_all(std::deque<ChildProcess>& children, std::string& trouble) {
+/// Each is asked once, since a second signal would hit one that has stopped listening. The first `last` of the list
+/// stop after the others, one after the other from behind: the recorder hears what the others say on their way out.
+void stop_all(std::deque<ChildProcess>& children, std::size_t last, std::string& trouble) {
   const auto complain = [&](const std::string& sentence) { trouble += (trouble.empty() ? "" : "; ") + sentence; };
   std::vector<bool> ran;
   ran.reserve(children.size());
   for (ChildProcess& child : children) ran.push_back(!child.ended());
-  // Each is asked once, since a second signal would hit one that has stopped listening. The recorder is first in the
-  // list and stops last: it hears what the others say on their way out.
-  for (std::size_t i = 1; i < children.size(); ++i) children[i].terminate();
+  for (std::size_t i = last; i < children.size(); ++i) children[i].terminate();
   for (; !children.empty(); children.pop_back()) {
-    ChildProcess& last = children.back();
-    if (children.size() == 1) last.terminate();
-    if (!last.wait(kPatience)) {
-      complain(fmt::format("{} did not stop within 10 s", last.name()));
-    } else if (ran[children.size() - 1] && !last.succeeded()) {
-      complain(fmt::format("{} failed on stopping ({})", last.name(), last.how_it_ended()));
+    ChildProcess& child = children.back();
+    if (children.size() <= last) child.terminate();
+    if (!child.wait(kPatience)) {
+      complain(fmt::format("{} did not stop within 10 s", child.name()));
+    } else if (ran[children.size() - 1] && !child.succeeded()) {
+      complain(fmt::format("{} failed on stopping ({})", child.name(), child.how_it_ended()));
     }
   }
+}
+
+/// Starts processes with one configuration file. The programs are those beside this one.
+class Starter {
+ public:
+  explicit Starter(bool quiet) : quiet_(quiet) {}
+
+  ChildProcess start(const std::string& node, const std::filesystem::path& config_file, int output) const {
+    return {node, programs_ / ("trivela-" + node), {"--config", config_file.string()}, output};
+  }
+  ChildProcess start(const std::string& node, const std::filesystem::path& config_file) const {
+    return start(node, config_file, quiet_ ? nowhere_.descriptor() : -1);
+  }
+
+ private:
+  std::filesystem::path programs_ = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  bool quiet_;
+  Nowhere nowhere_;
+};
+
+/// Waits for news of the feeder and of signals, and takes the feeder's.
+struct Watch {
+  ProgressPipe& progress;
+  SignalInbox& signals;
+  ProgressBar bar{};
+
+  /// True at the end of what the feeder says.
+  bool next() {
+    std::array<pollfd, 2> sources{pollfd{progress.read_end(), POLLIN, 0}, pollfd{signals.file_descriptor(), POLLIN, 0}};
+    poll(sources.data(), sources.size(), 1000);
+    const bool over = progress.take();
+    bar.show(progress.played_s(), progress.total_s(), fmt::format("{:.0f} s played", progress.played_s()));
+    return over;
+  }
+};
+
+using WallClock = std::chrono::steady_clock;
+
+/// Ends all processes and says how it went.
+MatchResult end_match(std::deque<ChildProcess>& children, std::size_t last, std::string trouble, double played_s,
+                      WallClock::time_point started) {
+  MatchResult result{.played_s = played_s,
+                     .wall_s = std::chrono::duration<double>{WallClock::now() - started}.count(),
+                     .trouble = std::move(trouble)};
+  stop_all(children, last, result.trouble);
+  return result;
+}
+
+std::vector<std::string> all_nodes(const std::vector<std::string>& more_nodes) {
+  std::vector<std::string> nodes{kNodes.begin(), kNodes.end()};
+  nodes.insert(nodes.end(), more_nodes.begin(), more_nodes.end());
+  return nodes;
 }
 
 }  // namespace
 
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
                       const std::vector<std::string>& more_nodes, bool quiet) {
-  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  MatchResult result;
   ProgressPipe progress;
   std::deque<ChildProcess> children;
-  const auto started = std::chrono::steady_clock::now();
-  const std::vector<std::string> arguments{"--config", config_file.string()};
-  std::vector<std::string> nodes{kNodes.begin(), kNodes.end()};
-  nodes.insert(nodes.end(), more_nodes.begin(), more_nodes.end());
-  const Nowhere nowhere;
-  for (const std::string& node : nodes) {
-    children.emplace_back(node, programs / ("trivela-" + node), arguments, quiet ? nowhere.descriptor() : -1);
-  }
-  children.emplace_back(feeder, programs / ("trivela-" + feeder), arguments, progress.write_end());
+  const auto started = WallClock::now();
+  const Starter starter{quiet};
+  for (const std::string& node : all_nodes(more_nodes)) children.push_back(starter.start(node, config_file));
+  children.push_back(starter.start(feeder, config_file, progress.write_end()));
   progress.close_write_end();
-  ProgressBar bar;
-  double total_s = 0.0;
-  for (;;) {
-    std::array<pollfd, 2> sources{pollfd{progress.read_end(), POLLIN, 0}, pollfd{signals.file_descriptor(), POLLIN, 0}};
-    poll(sources.data(), sources.size(), 1000);
-    const bool over = progress.take(result.played_s, total_s);
-    bar.show(result.played_s, total_s, fmt::format("{:.0f} s played", result.played_s));
+  std::string trouble;
+  for (Watch watch{progress, signals};;) {
+    const bool over = watch.next();
     if (signals.stop_requested()) {
-      result.trouble = "interrupted";
+      trouble = "interrupted";
       break;
     }
     if (over && children.back().wait(kPatience) && children.back().succeeded()) {
       children.pop_back();
-      if (!progress.whole()) result.trouble = fmt::format("{} was stopped before the end", feeder);
+      if (!progress.whole()) trouble = fmt::format("{} was stopped before the end", feeder);
       break;
     }
-    if (result.trouble = casualty(children); !result.trouble.empty()) break;
+    if (trouble = casualty(children); !trouble.empty()) break;
   }
-  result.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
-  stop_all(children, result.trouble);
-  return result;
+  return end_match(children, 1, std::move(trouble), progress.played_s(), started);
+}
+
+MatchResult run_emulated_match(const std::filesystem::path& world_config, const NodesConfig& nodes_config,
+                               SignalInbox& signals, const std::vector<std::string>& more_nodes) {
+  ProgressPipe progress;
+  std::deque<ChildProcess> children;
+  const auto started = WallClock::now();
+  const Starter starter{false};
+  children.push_back(starter.start("simulator", world_config, progress.write_end()));
+  progress.close_write_end();
+  std::string trouble;
+  Watch watch{progress, signals};
+  while (trouble.empty() && !progress.begun()) {
+    watch.next();
+    trouble = signals.stop_requested() ? "interrupted" : casualty(children);
+  }
+  if (progress.begun() && trouble.empty()) {
+    const std::filesystem::path config_file = nodes_config(progress.settings());
+    const std::vector<std::string> nodes = all_nodes(more_nodes);
+    children.push_front(starter.start(nodes.front(), config_file));  // the recorder, before the simulator
+    for (std::size_t i = 1; i < nodes.size(); ++i) children.push_back(starter.start(nodes[i], config_file));
+  }
+  while (trouble.empty() && !progress.whole()) {
+    watch.next();
+    trouble = signals.stop_requested() ? "interrupted" : casualty(children);
+  }
+  return end_match(children, 2, std::move(trouble), progress.played_s(), started);
 }
 
 }  // namespace trivela::cli

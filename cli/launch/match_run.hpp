@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,13 @@ struct MatchResult {
 /// shown. The programs are those beside this one. Draws a progress bar on a terminal.
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
                       const std::vector<std::string>& more_nodes = {}, bool quiet = false);
+
+/// The file of the nodes' configuration, made of the settings by which they find the emulated devices.
+using NodesConfig = std::function<std::filesystem::path(const std::vector<std::string>& settings)>;
+
+/// The same in real time against the simulator's emulated devices: the simulator is started first, with `world_config`,
+/// and says where its devices are; it stays until the nodes have ended. Throws what `nodes_config` throws.
+MatchResult run_emulated_match(const std::filesystem::path& world_config, const NodesConfig& nodes_config,
+                               SignalInbox& signals, const std::vector<std::string>& more_nodes);
 
 }  // namespace trivela::cli

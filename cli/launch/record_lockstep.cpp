@@ -7,8 +7,6 @@
 #include <random>
 
 #include "cli/launch/config_file.hpp"
-#include "cli/launch/log_claim.hpp"
-#include "cli/launch/match_run.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/reader.hpp"
 
@@ -29,12 +27,11 @@ std::vector<std::string> more_nodes(const config::Settings& settings) {
   return {};
 }
 
-config::Settings lockstep_settings(config::Settings settings, int domain, const std::string& log) {
+config::Settings match_settings(config::Settings settings, int domain, const std::string& log) {
   // Runs at the same time hear each other in neither domain nor tag.
   std::random_device random;
   settings.domain.domain_id = domain >= 0 ? static_cast<std::uint32_t>(domain) : 1 + random() % 100;
   settings.domain.tag = fmt::format("run-{}-{:08x}", getpid(), random());
-  settings.run.lockstep = true;
   settings.recorder.log = fs::absolute(log).string();
   settings.scan_recorder.file = fs::absolute(settings.scan_recorder.file).string();
   for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.run.field_file,
@@ -44,18 +41,27 @@ config::Settings lockstep_settings(config::Settings settings, int domain, const 
   return settings;
 }
 
-int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
-  settings = lockstep_settings(std::move(settings), domain, out);
-  SignalInbox signals;
-  const LogClaim log{out};
-  const ConfigFile config{config::to_toml_text(settings)};
-  const MatchResult result = run_match(feeder, config.path(), signals, more_nodes(settings));
+config::Settings lockstep_settings(config::Settings settings, int domain, const std::string& log) {
+  settings = match_settings(std::move(settings), domain, log);
+  settings.run.lockstep = true;
+  return settings;
+}
+
+int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::string& out) {
   fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
              result.played_s / result.wall_s);
   if (result.trouble.empty()) return lost_rows(out) == 0 ? kDone : kDoneWithLoss;
   fmt::print(stderr, "trivela: {} after {:.1f} s of play; {}\n", result.trouble, result.played_s,
              log.recorded() ? "what was recorded until then is in " + out : "nothing was recorded");
   return kFailed;
+}
+
+int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
+  settings = lockstep_settings(std::move(settings), domain, out);
+  SignalInbox signals;
+  const LogClaim log{out};
+  const ConfigFile config{config::to_toml_text(settings)};
+  return say_how_it_went(run_match(feeder, config.path(), signals, more_nodes(settings)), log, out);
 }
 
 }  // namespace trivela::cli

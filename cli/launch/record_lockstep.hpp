@@ -4,12 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "cli/launch/log_claim.hpp"
+#include "cli/launch/match_run.hpp"
 #include "config/settings.hpp"
 
 namespace trivela::cli {
 
-/// The settings of a lockstep run that records to `log`: on a domain and tag of its own, with absolute file names.
-/// `domain` < 0: drawn.
+/// The settings of a run that records to `log`: on a domain and tag of its own, with absolute file names. `domain` < 0:
+/// drawn.
+config::Settings match_settings(config::Settings settings, int domain, const std::string& log);
+
+/// The same in lockstep.
 config::Settings lockstep_settings(config::Settings settings, int domain, const std::string& log);
 
 /// What runs beside the nodes of every match: scan_recorder where the settings enable it.
@@ -17,6 +22,9 @@ std::vector<std::string> more_nodes(const config::Settings& settings);
 
 /// Rows that the log says it is missing, with a sentence on standard error where there are any.
 std::int64_t lost_rows(const std::string& log);
+
+/// Prints how fast a match went, and on standard error how it was broken off. Returns the exit code.
+int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::string& out);
 
 /// Runs the nodes with `feeder` in lockstep on a domain of their own and records to `out`; prints how fast it went.
 /// `domain` < 0: drawn. Returns the exit code. Throws UsageError when `out` exists: a recorded match is never

@@ -127,7 +127,7 @@ std::uint32_t EmulatedDrive::refusal(const SdoRequest& request) const {
 
 std::uint32_t EmulatedDrive::read(Object object, std::int64_t now_ns) const {
   if (object == kStatusword) return statusword_of(state_);
-  if (object == kActual) return static_cast<std::uint32_t>(std::lround(motor_.rpm(now_ns)));
+  if (object == kActual) return static_cast<std::uint32_t>(std::lround(measured_rpm.value_or(motor_.rpm(now_ns))));
   return value(object);
 }
 

@@ -48,6 +48,8 @@ class EmulatedDrive {
   using Dictionary = std::map<std::uint32_t, Entry>;  // by key()
   static std::uint32_t key(Object object) { return std::uint32_t{object.index} << 8U | object.sub; }
   Dictionary factory;
+  /// Velocity that it measures, in its unit; in place of its motor's. None: its motor's.
+  std::optional<double> measured_rpm{};
   EmulatedDriveFaults faults;
 
   std::uint8_t node() const { return node_; }

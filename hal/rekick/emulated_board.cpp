@@ -20,6 +20,7 @@ std::uint16_t word_of(const can::Frame& frame) {
 }  // namespace
 
 double EmulatedBoard::energy(std::int64_t now_ns) const {
+  if (measured_energy) return *measured_energy;
   return std::min(1.0, energy_ + kicking::seconds(energy_ns_, now_ns) / kChargeTime_s);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ class EmulatedBoard final : public EmulatedDevice {
   void say(const can::Frame& frame) { to_say_.push_back(frame); }
 
   bool supply_on = true;
+  /// Of the whole; in place of what the board assumes of its capacitor. None: it assumes.
+  std::optional<double> measured_energy{};
   EmulatedFaults faults;
 
   const std::vector<Pulse>& pulses() const { return pulses_; }

@@ -51,33 +51,57 @@ sim::Scenario scenario_of(const config::Settings& settings) {
   return scenario;
 }
 
-SimulatorNode::SimulatorNode(NodeContext& context)
+SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
     : context_(context),
+      devices_(devices),
       scenario_(scenario_of(context.settings)),
       match_(match_of(scenario_, context.settings.simulator)),
       wheels_(context.participant, {.owner = fmt::format("simulator/{}", context.robot_id())}),
-      kicker_(context.participant),
       vision_(context.participant),
       flight_(context.participant),
-      referee_(context.participant, referee_of(context.robot_id())),
       kick_truth_(context.participant),
       possession_truth_(context.participant),
       drive_(context.participant, context.robot_id()),
       fire_(context.participant),
       barrier_(context.participant, context.robot_id()) {
   if (scenario_.laser.enabled) scan_.emplace(context.participant);
+  if (devices_ != nullptr && devices_->has_board()) {
+    receipts_.emplace(context.participant);
+  } else {
+    kicker_.emplace(context.participant);
+  }
+  if (devices_ == nullptr) referee_.emplace(context.participant, referee_of(context.robot_id()));
+  refuse_twins();
+}
+
+void SimulatorNode::refuse_twins() {
+  const std::uint32_t domain_id = context_.settings.domain.domain_id;
   if (wheels_.other_writer_exists(std::chrono::milliseconds(300))) {
     throw std::runtime_error{fmt::format("another simulator of robot {} runs in domain {}: stop it first",
-                                         context.settings.run.robot_id, context.settings.domain.domain_id)};
+                                         context_.settings.run.robot_id, domain_id)};
   }
-  if (referee_.other_writer_exists(std::chrono::milliseconds(1))) {  // others have become known by now
+  if (referee_ && referee_->other_writer_exists(std::chrono::milliseconds(1))) {  // others have become known by now
     throw std::runtime_error{fmt::format("a referee of robot {} writes referee in domain {} already: stop it first",
-                                         context.settings.run.robot_id, context.settings.domain.domain_id)};
+                                         context_.settings.run.robot_id, domain_id)};
   }
 }
 
 void SimulatorNode::run() {
-  if (context_.settings.run.lockstep && !nodes_are_here()) return;
+  if (devices_ != nullptr) say_settings();
+  play();
+  if (devices_ == nullptr) return;
+  devices_->say_over();
+  while (!context_.stop.requested()) context_.idle(std::chrono::hours(1));
+}
+
+/// On standard output, before the first line of progress.
+void SimulatorNode::say_settings() {
+  for (const std::string& line : devices_->settings()) fmt::print("{}\n", line);
+  report_progress();
+}
+
+void SimulatorNode::play() {
+  if ((context_.settings.run.lockstep || devices_ != nullptr) && !nodes_are_here()) return;
   if (!context_.settings.run.lockstep) started_ns_ = context_.steady_ns();
   while (!match_.done()) {
     const sim::Sensors sensors = match_.sense();
@@ -96,10 +120,11 @@ bool SimulatorNode::nodes_are_here() {
   const bus::Stop& stop = context_.stop;
   const bool scans = scan_ && context_.settings.scan_recorder.enabled;
   const auto heard = [this](const auto&... outputs) { return (readers_before_stop(context_, outputs) && ...); };
-  return (!scans || heard(*scan_)) &&
-         heard(wheels_, kicker_, vision_, flight_, referee_, kick_truth_, possession_truth_) &&
-         ready_before_stop(
-             stop, [this](auto timeout) { return fire_.wait_for_writers(1, timeout); }, "no kicker_driver is there");
+  const auto driver = [this](auto timeout) { return fire_.wait_for_writers(1, timeout); };
+  return (!scans || heard(*scan_)) && heard(vision_, flight_, kick_truth_, possession_truth_) &&
+         (has_drives() || heard(wheels_)) && (!referee_ || heard(*referee_)) &&
+         (!kicker_ || (heard(*kicker_) && ready_before_stop(stop, driver, "no kicker_driver is there"))) &&
+         (devices_ == nullptr || devices_->wait_for_nodes(stop));
 }
 
 template <class T>
@@ -115,11 +140,12 @@ void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) 
 }
 
 void SimulatorNode::publish(const sim::Sensors& sensors) {
-  write(referee_, hal::referee_message(t_ns_, sensors.referee), cycle_);
-  write(kicker_, hal::kicker_message(sensors), cycle_);
+  if (devices_ != nullptr) devices_->show(sensors);
+  if (referee_) write(*referee_, hal::referee_message(t_ns_, sensors.referee), cycle_);
+  if (kicker_) write(*kicker_, hal::kicker_message(sensors), cycle_);
   write(vision_, hal::vision_message(t_ns_, sensors.vision), cycle_);
   write(flight_, hal::flight_message(t_ns_, sensors.flight), cycle_);
-  write(wheels_, hal::wheels_message(sensors), cycle_);
+  if (!has_drives()) write(wheels_, hal::wheels_message(sensors), cycle_);
   publish_scans(sensors);
 }
 
@@ -144,8 +170,8 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
 
 std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   sim::Commands out;
-  bus::renew_if_silent(fire_);
-  drive_.keep_hearing();
+  if (kicker_) bus::renew_if_silent(fire_);
+  if (!has_drives()) drive_.keep_hearing();
   const auto take_fires = [&] {
     fire_.take([&](const msg::DeviceFire& fire) {
       if (fire.robot_id != context_.robot_id()) return;
@@ -163,7 +189,9 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   } else {
     drive = fresh_drive();
     take_fires();
+    take_pulses(out);
   }
+  if (has_drives()) out.drive = devices_->set_point();
   if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
   return out;
 }
@@ -185,6 +213,24 @@ void SimulatorNode::order(const msg::DeviceFire& fire, sim::Commands& out) {
   out.fire = sim::Fire{fire_t_ns, fire.kick_id, fire.power};
 }
 
+/// A pulse stands for its kick until the kick's receipt is looked for, which may come after it.
+void SimulatorNode::take_pulses(sim::Commands& out) {
+  if (!receipts_) return;
+  for (const hal::CoilPulse& pulse : devices_->take_pulses())
+    out.fire = sim::Fire{pulse.t_ns - started_ns_, pulse.t_ns, pulse.power};
+}
+
+std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {
+  bus::renew_if_silent(*receipts_);
+  receipts_->take([this](const msg::KickReceipt& receipt) {
+    if (receipt.robot_id == context_.robot_id() && receipt.accepted)
+      book_.accepted(receipt.kick_id, receipt.fired_t_ns);
+  });
+  const auto kick_id = book_.take(t_ns);
+  if (!kick_id) context_.logger->error("no receipt for the pulse at {} ns", t_ns);
+  return kick_id.value_or(0);
+}
+
 std::optional<msg::DeviceDrive> SimulatorNode::fresh_drive() {
   const auto drive = drive_.latest();
   const bool fresh =
@@ -193,7 +239,11 @@ std::optional<msg::DeviceDrive> SimulatorNode::fresh_drive() {
 }
 
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {
-  for (const sim::KickTruth& kick : events.kicks) write(kick_truth_, hal::truth_message(kick), ++kicks_);
+  for (const sim::KickTruth& kick : events.kicks) {
+    msg::KickTruth truth = hal::truth_message(kick);
+    if (receipts_) truth.kick_id = kick_of_pulse(kick.kick_id);
+    write(kick_truth_, truth, ++kicks_);
+  }
   for (const sim::PossessionTruth& end : events.possessions)
     write(possession_truth_, hal::possession_message(end), ++possessions_);
 }
@@ -204,8 +254,11 @@ void SimulatorNode::report_progress() {
 }
 
 int simulator_main(int argc, char** argv) {
-  return node_main(argc, argv, "simulator", [](NodeContext& context) {
-    SimulatorNode node{context};
+  std::optional<EmulatedDevices> devices;  // where the node joins the bus anew they stay where its nodes look for them
+  return node_main(argc, argv, "simulator", [&devices](NodeContext& context) {
+    const bool emulated = context.settings.simulator.devices == config::SimulatedDevices::kEmulated;
+    if (emulated && !devices) devices.emplace(context.settings, context.robot.base, context.logger);
+    SimulatorNode node{context, devices ? &*devices : nullptr};
     node.run();
     context.logger->info("played {:.1f} s", node.played_s());
   });

@@ -6,6 +6,8 @@
 #include "nodes/runtime/lockstep_barrier.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/progress_line.hpp"
+#include "nodes/simulator/emulated_devices.hpp"
+#include "nodes/simulator/receipt_book.hpp"
 #include "sim/match.hpp"
 
 namespace trivela::nodes {
@@ -19,9 +21,15 @@ sim::Scenario scenario_of(const config::Settings& settings);
 /// steady clock, so that a simulator that is started anew goes on where the nodes are. A fire that reaches the
 /// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
 /// the base stands.
+///
+/// With emulated devices the kicker's board, the base's drives and the referee box are in place of their topics, and
+/// the world begins when the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is
+/// that of the receipt. The devices go on after the match until the stop is requested, so that no node loses them
+/// before it ends.
 class SimulatorNode {
  public:
-  explicit SimulatorNode(NodeContext& context);
+  /// `devices`: emulated ones, or nullptr: all are topics.
+  explicit SimulatorNode(NodeContext& context, EmulatedDevices* devices = nullptr);
 
   /// Plays until the match is over or the stop is requested. Prints "t_s total_s" lines on standard output about five
   /// times a second, for whoever shows progress.
@@ -31,7 +39,11 @@ class SimulatorNode {
   double played_s() const { return kicking::seconds(t_ns_); }
 
  private:
+  void play();
   bool nodes_are_here();
+  void refuse_twins();
+  void say_settings();
+  bool has_drives() const { return devices_ != nullptr && devices_->has_drives(); }
   void publish(const sim::Sensors& sensors);
   void publish_scans(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
@@ -42,19 +54,24 @@ class SimulatorNode {
   template <class T>
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
   void order(const msg::DeviceFire& fire, sim::Commands& out);
+  void take_pulses(sim::Commands& out);
+  std::int64_t kick_of_pulse(std::int64_t t_ns);
   std::optional<msg::DeviceDrive> fresh_drive();
 
   NodeContext& context_;
+  EmulatedDevices* const devices_;  // of this or an earlier stay on the bus
   sim::Scenario scenario_;
   sim::Match match_;
   bus::Writer<msg::DeviceWheels> wheels_;
-  bus::Writer<msg::DeviceKicker> kicker_;
   bus::Writer<msg::VisionFrame> vision_;
   bus::Writer<msg::FlightFrame> flight_;
-  bus::Writer<msg::Referee> referee_;
   bus::Writer<msg::KickTruth> kick_truth_;
   bus::Writer<msg::PossessionTruth> possession_truth_;
-  std::optional<bus::Writer<msg::SimScan>> scan_;  // where the scenario has a laser
+  std::optional<bus::Writer<msg::SimScan>> scan_;          // where the scenario has a laser
+  std::optional<bus::Writer<msg::DeviceKicker>> kicker_;   // where it has no board
+  std::optional<bus::Writer<msg::Referee>> referee_;       // where there is no box
+  std::optional<bus::Reader<msg::KickReceipt>> receipts_;  // where the kicker has a board
+  ReceiptBook book_;
   bus::Mailbox<msg::DeviceDrive> drive_;
   bus::Reader<msg::DeviceFire> fire_;
   LockstepBarrier barrier_;

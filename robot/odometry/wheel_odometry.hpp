@@ -20,7 +20,7 @@ namespace trivela::robot {
 /// noise over the cycle.
 class WheelOdometry {
  public:
-  WheelOdometry(const config::WheelBase& base, const config::Odometry& noise)
+  WheelOdometry(const kicking::WheelBase& base, const config::Odometry& noise)
       : kinematics_(base), noise_(noise), variance_(kinematics_.twist_variance(noise.wheel_sd_radps)) {}
 
   /// The estimate with the sample that it was made from; robot_id and seq are the caller's. The first sample sets the

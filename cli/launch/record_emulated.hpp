@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "config/settings.hpp"
+
+namespace trivela::cli {
+
+/// Runs the nodes of a match, refbox among them, in real time against the simulator's emulated devices on a domain of
+/// their own, and records to `out`; prints how long it took. `domain` < 0: drawn. Returns the exit code. Throws
+/// UsageError when `out` exists.
+int record_emulated(config::Settings settings, int domain, const std::string& out);
+
+/// The settings of a match against emulated devices: hal.kicker is an ioBoard where it was on the bus, and the
+/// team has a multicast group.
+config::Settings with_emulated_devices(config::Settings settings);
+
+}  // namespace trivela::cli

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/stop.hpp"
+#include "config/settings.hpp"
+#include "hal/board/emulated_kicker.hpp"
+#include "hal/cia402/emulated_base.hpp"
+#include "hal/refbox/emulated_box.hpp"
+#include "hal/refbox/referee_voice.hpp"
+#include "sim/sensors.hpp"
+
+namespace trivela::nodes {
+
+/// What the nodes of a robot meet in place of the simulator's topics where simulator.devices = "emulated": the board
+/// that hal.kicker names and the drives that hal.wheels names, at their ends of their lines, and a referee box on a TCP
+/// port. Each pulse and each word of the box is
+/// logged at level info with its instant.
+class EmulatedDevices {
+ public:
+  /// Throws std::runtime_error where the settings have no such devices, naming the key, and where the system refuses.
+  EmulatedDevices(const config::Settings& settings, const kicking::WheelBase& base,
+                  std::shared_ptr<spdlog::logger> logger);
+
+  /// Settings by which the nodes find them, as --set takes them.
+  std::vector<std::string> settings() const;
+
+  /// Waits until the driver asks the board, odometry has the drives in operation and the node refbox has come. False:
+  /// the stop was requested first. Throws std::runtime_error naming who is missing when it does not come.
+  [[nodiscard]] bool wait_for_nodes(const bus::Stop& stop);
+
+  /// The kicker has a board: it is not on the bus.
+  bool has_board() const { return kicker_ != nullptr; }
+
+  /// The base has drives: its wheels are not on the bus.
+  bool has_drives() const { return base_ != nullptr; }
+
+  /// What the world has come to: the drives measure its wheels, the board stands so, and the box says what is new.
+  void show(const sim::Sensors& sensors);
+
+  /// What the drives are told; only where there are any.
+  kicking::Twist set_point() { return base_->set_point(); }
+
+  /// The board's pulses since the last call.
+  std::vector<hal::CoilPulse> take_pulses();
+
+  /// The match is over.
+  void say_over();
+
+ private:
+  void say(const std::vector<hal::refbox::Said>& words);
+
+  std::shared_ptr<spdlog::logger> logger_;
+  std::unique_ptr<hal::EmulatedKicker> kicker_;  // none: on the bus
+  std::unique_ptr<hal::EmulatedBase> base_;      // none: on the bus
+  hal::refbox::EmulatedBox box_;
+  hal::refbox::RefereeVoice voice_;
+};
+
+}  // namespace trivela::nodes

@@ -1,0 +1,42 @@
+#include "nodes/simulator/receipt_book.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trivela::nodes {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+TEST(ReceiptBook, APulseIsTheKickWhoseReceiptIsTheNearest) {
+  ReceiptBook book;
+  book.accepted(7, 1000 * kMs);
+  book.accepted(8, 1600 * kMs);
+  EXPECT_EQ(book.take(1001 * kMs), 7);
+  EXPECT_EQ(book.take(1598 * kMs), 8);
+}
+
+TEST(ReceiptBook, AReceiptIsOfOnePulse) {
+  ReceiptBook book;
+  book.accepted(7, 1000 * kMs);
+  EXPECT_EQ(book.take(1000 * kMs), 7);
+  EXPECT_EQ(book.take(1001 * kMs), std::nullopt);
+}
+
+TEST(ReceiptBook, AKickThatWasCalledOffIsNoPulses) {
+  ReceiptBook book;
+  book.accepted(7, 1000 * kMs);  // of which no pulse came
+  book.accepted(8, 1600 * kMs);
+  EXPECT_EQ(book.take(1610 * kMs), 8);
+  EXPECT_EQ(book.take(1000 * kMs), std::nullopt);
+}
+
+TEST(ReceiptBook, APulseThatIsFarFromAnyReceiptIsNobodys) {
+  ReceiptBook book;
+  EXPECT_EQ(book.take(1000 * kMs), std::nullopt);
+  book.accepted(7, 1000 * kMs);
+  EXPECT_EQ(book.take(1000 * kMs + ReceiptBook::kFarthest_ns + 1), std::nullopt);
+  EXPECT_EQ(book.take(1000 * kMs + ReceiptBook::kFarthest_ns), 7);
+}
+
+}  // namespace
+}  // namespace trivela::nodes
