@@ -59,10 +59,10 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   first_.once([this] {
     expect_device(*kicker_);
-    demand_capabilities();
     expect_readers(context_, status_out_);
     expect_readers(context_, receipt_out_);
   });
+  demand_capabilities();
   std::optional<msg::Referee> word;
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
@@ -79,7 +79,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
 
 KickerDriverNode::~KickerDriverNode() { kicker_->charge(desk_.end()); }
 
-/// The device says with its first sample what it can do.
+/// The device says with its samples what it can do: a bridge that is replaced may be able to do less.
 void KickerDriverNode::demand_capabilities() const {
   const std::string lacking = robot::missing(context_.settings.kicker_driver.demand, kicker_->capabilities());
   if (lacking.empty()) return;
