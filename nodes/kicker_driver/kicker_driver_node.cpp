@@ -70,10 +70,11 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
-  status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
-  withdraw();
+  const msg::KickerStatus status = desk_.status(sample, referee_says(word), now_t_ns());
   look_for_decision();
-  kicker_->charge(desk_.charge_word());
+  kicker_->charge(desk_.charge_word());  // before anybody hears of the state that it belongs to
+  status_out_.write(status);
+  withdraw();
   report_done(sample.t_ns);
 }
 
