@@ -59,10 +59,10 @@ std::int64_t KickerDriverNode::now_t_ns() const {
 void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   first_.once([this] {
     expect_device(*kicker_);
-    demand_capabilities();
     expect_readers(context_, status_out_);
     expect_readers(context_, receipt_out_);
   });
+  demand_capabilities();
   std::optional<msg::Referee> word;
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
@@ -70,16 +70,17 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   emulation_.see(msg::PART_KICKER, sample.emulated, sample.t_ns);
   check_clock(sample);
   say_link(sample.fault == hal::KickerFault::kLink);
-  status_out_.write(desk_.status(sample, referee_says(word), now_t_ns()));
-  withdraw();
+  const msg::KickerStatus status = desk_.status(sample, referee_says(word), now_t_ns());
   look_for_decision();
-  kicker_->charge(desk_.charge_word());
+  kicker_->charge(desk_.charge_word());  // before anybody hears of the state that it belongs to
+  status_out_.write(status);
+  withdraw();
   report_done(sample.t_ns);
 }
 
 KickerDriverNode::~KickerDriverNode() { kicker_->charge(desk_.end()); }
 
-/// The device says with its first sample what it can do.
+/// The device says with its samples what it can do: a bridge that is replaced may be able to do less.
 void KickerDriverNode::demand_capabilities() const {
   const std::string lacking = robot::missing(context_.settings.kicker_driver.demand, kicker_->capabilities());
   if (lacking.empty()) return;

@@ -16,7 +16,7 @@ namespace trivela::robot {
 enum class KickerEvent {
   kArmed,     ///< switch on, the referee lets play, the decision node is there
   kDisarmed,  ///< switch off, the game stands, or the referee is silent
-  kCharged,   ///< the capacitor holds what a kick needs
+  kCharged,   ///< the capacitor holds what a kick needs, and the last shot is over and rested
   kUncharged,
   kAccepted,      ///< an order was accepted, its instant may lie ahead
   kCalledOff,     ///< it is not carried out after all

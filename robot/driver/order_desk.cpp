@@ -56,7 +56,9 @@ void OrderDesk::advance(std::int64_t now_t_ns) {
   happened(gate_.armed() && decision_there_ ? KickerEvent::kArmed : KickerEvent::kDisarmed);
   if (!gate_.under_way(now_t_ns)) happened(KickerEvent::kShotOver);
   if (gate_.rested(now_t_ns)) happened(KickerEvent::kRested);
-  happened(gate_.charged() ? KickerEvent::kCharged : KickerEvent::kUncharged);
+  // A stop or a fault soon after a shot leads past cooling: what is armed again has to rest all the same.
+  const bool at_rest = gate_.rested(now_t_ns) && !gate_.under_way(now_t_ns);
+  happened(gate_.charged() && at_rest ? KickerEvent::kCharged : KickerEvent::kUncharged);
 }
 
 void OrderDesk::decision_node(bool there, std::int64_t now_t_ns) {

@@ -198,6 +198,17 @@ TEST_P(DeskOfSomeCapabilities, GoesThroughAKick) {
   EXPECT_EQ(at(1560, 1.0, 300.0).state, msg::STATE_READY);
 }
 
+TEST_P(DeskOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCooling) {
+  at(1000, 1.0, 300.0);
+  EXPECT_EQ(order(1), msg::REFUSAL_NONE);
+  EXPECT_EQ(at(1020, 1.0, 300.0, RefereeSays::kStop).state, msg::STATE_OFF);
+  EXPECT_EQ(at(1040, 1.0, 300.0).state, msg::STATE_CHARGING) << "its pulse may run";
+  EXPECT_EQ(at(1100, 1.0, 300.0).state, msg::STATE_CHARGING) << "not at rest";
+  EXPECT_EQ(order(2), msg::REFUSAL_DOUBLE);
+  EXPECT_EQ(at(1500, 1.0, 300.0).state, msg::STATE_READY);
+  EXPECT_EQ(order(3), msg::REFUSAL_NONE);
+}
+
 TEST_P(DeskOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds) {
   at(1000, 1.0, 300.0);
   EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
