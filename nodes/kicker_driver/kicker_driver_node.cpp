@@ -78,7 +78,13 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   report_done(sample.t_ns);
 }
 
-KickerDriverNode::~KickerDriverNode() { kicker_->charge(desk_.end()); }
+KickerDriverNode::~KickerDriverNode() {
+  try {
+    kicker_->charge(desk_.end());
+  } catch (const std::exception& error) {
+    context_.logger->error("the board cannot be told to empty: {}", error.what());
+  }
+}
 
 /// The device says with its samples what it can do: a bridge that is replaced may be able to do less.
 void KickerDriverNode::demand_capabilities() const {

@@ -24,7 +24,7 @@ OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const
 
 msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
   hal::KickerSample judged = sample;
-  over_voltage_ = over_voltage(sample);
+  over_voltage_ = over_voltage(sample) || (over_voltage_ && sample.armed);  // until somebody opens the switch
   const bool stuck = voltage_.stuck(sample, stand_.state == msg::STATE_CHARGING);
   if (judged.fault == hal::KickerFault::kNone && (stuck || over_voltage_)) judged.fault = hal::KickerFault::kCharger;
   gate_.device(judged);

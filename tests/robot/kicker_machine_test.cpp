@@ -235,6 +235,11 @@ TEST_P(DeskOfSomeCapabilities, EmptiesAtOverVoltage) {
   EXPECT_EQ(said.state, can().voltage ? msg::STATE_FAULT : msg::STATE_CHARGING);
   EXPECT_EQ(desk.charge_word(), can().voltage ? ChargeWord::kEmpty : ChargeWord::kUp);
   EXPECT_EQ(order(1), can().voltage ? msg::REFUSAL_FAULT : msg::REFUSAL_CHARGING);
+  EXPECT_EQ(at(1040, 1.0, 300.0).state, can().voltage ? msg::STATE_FAULT : msg::STATE_READY)
+      << "a charger that runs away";
+  now_ns = 1060 * kMs;
+  desk.status(sample(1.0, 300.0, false), RefereeSays::kPlay, now_ns);
+  EXPECT_EQ(at(1080, 1.0, 300.0).state, msg::STATE_READY) << "somebody has looked";
 }
 
 TEST_P(DeskOfSomeCapabilities, IsRefusedWhereOneThatItLacksIsDemanded) {
