@@ -17,7 +17,7 @@
 namespace trivela::cli {
 namespace {
 
-using evaluator::log::Value;
+using LogCell = evaluator::log::Value;
 
 struct QueryArguments {
   std::string log;
@@ -30,7 +30,7 @@ struct QueryArguments {
 };
 
 /// NULL is an empty text; bytes are their hexadecimal digits.
-std::string text_of(const Value& cell) {
+std::string text_of_cell(const LogCell& cell) {
   if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return fmt::to_string(*whole);
   if (const auto* const number = std::get_if<double>(&cell)) return fmt::to_string(*number);
   if (const auto* const text = std::get_if<std::string>(&cell)) return *text;
@@ -41,16 +41,16 @@ std::string text_of(const Value& cell) {
   return digits;
 }
 
-nlohmann::ordered_json json_of_cell(const Value& cell) {
+nlohmann::ordered_json json_of_cell(const LogCell& cell) {
   if (std::holds_alternative<std::monostate>(cell)) return nullptr;
   if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return *whole;
   if (const auto* const number = std::get_if<double>(&cell)) return *number;
-  return text_of(cell);
+  return text_of_cell(cell);
 }
 
-std::vector<std::string> texts_of(std::span<const Value> row) {
+std::vector<std::string> texts_of(std::span<const LogCell> row) {
   std::vector<std::string> texts;
-  for (const Value& cell : row) texts.push_back(text_of(cell));
+  for (const LogCell& cell : row) texts.push_back(text_of_cell(cell));
   return texts;
 }
 
@@ -78,7 +78,7 @@ void print_rows(const evaluator::log::Reader& reader, const QueryArguments& argu
         if (arguments.csv) fmt::print("{}", csv_line(names));
         if (!arguments.csv && !arguments.json) rows.push_back(names);
       },
-      [&](std::span<const Value> row) {
+      [&](std::span<const LogCell> row) {
         ++count;
         if (arguments.csv) {
           fmt::print("{}", csv_line(texts_of(row)));

@@ -13,7 +13,6 @@
 namespace trivela::cli {
 namespace {
 
-using std::chrono::nanoseconds;
 /// A device that never runs dry, such as a recorded one, is left after so many samples of one look.
 constexpr int kMostOfALook = 64;
 
@@ -56,7 +55,7 @@ class WheelsFixture final : public Fixture {
  public:
   WheelsFixture(std::unique_ptr<hal::Wheels> wheels, const std::string& device)
       : Fixture("wheels", device), wheels_(std::move(wheels)) {}
-  bool found() override { return wheels_->connected(nanoseconds{0}); }
+  bool found() override { return wheels_->connected(std::chrono::nanoseconds{0}); }
   std::string says() const override {
     const std::string status = wheels_->status();
     if (!newest_) return status;
@@ -65,7 +64,7 @@ class WheelsFixture final : public Fixture {
   }
   void look() override {
     for (int i = 0; i < kMostOfALook; ++i) {
-      const auto sample = wheels_->read(nanoseconds{0});
+      const auto sample = wheels_->read(std::chrono::nanoseconds{0});
       if (!sample) return;
       newest_ = sample;
       rate_.count();
@@ -86,7 +85,7 @@ class KickerFixture final : public Fixture {
  public:
   KickerFixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device)
       : Fixture("kicker", device), kicker_(std::move(kicker)) {}
-  bool found() override { return kicker_->connected(nanoseconds{0}); }
+  bool found() override { return kicker_->connected(std::chrono::nanoseconds{0}); }
   std::string says() const override {
     const hal::KickerCapabilities can = kicker_->capabilities();
     std::string text = kicker_->status();
@@ -99,7 +98,7 @@ class KickerFixture final : public Fixture {
   }
   void look() override {
     for (int i = 0; i < kMostOfALook; ++i) {
-      const auto sample = kicker_->read(nanoseconds{0});
+      const auto sample = kicker_->read(std::chrono::nanoseconds{0});
       if (!sample) return;
       newest_ = sample;
       rate_.count();
@@ -120,7 +119,7 @@ class RangeFinderFixture final : public Fixture {
  public:
   RangeFinderFixture(std::unique_ptr<hal::RangeFinder> finder, const std::string& device)
       : Fixture("range finder", device), finder_(std::move(finder)) {}
-  bool found() override { return finder_->connected(nanoseconds{0}); }
+  bool found() override { return finder_->connected(std::chrono::nanoseconds{0}); }
   std::string says() const override {
     if (!finder_->up()) return finder_->status();
     const auto identity = finder_->identity();
@@ -128,7 +127,7 @@ class RangeFinderFixture final : public Fixture {
                        finder_->status());
   }
   void look() override {
-    const auto scan = finder_->read(nanoseconds{0});
+    const auto scan = finder_->read(std::chrono::nanoseconds{0});
     if (!scan) return;
     rate_.count();
     const std::size_t middle = scan->range_mm.size() / 2;
@@ -155,7 +154,7 @@ class RefereeBoxFixture final : public Fixture {
   std::string says() const override { return why_; }
   void look() override {
     for (int i = 0; i < kMostOfALook; ++i) {
-      const auto event = link_->client->next(nanoseconds{0});
+      const auto event = link_->client->next(std::chrono::nanoseconds{0});
       if (!event) return;
       std::visit([this](const auto& what) { take(what); }, *event);
     }

@@ -118,7 +118,7 @@ TEST_F(CalibratedRobot, HasTheLeversHeightOfItsTable) {
 TEST_F(CalibratedRobot, PutsItsLeverWhereTheTableWasMeasured) {
   const Robot robot = load_robot(file(kTable + "levers = [120, 120]\n"));
   Hal devices;
-  EXPECT_EQ(text_of(hal_for(devices, robot).kicker), "sim") << "which has none";
+  EXPECT_EQ(text_of(hal_for(devices, robot).kicker), "bus") << "which has none";
   devices.kicker = IoBoardDevice{};
   EXPECT_EQ(std::get<IoBoardDevice>(hal_for(devices, robot).kicker).lever, 120);
   EXPECT_EQ(std::get<IoBoardDevice>(hal_for(devices, Robot{}).kicker).lever, std::nullopt);

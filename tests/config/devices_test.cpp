@@ -138,9 +138,9 @@ TEST(Cia402, HasItsSettingsInATableOfItsName) {
   EXPECT_EQ(drives.heartbeat_s, 0.1);
   EXPECT_EQ(drives.port, "can0");
   EXPECT_THAT(refusal({"hal.wheels = \"cia402\"", "hal.cia402.nodes = [0, 1, 2]"}),
-              HasSubstr("hal.cia402.nodes = 0: must lie in [1, 127]"));
+              HasSubstr("hal.cia402.nodes = [ 0, 1, 2 ]: must lie in [1, 127]"));
   EXPECT_THAT(refusal({"hal.wheels = \"cia402\"", "hal.cia402.heartbeat_s = 2.0"}),
-              HasSubstr("hal.cia402.heartbeat_s = 2: must lie in [0.1, 1]"));
+              HasSubstr("hal.cia402.heartbeat_s = 2.0: must lie in [0.1, 1]"));
 }
 
 TEST(Gyro, IsThatOfTheWheelsUnlessTheFileNamesOneOfItsOwn) {

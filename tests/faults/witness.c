@@ -18,6 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "idl/device.h"
 #include "idl/kick.h"
 #include "idl/robot.h"
 #include "idl/sim.h"

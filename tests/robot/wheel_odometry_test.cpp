@@ -16,7 +16,7 @@ namespace {
 using kicking::OmniKinematics;
 using kicking::Twist;
 
-const config::WheelBase kBase{};
+const kicking::WheelBase kBase{};
 constexpr std::int64_t kCycle_ns = 20'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
