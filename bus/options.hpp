@@ -33,10 +33,8 @@ struct ReaderOptions {
   /// Keep every sample until it is taken (the recorder), also while an executor stops; else as many as the profile
   /// says.
   bool keep_all = false;
-  /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write. With
-  /// liveliness_of it is told of the writers of this owner alone.
+  /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write.
   std::function<void(const Liveliness&)> on_liveliness = {};
-  std::string liveliness_of = {};
 };
 
 }  // namespace trivela::bus

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <utility>
 
 #include "bus/cyclone.hpp"
@@ -56,51 +55,9 @@ class Loan {
 }  // namespace
 
 struct AnyReader::Callbacks {
-  Callbacks(DataListener on_data, void* with, const ReaderOptions& options)
-      : data(on_data), context(with), liveliness(options.on_liveliness), owner(options.liveliness_of) {}
-
-  const DataListener data;
-  void* const context;
-  const std::function<void(const Liveliness&)> liveliness;
-  const std::string owner;  // whose liveliness counts; empty: everybody's
-
-  void changed(dds_entity_t reader, const dds_liveliness_changed_status_t& status) noexcept {
-    if (owner.empty()) return liveliness({status.alive_count, status.not_alive_count});
-    const std::lock_guard lock(mutex_);
-    if (!is_of_current(reader)) return;
-    const auto handle = status.last_publication_handle;
-    if (std::find(strangers_.begin(), strangers_.end(), handle) != strangers_.end()) return;
-    const auto known = std::find(own_.begin(), own_.end(), handle);
-    if (known == own_.end()) {
-      dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, handle);
-      if (endpoint == nullptr) return;
-      const bool is_own = owner_of(endpoint->qos) == owner;
-      dds_builtintopic_free_endpoint(endpoint);
-      std::vector<dds_instance_handle_t>& list = is_own ? own_ : strangers_;
-      constexpr std::size_t kMost = 64;  // writers come and go
-      if (list.size() == kMost) list.erase(list.begin());
-      list.push_back(handle);
-      if (!is_own) return;
-    }
-    alive_ += status.alive_count_change;
-    lapsed_ += status.not_alive_count_change;
-    liveliness({static_cast<std::uint32_t>(std::max(alive_, 0)), static_cast<std::uint32_t>(std::max(lapsed_, 0))});
-  }
-
- private:
-  /// A reader that is made anew counts from nothing; its predecessor is heard no more.
-  bool is_of_current(dds_entity_t reader) {
-    if (reader == retired_) return false;
-    if (reader == current_) return true;
-    retired_ = std::exchange(current_, reader);
-    alive_ = lapsed_ = 0;
-    return true;
-  }
-
-  std::mutex mutex_;
-  dds_entity_t current_ = 0, retired_ = 0;
-  std::vector<dds_instance_handle_t> own_, strangers_;
-  std::int32_t alive_ = 0, lapsed_ = 0;
+  DataListener data;
+  void* context;
+  std::function<void(const Liveliness&)> liveliness;
 };
 
 void AnyReader::DeleteCallbacks::operator()(Callbacks* callbacks) const noexcept { delete callbacks; }
@@ -113,7 +70,7 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
       profile_(profile),
       options_(options),
       periodic_(period > period.zero()),
-      callbacks_(new Callbacks{listener, context, options}) {
+      callbacks_(new Callbacks{listener, context, options.on_liveliness}) {
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
   if (const Hearing* hearing = participant_.hearing()) {
@@ -133,10 +90,10 @@ Entity AnyReader::open() const {
     });
   }
   if (callbacks_->liveliness) {
-    dds_lset_liveliness_changed(listeners.get(),
-                                [](dds_entity_t reader, dds_liveliness_changed_status_t status, void* arg) noexcept {
-                                  static_cast<Callbacks*>(arg)->changed(reader, status);
-                                });
+    dds_lset_liveliness_changed(
+        listeners.get(), [](dds_entity_t, dds_liveliness_changed_status_t status, void* arg) noexcept {
+          static_cast<const Callbacks*>(arg)->liveliness({status.alive_count, status.not_alive_count});
+        });
   }
   const Qos qos = reader_qos(profile_, options_);
   Entity reader(checked(dds_create_reader(participant_.handle(), topic_entity_.handle(), qos.get(), listeners.get()),

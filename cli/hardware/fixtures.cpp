@@ -57,7 +57,7 @@ class WheelsFixture final : public Fixture {
       : Fixture("wheels", device), wheels_(std::move(wheels)) {}
   bool found() override { return wheels_->connected(std::chrono::nanoseconds{0}); }
   std::string says() const override {
-    const std::string status = wheels_->status();
+    std::string status = wheels_->status();
     if (!newest_) return status;
     return fmt::format("{} wheels, {} gyro{}{}", newest_->wheel_count, newest_->gyro_radps ? "a" : "no",
                        status.empty() ? "" : "; ", status);

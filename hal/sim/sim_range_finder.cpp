@@ -15,8 +15,7 @@ constexpr std::uint64_t kMostSkipped = 10'000;  // minutes of scans; a number fa
 }  // namespace
 
 SimRangeFinder::SimRangeFinder(const bus::Participant& participant, std::uint8_t robot_id)
-    : robot_id_(robot_id),
-      reader_(participant, {.period = {}, .keep_all = true, .on_liveliness = {}, .liveliness_of = {}}) {}
+    : robot_id_(robot_id), reader_(participant, {.period = {}, .keep_all = true, .on_liveliness = {}}) {}
 
 void SimRangeFinder::take() {
   bus::renew_if_silent(reader_);

@@ -40,7 +40,9 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
                            bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), words);
-    orders.liveliness_of = own_decision_;
+    node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) {
+      if (info.owner == own_decision_) decision_heard_ns_ = context_.steady_ns();
+    });
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");
@@ -102,10 +104,14 @@ void KickerDriverNode::tell_charge() {
   kicker_->charge(desk_.charge_word());
 }
 
-/// A decision node that has gone takes the charge with it.
+/// A decision node that has gone takes the charge with it. It says `drive` every cycle; that its writer of orders is
+/// alive would be no sign: one that has lapsed once stays so until it orders again, and nobody orders of a driver that
+/// is off.
 void KickerDriverNode::look_for_decision() {
   if (context_.settings.run.lockstep) return;
-  const bool lost = loop_.lost(context_.steady_ns());
+  constexpr std::int64_t kLost_ns = 200'000'000;
+  const std::int64_t heard_ns = decision_heard_ns_;
+  const bool lost = heard_ns != 0 && context_.steady_ns() - heard_ns > kLost_ns;
   if (lost && !decision_lost_) context_.logger->warn("the decision node is gone: the capacitor is to be emptied");
   decision_lost_ = lost;
   desk_.decision_node(!lost, now_t_ns());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -49,6 +50,7 @@ class KickerDriverNode {
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
   bool decision_lost_ = false;
+  std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
   std::string link_said_;
   robot::LoopWatch loop_;
   std::string own_decision_;  // owner of the writer whose orders count

@@ -41,7 +41,7 @@ EmulatedDevices::EmulatedDevices(const config::Settings& settings, const kicking
                                  std::shared_ptr<spdlog::logger> logger)
     : logger_(std::move(logger)),
       kicker_(hal::emulated_kicker(playable(settings).hal.kicker)),
-      base_(hal::emulated_base(settings.hal.wheels, base)),
+      base_(hal::emulated_wheels(settings.hal.wheels, base)),
       box_(box_of(settings.refbox)),
       voice_(our_team(settings.refbox)) {}
 

@@ -10,7 +10,7 @@
 #include "bus/stop.hpp"
 #include "config/settings.hpp"
 #include "hal/board/emulated_kicker.hpp"
-#include "hal/cia402/emulated_base.hpp"
+#include "hal/cia402/emulated_wheels.hpp"
 #include "hal/refbox/emulated_box.hpp"
 #include "hal/refbox/referee_voice.hpp"
 #include "sim/sensors.hpp"
@@ -57,7 +57,7 @@ class EmulatedDevices {
 
   std::shared_ptr<spdlog::logger> logger_;
   std::unique_ptr<hal::EmulatedKicker> kicker_;  // none: on the bus
-  std::unique_ptr<hal::EmulatedBase> base_;      // none: on the bus
+  std::unique_ptr<hal::EmulatedWheels> base_;      // none: on the bus
   hal::refbox::EmulatedBox box_;
   hal::refbox::RefereeVoice voice_;
 };

@@ -16,8 +16,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>(
           {.period = {},
            .keep_all = false,
-           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); },
-           .liveliness_of = {}})),
+           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }})),
       kicker_(node_.stores<msg::KickerStatus>()),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");

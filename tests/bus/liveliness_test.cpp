@@ -70,28 +70,6 @@ TEST(Liveliness, AWriterThatGoesAwayIsReported) {
   EXPECT_TRUE(watch.wait(0, 0));
 }
 
-TEST(Liveliness, OfOneOwnersWritersIsToldApartFromThatOfOthers) {
-  const auto wire = fresh_wire_pair();
-  const Participant there(wire.a);
-  Watch watch;
-  ReaderOptions options = watch.options();
-  options.liveliness_of = "kick_decision/1";
-  Reader<msg::KickOrder> reader(Participant(wire.b), options);
-  Writer<msg::KickOrder> stranger(there, {.lease = seconds(10), .strength = 5, .owner = "kick_decision/2"});
-  ASSERT_TRUE(stranger.wait_for_readers(1, seconds(10)));
-  {
-    Writer<msg::KickOrder> own(there, {.lease = milliseconds(50), .owner = "kick_decision/1"});
-    ASSERT_TRUE(own.wait_for_readers(1, seconds(10)));
-    own.assert_liveliness();
-    ASSERT_TRUE(watch.wait(1, 0)) << "the stranger is not counted";
-    EXPECT_TRUE(watch.wait(0, 1));
-    own.assert_liveliness();
-    EXPECT_TRUE(watch.wait(1, 0));
-  }
-  EXPECT_TRUE(watch.wait(0, 0));
-  EXPECT_EQ(reader.writers(), 1u);
-}
-
 TEST(Liveliness, OfTwoWritersTheStrongerIsHeardUntilItLapses) {
   const Participant participant(fresh_domain());
   Writer<msg::KickOrder> chief(participant, {.lease = milliseconds(50), .strength = 2});

@@ -77,7 +77,7 @@ TEST(Renewal, ASilentReaderMadeAnewHearsNothingTwiceAndMissesNothing) {
 TEST(Renewal, EventsThatAreSaidWhileTheirReaderIsMadeAnewAreHeardOnceEach) {
   Wire wire;  // its own reader hears nothing, so that all are made anew
   Writer<msg::KickReceipt> events{wire.near};
-  Reader<msg::KickReceipt> hears{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}, .liveliness_of = {}}};
+  Reader<msg::KickReceipt> hears{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}}};
   ASSERT_TRUE(events.wait_for_readers(1, kPlenty));
   ASSERT_TRUE(renewed(wire.reader));
   std::vector<std::uint64_t> heard;

@@ -8,7 +8,7 @@
 namespace trivela::faults {
 namespace {
 
-bus::ReaderOptions everything() { return {.period = {}, .keep_all = true, .on_liveliness = {}, .liveliness_of = {}}; }
+bus::ReaderOptions everything() { return {.period = {}, .keep_all = true, .on_liveliness = {}}; }
 
 }  // namespace
 

@@ -20,7 +20,7 @@ struct BusWorld {
   bus::Participant there{domains.a};
   bus::Participant here{domains.b};
   bus::Writer<Sample> samples{there};
-  bus::Reader<Command> commands{there, {.period = {}, .keep_all = true, .on_liveliness = {}, .liveliness_of = {}}};
+  bus::Reader<Command> commands{there, {.period = {}, .keep_all = true, .on_liveliness = {}}};
 
   /// The next n commands that arrive, fewer if they do not come.
   std::vector<Command> received(std::size_t n) {

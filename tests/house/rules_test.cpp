@@ -126,8 +126,12 @@ TEST(House, StoreysOfKickingRestOnThoseBelow) {
 
 TEST(House, EveryOuterLibraryHasOneDoor) {
   const std::map<std::string, std::vector<std::string>> doors{
-      {"dds/", {"bus/", "idl/"}},         {"SQLiteCpp/", {"evaluator/log/"}},   {"sqlite3.h", {"evaluator/log/"}},
-      {"toml++/", {"config/"}},           {"CLI/", {"cli/", "nodes/runtime/"}}, {"httplib.h", {"pages/lob/"}},
+      {"dds/", {"bus/", "idl/", "examples/bridge/", "examples/vision/"}},
+      {"SQLiteCpp/", {"evaluator/log/"}},
+      {"sqlite3.h", {"evaluator/log/"}},
+      {"toml++/", {"config/"}},
+      {"CLI/", {"cli/", "nodes/runtime/"}},
+      {"httplib.h", {"pages/lob/"}},
       {"zlib.h", {"evaluator/imports/"}},
   };
   std::vector<std::string> broken;

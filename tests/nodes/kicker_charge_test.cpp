@@ -57,20 +57,22 @@ TEST_F(KickerCharge, IsToldWithEachSampleAndToEmptyWhenTheProgramEnds) {
 }
 
 TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
-  std::optional<bus::Writer<msg::KickOrder>> decision{
-      std::in_place, participant,
-      bus::WriterOptions{.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/1"}};
-  const bus::Writer<msg::KickOrder> stranger{
-      participant, {.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/2"}};
+  Says<msg::DriveCommand> decision{participant, 1, "kick_decision/1"};
+  Says<msg::DriveCommand> stranger{participant, 1, "somebody"};
   start();
-  ASSERT_TRUE(decision->wait_for_readers(1, kPlenty));
-  ASSERT_TRUE(stranger.wait_for_readers(1, kPlenty));
-  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_READY; }, 1.0, 300.0));
-  decision.reset();
-  EXPECT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_OFF; }, 1.0, 300.0))
-      << "somebody else's decision node is no comfort";
+  decision.expect_reader();
+  stranger.expect_reader();
+  const auto drives = [](Says<msg::DriveCommand>& who, msg::KickerState wanted) {
+    return [&who, wanted](const msg::KickerStatus& said) {
+      who({});
+      return said.state == wanted;
+    };
+  };
+  ASSERT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0));
+  EXPECT_TRUE(goes_on_until(drives(stranger, msg::STATE_OFF), 1.0, 300.0)) << "somebody else is no comfort";
   EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
   EXPECT_TRUE(log_lines->wait_for("the decision node is gone"));
+  EXPECT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0)) << "it is back";
 }
 
 TEST_F(KickerCharge, EndsWhereTheVoltageDoesNotRise) {

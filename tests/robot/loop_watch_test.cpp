@@ -37,27 +37,6 @@ TEST(LoopWatch, OneThatLeavesIsGoneAndItsSuccessorBeginsAnew) {
   EXPECT_FALSE(watch.fell_silent(0, 1, 3100 * kMillisecond_ns));
 }
 
-TEST(LoopWatch, IsLostATenthOfASecondAfterItFellSilentOrLeft) {
-  for (const std::uint32_t lapsed : {0u, 1u}) {
-    LoopWatch watch;
-    watch.fell_silent(1, 0, 0);
-    EXPECT_FALSE(watch.lost(1900 * kMillisecond_ns));
-    watch.fell_silent(0, lapsed, 2000 * kMillisecond_ns);
-    EXPECT_FALSE(watch.lost(2099 * kMillisecond_ns));
-    EXPECT_TRUE(watch.lost(2100 * kMillisecond_ns)) << lapsed;
-    watch.fell_silent(1, 0, 2200 * kMillisecond_ns);
-    EXPECT_FALSE(watch.lost(9000 * kMillisecond_ns));
-  }
-}
-
-TEST(LoopWatch, OneThatWaitsForItsFirstWorldStateIsNotLost) {
-  LoopWatch watch;
-  EXPECT_FALSE(watch.lost(1000 * kMillisecond_ns));
-  watch.fell_silent(1, 0, 0);
-  watch.fell_silent(0, 1, 100 * kMillisecond_ns);
-  EXPECT_FALSE(watch.lost(9000 * kMillisecond_ns));
-}
-
 TEST(LoopWatch, ASecondWriterIsNoReturnOfTheFirst) {
   LoopWatch watch;
   EXPECT_FALSE(watch.fell_silent(1, 0, 0));

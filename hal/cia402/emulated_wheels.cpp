@@ -1,4 +1,4 @@
-#include "hal/cia402/emulated_base.hpp"
+#include "hal/cia402/emulated_wheels.hpp"
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@ std::uint8_t drives_for(const config::Cia402Device& host) {
 
 }  // namespace
 
-EmulatedBase::EmulatedBase(const config::Cia402Device& host, const kicking::WheelBase& base)
+EmulatedWheels::EmulatedWheels(const config::Cia402Device& host, const kicking::WheelBase& base)
     : host_(host), kinematics_(base), gear_(host.gear.value_or(kGear)), emulator_(drives_for(host)) {
   emulator_.with_board([&](cia402::EmulatedDrives& drives) {
     for (const std::uint8_t node : host_.nodes) {
@@ -29,11 +29,11 @@ EmulatedBase::EmulatedBase(const config::Cia402Device& host, const kicking::Whee
   });
 }
 
-std::string EmulatedBase::setting() const {
+std::string EmulatedWheels::setting() const {
   return fmt::format("hal.{}.port=\"{}\"", config::Cia402Device::kName, emulator_.address());
 }
 
-bool EmulatedBase::wait_for_host(std::chrono::nanoseconds timeout) {
+bool EmulatedWheels::wait_for_host(std::chrono::nanoseconds timeout) {
   return emulator_.wait(timeout, [this](const cia402::EmulatedDrives& drives) {
     return std::ranges::all_of(host_.nodes, [&](std::uint8_t node) {
       return drives.drives().at(node - 1U).state() == cia402::DriveState::kEnabled;
@@ -42,19 +42,19 @@ bool EmulatedBase::wait_for_host(std::chrono::nanoseconds timeout) {
 }
 
 /// Of the drive's velocity, for one rad/s of its wheel counter-clockwise.
-double EmulatedBase::units_per_radps(std::uint8_t node) const {
+double EmulatedWheels::units_per_radps(std::uint8_t node) const {
   const double sign = std::ranges::count(host_.reversed, node) > 0 ? -1.0 : 1.0;
   return sign * gear_ * 60.0 / (2.0 * std::numbers::pi) / host_.rpm_per_unit.value_or(1.0);
 }
 
-void EmulatedBase::show(const std::array<double, 4>& wheel_radps) {
+void EmulatedWheels::show(const std::array<double, 4>& wheel_radps) {
   emulator_.with_board([&](cia402::EmulatedDrives& drives) {
     for (std::size_t i = 0; i < std::min(host_.nodes.size(), wheel_radps.size()); ++i)
       drives.drive(host_.nodes[i]).measured_rpm = wheel_radps[i] * units_per_radps(host_.nodes[i]);
   });
 }
 
-kicking::Twist EmulatedBase::set_point() {
+kicking::Twist EmulatedWheels::set_point() {
   std::array<double, 4> wheel_radps{};
   emulator_.with_board([&](cia402::EmulatedDrives& drives) {
     for (std::size_t i = 0; i < std::min(host_.nodes.size(), wheel_radps.size()); ++i) {
@@ -66,9 +66,9 @@ kicking::Twist EmulatedBase::set_point() {
   return kinematics_.twist(wheel_radps);
 }
 
-std::unique_ptr<EmulatedBase> emulated_base(const config::WheelsDevice& host, const kicking::WheelBase& base) {
+std::unique_ptr<EmulatedWheels> emulated_wheels(const config::WheelsDevice& host, const kicking::WheelBase& base) {
   const auto* const drives = std::get_if<config::Cia402Device>(&host);
-  return drives == nullptr ? nullptr : std::make_unique<EmulatedBase>(*drives, base);
+  return drives == nullptr ? nullptr : std::make_unique<EmulatedWheels>(*drives, base);
 }
 
 }  // namespace trivela::hal

@@ -14,7 +14,7 @@ namespace trivela::hal {
 
 /// The drives of a world's base on their bus: what the world says of the wheels is what the drives measure, and the
 /// velocities that the drives are told are where the world's base goes.
-class EmulatedBase {
+class EmulatedWheels {
  public:
   /// Turns of the motor for one of the wheel, where the host's settings leave it to the drives (Hibikino-Musashi,
   /// musashi_movebase_config.yaml).
@@ -22,7 +22,7 @@ class EmulatedBase {
 
   /// The drives that a host of these settings speaks to, on a robot with that base. Throws std::runtime_error naming
   /// what the system refuses.
-  EmulatedBase(const config::Cia402Device& host, const kicking::WheelBase& base);
+  EmulatedWheels(const config::Cia402Device& host, const kicking::WheelBase& base);
 
   /// The setting by which a host finds them: `hal.cia402.port="/tmp/..."`.
   std::string setting() const;
@@ -45,7 +45,7 @@ class EmulatedBase {
   cia402::Emulator emulator_;
 };
 
-/// None: the host speaks to no drives. Throws as EmulatedBase.
-std::unique_ptr<EmulatedBase> emulated_base(const config::WheelsDevice& host, const kicking::WheelBase& base);
+/// None: the host speaks to no drives. Throws as EmulatedWheels.
+std::unique_ptr<EmulatedWheels> emulated_wheels(const config::WheelsDevice& host, const kicking::WheelBase& base);
 
 }  // namespace trivela::hal

@@ -1,5 +1,5 @@
 // The drives of a world's base and the backend of a robot, over the bus between them.
-#include "hal/cia402/emulated_base.hpp"
+#include "hal/cia402/emulated_wheels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +13,11 @@ namespace trivela::hal {
 namespace {
 
 constexpr std::chrono::seconds kPlenty{20};
-constexpr double kUnit_radps = 2.0 * 3.14159265 / 60.0 / EmulatedBase::kGear;  // of a wheel: 1 rpm of its motor
+constexpr double kUnit_radps = 2.0 * 3.14159265 / 60.0 / EmulatedWheels::kGear;  // of a wheel: 1 rpm of its motor
 
-class EmulatedBaseTest : public testing::TestWithParam<config::Cia402Device> {
+class EmulatedWheelsTest : public testing::TestWithParam<config::Cia402Device> {
  protected:
-  EmulatedBaseTest() : world(emulated_base(GetParam(), base)) {
+  EmulatedWheelsTest() : world(emulated_wheels(GetParam(), base)) {
     config::Cia402Device host = GetParam();
     const std::string setting = world->setting();
     host.port = setting.substr(setting.find('"') + 1, setting.size() - setting.find('"') - 2);
@@ -33,11 +33,11 @@ class EmulatedBaseTest : public testing::TestWithParam<config::Cia402Device> {
   }
 
   const kicking::WheelBase base{};
-  std::unique_ptr<EmulatedBase> world;
+  std::unique_ptr<EmulatedWheels> world;
   std::unique_ptr<Wheels> wheels;
 };
 
-TEST_P(EmulatedBaseTest, WhatTheWorldSaysOfTheWheelsIsWhatAHostMeasures) {
+TEST_P(EmulatedWheelsTest, WhatTheWorldSaysOfTheWheelsIsWhatAHostMeasures) {
   ASSERT_TRUE(world->wait_for_host(kPlenty));
   const std::array<double, 4> turning{3.0, -20.0, 0.7, 0.0};
   world->show(turning);
@@ -48,7 +48,7 @@ TEST_P(EmulatedBaseTest, WhatTheWorldSaysOfTheWheelsIsWhatAHostMeasures) {
   }));
 }
 
-TEST_P(EmulatedBaseTest, TheMotionThatAHostOrdersIsWhereTheWorldsBaseGoes) {
+TEST_P(EmulatedWheelsTest, TheMotionThatAHostOrdersIsWhereTheWorldsBaseGoes) {
   ASSERT_TRUE(world->wait_for_host(kPlenty));
   const kicking::Twist ordered{0.4, -1.5, 0.9};
   wheels->drive(ordered, 0);
@@ -61,7 +61,7 @@ TEST_P(EmulatedBaseTest, TheMotionThatAHostOrdersIsWhereTheWorldsBaseGoes) {
   EXPECT_NEAR(told.omega_radps, ordered.omega_radps, 0.005);
 }
 
-TEST_P(EmulatedBaseTest, TheWorldsBaseStandsWhenItsHostIsGone) {
+TEST_P(EmulatedWheelsTest, TheWorldsBaseStandsWhenItsHostIsGone) {
   ASSERT_TRUE(world->wait_for_host(kPlenty));
   wheels->drive({0.0, 1.0, 0.0}, 0);
   ASSERT_TRUE(read_until([&](const WheelSample&) { return world->set_point().vy_mps > 0.9; }));
@@ -72,12 +72,18 @@ TEST_P(EmulatedBaseTest, TheWorldsBaseStandsWhenItsHostIsGone) {
 }
 
 // A heartbeat that lasts so long that a busy machine stops no wheel.
-INSTANTIATE_TEST_SUITE_P(Hosts, EmulatedBaseTest,
+INSTANTIATE_TEST_SUITE_P(Hosts, EmulatedWheelsTest,
                          testing::Values(config::Cia402Device{.heartbeat_s = 10.0},
                                          config::Cia402Device{.nodes = {3, 1, 4}, .reversed = {1}, .heartbeat_s = 10.0},
-                                         config::Cia402Device{.gear = 12.0, .rpm_per_unit = 0.1, .heartbeat_s = 10.0}));
+                                         config::Cia402Device{.gear = 12.0, .rpm_per_unit = 0.1, .heartbeat_s = 10.0}),
+                         [](const auto& of) {
+                           const auto& nodes = of.param.nodes;
+                           return of.param.gear        ? std::string("gear")
+                                  : nodes.front() == 1 ? std::string("in_order")
+                                                       : std::string("reversed");
+                         });
 
-TEST(EmulatedBase, WheelsOnTheBusHaveNoDrives) { EXPECT_EQ(emulated_base(config::BusDevice{}, {}), nullptr); }
+TEST(EmulatedWheels, WheelsOnTheBusHaveNoDrives) { EXPECT_EQ(emulated_wheels(config::BusDevice{}, {}), nullptr); }
 
 }  // namespace
 }  // namespace trivela::hal
