@@ -32,6 +32,9 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       [this](const hal::KickerSample& sample) { on_sample(sample); },
       bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
                   msg::StepDone>());
+  node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) {
+    if (info.owner == own_decision_) decision_heard_ns_ = context_.steady_ns();
+  });
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -40,9 +43,6 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
                            bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), words);
-    node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) {
-      if (info.owner == own_decision_) decision_heard_ns_ = context_.steady_ns();
-    });
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");

@@ -57,7 +57,7 @@ class EmulatedDevices {
 
   std::shared_ptr<spdlog::logger> logger_;
   std::unique_ptr<hal::EmulatedKicker> kicker_;  // none: on the bus
-  std::unique_ptr<hal::EmulatedWheels> base_;      // none: on the bus
+  std::unique_ptr<hal::EmulatedWheels> base_;    // none: on the bus
   hal::refbox::EmulatedBox box_;
   hal::refbox::RefereeVoice voice_;
 };
