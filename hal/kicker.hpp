@@ -20,8 +20,8 @@ struct KickerSample {
   bool emulated = false;              ///< the board is a program
 };
 
-/// What a device can do beyond firing and saying whether it may.
-struct KickerCapabilities {
+/// What a device can do beyond firing and saying whether it may. Aligned so that an atomic one needs no lock.
+struct alignas(4) KickerCapabilities {
   bool charge_control = false;  ///< charging is switched on and off by its host
   bool voltage = false;         ///< it measures its capacitor
   bool discharge = false;       ///< it empties its capacitor when told
