@@ -10,41 +10,20 @@
 #include "hal/can/frame.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "hal/rekick/rekick.hpp"
+#include "tests/fuzz/script.hpp"
 #include "tests/hal/scripted_line.hpp"
 
 namespace {
 
 using namespace trivela;
+using trivela::tests::require, trivela::tests::Script;
 
 constexpr std::int64_t kMs = 1'000'000;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 bool is_kick(const std::string& written, bool over_can) {
   if (!over_can) return written.at(1) == static_cast<char>(hal::ioboard::Command::kShoot);
   return hal::can::decode(written).at(0).data[0] == static_cast<std::uint8_t>(hal::rekick::Command::kKick);
 }
-
-/// Bytes one after the other; none left: zeros.
-class Script {
- public:
-  explicit Script(std::string_view bytes) : bytes_(bytes) {}
-  bool over() const { return bytes_.empty(); }
-  std::uint8_t byte() {
-    const std::string one = take(1);
-    return one.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(one[0]);
-  }
-  std::string take(std::size_t count) {
-    std::string taken{bytes_.substr(0, count)};
-    bytes_.remove_prefix(taken.size());
-    return taken;
-  }
-
- private:
-  std::string_view bytes_;
-};
 
 void play(hal::KickerBoard& board, tests::ScriptedEnd& end, Script& script, bool over_can) {
   std::int64_t now_ns = 0;

@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "hal/refbox/words.hpp"
+#include "tests/fuzz/script.hpp"
 
 namespace {
 
 using namespace trivela::hal::refbox;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using trivela::tests::require;
 
 std::vector<Word> words_of(const TeamMarks& team, std::string_view bytes, std::size_t piece) {
   WordStream stream(team);

@@ -11,36 +11,16 @@
 
 #include "hal/cia402/drives.hpp"
 #include "hal/mti/mti.hpp"
+#include "tests/fuzz/script.hpp"
 #include "tests/hal/scripted_line.hpp"
 
 namespace {
 
 using namespace trivela;
 using namespace trivela::hal::cia402;
+using trivela::tests::require, trivela::tests::Script;
 
 constexpr std::int64_t kMs = 1'000'000;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-class Script {
- public:
-  explicit Script(std::string_view bytes) : bytes_(bytes) {}
-  bool over() const { return bytes_.empty(); }
-  std::uint8_t byte() {
-    const std::string one = take(1);
-    return one.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(one[0]);
-  }
-  std::string take(std::size_t count) {
-    std::string taken{bytes_.substr(0, count)};
-    bytes_.remove_prefix(taken.size());
-    return taken;
-  }
-
- private:
-  std::string_view bytes_;
-};
 
 /// What drives answer that mean it well, to what was written since; `spoilt`: some of it is not so.
 void answer(tests::ScriptedEnd& end, std::uint8_t spoilt) {
