@@ -63,14 +63,14 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
     if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.hear(*word);
   }
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
+  if (decision.order) order_out_.write(*decision.order);
+  if (world.possession) decision_out_.write(decider_.record(world, kicker));
+  drive(world, decision.in_charge.judgement);
   if (decision.order) {
-    order_out_.write(*decision.order);
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
                           kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
                           decision.in_charge.judgement.distance_m);
   }
-  if (world.possession) decision_out_.write(decider_.record(world, kicker));
-  drive(world, decision.in_charge.judgement);
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
 }
 

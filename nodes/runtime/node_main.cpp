@@ -75,6 +75,12 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
   }
 }
 
+void warn_of_refusals(const bus::Realtime& granted, spdlog::logger& logger) {
+  if (!granted.scheduled) logger.warn("real-time scheduling was not permitted");
+  if (!granted.memory_locked) logger.warn("memory could not be locked: what was swapped out comes back late");
+  if (!granted.processors_awake) logger.warn("/dev/cpu_dma_latency cannot be held: a sleeping processor wakes up late");
+}
+
 }  // namespace
 
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body) {
@@ -104,9 +110,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     config::override_settings(settings, overrides, "--set");
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
-    if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {
-      logger->warn("real-time scheduling was not permitted");
-    }
+    if (realtime_priority > 0) warn_of_refusals(bus::set_realtime(realtime_priority), *logger);
     const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
       logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
     }};

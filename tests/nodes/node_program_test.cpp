@@ -104,6 +104,20 @@ TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
   EXPECT_EQ(node.exit_code(), 0);
 }
 
+TEST_F(NodeProgramTest, WhatRealTimeIsRefusedIsSaidAndTheNodeGoesOn) {
+  std::vector<std::string> words{"--memlock=0", "--rtprio=0", program("world_state")};
+  if (geteuid() == 0) words.insert(words.begin() + 2, {"setpriv", "--bounding-set", "-sys_nice,-ipc_lock"});
+  for (const std::string& argument : arguments()) words.push_back(argument);
+  words.insert(words.end(), {"--realtime", "10"});
+  bus::Writer<msg::Odometry> writer{participant};
+  Spawned node{"/usr/bin/prlimit", words};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+  EXPECT_THAT(node.said(), AllOf(HasSubstr("real-time scheduling was not permitted"),
+                                 HasSubstr("memory could not be locked"), HasSubstr("robot 1 (cambada_1)")));
+  node.send(SIGTERM);
+  EXPECT_EQ(node.exit_code(), 0) << node.said();
+}
+
 TEST_F(NodeProgramTest, ASecondOneOfAKindEndsWithOneSentence) {
   bus::Writer<msg::Odometry> writer{participant};
   Spawned first{program("world_state"), arguments()};
