@@ -125,6 +125,7 @@ class TableReader {
       }
     }
     std::vector<std::string_view> known;
+    known.reserve(Names<E>::entries.size());
     for (const auto& entry : Names<E>::entries) known.push_back(entry.first);
     fail(key, node, "expected one of: " + joined(known));
   }

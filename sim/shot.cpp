@@ -87,7 +87,7 @@ BallMotion Shot::at_line(const BallMotion& before, double line_y_m, double dt_s,
   until_s = dt_s;
   for (int i = 0; i < 8 && high - low > 0.0; ++i) {
     const double middle_s = low_s - low * (until_s - low_s) / (high - low);
-    const BallMotion middle = after(middle_s);
+    BallMotion middle = after(middle_s);
     const double y = middle.position_m.y() - line_y_m;
     if (std::abs(y) < 1e-9) {
       until_s = middle_s;

@@ -70,6 +70,7 @@ evaluator::Chart chart_of(const TrialsByPower& powers, bool simulated) {
 /// One quantity over the trials of a power.
 kicking::Spread spread(const std::vector<Trial>& trials, double (*quantity)(const Trial&)) {
   std::vector<double> values;
+  values.reserve(trials.size());
   for (const Trial& trial : trials) values.push_back(quantity(trial));
   return kicking::spread_of(values);
 }

@@ -167,6 +167,7 @@ HeldOutLoss held_out_loss(const LearnedModel& model, std::span<const PredictedKi
   out.matches = static_cast<std::int64_t>(by_match.size());
   out.difference = out.learned - out.predictive;
   std::vector<stats::Influence> of_sum;
+  of_sum.reserve(by_match.size());
   for (const auto& [match, cell] : by_match) of_sum.push_back({match, 0, cell.first - cell.second * out.difference});
   const stats::ClusterVariance spread = *stats::cluster_variance(of_sum);
   const double reach = stats::t_of(stats::kConfidence, spread.df) * (std::sqrt(spread.variance) / n);

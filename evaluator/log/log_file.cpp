@@ -178,8 +178,8 @@ void LogFile::ask(const std::string& sql, const std::function<void(const std::ve
   budget_->calls = std::numeric_limits<std::int64_t>::max();
   try {
     SQLite::Statement statement(*database_, sql);
-    std::vector<std::string> names;
-    for (int i = 0; i < statement.getColumnCount(); ++i) names.emplace_back(statement.getColumnName(i));
+    std::vector<std::string> names(static_cast<std::size_t>(statement.getColumnCount()));
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = statement.getColumnName(static_cast<int>(i));
     head(names);
     each_row_of(statement, sql, fn);
   } catch (const SQLite::Exception& error) {

@@ -138,9 +138,9 @@ std::vector<Kick> Reader::kicks() const {
       "ORDER BY session_id, t_ns, robot_id",
       [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns, int half,
           std::int64_t possession_id, const std::string& policy, std::optional<std::int64_t> order_seq,
-          std::optional<bool> accepted, std::optional<std::string> refusal, std::optional<std::string> outcome,
+          std::optional<bool> accepted, std::optional<std::string> refusal, const std::optional<std::string>& outcome,
           std::optional<double> x_cross_m, std::optional<double> z_cross_m, std::optional<double> sd_cross_m,
-          std::optional<std::string> truth_outcome, std::optional<double> truth_x_cross_m,
+          const std::optional<std::string>& truth_outcome, std::optional<double> truth_x_cross_m,
           std::optional<double> truth_z_cross_m, std::optional<double> truth_margin_m) {
         kicks.push_back({.session_id = session_id,
                          .robot_id = robot_id,

@@ -134,6 +134,32 @@ void create_tables(SQLite::Database& database) {
   database.exec(match_schema());
 }
 
+namespace {
+
+/// What a session has several of.
+void insert_lists(SQLite::Database& database, const Session& session, std::int64_t session_id) {
+  for (const DriverCount& driver : session.continued) {
+    SQLite::Statement count(
+        database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)");
+    count.bind(1, session_id);
+    count.bind(2, driver.robot_id);
+    count.bind(3, driver.orders_handled);
+    count.bind(4, driver.orders_refused);
+    count.exec();
+  }
+  for (const HalfPolicy& half : session.policies) {
+    SQLite::Statement policy(database,
+                             "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)");
+    policy.bind(1, session_id);
+    policy.bind(2, half.robot_id);
+    policy.bind(3, half.half);
+    policy.bind(4, half.policy);
+    policy.exec();
+  }
+}
+
+}  // namespace
+
 void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
                     Digests& digests) {
   const std::int64_t session_id = session_id_of(session.uuid);
@@ -166,25 +192,7 @@ void insert_session(SQLite::Database& database, const Session& session, std::opt
   if (session.planned_s) insert.bind(20, *session.planned_s);
   if (session.calibration_id) insert.bind(21, *session.calibration_id);
   insert.exec();
-
-  for (const DriverCount& driver : session.continued) {
-    SQLite::Statement count(
-        database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)");
-    count.bind(1, session_id);
-    count.bind(2, driver.robot_id);
-    count.bind(3, driver.orders_handled);
-    count.bind(4, driver.orders_refused);
-    count.exec();
-  }
-  for (const HalfPolicy& half : session.policies) {
-    SQLite::Statement policy(database,
-                             "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)");
-    policy.bind(1, session_id);
-    policy.bind(2, half.robot_id);
-    policy.bind(3, half.half);
-    policy.bind(4, half.policy);
-    policy.exec();
-  }
+  insert_lists(database, session, session_id);
 }
 
 void create_log(SQLite::Database& database, const Session& session) {

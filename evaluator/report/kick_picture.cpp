@@ -107,6 +107,7 @@ class Above {
   }
   std::string line(const char* kind, const std::vector<Point>& places_m) const {
     std::vector<ChartPoint> points;
+    points.reserve(places_m.size());
     for (const Point& place : places_m) points.push_back(px(place));
     return svg_polyline(kind, points);
   }

@@ -34,6 +34,7 @@ std::vector<stats::MatchCounts> cells_of(const KickBook& book, std::uint32_t old
     add(o.group == older ? cell.older : cell.newer, o.ending);
   }
   std::vector<stats::MatchCounts> result;
+  result.reserve(cells.size());
   for (const auto& [key, cell] : cells) result.push_back(cell);
   return result;
 }

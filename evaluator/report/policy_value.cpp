@@ -38,6 +38,7 @@ std::string refusal(const LoggedOpportunities& logged, const std::string& policy
            "done there was never tried (no overlap); play with random assignment, even 10 % is enough";
   }
   std::vector<std::string> names;
+  names.reserve(counts.size());
   for (const auto& [name, n] : counts) names.push_back(fmt::format("{} {} times", name, n));
   return fmt::format("the policy '{}' was never drawn at random (no overlap); drawn were {}", policy,
                      fmt::join(names, ", "));

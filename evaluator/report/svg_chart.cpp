@@ -97,7 +97,8 @@ double column_width(const Chart& chart) {
 std::string legend(const Chart& chart, double x0) {
   std::string svg;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    const double x = x0 + column_width(chart) * static_cast<double>(i / kLegendRows);
+    const std::size_t column = i / kLegendRows;
+    const double x = x0 + column_width(chart) * static_cast<double>(column);
     const double y = kTop + kLegendRow * (0.5 + static_cast<double>(i % kLegendRows));
     const ChartSeries& series = chart.series[i];
     const bool dots = series.mark == ChartMark::kDots;
@@ -134,8 +135,8 @@ std::string to_svg(const Chart& chart) {
                                             : bands_of(chart, kLeft, kLeft + kPlotWidth);
   const Axis y = axis_of(chart, &ChartPoint::y, kTop + kPlotHeight, kTop);
   const double legend_x = kLeft + kPlotWidth + kLegendGap;
-  const auto columns = static_cast<double>((chart.series.size() + kLegendRows - 1) / kLegendRows);
-  const double width = legend_x + columns * column_width(chart);
+  const std::size_t columns = (chart.series.size() + kLegendRows - 1) / kLegendRows;
+  const double width = legend_x + static_cast<double>(columns) * column_width(chart);
   const double height = kTop + kPlotHeight + kBottom;
   std::string svg = svg_head(width, height, chart.title) + axes(chart, x, y);
   for (const ChartSeries& series : chart.series) {

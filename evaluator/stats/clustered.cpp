@@ -47,6 +47,7 @@ std::vector<RatioCell> merged(const std::vector<RatioCell>& cells) {
     sum.spread += cell.spread;
   }
   std::vector<RatioCell> result;
+  result.reserve(sums.size());
   for (const auto& [key, sum] : sums) result.push_back(sum);
   return result;
 }

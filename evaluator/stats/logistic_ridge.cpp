@@ -16,6 +16,47 @@ double logit_of_share(const Eigen::VectorXd& y) {
   return std::log(k / (n - k));
 }
 
+/// -ln likelihood + ridge / 2 |weights|^2 of coefficients whose first is the intercept, and its minimum.
+struct PenalisedLoss {
+  Eigen::MatrixXd design;
+  const Eigen::VectorXd& y;
+  const Eigen::VectorXd& known;  ///< added to the linear predictor
+  Eigen::VectorXd penalty;
+
+  double operator()(const Eigen::VectorXd& b) const {
+    const Eigen::ArrayXd eta = design * b + known;
+    // ln(1 + e^eta) without overflow.
+    const double likelihood = (eta.max(0.0) + (-eta.abs()).exp().log1p() - y.array() * eta).sum();
+    return likelihood + 0.5 * (penalty.array() * b.array().square()).sum();
+  }
+
+  Eigen::VectorXd newton_step(const Eigen::VectorXd& beta) const {
+    const Eigen::ArrayXd p = (design * beta + known).unaryExpr(&kicking::logistic).array();
+    const Eigen::VectorXd gradient =
+        design.transpose() * (y.array() - p).matrix() - (penalty.array() * beta.array()).matrix();
+    Eigen::MatrixXd hessian = design.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * design;
+    hessian.diagonal() += penalty;
+    return hessian.ldlt().solve(gradient);
+  }
+
+  Eigen::VectorXd minimum_from(Eigen::VectorXd beta) const {
+    double current = (*this)(beta);
+    for (int step = 0; step < kSteps; ++step) {
+      Eigen::VectorXd change = newton_step(beta);
+      // Halved until the loss falls: a full step may overshoot where the results are nearly separated.
+      double next = (*this)(beta + change);
+      for (int half = 0; half < 30 && !(next <= current); ++half) {
+        change *= 0.5;
+        next = (*this)(beta + change);
+      }
+      beta += change;
+      current = next;
+      if (change.cwiseAbs().maxCoeff() < kConverged) break;
+    }
+    return beta;
+  }
+};
+
 }  // namespace
 
 double LogisticFit::probability(const Eigen::VectorXd& x) const {
@@ -38,37 +79,13 @@ LogisticFit logistic_ridge(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, d
     if (sd > 1e-9) fit.scales[i] = sd;
   }
   if (y.minCoeff() == y.maxCoeff()) return fit;  // one result alone: no slope, and no end to the intercept
-  Eigen::MatrixXd design(n, m + 1);
-  design.col(0).setOnes();
-  design.rightCols(m) = centred.array().rowwise() / fit.scales.transpose().array();
-  Eigen::VectorXd penalty = Eigen::VectorXd::Constant(m + 1, ridge);
-  penalty[0] = 1e-9;
-  Eigen::VectorXd beta = Eigen::VectorXd::Zero(m + 1);
-  beta[0] = offset.size() == n ? 0.0 : fit.intercept;
-  const auto loss = [&](const Eigen::VectorXd& b) {
-    const Eigen::ArrayXd eta = design * b + known;
-    // ln(1 + e^eta) without overflow.
-    const double likelihood = (eta.max(0.0) + (-eta.abs()).exp().log1p() - y.array() * eta).sum();
-    return likelihood + 0.5 * (penalty.array() * b.array().square()).sum();
-  };
-  double current = loss(beta);
-  for (int step = 0; step < kSteps; ++step) {
-    const Eigen::ArrayXd p = (design * beta + known).unaryExpr(&kicking::logistic).array();
-    const Eigen::VectorXd gradient =
-        design.transpose() * (y.array() - p).matrix() - (penalty.array() * beta.array()).matrix();
-    Eigen::MatrixXd hessian = design.transpose() * (p * (1.0 - p)).matrix().asDiagonal() * design;
-    hessian.diagonal() += penalty;
-    Eigen::VectorXd change = hessian.ldlt().solve(gradient);
-    // Halved until the loss falls: a full step may overshoot where the results are nearly separated.
-    double next = loss(beta + change);
-    for (int half = 0; half < 30 && !(next <= current); ++half) {
-      change *= 0.5;
-      next = loss(beta + change);
-    }
-    beta += change;
-    current = next;
-    if (change.cwiseAbs().maxCoeff() < kConverged) break;
-  }
+  PenalisedLoss loss{Eigen::MatrixXd(n, m + 1), y, known, Eigen::VectorXd::Constant(m + 1, ridge)};
+  loss.design.col(0).setOnes();
+  loss.design.rightCols(m) = centred.array().rowwise() / fit.scales.transpose().array();
+  loss.penalty[0] = 1e-9;
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(m + 1);
+  start[0] = offset.size() == n ? 0.0 : fit.intercept;
+  const Eigen::VectorXd beta = loss.minimum_from(start);
   fit.intercept = beta[0];
   fit.weights = beta.tail(m);
   return fit;

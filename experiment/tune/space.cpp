@@ -93,6 +93,7 @@ constexpr std::array kSpaces{std::pair{kicking::PolicyName::kStopped, &of_stoppe
 
 std::vector<std::string> tuned_policies() {
   std::vector<std::string> names;
+  names.reserve(kSpaces.size());
   for (const auto& [policy, space] : kSpaces) names.emplace_back(kicking::name(policy));
   return names;
 }
@@ -120,13 +121,14 @@ Coordinate coordinate_of(const std::string& text, const std::vector<Coordinate>&
   std::set<std::string> values;
   std::istringstream parts{text.substr(key.size() + 1)};
   for (std::string part; std::getline(parts, part, '|');) {
+    std::string choice = fmt::format("{} = {}", key, part);
     try {
-      config::Settings settings = with_choice({}, key + " = " + part);
+      config::Settings settings = with_choice({}, choice);
       values.insert(config::setting_values(settings).at(key));
     } catch (const config::Error& error) {
       refuse(error.what());
     }
-    made.choices.push_back(key + " = " + part);
+    made.choices.push_back(std::move(choice));
   }
   if (values.size() < 2 || values.size() != made.choices.size())
     refuse(fmt::format("two or more values, each once: {} '{}=V1|V2'", called, key));

@@ -146,7 +146,8 @@ void EmulatedDrive::write(Object object, std::uint32_t value, std::int64_t now_n
 void EmulatedDrive::take_pdo(const can::Frame& frame, std::int64_t now_ns, Frames& out) {
   if (nmt_ != NodeState::kOperational || !pdo_valid(0x1400)) return;
   std::size_t begin = 0;
-  for (std::uint8_t sub = 1; sub <= value({0x1600, 0}); ++sub) {
+  const auto objects = static_cast<std::uint8_t>(value({0x1600, 0}));
+  for (std::uint8_t sub = 1; sub <= objects; ++sub) {
     const std::uint32_t mapped = value({0x1600, sub});
     const std::size_t size = (mapped & 0xFFU) / 8;
     if (begin + size > frame.size) return say(emergency(node_, kPdoLength, kErrorCommunication), out);
@@ -159,7 +160,8 @@ void EmulatedDrive::take_pdo(const can::Frame& frame, std::int64_t now_ns, Frame
 void EmulatedDrive::answer_sync(std::int64_t now_ns, Frames& out) {
   if (nmt_ != NodeState::kOperational || !pdo_valid(0x1800) || value({0x1800, 2}) != 1) return;
   can::Frame frame{.id = kTxPdo1 + node_, .extended = false, .error = false, .size = 0, .data = {}};
-  for (std::uint8_t sub = 1; sub <= value({0x1A00, 0}); ++sub) {
+  const auto objects = static_cast<std::uint8_t>(value({0x1A00, 0}));
+  for (std::uint8_t sub = 1; sub <= objects; ++sub) {
     const std::uint32_t mapped = value({0x1A00, sub});
     const std::size_t size = (mapped & 0xFFU) / 8;
     if (frame.size + size > frame.data.size()) return;

@@ -23,7 +23,7 @@ constexpr Object kVendor{0x1018, 1}, kConsumerHeartbeat{0x1016, 1}, kProducerHea
 }  // namespace
 
 std::optional<double> rpm_per_unit_of(std::uint32_t object_60a9) {
-  const int power = static_cast<std::int8_t>(object_60a9 >> 24U);
+  const int power = static_cast<std::int32_t>(object_60a9) >> 24;  // two's complement, since C++20
   if ((object_60a9 & 0xFFFFFFU) != kRpm || std::abs(power) > kGreatestPower) return std::nullopt;
   return std::pow(10.0, power);
 }

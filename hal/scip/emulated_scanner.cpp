@@ -133,7 +133,7 @@ std::string EmulatedScanner::next_scan(std::span<const std::uint32_t> range_mm, 
   const int left = order.remaining > 0 ? --order.remaining : 0;
   order.to_skip = order.skipped;
   const std::string echo = order.single ? order.echo : fmt::format("{}{:02}{}", order.echo, left, order.tail);
-  const std::string text = scan_reply(echo, order.single ? "00" : "99", stamp_ms, data);
+  std::string text = scan_reply(echo, order.single ? "00" : "99", stamp_ms, data);
   if (last) {
     laser_on_ = order.single;  // an MD that is through switches it off
     order_.reset();
