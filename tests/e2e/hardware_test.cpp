@@ -6,8 +6,12 @@
 
 #include <memory>
 
+#include "hal/cia402/emulated_drives.hpp"
 #include "hal/ioboard/emulator.hpp"
+#include "hal/mti/emulated_mti.hpp"
+#include "hal/refbox/emulated_box.hpp"
 #include "hal/rekick/emulator.hpp"
+#include "hal/scip/emulator.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
@@ -119,6 +123,36 @@ TEST_F(Hardware, ItListsWhatIsThereAndFailsWhereADeviceIsNot) {
   EXPECT_THAT(trivela->output(), HasSubstr("volts are measured"));
   EXPECT_THAT(trivela->output(), testing::ContainsRegex("kicker: charge [01][.][0-9]+, [0-9]+ V, armed"));
   EXPECT_THAT(trivela->output(), HasSubstr("not used: refbox.group is empty"));
+}
+
+TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
+  const hal::cia402::Emulator drives{std::uint8_t{3}};
+  hal::mti::Emulator gyro;
+  gyro.with_board([](hal::mti::EmulatedMti& mti) { mti.rate_radps = 1.25; });
+  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
+                                      t_ns += 25'000'000;
+                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
+                                    }};
+  const hal::refbox::EmulatedBox box{{}};
+  const auto trivela = start(on_the_board({"--seconds", "1",
+                                           "--set",     "hal.wheels=\"cia402\"",
+                                           "--set",     "hal.cia402.gear=12",
+                                           "--set",     "hal.cia402.heartbeat_s=1",
+                                           "--set",     "hal.cia402.port=\"" + drives.address() + "\"",
+                                           "--set",     "hal.gyro=\"mti\"",
+                                           "--set",     "hal.mti.port=\"" + gyro.address() + "\"",
+                                           "--set",     "scan_recorder.enabled=true",
+                                           "--set",     "scan_recorder.device=\"" + scanner.address() + "\"",
+                                           "--set",     "refbox.group=\"224.16.32.39\"",
+                                           "--set",     "refbox.port=" + std::to_string(box.port())}));
+  EXPECT_EQ(trivela->wait(), 0) << trivela->errors() << trivela->output();
+  for (const std::string row : {"wheels +cia402 on .* there: 3 wheels, no gyro", "gyro +mti on .* there: .*MTi",
+                                "kicker +ioboard on .* there: ", "range finder +/.* there: Trivela SCIP emulator",
+                                "referee box +tcp://127.0.0.1:[0-9]+ +there"})
+    EXPECT_THAT(trivela->output(), testing::ContainsRegex(row));
+  for (const std::string value : {"wheels: wheel 1 0.00, ", "gyro: 1.25 rad/s, [0-9]+ ms old", "kicker: charge ",
+                                  "range finder: 2.00 m in front; [0-9]+/s", "referee box: last word WELCOME"})
+    EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
 }
 
 TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {
