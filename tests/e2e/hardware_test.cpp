@@ -155,6 +155,44 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
     EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
 }
 
+/// Drives of a process of their own, as a team that has none yet tries --spin.
+class SpunDrives : public Hardware {
+ protected:
+  SpunDrives() : drives_("trivela", {"emulate", "cia402", "--drives", "3"}, folder_.path()) {
+    EXPECT_TRUE(wait_for_change(folder_.path(), drives_.watch(), [this] {
+      return drives_.output().find('\n') != std::string::npos;
+    })) << drives_.errors();
+  }
+  std::unique_ptr<Program> spin() const {
+    return start(
+        on_the_board({"--spin", "2", "--seconds", "1", "--set", "hal.wheels=\"cia402\"", "--set", "hal.cia402.gear=12",
+                      "--set", "hal.cia402.heartbeat_s=1", "--set", "hal.cia402.ramp=1000000", "--set",
+                      "hal.cia402.port=\"" + drives_.output().substr(0, drives_.output().find('\n')) + "\""}));
+  }
+  bool say(const std::string& what) {
+    return wait_for_change(folder_.path(), drives_.watch(),
+                           [&] { return drives_.output().find(what) != std::string::npos; });
+  }
+
+  Program drives_;
+};
+
+TEST_F(SpunDrives, TheTypedWordTurnsOneWheelAndLeavesItAtRest) {
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 2\n"), 0) << trivela->errors();
+  EXPECT_THAT(trivela->output(),
+              testing::ContainsRegex("asked wheel 2 for 2.00 rad/s; wheel 1 0.00, wheel 2 (1.9|2.0)"));
+  EXPECT_TRUE(say("the wheels turn\n")) << drives_.output();
+  EXPECT_TRUE(say("the wheels stand\n")) << drives_.output();
+}
+
+TEST_F(SpunDrives, AnotherWordTurnsNothing) {
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 1\n"), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("not confirmed: no wheel was turned"));
+  EXPECT_EQ(drives_.output().find("the wheels turn"), std::string::npos);
+}
+
 TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {
   for (const auto& [arguments, says] :
        std::vector<std::pair<Arguments, std::string>>{{{"--kick"}, "it needs --armed"},
