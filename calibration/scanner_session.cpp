@@ -21,7 +21,7 @@ evaluator::log::ScanSession scanner_session(const hal::RangeFinder& finder, cons
           .mount = mount,
           .started_t_ns = steady_ns,
           .realtime_offset_ns = since(std::chrono::system_clock::now()) - steady_ns,
-          .simulated = identity.vendor == "Trivela" || identity.vendor == "synthetic",
+          .simulated = is_emulated(identity) || identity.vendor == "synthetic",
           .source = device,
           .software_version = config::software_version()};
 }

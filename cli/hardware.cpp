@@ -61,13 +61,27 @@ void say_who(const Bench& bench) {
                   bench.settings.domain.domain_id));
 }
 
+/// Wheels, and a gyro that is a device of its own.
+void add_base(const Bench& bench, std::vector<std::unique_ptr<Fixture>>& fixtures) {
+  const config::Hal& devices = bench.settings.hal;
+  const bool own_gyro = !std::holds_alternative<config::WheelsGyro>(devices.gyro);
+  const std::string wheels = device_text(devices.wheels), gyro = device_text(devices.gyro);
+  if (bench.claims.odometry_runs()) {
+    fixtures.push_back(held_by("wheels", wheels, "odometry"));
+    if (own_gyro) fixtures.push_back(held_by("gyro", gyro, "odometry"));
+    return;
+  }
+  config::Hal wheels_alone = devices;
+  wheels_alone.gyro = config::WheelsGyro{};
+  fixtures.push_back(wheels_fixture(hal::open_wheels(wheels_alone, bench.owner()), wheels));
+  if (own_gyro) fixtures.push_back(gyro_fixture(hal::open_gyro(devices.gyro), gyro));
+}
+
 int list_and_watch(const Bench& bench, std::optional<double> seconds) {
   const config::Settings& settings = bench.settings;
-  const std::string wheels = device_text(settings.hal.wheels), kicker = device_text(settings.hal.kicker);
+  const std::string kicker = device_text(settings.hal.kicker);
   std::vector<std::unique_ptr<Fixture>> fixtures;
-  fixtures.push_back(bench.claims.odometry_runs()
-                         ? held_by("wheels", wheels, "odometry")
-                         : wheels_fixture(hal::open_wheels(settings.hal, bench.owner()), wheels));
+  add_base(bench, fixtures);
   fixtures.push_back(bench.claims.kicker_driver_runs()
                          ? held_by("kicker", kicker, "kicker_driver")
                          : kicker_fixture(hal::open_kicker(bench.devices(), bench.owner()), kicker));

@@ -45,11 +45,13 @@ bool is_pseudo_terminal(const std::string& port) {
   return std::filesystem::canonical(port, none).string().starts_with("/dev/pts/");
 }
 
-std::unique_ptr<Wheels> with_gyro(const config::WheelsGyro&, std::unique_ptr<Wheels> wheels) { return wheels; }
-std::unique_ptr<Wheels> with_gyro(const config::MtiDevice& gyro, std::unique_ptr<Wheels> wheels) {
-  return std::make_unique<GyroWheels>(std::move(wheels), std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro),
-                                      is_pseudo_terminal(gyro.port));
+std::unique_ptr<Gyro> gyro_of(const config::WheelsGyro&) { return nullptr; }
+std::unique_ptr<Gyro> gyro_of(const config::MtiDevice& gyro) {
+  return std::make_unique<mti::MtiGyro>(serial_line(gyro.port), gyro);
 }
+
+bool is_emulated(const config::WheelsGyro&) { return false; }
+bool is_emulated(const config::MtiDevice& gyro) { return is_pseudo_terminal(gyro.port); }
 
 std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {
   return std::make_unique<BusKicker>(owner.participant, owner.robot_id);
@@ -76,7 +78,14 @@ std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner
 
 std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner) {
   auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
-  return std::visit([&](const auto& gyro) { return with_gyro(gyro, std::move(opened)); }, devices.gyro);
+  auto gyro = open_gyro(devices.gyro);
+  if (!gyro) return opened;
+  const bool emulated = std::visit([](const auto& backend) { return is_emulated(backend); }, devices.gyro);
+  return std::make_unique<GyroWheels>(std::move(opened), std::move(gyro), emulated);
+}
+
+std::unique_ptr<Gyro> open_gyro(const config::GyroDevice& device) {
+  return std::visit([](const auto& backend) { return gyro_of(backend); }, device);
 }
 
 std::unique_ptr<Kicker> open_kicker(const Hal& devices, const Owner& owner) {

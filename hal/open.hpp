@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/devices.hpp"
+#include "hal/gyro.hpp"
 #include "hal/kicker.hpp"
 #include "hal/range_finder.hpp"
 #include "hal/wheels.hpp"
@@ -27,6 +28,9 @@ struct Owner {
 std::unique_ptr<Wheels> open_wheels(const config::Hal& devices, const Owner& owner);
 std::unique_ptr<Kicker> open_kicker(const config::Hal& devices, const Owner& owner);
 std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& device, const Owner& owner);
+
+/// A gyro that is a device of its own, as open_wheels() puts it beside the wheels; null: the wheels have it.
+std::unique_ptr<Gyro> open_gyro(const config::GyroDevice& device);
 
 /// A SCIP scanner needs no bus. Nothing is opened yet: connected() and read() do, and a scanner that is not there shows
 /// in status().

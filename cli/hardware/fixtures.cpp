@@ -115,6 +115,34 @@ class KickerFixture final : public Fixture {
   Rate rate_;
 };
 
+class GyroFixture final : public Fixture {
+ public:
+  GyroFixture(std::unique_ptr<hal::Gyro> gyro, const std::string& device)
+      : Fixture("gyro", device), gyro_(std::move(gyro)) {}
+  bool found() override {
+    constexpr std::int64_t kFresh_ns = 500'000'000;
+    const auto turn = gyro_->newest();
+    return turn && age_ns(*turn) <= kFresh_ns;
+  }
+  std::string says() const override { return gyro_->status(); }
+  void look() override {}  // it keeps the newest itself
+  /// How old it is stands for a rate: of samples between two looks it keeps one.
+  std::string values() override {
+    const auto turn = gyro_->newest();
+    if (!turn) return "no sample";
+    return fmt::format("{:.2f} rad/s, {:.0f} ms old", turn->gyro_radps + 0.0,
+                       1e-6 * static_cast<double>(age_ns(*turn)));
+  }
+
+ private:
+  static std::int64_t age_ns(const hal::GyroSample& sample) {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - sample.t_ns;
+  }
+
+  std::unique_ptr<hal::Gyro> gyro_;
+};
+
 class RangeFinderFixture final : public Fixture {
  public:
   RangeFinderFixture(std::unique_ptr<hal::RangeFinder> finder, const std::string& device)
@@ -192,6 +220,10 @@ std::string device_text(const config::KickerDevice& device) {
   return std::visit([](const auto& backend) { return backend_text(backend); }, device);
 }
 
+std::string device_text(const config::GyroDevice& device) {
+  return std::visit([](const auto& backend) { return backend_text(backend); }, device);
+}
+
 std::string kicker_text(const hal::KickerSample& sample) {
   static constexpr const char* kFaults[] = {"", ", fault of the charger", ", fault of the coil", ", link lost"};
   return fmt::format("charge {:.2f}{}{}, {}{}", sample.charge, sample.charge_modelled ? " (modelled)" : "",
@@ -218,6 +250,10 @@ std::unique_ptr<Fixture> wheels_fixture(std::unique_ptr<hal::Wheels> wheels, con
 
 std::unique_ptr<Fixture> kicker_fixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device) {
   return std::make_unique<KickerFixture>(std::move(kicker), device);
+}
+
+std::unique_ptr<Fixture> gyro_fixture(std::unique_ptr<hal::Gyro> gyro, const std::string& device) {
+  return std::make_unique<GyroFixture>(std::move(gyro), device);
 }
 
 std::unique_ptr<Fixture> range_finder_fixture(const config::ScanRecorder& settings, const hal::Owner& owner) {

@@ -29,7 +29,7 @@ class Fixture {
 
   /// Takes what has come, without waiting.
   virtual void look() = 0;
-  /// The newest values and how many came within the last second.
+  /// The newest values, and how many came within the last second or how old they are.
   virtual std::string values() = 0;
 
  private:
@@ -52,6 +52,7 @@ class Rate {
 /// "ioboard on /dev/ttyUSB0", "sim".
 std::string device_text(const config::WheelsDevice& device);
 std::string device_text(const config::KickerDevice& device);
+std::string device_text(const config::GyroDevice& device);
 
 /// "0.42 (modelled), armed".
 std::string kicker_text(const hal::KickerSample& sample);
@@ -63,6 +64,8 @@ std::string wheels_text(const hal::WheelSample& sample);
 std::unique_ptr<Fixture> held_by(const std::string& name, const std::string& device, const std::string& node);
 std::unique_ptr<Fixture> wheels_fixture(std::unique_ptr<hal::Wheels> wheels, const std::string& device);
 std::unique_ptr<Fixture> kicker_fixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device);
+/// A gyro beside the wheels; it answers while its newest sample is no older than half a second.
+std::unique_ptr<Fixture> gyro_fixture(std::unique_ptr<hal::Gyro> gyro, const std::string& device);
 /// Where no scans are to be recorded it is none that is wanted, and nothing is opened.
 std::unique_ptr<Fixture> range_finder_fixture(const config::ScanRecorder& settings, const hal::Owner& owner);
 /// The same where the referee box has no name for us.

@@ -74,6 +74,8 @@ can::Frame emergency(std::uint8_t node, std::uint16_t code, std::uint8_t error_r
   return frame;
 }
 
+bool is_of_the_link(std::uint16_t code) { return code == kHeartbeatLost || code == 0x8120 || code == 0x81FD; }
+
 std::string emergency_words(std::uint16_t code) {
   constexpr std::pair<std::uint16_t, const char*> kWords[] = {
       {0x1000, "generic error"},
@@ -83,7 +85,7 @@ std::string emergency_words(std::uint16_t code) {
       {0x4210, "too hot"},
       {0x7320, "position sensor"},
       {0x8120, "CAN controller is error passive"},
-      {0x8130, "heartbeat lost"},
+      {kHeartbeatLost, "heartbeat lost"},
       {0x8220, "length of a PDO"},
       {0x81FD, "it was bus off"},
   };

@@ -45,6 +45,11 @@ can::Frame frame_of(const TxPdo& pdo, std::uint8_t node);
 std::optional<std::uint16_t> emergency_of(const can::Frame& frame, std::uint8_t node);
 can::Frame emergency(std::uint8_t node, std::uint16_t code, std::uint8_t error_register);
 
+/// Our heartbeat was missing for longer than the node waits for it.
+inline constexpr std::uint16_t kHeartbeatLost = 0x8130;
+/// Whether the code says that the bus was cut, and nothing of the motor: heartbeat lost, error passive, bus off.
+bool is_of_the_link(std::uint16_t code);
+
 /// "overcurrent (2310)".
 std::string emergency_words(std::uint16_t code);
 

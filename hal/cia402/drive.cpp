@@ -14,8 +14,9 @@ namespace trivela::hal::cia402 {
 namespace {
 
 constexpr std::int64_t kStartPause_ns = 500'000'000;
-constexpr std::int64_t kSettle_ns = 500'000'000;    // heartbeats that were sent before it was started
-constexpr std::int64_t kResets_ns = 2'000'000'000;  // so long are faults reset while it comes up for the first time
+constexpr std::int64_t kSettle_ns = 500'000'000;     // heartbeats that were sent before it was started
+constexpr std::int64_t kResets_ns = 2'000'000'000;   // so long are faults reset while it comes up for the first time
+constexpr std::int64_t kBeatsFlow_ns = 200'000'000;  // so long it has heard us again before its fault is reset
 constexpr double kRpmOfRadps = 60.0 / (2.0 * std::numbers::pi);
 
 }  // namespace
@@ -59,16 +60,30 @@ void Drive::go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out) 
       controlword_ = 0;
       answered_ = asked_ = false;
       problem_.clear();
+      note_error(start_up_->error_code());
   }
 }
 
+void Drive::note_error(std::uint16_t code) {
+  if (code == 0) return;
+  emergency_ = code;
+  heartbeat_lost_ = heartbeat_lost_ || code == kHeartbeatLost;
+  other_error_ = other_error_ || !is_of_the_link(code);
+}
+
 void Drive::take(const can::Frame& frame, std::int64_t now_ns, Frames& out) {
-  if (const auto code = emergency_of(frame, node_)) emergency_ = *code;
-  if (heartbeat_of(frame, node_) == NodeState::kBootUp) emergency_ = 0;
+  if (const auto code = emergency_of(frame, node_)) {
+    emergency_ = *code;
+    note_error(*code);
+  }
+  if (heartbeat_of(frame, node_) == NodeState::kBootUp) {
+    emergency_ = 0;
+    heartbeat_lost_ = other_error_ = false;
+  }
   if (stage_ == Stage::kStarting) return go_on(start_up_->take(frame), now_ns, out);
   if (stage_ != Stage::kRunning) return;
   if (const auto state = heartbeat_of(frame, node_)) return take_heartbeat(*state, now_ns, out);
-  if (const auto pdo = tx_pdo_of(frame, node_)) take_pdo(*pdo);
+  if (const auto pdo = tx_pdo_of(frame, node_)) take_pdo(*pdo, now_ns);
 }
 
 void Drive::take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out) {
@@ -78,14 +93,16 @@ void Drive::take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out) {
     lose("it is not operational any more", now_ns, out);
 }
 
-void Drive::take_pdo(const TxPdo& pdo) {
+void Drive::take_pdo(const TxPdo& pdo, std::int64_t now_ns) {
   answered_ = true;
   asked_ = false;
   velocity_ = pdo.velocity;
-  state_ = state_of(pdo.statusword);
+  const DriveState before = std::exchange(state_, state_of(pdo.statusword));
+  if (state_ == DriveState::kFault && before != DriveState::kFault) fault_ns_ = now_ns;
   if (state_ == DriveState::kEnabled) {
     was_enabled_ = true;
     emergency_ = 0;
+    heartbeat_lost_ = other_error_ = false;
   }
 }
 
@@ -118,8 +135,11 @@ double Drive::wheel_radps() const { return sign_ * velocity_ * scale_.rpm_per_un
 
 can::Frame Drive::command(double motor_rpm, std::int64_t now_ns) {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-  may_reset_ = !was_enabled_ && now_ns - running_ns_ < kResets_ns;
-  controlword_ = next_controlword(state_, may_reset_, controlword_);
+  const bool coming_up = !was_enabled_ && now_ns - running_ns_ < kResets_ns;
+  const std::int64_t faulty_ns = state_ == DriveState::kFault ? now_ns - fault_ns_ : 0;
+  const bool after_our_loss = lost_us() && faulty_ns < kBeatsFlow_ns + kResets_ns;
+  may_reset_ = coming_up || after_our_loss;
+  controlword_ = next_controlword(state_, coming_up || (after_our_loss && faulty_ns >= kBeatsFlow_ns), controlword_);
   answered_ = false;
   if (!std::exchange(asked_, true)) asked_ns_ = now_ns;
   const double units = std::round(std::clamp(motor_rpm / scale_.rpm_per_unit, -kMost, kMost));

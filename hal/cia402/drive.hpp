@@ -16,8 +16,8 @@ namespace trivela::hal::cia402 {
 /// what it has to say is added to `out`.
 ///
 /// A drive that is silent, restarts by itself or leaves its state is told a quick stop and started again after a pause.
-/// Its faults are reset while it comes up for the first time, and never afterwards: then somebody has to start the
-/// program again.
+/// Its faults are reset while it comes up for the first time. Afterwards one is, that our heartbeat was missing, once
+/// the heartbeat flows again; for any other somebody has to start the program again.
 class Drive {
  public:
   using Frames = std::vector<can::Frame>;
@@ -60,7 +60,9 @@ class Drive {
   void go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out);
   void ask(std::int64_t now_ns, Frames& out);
   void take_heartbeat(NodeState state, std::int64_t now_ns, Frames& out);
-  void take_pdo(const TxPdo& pdo);
+  void take_pdo(const TxPdo& pdo, std::int64_t now_ns);
+  void note_error(std::uint16_t code);
+  bool lost_us() const { return heartbeat_lost_ && !other_error_; }
   void lose(const std::string& why, std::int64_t now_ns, Frames& out);
   std::string fault() const;
 
@@ -79,7 +81,10 @@ class Drive {
   std::uint16_t controlword_ = 0;
   std::int32_t velocity_ = 0;
   std::uint16_t emergency_ = 0;
-  bool answered_ = false;  // since the last SYNC
+  bool heartbeat_lost_ = false;  // it said so since it was in operation
+  bool other_error_ = false;     // one that is not of the link, the same
+  std::int64_t fault_ns_ = 0;    // seen in fault since then, if it is
+  bool answered_ = false;        // since the last SYNC
   bool asked_ = false;
   bool was_enabled_ = false;
   bool may_reset_ = true;

@@ -122,6 +122,7 @@ void Drives::cycle(std::int64_t now_ns) {
   const std::int64_t cycle_ns = kicking::nanoseconds(settings_.cycle_s);
   next_cycle_ns_ = std::max(next_cycle_ns_ + cycle_ns, now_ns + cycle_ns / 2);
   sync_ns_ = now_ns;
+  if (!up()) wheel_radps_ = {};  // what was asked for before is not done afterwards
   out_.push_back(sync());
   const std::vector<double> rpm = motor_rpm();
   for (std::size_t i = 0; i < drives_.size(); ++i) {

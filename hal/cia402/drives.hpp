@@ -18,7 +18,8 @@ namespace trivela::hal::cia402 {
 
 /// The drives of a base on their CAN bus, of which this is the master: a heartbeat every kBeat_ns, and every cycle SYNC
 /// and each drive's command, whose answers are one sample of SYNC's instant. The wheels turn while every drive is in
-/// operation; if one is not, the others are told to stand. The bus is opened again after a pause where it is lost.
+/// operation; if one is not, the others are told to stand, and a set-point from before counts no more when all are
+/// again. The bus is opened again after a pause where it is lost.
 class Drives final : public LineClient {
  public:
   static constexpr std::int64_t kBeat_ns = 50'000'000;
@@ -31,7 +32,7 @@ class Drives final : public LineClient {
   std::int64_t next_ns() const override;
   int descriptor() const override { return bus_->descriptor(); }
 
-  /// From the next cycle on; one that is not finite is standstill.
+  /// From the next cycle on, if the drives are up; one that is not finite is standstill.
   void drive(const kicking::Twist& set_point);
 
   /// One wheel's speed [rad/s], the others at rest; one that is not finite is 0.

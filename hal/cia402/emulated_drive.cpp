@@ -9,38 +9,29 @@ namespace {
 constexpr std::int64_t kMs_ns = 1'000'000;
 constexpr std::uint32_t kInvalidPdo = 0x80000000;
 constexpr std::uint8_t kErrorCommunication = 0x11, kErrorGeneric = 0x01;
-constexpr std::uint16_t kHeartbeatLost = 0x8130, kPdoLength = 0x8220;
+constexpr std::uint16_t kPdoLength = 0x8220;
 constexpr double kCoastRamp_rpmps = 3000.0;  // without voltage
 
 constexpr Object kTarget{0x60FF, 0}, kControlword{0x6040, 0}, kStatusword{0x6041, 0}, kActual{0x606C, 0},
     kModeOfOperation{0x6060, 0}, kAcceleration{0x6083, 0}, kDeceleration{0x6084, 0}, kQuickStopDeceleration{0x6085, 0},
-    kHeartbeatConsumer{0x1016, 1}, kHeartbeatProducer{0x1017, 0}, kLinkLostCode{0x6007, 0};
+    kHeartbeatConsumer{0x1016, 1}, kHeartbeatProducer{0x1017, 0}, kLinkLostCode{0x6007, 0}, kLastError{0x603F, 0};
 
 /// The ramps are those of a real configuration (Node_1.dcf), the rest what a drive has when it leaves its factory.
 EmulatedDrive::Dictionary epos2(std::uint32_t node) {
   const auto at = [](std::uint16_t index, std::uint8_t sub) { return EmulatedDrive::key({index, sub}); };
-  EmulatedDrive::Dictionary objects{{at(0x1018, 1), {0xFB, 4}},
-                                    {at(0x1016, 1), {0, 4}},
-                                    {at(0x1017, 0), {0, 2}},
-                                    {at(0x6007, 0), {3, 2}},
-                                    {at(0x605A, 0), {2, 2}},
-                                    {at(0x6060, 0), {1, 1}},
-                                    {at(0x6040, 0), {0, 2}},
-                                    {at(0x6041, 0), {0, 2}},
-                                    {at(0x606C, 0), {0, 4}},
-                                    {at(0x6078, 0), {0, 2}},
-                                    {at(0x60FF, 0), {0, 4}},
-                                    {at(0x6083, 0), {10000, 4}},
-                                    {at(0x6084, 0), {10000, 4}},
-                                    {at(0x6085, 0), {10000, 4}},
-                                    {at(0x1400, 1), {kRxPdo1 + node, 4}},
-                                    {at(0x1400, 2), {255, 1}},
-                                    {at(0x1600, 0), {1, 1}},
-                                    {at(0x1600, 1), {0x60400010, 4}},
-                                    {at(0x1800, 1), {0x40000000U + kTxPdo1 + node, 4}},
-                                    {at(0x1800, 2), {255, 1}},
-                                    {at(0x1A00, 0), {1, 1}},
-                                    {at(0x1A00, 1), {0x60410010, 4}}};
+  EmulatedDrive::Dictionary objects{
+      {at(0x1018, 1), {0xFB, 4}},       {at(0x1016, 1), {0, 4}},
+      {at(0x1017, 0), {0, 2}},          {at(0x6007, 0), {3, 2}},
+      {at(0x605A, 0), {2, 2}},          {at(0x6060, 0), {1, 1}},
+      {at(0x6040, 0), {0, 2}},          {at(0x6041, 0), {0, 2}},
+      {at(0x603F, 0), {0, 2}},          {at(0x606C, 0), {0, 4}},
+      {at(0x6078, 0), {0, 2}},          {at(0x60FF, 0), {0, 4}},
+      {at(0x6083, 0), {10000, 4}},      {at(0x6084, 0), {10000, 4}},
+      {at(0x6085, 0), {10000, 4}},      {at(0x1400, 1), {kRxPdo1 + node, 4}},
+      {at(0x1400, 2), {255, 1}},        {at(0x1600, 0), {1, 1}},
+      {at(0x1600, 1), {0x60400010, 4}}, {at(0x1800, 1), {0x40000000U + kTxPdo1 + node, 4}},
+      {at(0x1800, 2), {255, 1}},        {at(0x1A00, 0), {1, 1}},
+      {at(0x1A00, 1), {0x60410010, 4}}};
   for (const std::uint16_t mapping : {std::uint16_t{0x1600}, std::uint16_t{0x1A00}}) {
     for (std::uint8_t sub = 2; sub <= 8; ++sub) objects[at(mapping, sub)] = {0, 4};
   }
@@ -221,6 +212,7 @@ void EmulatedDrive::fail(std::uint16_t code, std::int64_t now_ns, Frames& out) {
   motor_.turn(0.0, value(kQuickStopDeceleration), now_ns);
   state_ = DriveState::kFaultReaction;
   objects_[key(kTarget)].value = 0;
+  if (const auto error = objects_.find(key(kLastError)); error != objects_.end()) error->second.value = code;
   say(emergency(node_, code, code == kHeartbeatLost ? kErrorCommunication : kErrorGeneric), out);
 }
 

@@ -18,7 +18,8 @@ constexpr std::uint16_t kProducerPeriod_ms = 50;
 
 constexpr Object kVendor{0x1018, 1}, kConsumerHeartbeat{0x1016, 1}, kProducerHeartbeat{0x1017, 0},
     kVelocityUnit{0x60A9, 0}, kGearMotor{0x6091, 1}, kGearShaft{0x6091, 2}, kLinkLost{0x6007, 0},
-    kQuickStopCode{0x605A, 0}, kMode{0x6060, 0}, kRampUp{0x6083, 0}, kRampDown{0x6084, 0}, kQuickStopRamp{0x6085, 0};
+    kQuickStopCode{0x605A, 0}, kMode{0x6060, 0}, kRampUp{0x6083, 0}, kRampDown{0x6084, 0}, kQuickStopRamp{0x6085, 0},
+    kErrorCode{0x603F, 0};
 
 }  // namespace
 
@@ -53,6 +54,7 @@ void StartUp::add_reads(const config::Cia402Device& settings) {
     tasks_.push_back({.object = kGearMotor, .may_be_missing = true});
     tasks_.push_back({.object = kGearShaft, .may_be_missing = true});
   }
+  if (reset_ == Reset::kNo) tasks_.push_back({.object = kErrorCode, .may_be_missing = true});
 }
 
 void StartUp::add_settings(const config::Cia402Device& settings) {
@@ -130,6 +132,8 @@ std::string StartUp::take_value(const Object& object, std::optional<std::uint32_
     vendor_ = value;
   } else if (object == kVelocityUnit) {
     return take_unit(value);
+  } else if (object == kErrorCode) {
+    error_code_ = static_cast<std::uint16_t>(value.value_or(0));
   } else if (object == kGearMotor) {
     gear_numerator_ = value.value_or(0);
   } else if (object == kGearShaft) {

@@ -29,7 +29,7 @@ class StartUp {
  public:
   enum class Reset {
     kYes,
-    kNo  ///< a drive that was lost may have a fault, which a reset would hide
+    kNo  ///< a drive that was lost may have a fault, which a reset would hide: its error code (603F) is asked for
   };
   StartUp(std::uint8_t node, const config::Cia402Device& settings, Reset reset);
 
@@ -50,6 +50,8 @@ class StartUp {
 
   /// Known once done.
   const Scale& scale() const { return scale_; }
+  /// Object 603F, its last error; 0: there was none, it does not say it, or a reset made an end of it.
+  std::uint16_t error_code() const { return error_code_; }
   const std::string& why() const { return why_; }
 
  private:
@@ -84,6 +86,7 @@ class StartUp {
   Scale scale_;
   std::optional<std::uint32_t> vendor_;
   std::uint32_t gear_numerator_ = 0;
+  std::uint16_t error_code_ = 0;
   std::string why_;
 };
 

@@ -25,6 +25,7 @@ std::string wire_text(const Said& said, const BoxConfig& config) {
   if (config.protocol == Protocol::kLetters) return letter_of(said);
   nlohmann::json object{{"command", name(said.kind)}, {"targetTeam", said.team ? config.groups.at(*said.team) : ""}};
   if (said.robot_id) object["robotID"] = *said.robot_id;
+  if (said.kind == CommandKind::kWelcome) object["emulated"] = true;  // a key more, which teams pass over
   return object.dump() + '\0';
 }
 

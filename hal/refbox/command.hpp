@@ -21,6 +21,7 @@ struct Command {
   CommandKind kind = CommandKind::kStop;
   Side side = Side::kBoth;
   std::optional<int> robot_id{};  ///< the league's number of a robot: SUBSTITUTION and IS_ALIVE have one
+  bool emulated = false;          ///< WELCOME of a box that is a program of ours and says so
 
   friend bool operator==(const Command&, const Command&) = default;
 };

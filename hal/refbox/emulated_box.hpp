@@ -34,8 +34,9 @@ struct TeamReport {
 
 /// The referee box of a match, in a thread of its own, as RoboCup-MSL/RefBox is (mslrb2015/{Comms,Team}.pde): what it
 /// says goes to every client, objects with a targetTeam. A client is of the team whose group ends in N when the third
-/// number of its address is N (172.16.N.*, here 127.0.N.*, too), of the first free one otherwise, and gets WELCOME; one
-/// whose team is there already, or for whom there is no place, gets RESET and is closed. For any thread.
+/// number of its address is N (172.16.N.*, here 127.0.N.*, too), of the first free one otherwise, and gets WELCOME,
+/// with "emulated":true in the JSON protocol (the one of letters has no place for it); one whose team is there already,
+/// or for whom there is no place, gets RESET and is closed. For any thread.
 class EmulatedBox {
  public:
   /// Throws std::runtime_error naming the port where it cannot be had.

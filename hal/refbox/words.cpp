@@ -53,6 +53,8 @@ Word read_object(std::string_view object, std::string_view group) {
     const auto number = robot->get<std::int64_t>();
     if (number >= 0 && number <= 255) command.robot_id = static_cast<int>(number);
   }
+  if (const auto emulated = json.find("emulated"); emulated != json.end() && emulated->is_boolean())
+    command.emulated = *kind == CommandKind::kWelcome && emulated->get<bool>();
   return command;
 }
 

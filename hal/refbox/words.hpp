@@ -20,8 +20,9 @@ struct NoCommand {
 using Word = std::variant<Command, NoCommand>;
 
 /// A command of the league's JSON protocol: {"command":"KICKOFF","targetTeam":"224.16.32.39"}, keys in any order, with
-/// "robotID" where it is about one robot. `group` is our team's multicast group. A target that is empty or missing is
-/// both teams, our group is ours, also with the ":1" that a box adds where a team plays itself; any other is theirs.
+/// "robotID" where it is about one robot, "emulated" where our own program says WELCOME. `group` is our team's
+/// multicast group. A target that is empty or missing is both teams, our group is ours, also with the ":1" that a box
+/// adds where a team plays itself; any other is theirs.
 Word read_object(std::string_view object, std::string_view group);
 
 /// A command of the protocol before 2016, one letter.

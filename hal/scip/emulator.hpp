@@ -17,7 +17,8 @@ enum class EmulatedPort { kTerminal, kTcp };
 struct EmulatorConfig {
   EmulatedPort port = EmulatedPort::kTerminal;
   std::uint16_t tcp_port = 0;  ///< 0: any free one
-  kicking::lob::ScannerIdentity identity{"Trivela", "SCIP emulator", "E0000001", "1.0.0", "SCIP 2.0"};
+  kicking::lob::ScannerIdentity identity{kicking::lob::kEmulatedVendor, "SCIP emulator", "E0000001", "1.0.0",
+                                         "SCIP 2.0"};
   kicking::lob::ScanGeometry geometry{};
   int first_step = 0;                ///< AMIN, the step of beam 0
   std::uint32_t first_stamp_ms = 0;  ///< its clock when it starts, 24 bit

@@ -17,6 +17,11 @@ struct ScannerIdentity {
   std::string protocol;
 };
 
+/// VEND of a scanner that is a program (trivela scan --emulate).
+inline constexpr char kEmulatedVendor[] = "Trivela";
+
+inline bool is_emulated(const ScannerIdentity& scanner) { return scanner.vendor == kEmulatedVendor; }
+
 /// When and where the beams of a scan look. Beam i has the angle first_angle_rad + i step_rad in the scanner's own
 /// plane (counter-clockwise, 0 = its front) and is measured at the scan's t_ns + i beam_period_s.
 struct ScanGeometry {

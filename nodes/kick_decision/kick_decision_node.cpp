@@ -4,6 +4,7 @@
 
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/kick_id.hpp"
@@ -40,7 +41,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
       drive_out_(node_.writer<msg::DriveCommand>()),
       step_done_(step_done_writer(context, node_)),
       kicker_(node_.stores<msg::KickerStatus>()),
-      outcome_(node_.stores<msg::KickOutcome>()),
+      outcome_(node_.stores<msg::KickOutcome>(count_observers())),
       referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   refuse_oracle(decider_.assignment());
@@ -67,11 +68,27 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
   drive(world, decision.in_charge.judgement);
   if (decision.order) {
+    say_unobserved();
     context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
                           kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
                           decision.in_charge.judgement.distance_m);
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+}
+
+bus::ReaderOptions KickDecisionNode::count_observers() {
+  bus::ReaderOptions options;
+  options.on_liveliness = [this](const bus::Liveliness& writers) { observers_ = writers.alive; };
+  return options;
+}
+
+/// A robot without a goal camera plays all the same; whoever reads its log is to know why no outcome is in it.
+void KickDecisionNode::say_unobserved() {
+  if (observers_ > 0 || context_.settings.run.lockstep || std::exchange(unobserved_said_, true)) return;
+  context_.logger->warn(
+      "nobody writes kick_outcome: no shot_observer runs, and the log has no outcome of kicks until somebody labels "
+      "them "
+      "(trivela import kicks)");
 }
 
 /// What waited for this process to go on is old: nothing is decided on it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 
@@ -22,6 +23,8 @@ class KickDecisionNode {
   std::optional<msg::KickOutcome> outcome(const msg::WorldState& world, const msg::KickerStatus* kicker);
   void drive(const msg::WorldState& world, const kicking::Judgement& judgement);
   void stay_alive();
+  bus::ReaderOptions count_observers();
+  void say_unobserved();
 
   NodeContext& context_;
   robot::Decider decider_;
@@ -31,6 +34,8 @@ class KickDecisionNode {
   bus::Output<msg::DriveCommand> drive_out_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker_;
+  std::atomic<std::uint32_t> observers_{0};  // writers of kick_outcome, of which none is needed
+  bool unobserved_said_ = false;
   std::shared_ptr<bus::Mailbox<msg::KickOutcome>> outcome_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;  // looked up where the rules know set pieces
   FirstCycle first_;

@@ -42,7 +42,7 @@ std::shared_ptr<RefboxLink> open_refbox(const config::Refbox& settings) {
 }
 
 RefboxNode::RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link)
-    : context_(context), link_(std::move(link)), node_(context.participant, "refbox") {
+    : context_(context), link_(std::move(link)), node_(context.participant, "refbox"), emulation_(context, node_) {
   const config::Refbox& settings = context.settings.refbox;
   if (context.settings.run.lockstep) throw std::runtime_error{"run.lockstep = true: a referee box waits for nobody"};
   if (settings.group.empty() && !settings.letters)
@@ -53,7 +53,7 @@ RefboxNode::RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link)
   node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); });
   node_.on_device(
       "refbox", [this](std::chrono::nanoseconds timeout) { return next(timeout); },
-      [this](const Event& event) { on_event(event); }, bus::writes<msg::Referee>());
+      [this](const Event& event) { on_event(event); }, bus::writes<msg::Referee, msg::DeviceEmulated>());
 }
 
 /// What the box does, and a tick each cycle, by which others see that this thread lives. A flood of commands does not
@@ -80,6 +80,7 @@ void RefboxNode::on_tick() {
   const auto now = steady_clock::now();
   if (now < next_telling_) return;
   const std::chrono::nanoseconds period{kicking::nanoseconds(context_.settings.refbox.period_s)};
+  emulation_.see(msg::PART_REFEREE_BOX, link_->emulated, context_.steady_ns());
   next_telling_ = std::max(next_telling_ + period, now - period);  // late ones are made up for, but not for ever
   publish();
   tell_box();
@@ -92,6 +93,7 @@ void RefboxNode::on_box(const box::Connected&) {
 
 void RefboxNode::on_box(const box::Command& command) {
   link_->match.command(command, context_.steady_ns());
+  link_->emulated = link_->emulated || command.emulated;
   publish();
   context_.logger->info("referee: {}", in_words(command));
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/refbox/refbox_client.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/referee/match_state.hpp"
 
@@ -17,6 +18,7 @@ namespace trivela::nodes {
 struct RefboxLink {
   std::unique_ptr<hal::refbox::RefboxClient> client;
   robot::MatchState match;
+  bool emulated = false;  ///< the box said that it is a program
 };
 
 /// To the settings' referee box.
@@ -56,6 +58,7 @@ class RefboxNode {
   NodeContext& context_;
   std::shared_ptr<RefboxLink> link_;
   bus::Node node_;
+  EmulationWord emulation_;
   std::vector<Robot> robots_;
   std::uint64_t seq_ = 0;
   std::chrono::steady_clock::time_point next_tick_{};

@@ -25,10 +25,11 @@ evaluator::log::ScanSession session_of_scans(const NodeContext& context, const h
                    .front_elevation_rad = settings.mount_front_elevation_rad,
                    .mirrored = settings.mount_mirrored};
   session.started_t_ns = t_ns;
-  session.simulated = std::holds_alternative<config::SimDevice>(settings.device);
-  const std::int64_t clock_ns = session.simulated ? t_ns : now_ns(std::chrono::steady_clock::now());
+  const bool of_the_world = std::holds_alternative<config::SimDevice>(settings.device);
+  session.simulated = of_the_world || is_emulated(session.identity);
+  const std::int64_t clock_ns = of_the_world ? t_ns : now_ns(std::chrono::steady_clock::now());
   session.realtime_offset_ns = now_ns(std::chrono::system_clock::now()) - clock_ns;
-  session.source = session.simulated
+  session.source = of_the_world
                        ? "synthetic: scenario " + std::filesystem::path{context.settings.run.scenario}.stem().string()
                        : config::text_of(settings.device);
   session.software_version = config::software_version();
@@ -41,10 +42,11 @@ ScanRecorderNode::ScanRecorderNode(NodeContext& context, std::unique_ptr<hal::Ra
     : context_(context),
       scanner_(std::move(scanner)),
       node_(context.participant, "scan_recorder", context.robot_id()),
+      emulation_(context, node_),
       step_done_(step_done_writer(context, node_)) {
   node_.on_device(
       "range_finder", [this](std::chrono::nanoseconds timeout) { return next_scan(timeout); },
-      [this](const kicking::lob::Scan& scan) { on_scan(scan); }, bus::writes<msg::StepDone>());
+      [this](const kicking::lob::Scan& scan) { on_scan(scan); }, bus::writes<msg::StepDone, msg::DeviceEmulated>());
   bus::ReaderOptions everything;
   everything.keep_all = true;
   node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); }, {}, everything);
@@ -81,6 +83,7 @@ void ScanRecorderNode::open(std::int64_t t_ns) {
   evaluator::log::WriterOptions options;
   options.warn = [logger = context_.logger](const std::string& line) { logger->warn(line); };
   log_.emplace(context_.settings.scan_recorder.file, session_of_scans(context_, *scanner_, t_ns), options);
+  emulation_.see(msg::PART_RANGE_FINDER, is_emulated(scanner_->identity()), t_ns);
   for (const auto& tested : early_) log_->set_point(tested);
   early_.clear();
 }

@@ -7,6 +7,7 @@
 
 #include "evaluator/log/scan_log.hpp"
 #include "hal/range_finder.hpp"
+#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
@@ -33,6 +34,7 @@ class ScanRecorderNode {
   NodeContext& context_;
   std::unique_ptr<hal::RangeFinder> scanner_;
   bus::Node node_;
+  EmulationWord emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   bool connected_ = false;
   bool waiting_ = false;  ///< said so

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "bus/domain.hpp"
@@ -166,6 +168,46 @@ TEST_F(Driven, ItMovesKicksOnceAtTheInstantAndIsNotedAsAProgram) {
   ASSERT_THAT(log.sessions(), SizeIs(1));
   EXPECT_TRUE(log.sessions()[0].simulated) << "the bridge says that it is a program";
   EXPECT_FALSE(log.sessions()[0].seed) << "and no world is behind it";
+}
+
+/// A bridge whose board can be told to charge and to empty itself.
+class Charged : public BehindABridge {
+ protected:
+  /// Says that the switch is closed, the game on and the capacitor half full, until it is told `word`; false: it is
+  /// not.
+  bool says_until_told(msg::ChargeWord word) {
+    const auto deadline = Clock::now() + kPatience;
+    for (std::optional<msg::ChargeWord> told; told != word;) {
+      if (Clock::now() > deadline) return false;
+      msg::Referee referee{};
+      msg::DeviceKicker board{};
+      referee.robot_id = board.robot_id = 1;
+      referee.seq = board.seq = ++seq_;
+      referee.t_ns = board.t_ns = steady_ns();
+      referee.playing = board.armed = board.charge_control = board.discharge = true;
+      board.charge = 0.5;
+      board.voltage_v = std::nan("");
+      referee_.write(referee);
+      board_.write(board);
+      charge_.wait(std::chrono::milliseconds{10});
+      charge_.take([&](const msg::DeviceCharge& said) { told = said.word; });
+    }
+    return true;
+  }
+
+ private:
+  bus::Writer<msg::Referee> referee_{participant_};
+  bus::Writer<msg::DeviceKicker> board_{participant_};
+  bus::Reader<msg::DeviceCharge> charge_{participant_};  // as any bridge has it: keeps the last
+  std::uint64_t seq_ = 0;
+};
+
+TEST_F(Charged, ItIsToldToEmptyItselfByADriverThatIsAskedToStop) {
+  start("kicker_driver");
+  ASSERT_TRUE(says_until_told(msg::CHARGE_UP)) << program("kicker_driver").errors();
+  program("kicker_driver").signal(SIGTERM);
+  EXPECT_TRUE(says_until_told(msg::CHARGE_EMPTY));
+  EXPECT_EQ(program("kicker_driver").wait(), 0);
 }
 
 TEST_F(BehindABridge, VisionAndGoalCameraAreHeard) {

@@ -6,8 +6,12 @@
 
 #include <memory>
 
+#include "hal/cia402/emulated_drives.hpp"
 #include "hal/ioboard/emulator.hpp"
+#include "hal/mti/emulated_mti.hpp"
+#include "hal/refbox/emulated_box.hpp"
 #include "hal/rekick/emulator.hpp"
+#include "hal/scip/emulator.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
@@ -119,6 +123,74 @@ TEST_F(Hardware, ItListsWhatIsThereAndFailsWhereADeviceIsNot) {
   EXPECT_THAT(trivela->output(), HasSubstr("volts are measured"));
   EXPECT_THAT(trivela->output(), testing::ContainsRegex("kicker: charge [01][.][0-9]+, [0-9]+ V, armed"));
   EXPECT_THAT(trivela->output(), HasSubstr("not used: refbox.group is empty"));
+}
+
+TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
+  const hal::cia402::Emulator drives{std::uint8_t{3}};
+  hal::mti::Emulator gyro;
+  gyro.with_board([](hal::mti::EmulatedMti& mti) { mti.rate_radps = 1.25; });
+  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
+                                      t_ns += 25'000'000;
+                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
+                                    }};
+  const hal::refbox::EmulatedBox box{{}};
+  const auto trivela = start(on_the_board({"--seconds", "1",
+                                           "--set",     "hal.wheels=\"cia402\"",
+                                           "--set",     "hal.cia402.gear=12",
+                                           "--set",     "hal.cia402.heartbeat_s=1",
+                                           "--set",     "hal.cia402.port=\"" + drives.address() + "\"",
+                                           "--set",     "hal.gyro=\"mti\"",
+                                           "--set",     "hal.mti.port=\"" + gyro.address() + "\"",
+                                           "--set",     "scan_recorder.enabled=true",
+                                           "--set",     "scan_recorder.device=\"" + scanner.address() + "\"",
+                                           "--set",     "refbox.group=\"224.16.32.39\"",
+                                           "--set",     "refbox.port=" + std::to_string(box.port())}));
+  EXPECT_EQ(trivela->wait(), 0) << trivela->errors() << trivela->output();
+  for (const std::string row : {"wheels +cia402 on .* there: 3 wheels, no gyro", "gyro +mti on .* there: .*MTi",
+                                "kicker +ioboard on .* there: ", "range finder +/.* there: Trivela SCIP emulator",
+                                "referee box +tcp://127.0.0.1:[0-9]+ +there"})
+    EXPECT_THAT(trivela->output(), testing::ContainsRegex(row));
+  for (const std::string value : {"wheels: wheel 1 0.00, ", "gyro: 1.25 rad/s, [0-9]+ ms old", "kicker: charge ",
+                                  "range finder: 2.00 m in front; [0-9]+/s", "referee box: last word WELCOME"})
+    EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
+}
+
+/// Drives of a process of their own, as a team that has none yet tries --spin.
+class SpunDrives : public Hardware {
+ protected:
+  SpunDrives() : drives_("trivela", {"emulate", "cia402", "--drives", "3"}, folder_.path()) {
+    EXPECT_TRUE(wait_for_change(folder_.path(), drives_.watch(), [this] {
+      return drives_.output().find('\n') != std::string::npos;
+    })) << drives_.errors();
+  }
+  std::unique_ptr<Program> spin() const {
+    return start(
+        on_the_board({"--spin", "2", "--seconds", "1", "--set", "hal.wheels=\"cia402\"", "--set", "hal.cia402.gear=12",
+                      "--set", "hal.cia402.heartbeat_s=1", "--set", "hal.cia402.ramp=1000000", "--set",
+                      "hal.cia402.port=\"" + drives_.output().substr(0, drives_.output().find('\n')) + "\""}));
+  }
+  bool say(const std::string& what) {
+    return wait_for_change(folder_.path(), drives_.watch(),
+                           [&] { return drives_.output().find(what) != std::string::npos; });
+  }
+
+  Program drives_;
+};
+
+TEST_F(SpunDrives, TheTypedWordTurnsOneWheelAndLeavesItAtRest) {
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 2\n"), 0) << trivela->errors();
+  EXPECT_THAT(trivela->output(),
+              testing::ContainsRegex("asked wheel 2 for 2.00 rad/s; wheel 1 0.00, wheel 2 (1.9|2.0)"));
+  EXPECT_TRUE(say("the wheels turn\n")) << drives_.output();
+  EXPECT_TRUE(say("the wheels stand\n")) << drives_.output();
+}
+
+TEST_F(SpunDrives, AnotherWordTurnsNothing) {
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 1\n"), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("not confirmed: no wheel was turned"));
+  EXPECT_EQ(drives_.output().find("the wheels turn"), std::string::npos);
 }
 
 TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {

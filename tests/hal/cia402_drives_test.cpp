@@ -128,6 +128,15 @@ TEST_F(Cia402DrivesTest, ADriveThatDoesNotStopWithoutUsIsRefused) {
   EXPECT_THAT(status(), HasSubstr("drive 1: it refuses object 6007: no such object"));
 }
 
+TEST_F(Cia402DrivesTest, ASetPointFromBeforeIsNotDoneWhenTheDrivesAreBack) {
+  turn_on_the_spot();
+  bus_.drive(1).power_cycle(bus_.now_ns);
+  bus_.run(0.1);
+  bus_.bring_up();
+  bus_.run(0.5);
+  for (const std::uint8_t node : {1, 2, 3}) EXPECT_EQ(bus_.rpm(node), 0.0);
+}
+
 TEST_F(Cia402DrivesTest, AFaultStopsTheBaseIsSaidAndIsNotResetByItself) {
   turn_on_the_spot();
   bus_.drives.fail(2, 0x2310, bus_.now_ns);
@@ -180,14 +189,64 @@ TEST_F(Cia402DrivesTest, ADriveThatRestartsByItselfIsSetUpAgain) {
   EXPECT_EQ(bus_.drive(1).boots(), 2u);
 }
 
-TEST_F(Cia402DrivesTest, AStallLongerThanTheHeartbeatLeavesAFaultThatTheNextStartResets) {
+/// Our heartbeat was gone for so long that every drive has its fault, and is back.
+class Cia402HeartbeatLost : public Cia402DrivesTest {
+ protected:
+  void expect_to_obey_again(double within_s) {
+    bus_.run(within_s);
+    ASSERT_TRUE(bus_.client->up()) << status();
+    for (const std::uint8_t node : {1, 2, 3}) {
+      EXPECT_EQ(bus_.drive(node).resets(), 1u);
+      EXPECT_EQ(bus_.drive(node).target_rpm(), 0) << "nobody has asked for anything since";
+      EXPECT_EQ(bus_.rpm(node), 0.0);
+    }
+    bus_.client->drive({0.0, 0.0, kTurn_radps});
+    bus_.run(0.5);
+    for (const std::uint8_t node : {1, 2, 3}) EXPECT_NEAR(bus_.rpm(node), kTurning_rpm, 0.5);
+  }
+};
+
+TEST_F(Cia402HeartbeatLost, ByACableThatWasOutForASecondTheWheelsObeyAgainWithinTwo) {
+  turn_on_the_spot();
+  bus_.unplug(1.0);
+  for (const std::uint8_t node : {1, 2, 3}) ASSERT_EQ(bus_.drive(node).state(), DriveState::kFault);
+  expect_to_obey_again(1.4);
+}
+
+TEST_F(Cia402HeartbeatLost, ByAStallTheDrivesComeBackByThemselves) {
   turn_on_the_spot();
   bus_.stall(0.5);
-  bus_.run(2.0);
+  expect_to_obey_again(1.4);
+}
+
+TEST_F(Cia402HeartbeatLost, IsSaidUntilItIsResetAndNotBeforeOurHeartbeatFlows) {
+  turn_on_the_spot();
+  bus_.stall(0.5);
+  bus_.run(0.15);
+  EXPECT_EQ(bus_.drive(1).resets(), 0u);
+  EXPECT_THAT(status(), HasSubstr("drive 1: fault: heartbeat lost (8130); drive 2: "));
+}
+
+TEST_F(Cia402HeartbeatLost, BesideAnotherFaultNothingIsReset) {
+  turn_on_the_spot();
+  bus_.drives.fail(2, 0x2310, bus_.now_ns);
+  bus_.run(0.1);
+  bus_.unplug(1.0);
+  bus_.run(5.0);
   EXPECT_FALSE(bus_.client->up());
-  EXPECT_THAT(status(), HasSubstr("drive 1: fault: heartbeat lost (8130); start this program again to reset it"));
-  bus_.start();
-  bus_.bring_up();
+  EXPECT_EQ(bus_.drive(2).resets(), 0u);
+  EXPECT_THAT(status(), HasSubstr("start this program again to reset it"));
+  EXPECT_EQ(bus_.drive(1).state(), DriveState::kEnabled) << "it had no other";
+}
+
+TEST_F(Cia402HeartbeatLost, WhereTheDriveDoesNotSayItsErrorItsFaultStays) {
+  for (const std::uint8_t node : {1, 2, 3}) bus_.drive(node).factory.erase(EmulatedDrive::key({0x603F, 0}));
+  turn_on_the_spot();
+  bus_.unplug(1.0);
+  bus_.run(5.0);
+  EXPECT_FALSE(bus_.client->up());
+  EXPECT_EQ(bus_.drive(1).resets(), 0u);
+  EXPECT_THAT(status(), HasSubstr("drive 1: fault: no emergency was heard; start this program again to reset it"));
 }
 
 TEST_F(Cia402DrivesTest, BusOffIsSaidInWordsAndTheBusOpenedAgain) {

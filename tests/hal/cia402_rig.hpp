@@ -20,8 +20,8 @@ class DrivesOnALine {
 
   DrivesOnALine() { EXPECT_TRUE(device->connected(kPatience)) << device->status(); }
 
-  static std::unique_ptr<hal::Wheels> open(const std::string& port) {
-    const config::Cia402Device settings{.port = port, .gear = kGear, .ramp = 1'000'000, .heartbeat_s = 10.0};
+  static std::unique_ptr<hal::Wheels> open(const std::string& port, double heartbeat_s = 10.0) {
+    const config::Cia402Device settings{.port = port, .gear = kGear, .ramp = 1'000'000, .heartbeat_s = heartbeat_s};
     return std::make_unique<hal::cia402::Cia402Wheels>(hal::can::can_line(port), settings, kicking::WheelBase{});
   }
 

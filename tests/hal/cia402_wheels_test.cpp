@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include "tests/hal/cia402_rig.hpp"
 
 namespace trivela::hal::cia402 {
@@ -134,6 +136,28 @@ TEST_F(Cia402WheelsTest, TheNextProgramResetsTheFault) {
   line_.device.reset();
   line_.device = tests::DrivesOnALine::open(line_.emulator.address());
   EXPECT_TRUE(line_.device->connected(kPatience)) << line_.device->status();
+}
+
+TEST_F(Cia402WheelsTest, ACableThatWasOutUntilTheDrivesMissedUsIsPluggedInAndTheyObeyAgain) {
+  line_.device.reset();
+  line_.device = tests::DrivesOnALine::open(line_.emulator.address(), 0.5);
+  ASSERT_TRUE(line_.device->connected(kPatience));
+  line_.emulator.line().pull();
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  for (bool missed = false; !missed; std::this_thread::yield()) {
+    ASSERT_LT(std::chrono::steady_clock::now(), end);
+    line_.emulator.with_board([&](EmulatedDrives& drives) {
+      drives.tick(tests::steady_ns());  // what they say nobody hears
+      missed =
+          std::ranges::all_of(drives.drives(), [](const auto& drive) { return drive.state() == DriveState::kFault; });
+    });
+  }
+  line_.emulator.line().plug();
+  ASSERT_TRUE(line_.device->connected(kPatience)) << line_.device->status();
+  EXPECT_TRUE(line_.emulator.wait(kPatience, [this](const EmulatedDrives& drives) {
+    line_.device->drive({0.0, 0.0, 2.0}, tests::steady_ns());
+    return turn(drives);
+  }));
 }
 
 TEST(Cia402Wheels, WithoutABusSayWhyAndGiveNothing) {

@@ -73,6 +73,15 @@ class DrivesOnABus {
       for (const std::string& said : drives.tick(now_ns)) drives.say(hal::can::decode(said).at(0));
     }
   }
+  /// The cable is out: both sides go on, and what the drives say is lost.
+  void unplug(double span_s) {
+    plugged = false;
+    for (const std::int64_t end_ns = now_ns + std::llround(span_s * 1e9); now_ns < end_ns; now_ns += kStep_ns) {
+      drives.tick(now_ns);
+      client->step(now_ns);
+    }
+    plugged = true;
+  }
   /// Runs until every drive is in operation.
   void bring_up() {
     for (int i = 0; i < 5000 && !client->up(); ++i) run(0.001);

@@ -146,7 +146,7 @@ TEST(EmulatedBox, KnowsTeamsByTheirAddress) {
   ASSERT_TRUE(box.wait_for_teams(1, kBoxPatience));
   EXPECT_FALSE(box.report(0).connected);
   EXPECT_TRUE(box.report(1).connected);
-  EXPECT_EQ(tests::read_all(right, 1), R"({"command":"WELCOME","targetTeam":"224.16.32.63"})"s + '\0');
+  EXPECT_EQ(tests::read_all(right, 1), R"({"command":"WELCOME","emulated":true,"targetTeam":"224.16.32.63"})"s + '\0');
   const auto again = tests::connect_from("127.0.63.2", box.port());
   EXPECT_EQ(tests::read_all(again), R"({"command":"RESET","targetTeam":""})"s + '\0') << "and closed";
   EXPECT_TRUE(box.report(1).connected) << "the first one stays";

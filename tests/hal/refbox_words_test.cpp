@@ -37,6 +37,10 @@ TEST(RefboxWords, EveryCommandOfTheLeagueIsKnown) {
 TEST(RefboxWords, WhatOtherBoxesSayIsUnderstood) {
   EXPECT_EQ(command_of(R"({"command":"GAME_OVER","targetTeam":""})"s).kind, CommandKind::kGameOver);
   EXPECT_EQ(command_of(R"({"command":" WELCOME","targetTeam":""})"s).kind, CommandKind::kWelcome);
+  EXPECT_FALSE(command_of(R"({"command":"WELCOME","targetTeam":""})"s).emulated);
+  EXPECT_TRUE(command_of(R"({"command":"WELCOME","emulated":true,"targetTeam":""})"s).emulated);
+  EXPECT_FALSE(command_of(R"({"command":"START","emulated":true,"targetTeam":""})"s).emulated);
+  EXPECT_FALSE(command_of(R"({"command":"WELCOME","emulated":"yes","targetTeam":""})"s).emulated);
   EXPECT_EQ(command_of(R"({"command":"WELCOM","targetTeam":""})"s).kind, CommandKind::kWelcome);
 }
 

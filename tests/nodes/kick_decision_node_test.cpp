@@ -60,6 +60,13 @@ class KickDecisionNodeTest : public NodeTest {
   std::optional<Running> running;
 };
 
+TEST_F(KickDecisionNodeTest, SaysWithItsFirstOrderThatNobodyObservesKicks) {
+  start();
+  cycle(world());
+  order.nth(1);
+  EXPECT_TRUE(log_lines->wait_for("nobody writes kick_outcome: no shot_observer runs"));
+}
+
 TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
   start();
   cycle(world());

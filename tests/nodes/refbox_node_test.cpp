@@ -85,6 +85,18 @@ TEST_F(RefboxNodeTest, SaysTheMatchAsTheBoxSaysIt) {
   EXPECT_DOUBLE_EQ(wait_for_play(false).half_time_s, 2.0);
 }
 
+TEST_F(RefboxNodeTest, SaysOnceThatTheBoxIsAProgram) {
+  Heard<msg::DeviceEmulated> emulated{participant};
+  start();
+  EXPECT_EQ(emulated.nth(1).part, msg::PART_REFEREE_BOX);
+  EXPECT_EQ(emulated.nth(1).robot_id, 1);
+  box.act(BoxFault::kClose);
+  ASSERT_TRUE(box.wait_for_teams(1, kPlenty)) << "it says WELCOME once more";
+  say(CommandKind::kStart);
+  wait_for_play(true);
+  EXPECT_EQ(emulated.now().size(), 1U);
+}
+
 TEST_F(RefboxNodeTest, RepeatsWhatItSaid) {
   start();
   say(CommandKind::kStart);

@@ -1,5 +1,7 @@
 #include "nodes/scan_recorder/scan_recorder_node.hpp"
 
+#include "hal/open.hpp"
+#include "hal/scip/emulator.hpp"
 #include "hal/sim/sim_range_finder.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
@@ -86,6 +88,21 @@ TEST_F(ScanRecorderNodeTest, RecordsScansAndTheSetPointOfEveryKickThatWasAccepte
   EXPECT_EQ(tested[1].power, 42.5);
   EXPECT_EQ(tested[1].t_ns, 300'000'000);
   EXPECT_TRUE(record.warnings().empty());
+}
+
+TEST_F(ScanRecorderNodeTest, SaysThatTheScannerIsAProgramAndTheRecordDoesToo) {
+  const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
+                                      t_ns += 25'000'000;
+                                      return kicking::lob::Scan{t_ns, std::vector<std::uint32_t>(1081, 2000)};
+                                    }};
+  context.settings.scan_recorder.device = config::ScipDevice{.address = scanner.address(), .host = {}};
+  Heard<msg::DeviceEmulated> emulated{participant};
+  node.emplace(context, hal::open_range_finder(scanner.address()));
+  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+  EXPECT_EQ(emulated.nth(1).part, msg::PART_RANGE_FINDER);
+  const ScanReader record = read();
+  EXPECT_TRUE(record.session().simulated);
+  EXPECT_EQ(record.session().source, scanner.address());
 }
 
 TEST_F(ScanRecorderNodeTest, WithoutAnyScanThereIsNoRecord) {
