@@ -34,7 +34,8 @@ class Turn {
 /// Who wants to know that an executor turns, e.g. for a watchdog.
 struct Pulse {
   /// Told by run()'s thread once all readers and threads are there and then about each 100 ms: an empty name, or that
-  /// of a device, timer or reaction which is late. Where that thread itself hangs it is told nothing. None: nobody asks.
+  /// of a device, timer or reaction which is late. Where that thread itself hangs it is told nothing. None: nobody
+  /// asks.
   std::function<void(const std::string& late)> beat;
   /// How long a reaction may take, and a device or timer may come too late.
   std::chrono::nanoseconds patience = std::chrono::seconds{1};

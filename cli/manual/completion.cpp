@@ -81,11 +81,13 @@ std::string fish_lines(const ManualVerb& verb, const std::string& said) {
     for (const std::string& name : flag.names)
       lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     if (!flag.value.empty()) lines += " -r";
-    if (!flag.choices.empty()) lines += fmt::format(" -f -a {}", quoted(fmt::format("{}", fmt::join(flag.choices, " "))));
+    if (!flag.choices.empty())
+      lines += fmt::format(" -f -a {}", quoted(fmt::format("{}", fmt::join(flag.choices, " "))));
     lines += fmt::format(" -d {}\n", quoted(flag.description, "\\'"));
   }
   for (const ManualVerb& part : verb.verbs)
-    lines += fish_lines(part, fmt::format("{}{}__fish_seen_subcommand_from {}", said, said.empty() ? "" : "; and ", part.name));
+    lines += fish_lines(
+        part, fmt::format("{}{}__fish_seen_subcommand_from {}", said, said.empty() ? "" : "; and ", part.name));
   return lines;
 }
 

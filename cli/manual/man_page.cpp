@@ -44,8 +44,8 @@ std::string flags_of(const ManualVerb& verb) {
 }
 
 std::string section_of(const ManualVerb& verb) {
-  std::string page = fmt::format(".SS {}\n{}.PP\n{}\n{}", roff(verb.path), synopsis(verb), roff(verb.description),
-                                 flags_of(verb));
+  std::string page =
+      fmt::format(".SS {}\n{}.PP\n{}\n{}", roff(verb.path), synopsis(verb), roff(verb.description), flags_of(verb));
   if (!verb.footer.empty()) page += fmt::format(".PP\n{}\n", roff(verb.footer));
   for (const ManualVerb& below : verb.verbs) page += section_of(below);
   return page;
@@ -73,8 +73,9 @@ std::string roff(const std::string& text) {
 }
 
 std::string man_page(const ManualVerb& program) {
-  std::string page = head("TRIVELA", 1) + fmt::format(".SH NAME\n{} \\- {}\n", program.name, roff(program.description)) +
-                     ".SH SYNOPSIS\n" + synopsis(program) + ".SH OPTIONS\n" + flags_of(program);
+  std::string page = head("TRIVELA", 1) +
+                     fmt::format(".SH NAME\n{} \\- {}\n", program.name, roff(program.description)) + ".SH SYNOPSIS\n" +
+                     synopsis(program) + ".SH OPTIONS\n" + flags_of(program);
   std::string group;
   for (const ManualVerb& verb : program.verbs) {
     if (verb.group != group) page += fmt::format(".SH VERBS: {}\n", roff(verb.group));
@@ -86,12 +87,13 @@ std::string man_page(const ManualVerb& program) {
 }
 
 std::string nodes_man_page(const std::vector<std::string>& nodes, const ManualVerb& node) {
-  std::string page = head("TRIVELA\\-NODES", 8) + fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
-                                                               roff(fmt::format("{}", fmt::join(nodes, ", "))),
-                                                               roff(node.description));
+  std::string page =
+      head("TRIVELA\\-NODES", 8) + fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
+                                               roff(fmt::format("{}", fmt::join(nodes, ", "))), roff(node.description));
   for (const std::string& name : nodes) page += fmt::format("\\fB{}\\fR [\\fIOPTIONS\\fR]\n.br\n", roff(name));
   page +=
-      ".SH DESCRIPTION\nEach is a process of its own. SIGTERM and SIGINT end it well: the kicker's driver tells the capacitor to "
+      ".SH DESCRIPTION\nEach is a process of its own. SIGTERM and SIGINT end it well: the kicker's driver tells the "
+      "capacitor to "
       "empty, the recorder finalises its log. With systemd each is an instance of \\fItrivela@.service\\fR, such as "
       "trivela@odometry: the node says when it is ready, and that it lives while its loops come round. Without systemd "
       "\\fBtrivela\\-launch\\fR starts those that \\fIrobot.env\\fR names.\n.SH OPTIONS\n";

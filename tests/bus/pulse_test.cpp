@@ -82,8 +82,9 @@ TEST_P(PulseTest, ADeviceThatHangsIsNamed) {
 TEST_P(PulseTest, AReactionToATopicThatHangsIsNamed) {
   node.on<msg::Referee>([this](const msg::Referee&) { hang.here(); });
   Node feeder{participant, "feeder"};
-  feeder.every(std::chrono::milliseconds{1}, "clock",
-               [out = feeder.writer<msg::Referee>()] { out.write(msg::Referee{}); }, writes<msg::Referee>());
+  feeder.every(
+      std::chrono::milliseconds{1}, "clock", [out = feeder.writer<msg::Referee>()] { out.write(msg::Referee{}); },
+      writes<msg::Referee>());
   std::thread feeding{[&] { Executor{Executor::kWaitset, stop, {&feeder}}.run(); }};
   run("node/referee");
   feeding.join();

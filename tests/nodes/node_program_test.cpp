@@ -64,8 +64,8 @@ TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceD
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
 
 TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsServiceManagerThatItLives) {
-  for (const std::string name : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer",
-                                 "recorder", "simulator"}) {
+  for (const std::string name :
+       {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "recorder", "simulator"}) {
     SCOPED_TRACE(name);
     const std::string path = (folder / ("notify-" + name)).string();
     NotifySocket manager{path};

@@ -8,9 +8,7 @@ namespace trivela::nodes {
 namespace {
 
 struct SignsOfLife : NodeTest {
-  SignsOfLife() {
-    context.service_manager = std::make_shared<ServiceManager>(path, std::chrono::milliseconds{200});
-  }
+  SignsOfLife() { context.service_manager = std::make_shared<ServiceManager>(path, std::chrono::milliseconds{200}); }
   TemporaryFolder folder;
   std::string path = (folder / "notify").string();
   NotifySocket manager{path};
