@@ -19,7 +19,7 @@
 
 namespace trivela::nodes {
 
-class ServiceManager;
+class Supervisor;
 
 /// A reading of a std::chrono clock in nanoseconds since that clock's epoch.
 std::int64_t now_ns(auto clock_now) {
@@ -36,7 +36,7 @@ struct NodeContext {
   /// This machine's steady clock, which every t_ns of real time is of [ns]; another one in tests.
   std::function<std::int64_t()> steady_ns = [] { return now_ns(std::chrono::steady_clock::now()); };
   /// Who started this process and waits for its signs of life; null: nobody.
-  std::shared_ptr<ServiceManager> service_manager = {};
+  std::shared_ptr<Supervisor> supervisor = {};
 
   std::uint8_t robot_id() const { return static_cast<std::uint8_t>(settings.run.robot_id); }
   std::chrono::nanoseconds cycle() const;

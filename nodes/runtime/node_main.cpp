@@ -23,8 +23,8 @@
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
 #include "nodes/runtime/node_flags.hpp"
-#include "nodes/runtime/service_manager.hpp"
 #include "nodes/runtime/standard_streams.hpp"
+#include "nodes/runtime/supervisor.hpp"
 
 namespace trivela::nodes {
 
@@ -38,11 +38,11 @@ void NodeContext::idle(std::chrono::nanoseconds timeout) const {
 }
 
 void NodeContext::alive() const {
-  if (service_manager) service_manager->alive();
+  if (supervisor) supervisor->alive();
 }
 
 bus::Pulse NodeContext::pulse() const {
-  if (!service_manager) return {};
+  if (!supervisor) return {};
   const auto beat = [this](const std::string& late) {
     if (late.empty()) return alive();
     logger->error("{} does not come round: the service manager hears nothing of this node", late);
@@ -79,13 +79,13 @@ bus::Participant join(const config::Settings& settings, const std::shared_ptr<sp
 void run_as_member(const config::Settings& settings, const config::Robot& robot,
                    const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
-  const auto service_manager = ServiceManager::of_environment();
+  const auto supervisor = Supervisor::of_environment();
   constexpr std::chrono::seconds kShortestStay{5};
   constexpr std::chrono::seconds kLongestStay{60};
   for (auto stay = kShortestStay;; stay = std::min(2 * stay, kLongestStay)) {
     try {
       NodeContext context{settings, robot, join(settings, logger, stay), logger, stop};
-      context.service_manager = service_manager;
+      context.supervisor = supervisor;
       logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
       return body(context);
     } catch (const bus::Deaf& deaf) {

@@ -63,7 +63,7 @@ TEST_F(NodeProgramTest, SigtermEndsTheShotObserver) { expect_clean_end<msg::Flig
 TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceDrive>("simulator"); }
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
 
-TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsServiceManagerThatItLives) {
+TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsSupervisorThatItLives) {
   for (const std::string name :
        {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "recorder", "simulator"}) {
     SCOPED_TRACE(name);

@@ -1,5 +1,5 @@
 // What a node says to its service manager while it runs.
-#include "nodes/runtime/service_manager.hpp"
+#include "nodes/runtime/supervisor.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/notify_socket.hpp"
 #include "tests/nodes/temporary_folder.hpp"
@@ -8,7 +8,7 @@ namespace trivela::nodes {
 namespace {
 
 struct SignsOfLife : NodeTest {
-  SignsOfLife() { context.service_manager = std::make_shared<ServiceManager>(path, std::chrono::milliseconds{200}); }
+  SignsOfLife() { context.supervisor = std::make_shared<Supervisor>(path, std::chrono::milliseconds{200}); }
   TemporaryFolder folder;
   std::string path = (folder / "notify").string();
   NotifySocket manager{path};
@@ -37,7 +37,7 @@ TEST_F(SignsOfLife, ANodeIsReadyOnceItsReadersAreThereAndSpeaksOnlyWhileItsLoops
 }
 
 TEST_F(SignsOfLife, WithoutAManagerAnExecutorIsToldOfNobody) {
-  context.service_manager.reset();
+  context.supervisor.reset();
   EXPECT_FALSE(context.pulse().beat);
   context.alive();
 }

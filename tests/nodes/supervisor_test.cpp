@@ -1,4 +1,4 @@
-#include "nodes/runtime/service_manager.hpp"
+#include "nodes/runtime/supervisor.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,18 +16,18 @@ using ::testing::HasSubstr;
 
 constexpr milliseconds kAtOnce{0};  // a datagram on this machine is there when sendto returns
 
-struct ServiceManagerTest : testing::Test {
-  ~ServiceManagerTest() override {
+struct SupervisorTest : testing::Test {
+  ~SupervisorTest() override {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) unsetenv(name);
   }
   TemporaryFolder folder;
   std::string path = (folder / "notify").string();
   NotifySocket socket{path};
-  ServiceManager::Clock::time_point start{std::chrono::hours{1}};
+  Supervisor::Clock::time_point start{std::chrono::hours{1}};
 };
 
-TEST_F(ServiceManagerTest, HearsReadyOnceAndThenOneWordInAQuarterOfTheWatchdogsTime) {
-  ServiceManager manager{path, std::chrono::seconds{2}};
+TEST_F(SupervisorTest, HearsReadyOnceAndThenOneWordInAQuarterOfTheWatchdogsTime) {
+  Supervisor manager{path, std::chrono::seconds{2}};
   EXPECT_EQ(socket.next(kAtOnce), std::nullopt);
   manager.alive(start);
   EXPECT_EQ(socket.next(kAtOnce), "READY=1");
@@ -39,63 +39,63 @@ TEST_F(ServiceManagerTest, HearsReadyOnceAndThenOneWordInAQuarterOfTheWatchdogsT
   EXPECT_EQ(socket.drain(), 4u);
 }
 
-TEST_F(ServiceManagerTest, WithoutAWatchdogHearsReadyAlone) {
-  ServiceManager manager{path, std::nullopt};
+TEST_F(SupervisorTest, WithoutAWatchdogHearsReadyAlone) {
+  Supervisor manager{path, std::nullopt};
   for (int i = 0; i < 100; ++i) manager.alive(start + i * std::chrono::seconds{1});
   EXPECT_EQ(socket.next(kAtOnce), "READY=1");
   EXPECT_EQ(socket.drain(), 0u);
 }
 
-TEST_F(ServiceManagerTest, AnAbstractNameIsReachedToo) {
+TEST_F(SupervisorTest, AnAbstractNameIsReachedToo) {
   const std::string name = "@trivela-notify-" + std::to_string(getpid());
   NotifySocket abstract{name};
-  ServiceManager manager{name, std::nullopt};
+  Supervisor manager{name, std::nullopt};
   manager.alive(start);
   EXPECT_EQ(abstract.next(kAtOnce), "READY=1");
 }
 
-TEST_F(ServiceManagerTest, WhoListensLateHearsReadyAtTheNextCall) {
+TEST_F(SupervisorTest, WhoListensLateHearsReadyAtTheNextCall) {
   const std::string late = (folder / "late").string();
-  ServiceManager manager{late, std::chrono::seconds{2}};
+  Supervisor manager{late, std::chrono::seconds{2}};
   manager.alive(start);
   NotifySocket there{late};
   manager.alive(start + milliseconds{1});
   EXPECT_EQ(there.next(kAtOnce), "READY=1");
 }
 
-TEST_F(ServiceManagerTest, AFullSocketIsNotWaitedFor) {
-  ServiceManager manager{path, std::chrono::microseconds{4}};
+TEST_F(SupervisorTest, AFullSocketIsNotWaitedFor) {
+  Supervisor manager{path, std::chrono::microseconds{4}};
   for (int i = 0; i < 100'000; ++i) manager.alive(start + i * milliseconds{1});  // more than any queue takes
   EXPECT_EQ(socket.next(kAtOnce), "READY=1");
   EXPECT_GT(socket.drain(), 0u);
 }
 
-TEST_F(ServiceManagerTest, IsWhatTheEnvironmentNames) {
-  EXPECT_EQ(ServiceManager::of_environment(), nullptr);
+TEST_F(SupervisorTest, IsWhatTheEnvironmentNames) {
+  EXPECT_EQ(Supervisor::of_environment(), nullptr);
   setenv("NOTIFY_SOCKET", path.c_str(), 1);
   setenv("WATCHDOG_USEC", "2000000", 1);
   setenv("WATCHDOG_PID", std::to_string(getpid()).c_str(), 1);
-  const auto manager = ServiceManager::of_environment();
+  const auto manager = Supervisor::of_environment();
   ASSERT_NE(manager, nullptr);
   for (int i = 0; i < 3; ++i) manager->alive(start + i * std::chrono::seconds{1});
   EXPECT_EQ(socket.next(kAtOnce), "READY=1");
   EXPECT_EQ(socket.drain(), 2u);
 }
 
-TEST_F(ServiceManagerTest, SomebodyElsesWatchdogHearsNothing) {
+TEST_F(SupervisorTest, SomebodyElsesWatchdogHearsNothing) {
   setenv("NOTIFY_SOCKET", path.c_str(), 1);
   setenv("WATCHDOG_USEC", "2000000", 1);
   setenv("WATCHDOG_PID", std::to_string(getpid() + 1).c_str(), 1);
-  const auto manager = ServiceManager::of_environment();
+  const auto manager = Supervisor::of_environment();
   for (int i = 0; i < 3; ++i) manager->alive(start + i * std::chrono::seconds{1});
   EXPECT_EQ(socket.next(kAtOnce), "READY=1");
   EXPECT_EQ(socket.drain(), 0u);
 }
 
-TEST_F(ServiceManagerTest, WhatIsNoSocketIsRefusedByName) {
+TEST_F(SupervisorTest, WhatIsNoSocketIsRefusedByName) {
   for (const std::string& name : {std::string{"vsock:2:1"}, std::string{"/"}, "/" + std::string(120, 'x')}) {
     try {
-      const ServiceManager manager{name, std::nullopt};
+      const Supervisor manager{name, std::nullopt};
       ADD_FAILURE() << name;
     } catch (const std::runtime_error& error) {
       EXPECT_THAT(error.what(), HasSubstr("NOTIFY_SOCKET is " + name));

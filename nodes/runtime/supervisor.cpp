@@ -1,4 +1,4 @@
-#include "nodes/runtime/service_manager.hpp"
+#include "nodes/runtime/supervisor.hpp"
 
 #include <fmt/core.h>
 #include <sys/socket.h>
@@ -35,7 +35,7 @@ std::optional<std::chrono::microseconds> watchdog_of_environment() {
 
 }  // namespace
 
-ServiceManager::ServiceManager(const std::string& socket, std::optional<std::chrono::microseconds> watchdog)
+Supervisor::Supervisor(const std::string& socket, std::optional<std::chrono::microseconds> watchdog)
     : socket_(socket), watchdog_(watchdog), descriptor_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
   const bool named = socket.size() > 1 && (socket.front() == '/' || socket.front() == '@');
   if (named && socket.size() < sizeof(sockaddr_un::sun_path) && descriptor_ >= 0) return;
@@ -45,14 +45,14 @@ ServiceManager::ServiceManager(const std::string& socket, std::optional<std::chr
   throw std::runtime_error{fmt::format("NOTIFY_SOCKET is {}: neither a path nor @ and a name", socket)};
 }
 
-ServiceManager::~ServiceManager() { close(descriptor_); }
+Supervisor::~Supervisor() { close(descriptor_); }
 
-std::shared_ptr<ServiceManager> ServiceManager::of_environment() {
+std::shared_ptr<Supervisor> Supervisor::of_environment() {
   const std::string socket = environment("NOTIFY_SOCKET");
-  return socket.empty() ? nullptr : std::make_shared<ServiceManager>(socket, watchdog_of_environment());
+  return socket.empty() ? nullptr : std::make_shared<Supervisor>(socket, watchdog_of_environment());
 }
 
-void ServiceManager::alive(Clock::time_point now) {
+void Supervisor::alive(Clock::time_point now) {
   if (!ready_) {
     ready_ = say("READY=1");
     said_ = now;
@@ -61,7 +61,7 @@ void ServiceManager::alive(Clock::time_point now) {
   }
 }
 
-bool ServiceManager::say(const char* line) const {
+bool Supervisor::say(const char* line) const {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path, socket_.data(), socket_.size());
