@@ -19,12 +19,14 @@ constexpr std::chrono::milliseconds kDeviceTimeout{50};
 // How often it is looked, in real time, whether a topic has fallen silent.
 constexpr std::chrono::milliseconds kGlance{100};
 
+using Clock = std::chrono::steady_clock;
+
 void name_this_thread(const std::string& name) { pthread_setname_np(pthread_self(), name.substr(0, 15).c_str()); }
 
 }  // namespace
 
-Executor::Executor(Kind kind, Stop& stop, std::vector<Node*> nodes)
-    : kind_(kind), stop_(stop), nodes_(std::move(nodes)) {}
+Executor::Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, Pulse pulse)
+    : kind_(kind), stop_(stop), nodes_(std::move(nodes)), pulse_(std::move(pulse)) {}
 
 void Executor::run() {
   if (kind_ == kListener) {
@@ -97,18 +99,43 @@ bool Executor::in_real_time() const {
 }
 
 void Executor::wait_for_stop() {
-  if (!in_real_time()) return stop_.wait();
+  const bool real_time = in_real_time();
+  if (!real_time && !pulse_.beat) return stop_.wait();
   pollfd stop{stop_.file_descriptor(), POLLIN, 0};
-  while (!stop_.requested()) {
+  for (beat(); !stop_.requested(); beat()) {
     poll(&stop, 1, static_cast<int>(kGlance.count()));
-    for (Node* node : nodes_) {
-      const auto deaf = node->participant().hearing() ? node->participant().hearing()->deaf() : std::nullopt;
-      if (deaf) return give_up(*deaf);
-      for (const auto& mailbox : node->mailboxes_) mailbox();
-      if (kind_ == kListener)
-        for (const auto& slot : node->slots_) keep_hearing(*slot);
-    }
+    if (real_time && !look_after_hearing()) return;
   }
+}
+
+// False: a participant is deaf, and this run is over.
+bool Executor::look_after_hearing() {
+  for (Node* node : nodes_) {
+    const auto deaf = node->participant().hearing() ? node->participant().hearing()->deaf() : std::nullopt;
+    if (deaf) {
+      give_up(*deaf);
+      return false;
+    }
+    for (const auto& mailbox : node->mailboxes_) mailbox();
+    if (kind_ == kListener)
+      for (const auto& slot : node->slots_) keep_hearing(*slot);
+  }
+  return true;
+}
+
+void Executor::beat() const {
+  if (pulse_.beat && !stop_.requested()) pulse_.beat(late());
+}
+
+// The first loop or reaction that is; empty: all come round in time.
+std::string Executor::late() const {
+  const auto now = Clock::now();
+  for (const Node* node : nodes_) {
+    if (node->turn_.late(now, pulse_.patience)) return node->name();
+    for (const auto& slot : node->slots_)
+      if (slot->turn.late(now, pulse_.patience)) return slot->reaction.name;
+  }
+  return {};
 }
 
 // Ends this run, but not what the stop is for: who made the executor may make another.
@@ -155,6 +182,7 @@ void Executor::serve_topics(Node& node) {
       if (node.slots_[i]->reader) attach(i);
     const bool real_time = node.participant().hearing() != nullptr;
     while (!over()) {
+      if (real_time) node.turn_.due(Clock::now() + kGlance);
       for (const std::intptr_t i : waitset.wait(real_time ? kGlance : std::chrono::nanoseconds::max()))
         if (i >= 0) react(*node.slots_[static_cast<std::size_t>(i)]);
       if (!real_time) continue;
@@ -168,7 +196,11 @@ void Executor::serve_device(Slot& slot) {
   guarded([&] {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
-    while (!over()) slot.poll(kDeviceTimeout);
+    while (!over()) {
+      slot.turn.due(Clock::now() + kDeviceTimeout);
+      slot.poll(kDeviceTimeout);
+    }
+    slot.turn.idle();
   });
 }
 
@@ -176,11 +208,12 @@ void Executor::serve_timer(Slot& slot) {
   guarded([&] {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
-    auto next = std::chrono::steady_clock::now() + slot.period;
-    while (!stop_.wait_until(next) && !over()) {
+    auto next = Clock::now() + slot.period;
+    for (slot.turn.due(next); !stop_.wait_until(next) && !over(); slot.turn.due(next)) {
       slot.tick();
-      next = std::max(next + slot.period, std::chrono::steady_clock::now());
+      next = std::max(next + slot.period, Clock::now());
     }
+    slot.turn.idle();
   });
 }
 
@@ -192,7 +225,10 @@ void Executor::take(Slot& slot) noexcept {
   guarded([&] {
     const std::lock_guard lock(slot.running);
     const ReactionScope scope(slot.reaction, kind_ == kListener);
-    if (slot.reader) slot.take(*slot.reader);
+    if (!slot.reader) return;
+    if (pulse_.beat) slot.turn.due(Clock::now());
+    slot.take(*slot.reader);
+    slot.turn.idle();
   });
 }
 

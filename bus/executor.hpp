@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bus/node.hpp"
+#include "bus/pulse.hpp"
 #include "bus/stop.hpp"
 
 namespace trivela::bus {
@@ -26,7 +27,7 @@ class Executor {
   enum Kind { kWaitset, kListener };
 
   /// The nodes and the stop outlive the executor; a node runs once.
-  Executor(Kind kind, Stop& stop, std::vector<Node*> nodes);
+  Executor(Kind kind, Stop& stop, std::vector<Node*> nodes, Pulse pulse = {});
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
 
@@ -43,6 +44,9 @@ class Executor {
   void catch_up();
   void start_threads();
   void wait_for_stop();
+  bool look_after_hearing();
+  void beat() const;
+  std::string late() const;
   bool in_real_time() const;
   void give_up(const class Deaf& deaf);
   bool over() const { return over_ || stop_.requested(); }
@@ -61,6 +65,7 @@ class Executor {
   Kind kind_;
   Stop& stop_;
   std::vector<Node*> nodes_;
+  Pulse pulse_;
   std::atomic<bool> listening_ = false;
   std::atomic<bool> over_ = false;
   std::vector<std::thread> threads_;

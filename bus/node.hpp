@@ -12,6 +12,7 @@
 #include "bus/graph.hpp"
 #include "bus/last_heard.hpp"
 #include "bus/mailbox.hpp"
+#include "bus/pulse.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
@@ -158,6 +159,7 @@ class Node {
     bool to_the_last = false;           // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
+    Turn turn;  // of its thread, or of the reaction that runs
     class Executor* executor = nullptr;
   };
 
@@ -170,6 +172,7 @@ class Node {
   std::string name_;
   std::optional<std::uint8_t> robot_id_;
   std::shared_ptr<Guard> interrupt_;
+  Turn turn_;  // of the thread that waits for its topics
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
   std::vector<Input> inputs_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/finite_numbers.hpp"
+#include "cli/manual/manual_flags.hpp"
 #include "cli/nearest_word.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
@@ -75,6 +76,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
   app.require_subcommand(1);
+  cli::add_manual_flags(app);
   app.set_version_flag("--version", trivela::config::version_lines("trivela"));
   app.footer(
       "On the robot itself each node is a program of its own, trivela-NODE: see docs/operations.md.\n"

@@ -22,7 +22,7 @@ fs::path named() {
 
 }  // namespace
 
-fs::path folder() {
+fs::path folder(const fs::path& of_machine) {
   if (!named().empty()) return named();
   std::error_code unknown;
   const fs::path beside = fs::read_symlink("/proc/self/exe", unknown).parent_path();
@@ -31,7 +31,7 @@ fs::path folder() {
   for (fs::path above = beside; above.has_relative_path(); above = above.parent_path()) {
     if (holds_settings(above / "config")) return above / "config";
   }
-  return installed;
+  return holds_settings(of_machine) ? of_machine : installed;
 }
 
 std::string trouble_with_folder() {

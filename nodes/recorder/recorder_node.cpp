@@ -151,7 +151,7 @@ int recorder_main(int argc, char** argv) {
     evaluator::log::Writer& log = *placed->writer;
     RecorderNode node{context, log, state};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
-    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}}.run();
+    bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.pulse()}.run();
     node.note_silences();
     log.finalise();
     const auto stats = log.stats();

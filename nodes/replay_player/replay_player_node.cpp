@@ -42,6 +42,7 @@ void ReplayPlayerNode::run() {
   ProgressLine progress;
   const double total_s = kicking::seconds(last_t_ns(log_));
   while (const auto t_ns = topics_.next_t_ns()) {
+    context_.alive();
     while (topics_.next_t_ns() == t_ns) publish(*topics_.next());
     if (!barrier_.wait_for(*t_ns, context_.stop)) return;
     progress.say(kicking::seconds(*t_ns), total_s, topics_.ended());

@@ -12,11 +12,14 @@
 
 #include "bus/node.hpp"
 #include "bus/participant.hpp"
+#include "bus/pulse.hpp"
 #include "bus/stop.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
 
 namespace trivela::nodes {
+
+class Supervisor;
 
 /// A reading of a std::chrono clock in nanoseconds since that clock's epoch.
 std::int64_t now_ns(auto clock_now) {
@@ -32,9 +35,18 @@ struct NodeContext {
   bus::Stop& stop;
   /// This machine's steady clock, which every t_ns of real time is of [ns]; another one in tests.
   std::function<std::int64_t()> steady_ns = [] { return now_ns(std::chrono::steady_clock::now()); };
+  /// Who started this process and waits for its signs of life; null: nobody.
+  std::shared_ptr<Supervisor> supervisor = {};
 
   std::uint8_t robot_id() const { return static_cast<std::uint8_t>(settings.run.robot_id); }
   std::chrono::nanoseconds cycle() const;
+
+  /// A sign of life, for nodes with a loop of their own, each time it comes round.
+  void alive() const;
+
+  /// The same for an executor, which gives it while all of its node's loops come round: what is late is an error in the
+  /// log, and no sign of life is given. The context outlives it.
+  bus::Pulse pulse() const;
 
   /// Waits for the stop, no longer than the timeout.
   void idle(std::chrono::nanoseconds timeout) const;

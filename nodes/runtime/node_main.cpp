@@ -22,7 +22,9 @@
 #include "kicking/text/printable.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
+#include "nodes/runtime/node_flags.hpp"
 #include "nodes/runtime/standard_streams.hpp"
+#include "nodes/runtime/supervisor.hpp"
 
 namespace trivela::nodes {
 
@@ -33,6 +35,21 @@ std::chrono::nanoseconds NodeContext::cycle() const {
 void NodeContext::idle(std::chrono::nanoseconds timeout) const {
   pollfd requested{stop.file_descriptor(), POLLIN, 0};
   poll(&requested, 1, static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(timeout).count()));
+}
+
+void NodeContext::alive() const {
+  if (supervisor) supervisor->alive();
+}
+
+bus::Pulse NodeContext::pulse() const {
+  if (!supervisor) return {};
+  const auto beat = [this](const std::string& late) {
+    if (late.empty()) return alive();
+    logger->error("{} does not come round: the service manager hears nothing of this node", late);
+  };
+  // In lockstep a reaction may wait for the others' samples.
+  const std::chrono::seconds patience = settings.run.lockstep ? kLockstepPatience : std::chrono::seconds{1};
+  return {.beat = beat, .patience = patience};
 }
 
 bus::DomainConfig domain_of(const config::Domain& domain) {
@@ -62,11 +79,13 @@ bus::Participant join(const config::Settings& settings, const std::shared_ptr<sp
 void run_as_member(const config::Settings& settings, const config::Robot& robot,
                    const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
+  const auto supervisor = Supervisor::of_environment();
   constexpr std::chrono::seconds kShortestStay{5};
   constexpr std::chrono::seconds kLongestStay{60};
   for (auto stay = kShortestStay;; stay = std::min(2 * stay, kLongestStay)) {
     try {
       NodeContext context{settings, robot, join(settings, logger, stay), logger, stop};
+      context.supervisor = supervisor;
       logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
       return body(context);
     } catch (const bus::Deaf& deaf) {
@@ -88,12 +107,8 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   std::signal(SIGPIPE, SIG_IGN);  // a node goes on where nobody reads its log lines any more
   CLI::App app{fmt::format("Trivela's {} node", name)};
   app.set_version_flag("--version", config::version_lines(fmt::format("trivela-{}", name)));
-  std::string config_file;
-  std::vector<std::string> overrides;
-  int realtime_priority = 0;
-  app.add_option("--config", config_file, "configuration (config/default.toml says what it may hold)")->required();
-  app.add_option("--set", overrides, "one setting on top, e.g. --set run.robot_id=2");
-  app.add_option("--realtime", realtime_priority, "SCHED_FIFO priority, locked memory")->check(CLI::Range(1, 99));
+  NodeFlags flags;
+  add_node_flags(app, flags);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -106,11 +121,11 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     bus::require_resources();
     bus::Stop stop;
     const bus::StopOnSignals on_signals{stop};
-    config::Settings settings = config::load_settings(config_file);
-    config::override_settings(settings, overrides, "--set");
+    config::Settings settings = config::load_settings(flags.config_file);
+    config::override_settings(settings, flags.overrides, "--set");
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
-    if (realtime_priority > 0) warn_of_refusals(bus::set_realtime(realtime_priority), *logger);
+    if (flags.realtime_priority > 0) warn_of_refusals(bus::set_realtime(flags.realtime_priority), *logger);
     const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
       logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
     }};
@@ -127,7 +142,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
 void run(NodeContext& context, bus::Node& node) {
   const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
   InputWatch silences{context, node};
-  bus::Executor{kind, context.stop, {&node}}.run();
+  bus::Executor{kind, context.stop, {&node}, context.pulse()}.run();
 }
 
 }  // namespace trivela::nodes

@@ -91,7 +91,7 @@ void SimulatorNode::run() {
   play();
   if (devices_ == nullptr) return;
   devices_->say_over();
-  while (!context_.stop.requested()) context_.idle(std::chrono::hours(1));
+  for (; !context_.stop.requested(); context_.idle(std::chrono::milliseconds(100))) context_.alive();
 }
 
 /// On standard output, before the first line of progress.
@@ -104,6 +104,7 @@ void SimulatorNode::play() {
   if ((context_.settings.run.lockstep || devices_ != nullptr) && !nodes_are_here()) return;
   if (!context_.settings.run.lockstep) started_ns_ = context_.steady_ns();
   while (!match_.done()) {
+    context_.alive();
     const sim::Sensors sensors = match_.sense();
     t_ns_ = sensors.t_ns;
     ++cycle_;

@@ -11,6 +11,7 @@
 #include "evaluator/log/reader.hpp"
 #include "idl/messages.hpp"
 #include "tests/bus/test_domain.hpp"
+#include "tests/nodes/notify_socket.hpp"
 #include "tests/nodes/spawned.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -61,6 +62,24 @@ TEST_F(NodeProgramTest, SigtermEndsTheKickerDriver) { expect_clean_end<msg::Kick
 TEST_F(NodeProgramTest, SigtermEndsTheShotObserver) { expect_clean_end<msg::FlightFrame>("shot_observer"); }
 TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceDrive>("simulator"); }
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
+
+TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsSupervisorThatItLives) {
+  for (const std::string name :
+       {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "recorder", "simulator"}) {
+    SCOPED_TRACE(name);
+    const std::string path = (folder / ("notify-" + name)).string();
+    NotifySocket manager{path};
+    setenv("NOTIFY_SOCKET", path.c_str(), 1);
+    setenv("WATCHDOG_USEC", "400000", 1);
+    Spawned node{program(name), arguments()};
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
+    EXPECT_EQ(manager.next(kPlenty), "READY=1");
+    EXPECT_EQ(manager.next(kPlenty), "WATCHDOG=1");
+    node.send(SIGTERM);
+    EXPECT_EQ(node.exit_code(), 0) << node.said();
+  }
+}
 
 TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
   bus::Writer<msg::KickTruth> writer{participant};

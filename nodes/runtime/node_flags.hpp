@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace trivela::nodes {
+
+/// What every node's command line says.
+struct NodeFlags {
+  std::string config_file;
+  std::vector<std::string> overrides;
+  int realtime_priority = 0;  ///< 0: none
+};
+
+/// Adds `--config`, `--set` and `--realtime`, and what they mean. The flags outlive the parsing.
+inline void add_node_flags(CLI::App& app, NodeFlags& flags) {
+  app.add_option("--config", flags.config_file, "configuration (config/default.toml says what it may hold)")
+      ->required();
+  app.add_option("--set", flags.overrides, "one setting on top, e.g. --set run.robot_id=2");
+  app.add_option("--realtime", flags.realtime_priority, "SCHED_FIFO priority, locked memory")->check(CLI::Range(1, 99));
+}
+
+}  // namespace trivela::nodes

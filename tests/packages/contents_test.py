@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""contents_test.py BUILD: the packages that cpack makes of a build, by what stands in them."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BUILD = pathlib.Path(sys.argv.pop()).resolve()
+
+
+def output(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+class Contents(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="trivela-packages-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        # Quick to compress; what is in them is the same.
+        made = subprocess.run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none"],
+                              capture_output=True, text=True, cwd=BUILD)
+        assert made.returncode == 0, made.stdout + made.stderr
+        cls.debs = {re.match(r"trivela-([a-z]+)_", deb.name)[1]: deb for deb in cls.folder.glob("*.deb")}
+        cls.files = {name: cls.list(deb) for name, deb in cls.debs.items()}
+
+    @staticmethod
+    def list(deb):
+        lines = [line.split(maxsplit=5) for line in output("dpkg-deb", "-c", deb).splitlines()]
+        return {line[5][1:]: line[0] for line in lines if not line[0].startswith("d")}
+
+    def field(self, name, field):
+        return output("dpkg-deb", "-f", self.debs[name], field).strip()
+
+    def test_each_has_what_it_is_for_and_nothing_stands_twice(self):
+        self.assertEqual(set(self.debs), {"robot", "base", "dev"})
+        nodes = {f"/usr/bin/trivela-{path.parent.name}" for path in (ROOT / "nodes").glob("*/*_node.cpp")}
+        shipped = {f"/etc/trivela/{path.relative_to(ROOT / 'config')}" for ending in ("toml", "xml", "csv")
+                   for path in (ROOT / "config").rglob(f"*.{ending}")}
+        units = {"/usr/lib/systemd/system/trivela@.service", "/usr/lib/systemd/system/trivela.target", "/usr/lib/udev/rules.d/60-trivela.rules"}
+        self.assertEqual(set(self.files["robot"]), nodes | shipped | units | {
+            "/usr/bin/trivela-launch", "/etc/trivela/robot.env", "/usr/share/man/man8/trivela-nodes.8.gz"})
+        self.assertEqual(set(self.files["base"]), {
+            "/usr/bin/trivela", "/usr/share/man/man1/trivela.1.gz", "/usr/share/bash-completion/completions/trivela",
+            "/usr/share/zsh/vendor-completions/_trivela", "/usr/share/fish/vendor_completions.d/trivela.fish"})
+        dev = self.files["dev"]
+        for file in ("lib/libtrivela_kicking.a", "lib/cmake/trivela/trivelaConfig.cmake", "include/trivela/kicking.hpp",
+                     "include/trivela/idl/kick.idl", "include/trivela/idl/kick.h"):
+            self.assertIn(f"/usr/{file}", dev)
+        self.assertFalse([file for file in dev if not file.startswith(("/usr/include/trivela/", "/usr/lib/"))])
+        everything = [file for files in self.files.values() for file in files]
+        self.assertEqual(len(everything), len(set(everything)))
+
+    def test_edits_of_the_configuration_survive(self):
+        kept = output("dpkg-deb", "-I", self.debs["robot"], "conffiles").split()
+        self.assertEqual(set(kept), {file for file in self.files["robot"] if file.startswith("/etc/")})
+
+    def test_rights_and_owners_are_debians(self):
+        for files in self.files.values():
+            for file, rights in files.items():
+                self.assertEqual(rights, "-rwxr-xr-x" if file.startswith("/usr/bin/") else "-rw-r--r--", file)
+        self.assertNotIn("Permission", output("dpkg-deb", "-I", self.debs["robot"]))
+
+    def test_versions_and_dependencies(self):
+        version = re.search(r"project\(trivela VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        for name in self.debs:
+            self.assertEqual(self.field(name, "Version"), version)
+        for library in ("libddsc", "libc6", "libspdlog", "libsqlitecpp|libsqlite3"):
+            self.assertRegex(self.field("robot", "Depends"), library)
+        self.assertIn(f"trivela-robot (= {version})", self.field("base", "Depends"))
+        self.assertRegex(self.field("base", "Depends"), "libcpp-httplib")
+        self.assertIn("libeigen3-dev", self.field("dev", "Depends"))
+
+    def test_units_say_what_the_documents_promise(self):
+        unit = (ROOT / "packaging/trivela@.service").read_text()
+        for line in ("Type=notify", "WatchdogSec=2", "Restart=always", "LimitRTPRIO=99", "NoNewPrivileges=yes", "ProtectSystem=strict"):
+            self.assertIn(f"\n{line}\n", unit)
+        if not shutil.which("systemd-analyze"):
+            return
+        root = self.folder / "root"
+        subprocess.run(["dpkg-deb", "-x", self.debs["robot"], root], check=True)
+        unit = root / "usr/lib/systemd/system/trivela@odometry.service"
+        unit.symlink_to("trivela@.service")
+        said = subprocess.run(["systemd-analyze", "verify", f"--root={root}", "--man=no", "trivela@odometry.service"], capture_output=True, text=True).stderr
+        self.assertFalse([line for line in said.splitlines() if "trivela@" in line and re.search("Unknown|Failed to parse|ignoring", line)], said)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
