@@ -17,10 +17,11 @@ namespace {
 
 constexpr const char* kQuietSsh = " -o BatchMode=yes -o ConnectTimeout=10";
 
-std::string last_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  const auto at = text.rfind('\n');
-  return at == std::string::npos ? text : text.substr(at + 1);
+std::string as_one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+  std::string line;
+  for (const char c : text) line += c == '\n' ? std::string("; ") : c == '\r' ? std::string() : std::string(1, c);
+  return line;
 }
 
 [[noreturn]] void become_program(const std::vector<std::string>& words, int out, int err) {
@@ -67,7 +68,7 @@ Ran run_program(const std::vector<std::string>& words) {
   Ran ran;
   ran.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   ran.output = content_of(out.get());
-  ran.said = last_line(content_of(err.get()));
+  ran.said = as_one_line(content_of(err.get()));
   if (!ran.succeeded && ran.said.empty())
     ran.said = WIFEXITED(status) ? fmt::format("{} ended with exit code {}", words.front(), WEXITSTATUS(status))
                                  : fmt::format("{} was ended by signal {}", words.front(), WTERMSIG(status));

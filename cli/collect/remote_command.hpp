@@ -10,7 +10,7 @@ namespace trivela::cli {
 struct Ran {
   bool succeeded = false;
   std::string output;  ///< standard output
-  std::string said;    ///< the last line of standard error, or how it ended
+  std::string said;    ///< standard error as one line, or how it ended
 };
 
 /// A word as a shell takes it back.
