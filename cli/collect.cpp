@@ -35,7 +35,8 @@ int run_collect(const CollectArguments& arguments) {
     rows.push_back({host.host, std::to_string(fetched.logs), std::to_string(fetched.here),
                     std::to_string(fetched.being_written.size()), std::to_string(fetched.missing.size())});
     for (const std::string& name : fetched.being_written)
-      missing.push_back(fmt::format("{}: {} is being written; collect again when its recorder has ended", host.host, name));
+      missing.push_back(
+          fmt::format("{}: {} is being written; collect again when its recorder has ended", host.host, name));
     for (const std::string& line : fetched.missing) missing.push_back(fmt::format("{}: {}", host.host, line));
   }
   say(evaluator::text_table(rows) + '\n');
@@ -53,8 +54,10 @@ int run_collect(const CollectArguments& arguments) {
 void add_collect(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("collect", "Fetch the finished match logs of a team's robots");
   verb->footer(
-      "By rsync over ssh, with the keys that ssh finds. Logs land in DIR/HOST and are checked there; a broken transfer\n"
-      "goes on where it was. Nothing is changed or deleted on a robot. Logs that are being written are left alone. Ends\n"
+      "By rsync over ssh, with the keys that ssh finds. Logs land in DIR/HOST and are checked there; a broken "
+      "transfer\n"
+      "goes on where it was. Nothing is changed or deleted on a robot. Logs that are being written are left alone. "
+      "Ends\n"
       "with \"missing: nothing\", or with what is missing and exit code 3. Then: trivela merge OUT DIR/*/*.db");
   const auto arguments = std::make_shared<CollectArguments>();
   verb->add_option("hosts", arguments->hosts, "[USER@]HOST[:PATH] of each robot, PATH a folder of logs or one log")

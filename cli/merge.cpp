@@ -46,7 +46,8 @@ int run_merge(const MergeArguments& arguments) {
 void add_merge(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("merge", "Make one match log of those that a team's robots recorded");
   verb->footer(
-      "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock offsets\n"
+      "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
+      "offsets\n"
       "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
       "\"missing: nothing\", or with what is missing and exit code 3.");
   const auto arguments = std::make_shared<MergeArguments>();

@@ -46,7 +46,8 @@ RemoteFiles files_of(const std::string& listing) {
 std::string listing_command(const std::string& path) {
   const std::string quoted = shell_quoted(path);
   return fmt::format(
-      "date +%s; find -L {} -maxdepth 1 -type f \\( -name '*.db' -o -name '*.db-wal' \\) -printf '%s %T@ %p\\n'", quoted);
+      "date +%s; find -L {} -maxdepth 1 -type f \\( -name '*.db' -o -name '*.db-wal' \\) -printf '%s %T@ %p\\n'",
+      quoted);
 }
 
 bool is_log(const std::string& path) { return path.ends_with(".db"); }

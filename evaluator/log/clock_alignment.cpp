@@ -168,8 +168,8 @@ class Spread {
       if (done_.contains(other)) continue;
       const std::int64_t apart_ns = sessions_[other].realtime_offset_ns - sessions_[place].realtime_offset_ns;
       if (sessions_[other].robot_id == sessions_[place].robot_id && std::abs(apart_ns) <= kOneClock_ns)
-        offer(other, sessions_[other].robot_id == reference_robot_ ? here
-                                                                   : longer(here, sessions_[place], sessions_[other]));
+        offer(other,
+              sessions_[other].robot_id == reference_robot_ ? here : longer(here, sessions_[place], sessions_[other]));
       const auto measured = edges_.find({other, place});
       if (measured != edges_.end()) offer(other, over(sessions_[other], measured->second, here));
     }

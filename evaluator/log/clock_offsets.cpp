@@ -3,8 +3,7 @@
 namespace trivela::evaluator::log {
 
 ClockOffsetWriter::ClockOffsetWriter(Writer& log)
-    : log_(log),
-      table_(log.table("clock_offsets", {"robot_id", "other_robot_id", "t_ns", "offset_ns", "error_ns"})) {}
+    : log_(log), table_(log.table("clock_offsets", {"robot_id", "other_robot_id", "t_ns", "offset_ns", "error_ns"})) {}
 
 bool ClockOffsetWriter::push(const ClockOffset& offset) {
   return log_.push(table_, {std::int64_t{offset.robot_id}, std::int64_t{offset.other_robot_id}, offset.t_ns,

@@ -94,7 +94,9 @@ bool is_whole(const LogFile& file, std::int64_t session_id) try {
   if (!closed || file.version() < kFirstWithDigests) return closed;
   std::optional<RowDigest> noted;
   file.query(fmt::format("SELECT row_count, sha256 FROM main.digests WHERE session_id = {}", session_id),
-             [&](std::int64_t row_count, const std::string& sha256) { noted = RowDigest{row_count, sha256}; });
+             [&](std::int64_t row_count, const std::string& sha256) {
+               noted = RowDigest{row_count, sha256};
+             });
   return noted && RowDigests(file.database(), file.version()).of(session_id) == *noted;
 } catch (const std::exception&) {
   return false;

@@ -245,11 +245,11 @@ class Merging {
 
   const MergeOptions& options_;
   std::vector<MergeSource> sources_;
-  std::map<std::int64_t, Choice> choices_;              // by session_id
+  std::map<std::int64_t, Choice> choices_;                 // by session_id
   std::vector<std::map<std::string, std::string>> names_;  // of texts in the new log by those in each file
   std::set<std::string> texts_;
-  std::set<std::int64_t> without_text_;  // sessions
-  std::set<std::int64_t> unfit_;         // sessions whose own row is against the schema
+  std::set<std::int64_t> without_text_;                              // sessions
+  std::set<std::int64_t> unfit_;                                     // sessions whose own row is against the schema
   std::set<std::pair<const MergeSource*, std::int64_t>> inherited_;  // sessions of which a merged file says more
   std::int64_t read_ = 0;
   Merged merged_;

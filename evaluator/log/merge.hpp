@@ -12,7 +12,7 @@
 namespace trivela::evaluator::log {
 
 struct MergeOptions {
-  std::optional<int> reference_robot{};  ///< by whose clock times are aligned, 0: the base's; none: chosen
+  std::optional<int> reference_robot{};          ///< by whose clock times are aligned, 0: the base's; none: chosen
   std::function<void(std::int64_t)> progress{};  ///< told the rows read so far; none: nobody asks
 };
 
@@ -45,10 +45,10 @@ struct Merged {
   Alignment alignment;
 };
 
-/// One new match log of kMatchLog.version out of several of any version. Each session is in it once, row for row as it was
-/// recorded: a whole copy of it is taken alone, of others what any file has of it. Rows that several recorders made of
-/// one sample stay in the session of each; readers count them once (evaluator/report/one_play.hpp). Of a file that is
-/// damaged what can be read is taken, from its tables' beginnings and from their ends; its sessions count as not
+/// One new match log of kMatchLog.version out of several of any version. Each session is in it once, row for row as it
+/// was recorded: a whole copy of it is taken alone, of others what any file has of it. Rows that several recorders made
+/// of one sample stay in the session of each; readers count them once (evaluator/report/one_play.hpp). Of a file that
+/// is damaged what can be read is taken, from its tables' beginnings and from their ends; its sessions count as not
 /// closed, unless another file has them whole. Times stay as they are: tables `session_clocks` says what UTC they are
 /// by the reference's clock, `merged_sessions` which file had what. The same files and their merged log make the same
 /// tables again. No file is changed. Throws std::runtime_error where none can be read, `to` exists, or cannot be

@@ -57,8 +57,8 @@ std::int64_t missing_rows(SQLite::Database& database, std::int64_t session_id) {
                               "AND stream = '{}' AND robot_id = 0",
                               session_id, table.name));
     if (!recorded) continue;
-    const auto there = only_number(
-        database, fmt::format("SELECT count(*) FROM {} WHERE session_id = {}", table.name, session_id));
+    const auto there =
+        only_number(database, fmt::format("SELECT count(*) FROM {} WHERE session_id = {}", table.name, session_id));
     missing += std::max<std::int64_t>(*recorded - there.value_or(0), 0);
   }
   return missing;

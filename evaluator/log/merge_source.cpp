@@ -33,8 +33,9 @@ void MergeSource::look_for_sessions() {
   std::vector<std::pair<std::int64_t, bool>> found;
   const auto look = [&](const char* order) {
     try {
-      reader_->query(fmt::format("SELECT session_id, closed_t_ns IS NOT NULL FROM sessions ORDER BY session_id{}", order),
-                     [&](std::int64_t session_id, bool closed) { found.emplace_back(session_id, closed); });
+      reader_->query(
+          fmt::format("SELECT session_id, closed_t_ns IS NOT NULL FROM sessions ORDER BY session_id{}", order),
+          [&](std::int64_t session_id, bool closed) { found.emplace_back(session_id, closed); });
       return true;
     } catch (const std::runtime_error&) {
       return false;

@@ -36,9 +36,7 @@ void bind_cell(SQLite::Statement& statement, int place, const Value& value) {
 }  // namespace
 
 RowCopy::RowCopy(SQLite::Database& database, std::string_view table)
-    : database_(database),
-      columns_(names_of_columns(database, table)),
-      insert_(database, insertion(table, columns_)) {}
+    : database_(database), columns_(names_of_columns(database, table)), insert_(database, insertion(table, columns_)) {}
 
 std::size_t RowCopy::place(std::string_view column) const {
   return static_cast<std::size_t>(std::ranges::find(columns_, column) - columns_.begin());

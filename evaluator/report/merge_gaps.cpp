@@ -17,8 +17,7 @@ using RobotOfSession = std::map<std::int64_t, int>;
 
 RobotOfSession robots_of(const log::Merged& merged) {
   RobotOfSession robots;
-  for (const log::MergedSession& session : merged.sessions)
-    robots[session.clock.session_id] = session.clock.robot_id;
+  for (const log::MergedSession& session : merged.sessions) robots[session.clock.session_id] = session.clock.robot_id;
   return robots;
 }
 
@@ -30,11 +29,11 @@ void add_damage(const log::Merged& merged, std::vector<std::string>& lines) {
   }
   for (const log::MergedSession& session : merged.sessions) {
     if (session.is_whole) continue;
-    lines.push_back(fmt::format(
-        "session {} of {} was never closed: {}", session.clock.uuid, participant(session.clock.robot_id),
-        session.missing_rows > 0
-            ? fmt::format("{} rows that its recorder had written are not there", session.missing_rows)
-            : "what its recorder had not yet written is not there"));
+    lines.push_back(
+        fmt::format("session {} of {} was never closed: {}", session.clock.uuid, participant(session.clock.robot_id),
+                    session.missing_rows > 0
+                        ? fmt::format("{} rows that its recorder had written are not there", session.missing_rows)
+                        : "what its recorder had not yet written is not there"));
   }
 }
 
@@ -64,15 +63,13 @@ void add_pauses(const log::Merged& merged, const log::Reader& reader, const Robo
           lines.push_back(fmt::format("{}: a session goes on from {}, which no file has", who, continues_uuid));
           return;
         }
-        reader.query(fmt::format("SELECT utc_offset_ns FROM utc_offsets WHERE session_id = {}",
-                                 before->second->session_id),
-                     [&](std::int64_t utc_offset_ns) {
-                       const double pause_s =
-                           kicking::seconds(started_utc_ns - before->second->ended_t_ns - utc_offset_ns);
-                       if (pause_s <= kLongestPause_s) return;
-                       lines.push_back(fmt::format("{}: its recorder was gone for {:.1f} s before it went on", who,
-                                                   pause_s));
-                     });
+        reader.query(
+            fmt::format("SELECT utc_offset_ns FROM utc_offsets WHERE session_id = {}", before->second->session_id),
+            [&](std::int64_t utc_offset_ns) {
+              const double pause_s = kicking::seconds(started_utc_ns - before->second->ended_t_ns - utc_offset_ns);
+              if (pause_s <= kLongestPause_s) return;
+              lines.push_back(fmt::format("{}: its recorder was gone for {:.1f} s before it went on", who, pause_s));
+            });
       });
 }
 
@@ -80,15 +77,16 @@ void add_pauses(const log::Merged& merged, const log::Reader& reader, const Robo
 std::int64_t kicks_elsewhere(const log::Reader& reader, const UnrecordedOrders& orders) {
   std::int64_t kicks = 0;
   reader.query(
-      fmt::format(
-          "WITH status AS (SELECT session_id, t_ns FROM kicker_status WHERE robot_id = {0}) "
-          "SELECT count(DISTINCT kick_id) FROM kick_receipts WHERE robot_id = {0} AND accepted = 1 AND session_id <> {1} "
-          "AND kick_id NOT IN (SELECT kick_id FROM kick_receipts WHERE session_id = {1} AND robot_id = {0}) "
-          "AND t_ns <= (SELECT max(t_ns) FROM status WHERE session_id = {1}) "
-          "AND t_ns > coalesce((SELECT max(t_ns) FROM status WHERE session_id = (SELECT p.session_id FROM sessions AS p "
-          "JOIN sessions AS s ON s.continues_uuid = p.uuid WHERE s.session_id = {1})), "
-          "(SELECT min(t_ns) FROM status WHERE session_id = {1}))",
-          orders.robot_id, orders.session_id),
+      fmt::format("WITH status AS (SELECT session_id, t_ns FROM kicker_status WHERE robot_id = {0}) "
+                  "SELECT count(DISTINCT kick_id) FROM kick_receipts WHERE robot_id = {0} AND accepted = 1 AND "
+                  "session_id <> {1} "
+                  "AND kick_id NOT IN (SELECT kick_id FROM kick_receipts WHERE session_id = {1} AND robot_id = {0}) "
+                  "AND t_ns <= (SELECT max(t_ns) FROM status WHERE session_id = {1}) "
+                  "AND t_ns > coalesce((SELECT max(t_ns) FROM status WHERE session_id = (SELECT p.session_id FROM "
+                  "sessions AS p "
+                  "JOIN sessions AS s ON s.continues_uuid = p.uuid WHERE s.session_id = {1})), "
+                  "(SELECT min(t_ns) FROM status WHERE session_id = {1}))",
+                  orders.robot_id, orders.session_id),
       [&](std::int64_t found) { kicks = found; });
   return kicks;
 }
@@ -103,9 +101,10 @@ void add_missing_kicks(const log::Reader& reader, std::vector<std::string>& line
                                   kicks == 1 ? "kick" : "kicks", kicks == 1 ? "is" : "are"));
     }
     if (orders.continues && orders.restarted_before)
-      lines.push_back(fmt::format("robot {}: its driver was started anew while nobody recorded, what it did before "
-                                  "that is not known",
-                                  orders.robot_id));
+      lines.push_back(
+          fmt::format("robot {}: its driver was started anew while nobody recorded, what it did before "
+                      "that is not known",
+                      orders.robot_id));
   }
 }
 

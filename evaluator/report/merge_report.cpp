@@ -37,8 +37,7 @@ std::string clock_words(const log::Alignment& alignment, const log::ClockedSessi
   if (found == alignment.sessions.end()) return "its own";
   if (session.uuid == alignment.reference_uuid) return "the reference";
   return fmt::format("{:+.3f} ms +- {:.3f} ms",
-                     in_ms(found->segments.front().utc_offset_ns - session.realtime_offset_ns),
-                     in_ms(found->error_ns));
+                     in_ms(found->segments.front().utc_offset_ns - session.realtime_offset_ns), in_ms(found->error_ns));
 }
 
 std::vector<std::string> file_row(const log::Merged& merged, const log::MergedFile& file, const KickKeys& kicks) {
@@ -56,10 +55,13 @@ std::vector<std::string> file_row(const log::Merged& merged, const log::MergedFi
     if (const auto there = kicks.by_session.find(part.session_id); there != kicks.by_session.end())
       its_kicks.insert(there->second.begin(), there->second.end());
   }
-  return {file.path.filename().string(), fmt::format("{}", fmt::join(robots, "+")),
-          std::to_string(file.parts.size()), std::to_string(rows), std::to_string(added),
-          std::to_string(its_kicks.size()), clocks.size() > 3 ? fmt::format("{} different", clocks.size())
-                                                              : fmt::format("{}", fmt::join(clocks, ", "))};
+  return {file.path.filename().string(),
+          fmt::format("{}", fmt::join(robots, "+")),
+          std::to_string(file.parts.size()),
+          std::to_string(rows),
+          std::to_string(added),
+          std::to_string(its_kicks.size()),
+          clocks.size() > 3 ? fmt::format("{} different", clocks.size()) : fmt::format("{}", fmt::join(clocks, ", "))};
 }
 
 /// Those that count once, in the whole log.
@@ -78,8 +80,7 @@ std::vector<std::string> clock_notes(const log::Merged& merged) {
   if (!alignment.reference_robot)
     return {merged.sessions.size() > 1 ? "clocks: nobody measured them; each session's UTC is its own machine's"
                                        : "clocks: one session, nothing to align"};
-  std::vector<std::string> notes{
-      fmt::format("clocks: aligned to that of {}", participant(*alignment.reference_robot))};
+  std::vector<std::string> notes{fmt::format("clocks: aligned to that of {}", participant(*alignment.reference_robot))};
   for (const log::MergedSession& session : merged.sessions) {
     const bool aligned = std::ranges::find(alignment.sessions, session.clock.session_id,
                                            &log::AlignedSession::session_id) != alignment.sessions.end();
@@ -104,9 +105,9 @@ MergeReport report_merge(const log::Merged& merged, const log::Reader& reader) {
   }
   for (const log::MergedSession& session : merged.sessions) robots.insert(participant(session.clock.robot_id));
   report.table = text_table(rows);
-  report.total = fmt::format("{} session{} of {}: {} rows, {} kicks", merged.sessions.size(),
-                             merged.sessions.size() == 1 ? "" : "s", fmt::join(robots, ", "), added,
-                             counted_kicks(reader));
+  report.total =
+      fmt::format("{} session{} of {}: {} rows, {} kicks", merged.sessions.size(),
+                  merged.sessions.size() == 1 ? "" : "s", fmt::join(robots, ", "), added, counted_kicks(reader));
   report.notes = clock_notes(merged);
   report.missing = merge_gaps(merged, reader);
   return report;

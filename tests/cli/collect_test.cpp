@@ -23,7 +23,8 @@ class Collect : public evaluator::LogTest {
   Collect() : robot{"team@robot3", path("robot")} {
     fs::create_directory(path("robot"));
     std::ofstream script(path("ssh"));
-    script << "#!/bin/sh\nwhile [ \"$1\" = -o ] || [ \"$1\" = -l ]; do shift 2; done\n[ \"$1\" = nobody ] && { echo no route >&2; exit 255; }\n"
+    script << "#!/bin/sh\nwhile [ \"$1\" = -o ] || [ \"$1\" = -l ]; do shift 2; done\n[ \"$1\" = nobody ] && { echo no "
+              "route >&2; exit 255; }\n"
               "shift\nexec sh -c \"$*\"\n";
     script.close();
     fs::permissions(path("ssh"), fs::perms::owner_all);

@@ -44,8 +44,8 @@ class MergeVerb : public evaluator::LogTest {
 
 TEST_F(MergeVerb, PrintsTheFilesAndThatNothingIsMissing) {
   const std::string text = said({path("out.db"), robot_log("one.db", 1), robot_log("two.db", 2)});
-  EXPECT_THAT(text, AllOf(HasSubstr("2 sessions of robot 1, robot 2"), HasSubstr("3 kicks"),
-                          EndsWith("missing: nothing\n")));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("2 sessions of robot 1, robot 2"), HasSubstr("3 kicks"), EndsWith("missing: nothing\n")));
   EXPECT_EQ(exit_code_, kDone);
 }
 

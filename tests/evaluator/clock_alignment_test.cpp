@@ -90,8 +90,8 @@ TEST(ClockAlignment, AMeasurementOfAMachineStartedAnewIsOfTheSessionThatRanThen)
   // Robot 2 ran for 100 s, was started anew and has a clock that is 200 s behind.
   const std::vector<ClockedSession> sessions{session(1, 1, 0, 0, 400), session(2, 2, 0, 0, 100),
                                              session(3, 2, 200 * kSecond, 0, 100)};
-  const Alignment alignment = align_clocks(
-      sessions, {{1, 1, 2, 50 * kSecond, 3, 1}, {1, 1, 2, 250 * kSecond, -200 * kSecond + 4, 1}}, 1);
+  const Alignment alignment =
+      align_clocks(sessions, {{1, 1, 2, 50 * kSecond, 3, 1}, {1, 1, 2, 250 * kSecond, -200 * kSecond + 4, 1}}, 1);
   EXPECT_EQ(utc_offset_at(of(alignment, 2).segments, 50 * kSecond), -3);
   EXPECT_EQ(utc_offset_at(of(alignment, 3).segments, 50 * kSecond), 200 * kSecond - 4);
 }

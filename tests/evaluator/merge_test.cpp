@@ -218,8 +218,10 @@ TEST_F(Merge, SkewedClocksComeOutAlignedWithinTheirError) {
   const std::string id = std::to_string(log::session_id_of(uuid));
   for (const char* const table : {"kick_decisions", "kick_orders", "kick_receipts", "kick_outcomes"})
     exec(two, std::string("UPDATE ") + table + " SET t_ns = t_ns + 50000000");
-  exec(two, "UPDATE sessions SET closed_t_ns = closed_t_ns + 50000000;"
-            "INSERT INTO clock_offsets VALUES (" + id + ", 2, 1, 70000000, -49800000, 1000000)");
+  exec(two,
+       "UPDATE sessions SET closed_t_ns = closed_t_ns + 50000000;"
+       "INSERT INTO clock_offsets VALUES (" +
+           id + ", 2, 1, 70000000, -49800000, 1000000)");
   SQLite::Database database(two.string(), SQLite::OPEN_READWRITE);
   log::RowDigests(database).write(log::session_id_of(uuid));
   for (const int reference : {1, 2}) {

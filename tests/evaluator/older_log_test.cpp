@@ -45,7 +45,8 @@ TEST_P(OlderLog, SaysWhatItSaid) {
 
 TEST_P(OlderLog, WhatItDidNotHaveIsEmpty) {
   const Reader reader(log_path);
-  std::vector<const char*> tables{"assignments", "continued", "experiments", "clock_offsets", "session_clocks", "merged_sessions"};
+  std::vector<const char*> tables{"assignments",   "continued",      "experiments",
+                                  "clock_offsets", "session_clocks", "merged_sessions"};
   if (GetParam() < log::kFirstWithDigests) tables.push_back("digests");
   for (const char* const table : tables) EXPECT_EQ(rows_of(reader, table), 0) << table;
   int rows = 0;
