@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "evaluator/report/log_sessions.hpp"
 #include "evaluator/report/merge_gaps.hpp"
@@ -14,18 +15,20 @@
 namespace trivela::evaluator {
 namespace {
 
-using SessionIds = std::set<std::int64_t>;
+using KickSet = std::set<std::tuple<std::int64_t, int, std::int64_t>>;  // session of an experiment or 0, robot, kick_id
 
 struct KickKeys {
-  std::map<std::int64_t, std::set<std::pair<int, std::int64_t>>> by_session;  // robot and kick_id
+  std::map<std::int64_t, KickSet> by_session;
 };
 
 KickKeys kicks_of(const log::Reader& reader) {
   KickKeys kicks;
-  reader.query("SELECT session_id, robot_id, kick_id FROM kicks",
-               [&](std::int64_t session_id, int robot_id, std::int64_t kick_id) {
-                 kicks.by_session[session_id].emplace(robot_id, kick_id);
-               });
+  reader.query(
+      "SELECT k.session_id, iif(s.match_id IS NULL, 0, s.session_id), k.robot_id, k.kick_id FROM kicks AS k "
+      "JOIN sessions AS s ON s.session_id = k.session_id",
+      [&](std::int64_t session_id, std::int64_t of_experiment, int robot_id, std::int64_t kick_id) {
+        kicks.by_session[session_id].emplace(of_experiment, robot_id, kick_id);
+      });
   return kicks;
 }
 
@@ -42,7 +45,7 @@ std::string clock_words(const log::Alignment& alignment, const log::ClockedSessi
 
 std::vector<std::string> file_row(const log::Merged& merged, const log::MergedFile& file, const KickKeys& kicks) {
   std::set<std::string> robots, clocks;
-  std::set<std::pair<int, std::int64_t>> its_kicks;
+  KickSet its_kicks;
   std::int64_t rows = 0, added = 0;
   for (const log::MergedPart& part : file.parts) {
     rows += part.rows;
