@@ -15,6 +15,7 @@ namespace trivela::config {
 
 /// Which robot this is and how its cycle runs.
 struct Run {
+  std::string team = "team";  ///< its name, in those of the logs
   std::uint32_t robot_id = 1;
   double cycle_s = 0.02;           ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
   std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
@@ -123,7 +124,7 @@ struct Simulator {
 };
 
 struct Recorder {
-  std::string log = "match.db";
+  std::string log = "{team}-{robot}-{time}.db";  ///< a file, a folder or a pattern (robot/recording/log_name.hpp)
   std::uint32_t queue_capacity = 65536;
   double group_commit_s = 0.1;
 };

@@ -158,6 +158,7 @@ namespace trivela::config {
 
 template <class V>
 void fields(V& v, Run& r) {
+  v("team", r.team);
   v("robot_id", r.robot_id, Range{1, 255});
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
   v("session", r.session, Range{0, kicking::KickId::kLastSession});

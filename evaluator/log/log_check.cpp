@@ -87,6 +87,21 @@ Verification unverified(const LogFile& file) {
   return found;
 }
 
+bool is_whole(const LogFile& file, std::int64_t session_id) try {
+  bool closed = false;
+  file.query(fmt::format("SELECT closed_t_ns IS NOT NULL FROM main.sessions WHERE session_id = {}", session_id),
+             [&](bool has_end) { closed = has_end; });
+  if (!closed || file.version() < kFirstWithDigests) return closed;
+  std::optional<RowDigest> noted;
+  file.query(fmt::format("SELECT row_count, sha256 FROM main.digests WHERE session_id = {}", session_id),
+             [&](std::int64_t row_count, const std::string& sha256) {
+               noted = RowDigest{row_count, sha256};
+             });
+  return noted && RowDigests(file.database(), file.version()).of(session_id) == *noted;
+} catch (const std::exception&) {
+  return false;
+}
+
 Verification verify(const LogFile& file) {
   Verification found = unverified(file);
   if (file.version() < kFirstWithDigests) return found;

@@ -6,6 +6,7 @@ namespace trivela::evaluator::log {
 
 /// How closely a log is looked at when it is opened.
 enum class Check {
+  kSchema,   ///< its schema alone, for who takes what is readable of a damaged file
   kQuick,    ///< its schema, its texts, and that its pages hang together
   kIfShort,  ///< everything, where that takes well under a second: files of at most kShort_B
   kWhole,    ///< everything: each index entry, and each row by its digest
@@ -27,6 +28,10 @@ void check_texts(const LogFile& file);
 
 /// The rows that the log's digests cover; nothing is compared.
 Verification unverified(const LogFile& file);
+
+/// Whether the session has ended and its rows are those of its digest; of a version without digests, whether it has
+/// ended. What cannot be read is not whole.
+bool is_whole(const LogFile& file, std::int64_t session_id);
 
 /// Compares each session's rows with their digest. Throws std::runtime_error naming the session whose rows are not
 /// those that were recorded, a session that has ended without a digest, or a table with rows of no session.

@@ -35,6 +35,9 @@ class LogFile final : public Queries {
   /// Of the file's schema.
   int version() const { return version_; }
 
+  /// Nothing but the schema was looked at.
+  bool may_be_damaged() const { return check_ == Check::kSchema; }
+
   /// Was, or will be, everything looked at?
   bool looks_at_everything() const { return whole_; }
 
@@ -59,6 +62,7 @@ class LogFile final : public Queries {
   LogKind kind_;
   std::string path_;
   bool has_wal_;  // before opening, which may make one
+  Check check_;
   bool whole_;
   int version_ = 0;
   std::unique_ptr<Budget> budget_;  // of the statement under way

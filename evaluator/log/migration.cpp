@@ -1,13 +1,14 @@
 #include "evaluator/log/migration.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <map>
+#include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/reader.hpp"
+#include "evaluator/log/row_copy.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 
@@ -15,15 +16,6 @@ namespace trivela::evaluator::log {
 namespace {
 
 constexpr std::int64_t kTold_rows = 10'000;
-
-void bind(SQLite::Statement& statement, int place, const Value& value) {
-  if (const auto* const whole = std::get_if<std::int64_t>(&value)) return statement.bind(place, *whole);
-  if (const auto* const number = std::get_if<double>(&value)) return statement.bind(place, *number);
-  if (const auto* const text = std::get_if<std::string>(&value)) return statement.bindNoCopy(place, *text);
-  if (const auto* const bytes = std::get_if<Blob>(&value))
-    return statement.bindNoCopy(place, bytes->data(), static_cast<int>(bytes->size()));
-  statement.bind(place);
-}
 
 /// Names of texts in the new log by those in the old one, whose version 1 named them otherwise.
 using TextNames = std::map<std::string, std::string>;
@@ -51,20 +43,16 @@ std::int64_t rows_of(const Reader& reader) {
 
 void copy_rows(const Reader& reader, SQLite::Database& database, std::string_view table, const TextNames& names,
                const std::function<void()>& copied) {
-  std::vector<std::string> columns;
-  const auto schema = columns_of(database, table);
-  for (const Column& column : *schema) columns.push_back(column.name);
-  const std::vector<std::string> places(columns.size(), "?");
-  SQLite::Statement insert(database, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(columns, ", "),
-                                                 fmt::join(places, ", ")));
+  RowCopy copy(database, table);
+  const std::vector<std::string>& columns = copy.columns();
+  std::vector<Value> renamed;
   reader.for_each_row(table, columns, [&](std::span<const Value> row) {
-    insert.reset();
+    renamed.assign(row.begin(), row.end());
     for (std::size_t i = 0; i < row.size(); ++i) {
       const bool names_text = columns[i] == "config_sha256" || columns[i] == "idl_sha256";
-      const int place = static_cast<int>(i) + 1;
-      names_text ? insert.bind(place, names.at(std::get<std::string>(row[i]))) : bind(insert, place, row[i]);
+      if (names_text) renamed[i] = names.at(std::get<std::string>(row[i]));
     }
-    insert.exec();
+    if (!copy.insert(renamed)) throw std::runtime_error(fmt::format("a row of {} is against the schema", table));
     copied();
   });
 }
@@ -83,7 +71,8 @@ Migrated migrate(const std::filesystem::path& from, const std::filesystem::path&
     const auto copied = [&] {
       if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
     };
-    copy_rows(reader, made, "experiments", names, [] {});
+    for (const char* const beside : {"experiments", "session_clocks", "merged_sessions"})
+      copy_rows(reader, made, beside, names, [] {});
     for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
     RowDigests digests(made);
     for (const RecordedSession& session : reader.sessions()) {

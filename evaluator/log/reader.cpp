@@ -24,6 +24,7 @@ std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& out
 struct Reader::Impl {
   Impl(const std::filesystem::path& path, Check check) : file(path, kMatchLog, check) {
     create_reading_views(file.database(), file.version());
+    if (file.may_be_damaged()) return;
     file.query("BEGIN", [](auto) {});  // a log may grow meanwhile
     check_texts(file);
     verification = file.looks_at_everything() ? verify(file) : unverified(file);
@@ -40,6 +41,8 @@ Reader::~Reader() = default;
 int Reader::version() const { return impl_->file.version(); }
 
 const Verification& Reader::verification() const { return impl_->verification; }
+
+bool Reader::is_whole(std::int64_t session_id) const { return log::is_whole(impl_->file, session_id); }
 
 std::optional<std::string> Reader::doubt() const {
   const Verification& found = impl_->verification;

@@ -72,6 +72,9 @@ class Reader final : public Queries {
 
   const Verification& verification() const;
 
+  /// Whether the session has ended and its rows are those of its digest, or, before there were digests, has ended.
+  bool is_whole(std::int64_t session_id) const;
+
   /// A sentence on what was not verified of the rows, and why; none: they are as they were recorded.
   std::optional<std::string> doubt() const;
 

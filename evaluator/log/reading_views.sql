@@ -52,3 +52,22 @@ LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.r
 WHERE d.fire = 1 AND d.seq = (
   SELECT min(seq) FROM main.kick_decisions INDEXED BY kick_decisions_fired
   WHERE fire = 1 AND session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id);
+
+-- UTC minus a session's clock: by the reference's clock where merging found it out, else by the recorder's own.
+CREATE TEMP VIEW utc_offsets AS
+SELECT s.session_id, coalesce((SELECT c.utc_offset_ns FROM session_clocks AS c
+  WHERE c.session_id = s.session_id ORDER BY c.from_t_ns LIMIT 1), s.realtime_offset_ns) AS utc_offset_ns
+FROM sessions AS s;
+
+-- Kicks on one axis of time, which merging has aligned where clocks were measured: utc_ns of the decision, known to plus
+-- and minus error_ns (NULL: nobody measured).
+CREATE TEMP VIEW kick_instants AS
+SELECT k.session_id, k.robot_id, k.kick_id, k.t_ns,
+  CASE WHEN c.from_t_ns IS NULL THEN k.t_ns + s.realtime_offset_ns
+    ELSE k.t_ns + c.utc_offset_ns + CAST(round(c.rate * (k.t_ns - c.from_t_ns)) AS INTEGER) END AS utc_ns,
+  c.error_ns
+FROM temp.kicks AS k
+JOIN sessions AS s ON s.session_id = k.session_id
+LEFT JOIN session_clocks AS c ON c.session_id = k.session_id AND c.from_t_ns = coalesce(
+  (SELECT max(b.from_t_ns) FROM session_clocks AS b WHERE b.session_id = k.session_id AND b.from_t_ns <= k.t_ns),
+  (SELECT min(b.from_t_ns) FROM session_clocks AS b WHERE b.session_id = k.session_id));

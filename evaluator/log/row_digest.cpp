@@ -16,7 +16,7 @@ std::vector<DigestedTable> tables_of_schema(int version) {
   empty.exec(std::string(schema_of(kMatchLog, version)));
   SQLite::Statement keys(empty, R"(
     SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
-    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
+    WHERE t.type = 'table' AND t.name NOT IN ('digests', 'session_clocks', 'merged_sessions') AND k.pk > 0
       AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
     ORDER BY t.rowid, k.pk)");
   std::vector<DigestedTable> tables;

@@ -9,6 +9,7 @@
 #include "evaluator/log/before_version_4.sql.hpp"
 #include "evaluator/log/before_version_5.sql.hpp"
 #include "evaluator/log/before_version_6.sql.hpp"
+#include "evaluator/log/before_version_7.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
@@ -19,6 +20,7 @@
 #include "evaluator/log/schema_version_3.sql.hpp"
 #include "evaluator/log/schema_version_4.sql.hpp"
 #include "evaluator/log/schema_version_5.sql.hpp"
+#include "evaluator/log/schema_version_6.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
@@ -95,6 +97,8 @@ std::string_view schema_of(const LogKind& kind, int version) {
       return kSchemaVersion4Sql;
     case 5:
       return kSchemaVersion5Sql;
+    case 6:
+      return kSchemaVersion6Sql;
     default:
       return match_schema();
   }
@@ -125,6 +129,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   }
   if (version < 5) database.exec(kBeforeVersion5Sql);
   if (version < 6) database.exec(kBeforeVersion6Sql);
+  if (version < 7) database.exec(kBeforeVersion7Sql);
   database.exec(kReadingViewsSql);
 }
 

@@ -1,4 +1,4 @@
--- Schema of a match log, version 6. One file holds one session or several merged ones.
+-- Schema of a match log, version 7. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -421,6 +421,35 @@ CREATE TABLE losses (                      -- what the recording missed: a row o
   rejected INTEGER NOT NULL,               -- rows against the schema: unknown label, wrong type, same key twice
   out_of_order INTEGER NOT NULL,           -- samples older than their predecessor
   PRIMARY KEY (session_id, stream, robot_id, from_t_ns)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE clock_offsets (               -- how far another participant's clock is ahead of that of who measured
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot that measured; 0: the base
+  other_robot_id INTEGER NOT NULL,         -- robot whose clock was measured; 0: the base
+  t_ns INTEGER NOT NULL,                   -- instant of the measurement, by the clock of who measured
+  offset_ns INTEGER NOT NULL,              -- the other's clock minus this one
+  error_ns INTEGER NOT NULL,               -- the offset is known to plus and minus so much
+  PRIMARY KEY (session_id, robot_id, other_robot_id, t_ns)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE session_clocks (              -- made by merging: UTC by the reference's clock; no row: by realtime_offset_ns
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  from_t_ns INTEGER NOT NULL,              -- by the session's clock; a row holds up to the next
+  utc_offset_ns INTEGER NOT NULL,          -- UTC since 1970 by the reference's clock minus this clock, at from_t_ns
+  rate REAL NOT NULL,                      -- and so much more a nanosecond after it
+  error_ns INTEGER NOT NULL,               -- known to plus and minus so much, from here to the next row
+  reference_uuid TEXT NOT NULL,            -- sessions.uuid of a recording by the reference's clock
+  PRIMARY KEY (session_id, from_t_ns)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE merged_sessions (             -- made by merging: the files that had a session, or a part of it
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  file TEXT NOT NULL,                      -- name of the file, without its folder
+  from_version INTEGER NOT NULL,           -- of its schema
+  row_count INTEGER NOT NULL,              -- rows of the session that could be read there
+  damage TEXT NOT NULL,                    -- what was wrong with the file; empty: nothing
+  PRIMARY KEY (session_id, file)
 ) STRICT, WITHOUT ROWID;
 
 -- A kick is a decision that fired; an order may be sent twice, so the latest receipt that is no answer to a repetition

@@ -1,11 +1,14 @@
 #include "nodes/recorder/log_place.hpp"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
+#include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "robot/recording/log_name.hpp"
 #include "robot/recording/predecessor.hpp"
 
 namespace trivela::nodes {
@@ -15,18 +18,39 @@ namespace fs = std::filesystem;
 using evaluator::log::Session;
 using evaluator::log::Writer;
 
+// Where a log goes whose own folder refuses: the last one is memory, gone when the machine is switched off.
+std::vector<fs::path> other_folders() {
+  std::error_code none;
+  return {fs::temp_directory_path(none), "/var/tmp", "/dev/shm"};
+}
+
 // Names to try after the configured one, in this order.
 std::vector<fs::path> further_names(const fs::path& log, std::uint32_t robot_id, std::int64_t now_utc_ns) {
-  const std::time_t now_s = now_utc_ns / 1'000'000'000;
-  const std::string stem = fmt::format("{}-r{}-{:%Y%m%dT%H%M%SZ}", log.stem().string(), robot_id, fmt::gmtime(now_s));
+  const std::string time = robot::log_time(now_utc_ns);
+  std::string stem = log.stem().string();
+  if (stem.find(time) == std::string::npos) stem += fmt::format("-r{}-{}", robot_id, time);
   const std::string ending = log.extension().string();
-  std::error_code none;
+  std::vector<fs::path> folders = other_folders();
+  folders.insert(folders.begin(), log.parent_path());
   std::vector<fs::path> names;
-  for (const fs::path& folder : {log.parent_path(), fs::temp_directory_path(none)}) {
+  for (const fs::path& folder : folders) {
     names.push_back(folder / (stem + ending));
     for (int n = 2; n <= 9; ++n) names.push_back(folder / fmt::format("{}-{}{}", stem, n, ending));
   }
   return names;
+}
+
+// The session that this one goes on from, where the log's folder is gone from those that stand in for it.
+std::optional<robot::Predecessor> predecessor(const fs::path& log, const robot::LogFamily& family,
+                                              const Session& session, std::int64_t now_utc_ns,
+                                              const std::function<void(const std::string&)>& warn) {
+  std::error_code none;
+  const fs::path folder = log.has_parent_path() ? log.parent_path() : fs::path{"."};
+  if (fs::is_directory(folder, none)) return robot::find_predecessor(folder, family, session, now_utc_ns, warn);
+  for (const fs::path& other : other_folders()) {
+    if (auto found = robot::find_predecessor(other, family, session, now_utc_ns, warn)) return found;
+  }
+  return std::nullopt;
 }
 
 bool holds_anything(const fs::path& path) {
@@ -38,17 +62,20 @@ bool holds_anything(const fs::path& path) {
 }  // namespace
 
 PlacedLog place_log(const NodeContext& context, const evaluator::log::WriterOptions& options) {
-  const fs::path log = context.settings.recorder.log;
-  Session session = session_of(context);
-  if (context.settings.run.lockstep) return {log, std::make_unique<Writer>(log, session, options)};
-  const auto warn = [&](const std::string& line) { context.logger->warn("{}", line); };
+  const config::Settings& settings = context.settings;
   const std::int64_t now_utc_ns = now_ns(std::chrono::system_clock::now());
-  if (const auto before = robot::find_predecessor(log, session, now_utc_ns, warn)) {
+  const robot::LogNaming naming{settings.run.team, settings.run.robot_id, now_utc_ns};
+  const fs::path log = robot::log_path(settings.recorder.log, naming);
+  Session session = session_of(context);
+  if (settings.run.lockstep) return {log, std::make_unique<Writer>(log, session, options)};
+  const auto warn = [&](const std::string& line) { context.logger->warn("{}", line); };
+  const robot::LogFamily family = robot::log_family(settings.recorder.log, naming);
+  if (const auto before = predecessor(log, family, session, now_utc_ns, warn)) {
     session.continues_uuid = before->uuid;
     session.continued = before->drivers;
     warn(fmt::format("this session goes on from {} in {}", before->uuid, before->log.string()));
   }
-  std::vector<fs::path> names = further_names(log, context.settings.run.robot_id, now_utc_ns);
+  std::vector<fs::path> names = further_names(log, settings.run.robot_id, now_utc_ns);
   names.insert(names.begin(), log);
   std::string reasons;
   for (const fs::path& name : names) {

@@ -14,10 +14,11 @@ struct PlacedLog {
   std::unique_ptr<evaluator::log::Writer> writer;
 };
 
-/// Opens recorder.log. In real time a match is going on that is not to be lost: where that file holds anything already,
-/// the session goes on from the one in it, in a file of its own beside it, NAME-r<robot>-<UTC>.db, and where the folder
-/// refuses, in the temporary folder; the logger says where. Throws std::runtime_error where none of them can be
-/// written, in lockstep where recorder.log cannot.
+/// Opens the file that recorder.log names (robot/recording/log_name.hpp). In real time a match is going on that is not
+/// to be lost: where that file holds anything already, the session goes on beside it, in NAME-r<robot>-<UTC>.db or,
+/// where its name has the time, NAME-2.db; where the folder refuses (missing, read-only, full), in the temporary one,
+/// /var/tmp or /dev/shm; the logger says where, as an error. It goes on from the newest session of that name's logs.
+/// Throws std::runtime_error where none of them can be written, in lockstep where the file itself cannot.
 PlacedLog place_log(const NodeContext& context, const evaluator::log::WriterOptions& options);
 
 }  // namespace trivela::nodes

@@ -15,15 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // Logs that may be of the same match, the one written to last first.
-std::vector<fs::path> candidates(const fs::path& log) {
+std::vector<fs::path> candidates(const fs::path& asked_folder, const LogFamily& family) {
   std::vector<std::pair<fs::file_time_type, fs::path>> found;
   std::error_code error;
-  const fs::path folder = log.has_parent_path() ? log.parent_path() : fs::path{"."};
+  const fs::path folder = asked_folder.empty() ? fs::path{"."} : asked_folder;
   for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
     const fs::path& path = entry->path();
-    const std::string stem = path.stem().string();
-    if (path.extension() != log.extension() || !entry->is_regular_file(error)) continue;
-    if (stem != log.stem().string() && !stem.starts_with(log.stem().string() + "-r")) continue;
+    if (!family.has(path) || !entry->is_regular_file(error)) continue;
     if (entry->file_size(error) == 0) continue;
     auto changed = entry->last_write_time(error);
     // What is not folded in yet stands beside it.
@@ -59,13 +57,13 @@ std::vector<evaluator::log::DriverCount> drivers_of(const evaluator::log::Reader
 
 }  // namespace
 
-std::optional<Predecessor> find_predecessor(const fs::path& log, const evaluator::log::Session& session,
-                                            std::int64_t now_utc_ns,
+std::optional<Predecessor> find_predecessor(const fs::path& folder, const LogFamily& family,
+                                            const evaluator::log::Session& session, std::int64_t now_utc_ns,
                                             const std::function<void(const std::string&)>& warn) {
   std::optional<Predecessor> newest;
   std::int64_t newest_start_utc_ns = 0;
   const std::string config_sha256 = evaluator::log::sha256(session.config_toml);
-  for (const fs::path& path : candidates(log)) {
+  for (const fs::path& path : candidates(folder, family)) {
     if (newest) break;
     try {
       // A match goes on while this looks: whether the rows are sound is for the report to say.

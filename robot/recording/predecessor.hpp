@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evaluator/log/session.hpp"
+#include "robot/recording/log_name.hpp"
 
 namespace trivela::robot {
 
@@ -21,11 +22,11 @@ struct Predecessor {
 /// How old a recording's last row may be for another to go on from it, in seconds.
 inline constexpr double kLongestPause_s = 3600.0;
 
-/// The newest session of the same set-up (equal config_toml) among the match logs beside `log`, NAME.db and NAME-r*.db
-/// where that is `log`'s name, whose last row is no older than kLongestPause_s. The logs are read and not changed; one
-/// that cannot be read is told to `warn` and passed over.
-std::optional<Predecessor> find_predecessor(const std::filesystem::path& log, const evaluator::log::Session& session,
-                                            std::int64_t now_utc_ns,
+/// The newest session of the same set-up (equal config_toml) among the match logs of `family` in `folder`, whose last
+/// row is no older than kLongestPause_s. The logs are read and not changed; one that cannot be read is told to `warn`
+/// and passed over.
+std::optional<Predecessor> find_predecessor(const std::filesystem::path& folder, const LogFamily& family,
+                                            const evaluator::log::Session& session, std::int64_t now_utc_ns,
                                             const std::function<void(const std::string&)>& warn);
 
 }  // namespace trivela::robot

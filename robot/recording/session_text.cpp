@@ -14,6 +14,7 @@ config::Settings set_up(config::Settings settings) {
   settings.domain.tag = config::Domain{}.tag;
   settings.recorder.log = config::Recorder{}.log;
   settings.scan_recorder.file = config::ScanRecorder{}.file;
+  settings.run.team = config::Run{}.team;
   settings.run.robot = config::Run{}.robot;
   settings.run.scenario = config::Run{}.scenario;
   settings.run.field_file = config::Run{}.field_file;

@@ -213,8 +213,8 @@ TEST_F(ForeignLog, PagesOfAnySizeAreReadRight) {
 TEST_F(ForeignLog, Utf16IsReadRight) {
   std::filesystem::rename(path(), path("utf8.db"));
   SQLite::Database database(path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 6;");
-  database.exec(std::string(log::schema_of(log::kMatchLog, 6)));
+  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 7;");
+  database.exec(std::string(log::schema_of(log::kMatchLog, log::kMatchLog.version)));
   SQLite::Database source(path("utf8.db").string());
   for (const std::string& table : log::tables_of(source)) {
     if (table.starts_with("sqlite_")) continue;

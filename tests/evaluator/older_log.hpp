@@ -74,11 +74,12 @@ inline void insert_half(const OlderRows& rows, int half) {
   rows.insert("odometry",
               "robot_id, seq, t_ns, vx_mps, vy_mps, omega_radps, x_m, y_m, heading_rad, var_v_m2ps2, "
               "var_omega_rad2ps2, var_position_m2, var_heading_rad2",
-              "1, " + n + ", " + start + ", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0");
+              "1, " + n + ", " + start + ", 0, 0, 0, 0, 0, 0, 0, 0, 0, 0", 6, ", obeyed", ", 'kick_decision'");
   rows.insert("kicker_status",
               "robot_id, seq, t_ns, charge, armed, ready, fault, last_kick_id, last_accepted, orders_handled, "
               "orders_refused",
-              "1, " + n + ", " + start + ", 1, 1, 1, 'none', " + n + ", 1, " + n + ", 0");
+              "1, " + n + ", " + start + ", 1, 1, 1, 'none', " + n + ", 1, " + n + ", 0", 6, ", state, charge_modelled",
+              ", 'ready', 0");
   rows.insert(
       "kick_decisions",
       "robot_id, seq, t_ns, kick_id, half, possession_id, policy, fire, reason, x_m, y_m, heading_rad, vx_mps, "
@@ -89,7 +90,7 @@ inline void insert_half(const OlderRows& rows, int half) {
           ", 1, 'fire', 0, 3, 0, 0, 0, 0, 0, 9, 0.7, 5.7, 8, 8, 20, 0, 0, 1, 0, 0.1, 0.1, 0, 0.7, 0.8, 2, 1, 0",
       2, ", p_on_target, fire_after_s, assignment_probability", ", 0.9, 0, 1");
   rows.insert("kick_orders", "robot_id, seq, t_ns, kick_id, power, fire_t_ns, valid_until_t_ns",
-              "1, " + n + ", " + start + ", " + n + ", 20, " + start + ", " + end);
+              "1, " + n + ", " + start + ", " + n + ", 20, " + start + ", " + end, 6, ", possession", ", 1");
   rows.insert("kick_receipts",
               "robot_id, seq, t_ns, kick_id, accepted, refusal, order_t_ns, fired_t_ns, release_t_ns, power",
               "1, " + n + ", " + start + ", " + n + ", 1, 'none', " + start + ", " + start + ", " + end + ", 20", 3,
@@ -106,7 +107,7 @@ inline void insert_half(const OlderRows& rows, int half) {
       ", saved", ", 0");
 }
 
-/// A closed session in a match log of version 1 to 5, with a kick on target of each of two policies, in half a
+/// A closed session in a match log of version 1 to 6, with a kick on target of each of two policies, in half a
 /// minute each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =

@@ -45,7 +45,8 @@ TEST_P(OlderLog, SaysWhatItSaid) {
 
 TEST_P(OlderLog, WhatItDidNotHaveIsEmpty) {
   const Reader reader(log_path);
-  std::vector<const char*> tables{"assignments", "continued", "experiments"};
+  std::vector<const char*> tables{"assignments",   "continued",      "experiments",
+                                  "clock_offsets", "session_clocks", "merged_sessions"};
   if (GetParam() < log::kFirstWithDigests) tables.push_back("digests");
   for (const char* const table : tables) EXPECT_EQ(rows_of(reader, table), 0) << table;
   int rows = 0;
@@ -121,7 +122,7 @@ TEST_P(OlderLog, AConfigurationThatIsNotTheNamedOneIsDamage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3, 4, 5));
+INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3, 4, 5, 6));
 
 using Version2 = LogTest;
 

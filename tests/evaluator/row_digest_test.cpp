@@ -56,7 +56,7 @@ TEST_F(DigestOfRows, IsWhatItsDefinitionSays) {
   record();
   EXPECT_EQ(noted(path()), now());
   EXPECT_EQ(now().row_count, 19);
-  EXPECT_EQ(now().sha256, "b030b36ac2ed8ebdd988ad92355a1773378a0ead09ccaad8c00f4d283b5eaa38")
+  EXPECT_EQ(now().sha256, "173cd6aec025d1f10a65493953730319870596fe16de20d6f98afbab32454808")
       << "another definition is another version of the log";
 }
 
@@ -83,6 +83,7 @@ TEST_F(DigestOfRows, CoversEveryTableOfSessionsButItself) {
   for (const auto& table : log::digested_tables()) covered.insert(table.name);
   for (const std::string& table : log::tables_of(database)) {
     if (table == "digests" || table.starts_with("sqlite_")) continue;
+    if (table == "session_clocks" || table == "merged_sessions") continue;  // said afterwards, by merging
     const auto columns = *log::columns_of(database, table);
     if (std::ranges::find(columns, "session_id", &log::Column::name) == columns.end()) continue;
     EXPECT_TRUE(covered.contains(table)) << table;
@@ -137,7 +138,7 @@ class Migration : public DigestOfRows {
 };
 
 TEST_F(Migration, AnOlderLogSaysTheSameAndHasADigest) {
-  for (const int version : {1, 2, 3, 4}) {
+  for (const int version : {1, 2, 3, 4, 5, 6}) {
     const auto old = older_match_log(path("old.db"), version);
     std::filesystem::remove(path("new.db"));
     const log::Migrated result = migrated(old);

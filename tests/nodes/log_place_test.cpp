@@ -118,6 +118,27 @@ TEST_F(LogPlaceTest, AFolderThatRefusesIsReplacedByTheTemporaryOne) {
   std::filesystem::remove(placed.path);
 }
 
+TEST_F(LogPlaceTest, AFolderIsFilledWithNamesOfTeamRobotAndTime) {
+  context.settings.recorder.log = folder / "";
+  context.settings.run.team = "cambada";
+  const auto first = place();
+  EXPECT_THAT(first.path.filename().string(), testing::MatchesRegex("cambada-1-[0-9]+T[0-9]+Z\\.db"));
+  EXPECT_EQ(first.path.parent_path(), folder / "");
+  const auto second = place();
+  EXPECT_NE(second.path, first.path);
+  EXPECT_EQ(Reader{second.path}.sessions().at(0).continues_uuid, Reader{first.path}.sessions().at(0).uuid);
+}
+
+TEST_F(LogPlaceTest, AFileInTheFoldersPlaceStopsNobody) {
+  std::ofstream{folder / "logs"} << "no folder";
+  context.settings.recorder.log = folder / "logs/{team}-{robot}.db";
+  const auto placed = place();
+  EXPECT_TRUE(log_lines->wait_for("logs/team-1.db"));
+  placed.writer->finalise();
+  EXPECT_EQ(Reader{placed.path}.sessions().size(), 1u);
+  std::filesystem::remove(placed.path);
+}
+
 TEST_F(LogPlaceTest, InLockstepAFileThatExistsIsRefused) {
   record(folder / "match.db", 1);
   context.settings.run.lockstep = true;

@@ -1,0 +1,143 @@
+#include "cli/collect/fetch.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/collect/remote_command.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/log/scan_log.hpp"
+
+namespace trivela::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kFresh_s = 60;  // a write-ahead log that changed since is somebody's at work
+
+struct RemoteFile {
+  std::int64_t size_B = 0;
+  std::int64_t age_s = 0;  // since it changed, by the machine's own clock
+};
+using RemoteFiles = std::map<std::string, RemoteFile>;  // by path
+
+/// Sizes, ages and paths of logs and what lies beside them.
+RemoteFiles files_of(const std::string& listing) {
+  RemoteFiles files;
+  std::istringstream lines(listing);
+  std::int64_t now_s = 0;
+  lines >> now_s;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::int64_t size_B = 0;
+    double changed_s = 0.0;
+    std::string path;
+    if (!(words >> size_B >> changed_s) || !std::getline(words >> std::ws, path)) continue;
+    files[path] = {size_B, now_s - static_cast<std::int64_t>(changed_s)};
+  }
+  return files;
+}
+
+std::string listing_command(const std::string& path) {
+  const std::string quoted = shell_quoted(path);
+  return fmt::format(
+      "date +%s; find -L {} -maxdepth 1 -type f \\( -name '*.db' -o -name '*.db-wal' \\) -printf '%s %T@ %p\\n'",
+      quoted);
+}
+
+bool is_log(const std::string& path) { return path.ends_with(".db"); }
+
+/// What is wrong with a fetched log; empty: nothing.
+std::string wrong_with(const fs::path& log, const RemoteFile& there) {
+  std::error_code error;
+  const auto size_B = fs::file_size(log, error);
+  if (error) return "it did not come";
+  if (static_cast<std::int64_t>(size_B) != there.size_B)
+    return fmt::format("{} of {} bytes came", size_B, there.size_B);
+  std::string why;
+  try {
+    const evaluator::log::Reader reader(log, evaluator::log::Check::kQuick);
+    return "";
+  } catch (const std::exception& not_read) {
+    why = not_read.what();
+  }
+  try {
+    const evaluator::log::ScanReader scans(log);
+    return "";
+  } catch (const std::exception&) {
+    return why;
+  }
+}
+
+void fetch_log(const LogHost& host, const std::string& path, const RemoteFiles& files, const fs::path& folder,
+               const std::string& ssh, Fetched& fetched) {
+  const std::string name = fs::path(path).filename().string();
+  const auto wal = files.find(path + "-wal");
+  if (wal != files.end() && wal->second.age_s < kFresh_s) {
+    fetched.being_written.push_back(name);
+    return;
+  }
+  std::vector<std::string> paths{path};
+  if (wal != files.end()) {
+    paths.push_back(wal->first);
+  } else {
+    // One that came along before belongs to what the log was then, and would be read into it.
+    for (const char* const suffix : {"-wal", "-shm"}) fs::remove(folder / (name + suffix));
+  }
+  const Ran ran = fetch_files(host.host, paths, folder, ssh);
+  const std::string wrong = ran.succeeded ? wrong_with(folder / name, files.at(path)) : ran.said;
+  if (wrong.empty()) {
+    ++fetched.here;
+  } else {
+    fetched.missing.push_back(fmt::format("{}: {}", name, wrong));
+  }
+}
+
+}  // namespace
+
+LogHost log_host(const std::string& text, const std::string& folder) {
+  const auto colon = text.find(':');
+  LogHost host{text.substr(0, colon), colon == std::string::npos ? folder : text.substr(colon + 1)};
+  const std::string machine = host.host.substr(host.host.find('@') == std::string::npos ? 0 : host.host.find('@') + 1);
+  if (machine.empty() || host.path.empty() || text.front() == '-' || machine.front() == '-' ||
+      host.host.find('/') != std::string::npos)
+    throw UsageError{fmt::format("\"{}\" is no [USER@]HOST[:PATH] of a robot", text)};
+  if (host.path.front() == '-') host.path.insert(0, "./");
+  return host;
+}
+
+void require_program(const std::string& name, const std::string& how) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (::access((fs::path(folder) / name).c_str(), X_OK) == 0) return;
+  }
+  throw std::runtime_error{fmt::format("trivela collect needs {}, which is not there: {}", name, how)};
+}
+
+Fetched fetch_logs(const LogHost& host, const fs::path& to, const std::string& ssh) {
+  Fetched fetched;
+  const Ran listed = run_on(host.host, listing_command(host.path), ssh);
+  if (!listed.succeeded) {
+    fetched.missing.push_back(fmt::format("its logs in {}: {}", host.path, listed.said));
+    return fetched;
+  }
+  const RemoteFiles files = files_of(listed.output);
+  const fs::path folder = to / host.host.substr(host.host.find('@') == std::string::npos ? 0 : host.host.find('@') + 1);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  for (const auto& [path, file] : files) {
+    if (!is_log(path) || file.size_B == 0) continue;
+    ++fetched.logs;
+    fetch_log(host, path, files, folder, ssh, fetched);
+  }
+  if (fetched.logs == 0) fetched.missing.push_back(fmt::format("there is no log in {}", host.path));
+  return fetched;
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/log/merge.hpp"
+#include "evaluator/report/merge_report.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct MergeArguments {
+  std::string out;
+  std::vector<std::string> logs;
+  std::optional<int> reference_robot;
+};
+
+int run_merge(const MergeArguments& arguments) {
+  require_writable("OUT", arguments.out);
+  evaluator::log::MergeOptions options;
+  options.reference_robot = arguments.reference_robot;
+  const evaluator::log::Merged merged =
+      evaluator::log::merge({arguments.logs.begin(), arguments.logs.end()}, arguments.out, options);
+  if (arguments.reference_robot && !merged.alignment.reference_robot)
+    warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
+  const evaluator::log::Reader reader(arguments.out, evaluator::log::Check::kQuick);
+  const evaluator::MergeReport report = evaluator::report_merge(merged, reader);
+  say(fmt::format("{}\n{}: {}\n", report.table, arguments.out, report.total));
+  for (const std::string& note : report.notes) say(note + '\n');
+  if (report.missing.empty()) {
+    say("missing: nothing\n");
+    return kDone;
+  }
+  say("missing:\n");
+  for (const std::string& line : report.missing) say("  " + line + '\n');
+  return kDoneWithLoss;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, int& exit_code) {
+  auto* const verb = app.add_subcommand("merge", "Make one match log of those that a team's robots recorded");
+  verb->footer(
+      "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
+      "offsets\n"
+      "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
+      "\"missing: nothing\", or with what is missing and exit code 3.");
+  const auto arguments = std::make_shared<MergeArguments>();
+  verb->add_option("out", arguments->out, "The new log, must not exist")->required();
+  verb->add_option("logs", arguments->logs, "Match logs of any version, merged ones, too")->required();
+  verb->add_option("--reference", arguments->reference_robot,
+                   "Robot by whose clock times are aligned, 0: the base's; without: the one that most were measured "
+                   "against")
+      ->check(CLI::Range(0, 255));
+  verb->callback([arguments, &exit_code] { exit_code = run_merge(*arguments); });
+}
+
+}  // namespace trivela::cli
