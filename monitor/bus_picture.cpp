@@ -16,6 +16,18 @@ WriterPicture picture_of(const bus::End& writer) {
           writer.strength, WriterState::kThere};
 }
 
+// Each process once: it may have several, such as the one before the last that was made anew.
+std::vector<std::string> readers_of(const std::string& topic, const bus::Census& census) {
+  std::vector<std::string> names;
+  std::vector<bus::Member> known;
+  for (const bus::End& reader : census.readers) {
+    if (reader.topic != topic || reader.observer || std::ranges::find(known, reader.member) != known.end()) continue;
+    known.push_back(reader.member);
+    names.push_back(node_of(reader.member.process));
+  }
+  return names;
+}
+
 bool is_same(const WriterPicture& a, const WriterPicture& b) {
   return std::tie(a.owner, a.host, a.pid) == std::tie(b.owner, b.host, b.pid);
 }
@@ -90,8 +102,7 @@ BusPicture BusBoard::look(const bus::Census& census, std::int64_t now_ns,
     look_at_writers(topic, census, loads);
     TopicPicture& about = picture.topics.emplace_back(topic.about);
     about.writers = topic.known;
-    for (const bus::End& reader : census.readers)
-      if (reader.topic == about.topic && !reader.observer) about.readers.push_back(node_of(reader.member.process));
+    about.readers = readers_of(about.topic, census);
     for (const auto& [robot_id, stream] : topic.robots) about.robots.emplace(robot_id, stream.figures(now_ns));
   }
   return picture;

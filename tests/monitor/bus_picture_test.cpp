@@ -25,7 +25,8 @@ class Board : public testing::Test {
     census.members = {decision, standby, base};
     census.writers = {writer("kick_order", "kick_decision/1", decision, 5),
                       writer("kick_order", "kick_decision/2", standby, 3), writer("referee", "refbox", base)};
-    census.readers = {{"kick_order", "", 0, false, base}, {"kick_order", "", 0, true, standby}};
+    census.readers = {{"kick_order", "", 0, false, base}, {"kick_order", "", 0, false, base},
+                      {"kick_order", "", 0, true, standby}};
   }
   BusBoard board(std::optional<std::uint8_t> only = {}) const {
     BusBoard made{"robot", only};
@@ -60,7 +61,7 @@ TEST_F(Board, HasEveryTopicOfTheListInItsOrder) {
   EXPECT_THAT(picture.processes, IsEmpty());
 }
 
-TEST_F(Board, NamesWritersWithStrengthAndReadersWithoutThoseThatLookOn) {
+TEST_F(Board, NamesWritersWithStrengthAndReadersOnceWithoutThoseThatLookOn) {
   BusBoard full = board();
   const BusPicture picture = look(full);
   EXPECT_THAT(picture.topics[0].writers,
