@@ -25,8 +25,8 @@ class Board : public testing::Test {
     census.members = {decision, standby, base};
     census.writers = {writer("kick_order", "kick_decision/1", decision, 5),
                       writer("kick_order", "kick_decision/2", standby, 3), writer("referee", "refbox", base)};
-    census.readers = {{"kick_order", "", 0, false, base}, {"kick_order", "", 0, false, base},
-                      {"kick_order", "", 0, true, standby}};
+    census.readers = {
+        {"kick_order", "", 0, false, base}, {"kick_order", "", 0, false, base}, {"kick_order", "", 0, true, standby}};
   }
   BusBoard board(std::optional<std::uint8_t> only = {}) const {
     BusBoard made{"robot", only};
