@@ -33,6 +33,9 @@ struct ReaderOptions {
   /// Keep every sample until it is taken (the recorder), also while an executor stops; else as many as the profile
   /// says.
   bool keep_all = false;
+  /// Looks on and is no part of the graph: best effort and volatile, so that no writer waits for it or keeps anything
+  /// for it, without a demand of its own, and marked, so that wait_for_readers() and readers() do not count it.
+  bool observer = false;
   /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write.
   std::function<void(const Liveliness&)> on_liveliness = {};
 };

@@ -1,9 +1,38 @@
 #include "bus/qos.hpp"
 
+#include <string_view>
+
 namespace trivela::bus {
 namespace {
 
 constexpr int kPeriodsPerDeadline = 3;
+
+// The user data of a reader that looks on.
+constexpr std::string_view kObserver = "observer";
+
+std::string userdata_of(const dds_qos_t* qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds_qget_userdata(qos, &data, &size)) return {};
+  std::string text(static_cast<const char*>(data), size);
+  dds_free(data);
+  return text;
+}
+
+// What every writer of the profile meets: a reader that demands nothing.
+Qos observer_qos(Profile profile, bool keep_all) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+  if (keep_all) {
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
+  } else {
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, profile == Profile::kEvent ? kEventDepth : 1);
+  }
+  // Both ends must say the same of it.
+  if (profile == Profile::kOrder) dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
+  dds_qset_userdata(qos.get(), kObserver.data(), kObserver.size());
+  return qos;
+}
 
 // What both ends of a topic agree on.
 Qos profile_qos(Profile profile, std::optional<std::chrono::nanoseconds> period) {
@@ -38,6 +67,7 @@ Qos writer_qos(Profile profile, const WriterOptions& options) {
 }
 
 Qos reader_qos(Profile profile, const ReaderOptions& options) {
+  if (options.observer) return observer_qos(profile, options.keep_all);
   Qos qos = profile_qos(profile, options.period);
   // The kind is demanded, the lease is the writer's to choose.
   dds_qset_liveliness(qos.get(), profile == Profile::kOrder ? DDS_LIVELINESS_MANUAL_BY_TOPIC : DDS_LIVELINESS_AUTOMATIC,
@@ -47,13 +77,8 @@ Qos reader_qos(Profile profile, const ReaderOptions& options) {
   return qos;
 }
 
-std::string owner_of(const dds_qos_t* qos) {
-  void* data = nullptr;
-  std::size_t size = 0;
-  if (!dds_qget_userdata(qos, &data, &size)) return {};
-  std::string owner(static_cast<const char*>(data), size);
-  dds_free(data);
-  return owner;
-}
+bool is_observer(const dds_qos_t* qos) { return userdata_of(qos) == kObserver; }
+
+std::string owner_of(const dds_qos_t* qos) { return userdata_of(qos); }
 
 }  // namespace trivela::bus

@@ -24,6 +24,9 @@ inline constexpr dds_duration_t kAutomaticLease = DDS_SECS(1);
 Qos writer_qos(Profile profile, const WriterOptions& options);
 Qos reader_qos(Profile profile, const ReaderOptions& options);
 
+/// Whether a reader with this QoS merely looks on (ReaderOptions::observer).
+bool is_observer(const dds_qos_t* qos);
+
 /// WriterOptions::owner of a writer with this QoS; empty: none.
 std::string owner_of(const dds_qos_t* qos);
 

@@ -2,6 +2,9 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "bus/cyclone.hpp"
 #include "bus/qos.hpp"
 #include "bus/waitset.hpp"
@@ -10,6 +13,21 @@ namespace trivela::bus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Of so many readers that a writer is matched with, those that look on.
+std::size_t observers_among(dds_entity_t writer, std::size_t matched) {
+  std::vector<dds_instance_handle_t> readers(matched);
+  const auto found = dds_get_matched_subscriptions(writer, readers.data(), readers.size());
+  if (found <= 0) return 0;
+  readers.resize(std::min(readers.size(), static_cast<std::size_t>(found)));
+  return static_cast<std::size_t>(std::ranges::count_if(readers, [&](dds_instance_handle_t reader) {
+    dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_subscription_data(writer, reader);
+    if (endpoint == nullptr) return false;  // it has just gone: the status says so next
+    const bool looks_on = is_observer(endpoint->qos);
+    dds_builtintopic_free_endpoint(endpoint);
+    return looks_on;
+  }));
+}
 
 }  // namespace
 
@@ -33,7 +51,7 @@ void AnyWriter::assert_liveliness() {
 std::size_t AnyWriter::readers() const {
   dds_publication_matched_status_t status{};
   checked(dds_get_publication_matched_status(writer_.handle(), &status), "dds_get_publication_matched_status", topic_);
-  return status.current_count;
+  return status.current_count - observers_among(writer_.handle(), status.current_count);
 }
 
 bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {

@@ -19,7 +19,7 @@ class AnyWriter {
   /// Says "still here" for an order topic without an order. A writer that has lapsed returns with its next write only.
   void assert_liveliness();
 
-  /// How many readers are matched now.
+  /// How many readers are matched now; those that merely look on (ReaderOptions::observer) are not counted.
   std::size_t readers() const;
 
   /// Waits until at least n readers are matched; false if the timeout came first.

@@ -20,6 +20,8 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_refbox(CLI::App& app, int& exit_code);
 void add_scan(CLI::App& app, int& exit_code);
 void add_emulate(CLI::App& app, int& exit_code);
+void add_top(CLI::App& app, int& exit_code);
+void add_doctor(CLI::App& app, int& exit_code);
 void add_hardware(CLI::App& app, int& exit_code);
 void add_lob(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);

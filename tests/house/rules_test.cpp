@@ -68,6 +68,7 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
      {"kicking/", "config/", "idl/", "hal/kicker.hpp", "hal/wheels.hpp", "hal/range_finder.hpp",
       "hal/refbox/command.hpp"}},
     {"robot/recording", {"evaluator/log/"}},
+    {"monitor", {"idl/", "bus/", "robot/watch/"}},
     {"nodes", {"kicking/", "config/", "idl/", "bus/", "hal/", "robot/"}},
     {"nodes/recorder", {"evaluator/log/"}},
     {"nodes/scan_recorder", {"evaluator/log/"}},
@@ -77,9 +78,9 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
 };
 
-const std::vector<std::string> kRooms{"kicking", "refbox", "idl",     "sim",     "config",      "evaluator",
-                                      "bus",     "hal",    "robot",   "nodes",   "calibration", "experiment",
-                                      "pages",   "cli",    "include", "examples"};
+const std::vector<std::string> kRooms{"kicking",    "refbox", "idl",   "sim",     "config",  "evaluator",
+                                      "bus",        "hal",    "robot", "monitor", "nodes",   "calibration",
+                                      "experiment", "pages",  "cli",   "include", "examples"};
 
 std::string room_of(const std::string& path) {
   const auto slash = path.find('/');

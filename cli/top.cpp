@@ -1,0 +1,111 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bus/stop.hpp"
+#include "cli/number_checks.hpp"
+#include "cli/open_file.hpp"
+#include "cli/output.hpp"
+#include "cli/top/listening.hpp"
+#include "cli/top/rendering.hpp"
+#include "cli/verbs.hpp"
+#include "config/installation.hpp"
+#include "config/settings.hpp"
+#include "nodes/runtime/node_main.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct TopFlags {
+  std::string config = config::shipped("default.toml").string();
+  std::optional<std::uint32_t> domain;
+  std::string tag;
+  std::optional<int> robot;
+  bool once = false;
+  bool json = false;
+  double interval_s = 1.0;
+};
+
+/// Draws over what it drew before. The terminal cuts long lines off meanwhile, or they would take two.
+class Redrawn {
+ public:
+  void draw(const std::string& table) const {
+    fmt::print("\x1b[H");
+    for (std::size_t begin = 0; begin < table.size();) {
+      const std::size_t end = std::min(table.find('\n', begin), table.size());
+      fmt::print("\x1b[K");
+      say(table.substr(begin, end - begin) + "\n");
+      begin = end + 1;
+    }
+    fmt::print("\x1b[J");
+    std::fflush(stdout);
+  }
+  Redrawn() { fmt::print("\x1b[?7l\x1b[2J"); }
+  Redrawn(const Redrawn&) = delete;
+  Redrawn& operator=(const Redrawn&) = delete;
+  ~Redrawn() { fmt::print("\x1b[?7h"); }
+};
+
+int show_bus(const TopFlags& flags) {
+  config::Settings settings = config::load_settings(flags.config);
+  if (flags.domain) settings.domain.domain_id = *flags.domain;
+  if (!flags.tag.empty()) settings.domain.tag = flags.tag;
+  bus::Stop stop;
+  const bus::StopOnSignals signals{stop};
+  std::optional<std::uint8_t> robot;
+  if (flags.robot) robot = static_cast<std::uint8_t>(*flags.robot);
+  Listening listening{nodes::domain_of(settings.domain), robot};
+  const std::chrono::duration<double> interval{flags.interval_s};
+  std::optional<Redrawn> terminal;
+  if (!flags.once && !flags.json && ::isatty(STDOUT_FILENO) != 0) terminal.emplace();
+  listening.look();  // whose processor time is counted from here on
+  for (;;) {
+    const auto next =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(interval);
+    if (stop.wait_until(next)) return kDone;
+    const monitor::BusPicture picture = listening.look();
+    const std::string text = flags.json ? top_json(picture, settings.domain.domain_id) : top_table(picture);
+    if (terminal) {
+      terminal->draw(text);
+    } else {
+      say(text);
+      if (!flags.once && !flags.json) say("\n");
+      std::fflush(stdout);
+    }
+    if (flags.once || std::ferror(stdout)) return kDone;
+  }
+}
+
+}  // namespace
+
+void add_top(CLI::App& app, int& exit_code) {
+  auto* verb =
+      app.add_subcommand("top", "Show the bus live: rates, latencies, losses, who writes what, what nodes take");
+  auto flags = std::make_shared<TopFlags>();
+  verb->footer(
+      "Listens and says nothing: no node waits for it. On a terminal it is drawn over until Ctrl-C, in a pipe there is "
+      "a\n"
+      "table, or a line of JSON, each interval. Latency is from the writer's source timestamp to reception, age from "
+      "the\n"
+      "message's t_ns; late counts three periods without a sample.");
+  verb->add_option("--config", flags->config, "whose [domain] is looked at")
+      ->check(readable_file())
+      ->capture_default_str();
+  verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
+  verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
+  verb->add_option("--robot", flags->robot, "this robot's samples and writers only")->check(CLI::Range(1, 255));
+  verb->add_flag("--once", flags->once, "show one interval and end");
+  verb->add_flag("--json", flags->json, "JSON, a line an interval");
+  verb->add_option("--interval", flags->interval_s, "seconds between two looks")
+      ->check(between(0.1, 3600.0))
+      ->capture_default_str();
+  verb->callback([flags, &exit_code] { exit_code = show_bus(*flags); });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/census.hpp"
+#include "bus/participant.hpp"
+#include "monitor/bus_picture.hpp"
+
+namespace trivela::cli {
+
+/// Listens to every topic of the IDL and writes none; its readers look on (bus::ReaderOptions::observer).
+class Listening {
+ public:
+  /// Joins the domain. Throws bus::Error.
+  Listening(const bus::DomainConfig& domain, std::optional<std::uint8_t> only);
+  ~Listening();
+
+  /// The bus as it is now.
+  monitor::BusPicture look();
+
+ private:
+  class AnyEar;
+  template <class T>
+  class Ear;
+  void hear(const std::string& topic, std::uint8_t robot_id, const monitor::Heard& heard);
+
+  bus::Participant participant_;
+  bus::CensusTaker census_;
+  std::mutex mutex_;  // of the board: samples come on the bus's threads
+  monitor::BusBoard board_;
+  std::vector<std::unique_ptr<AnyEar>> ears_;
+};
+
+}  // namespace trivela::cli

@@ -1,0 +1,122 @@
+#include "cli/top/rendering.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace trivela::cli {
+namespace {
+
+using monitor::BusPicture;
+using monitor::StreamFigures;
+using monitor::TopicPicture;
+using monitor::WriterPicture;
+using Json = nlohmann::ordered_json;
+
+constexpr double kBytesPerMegabyte = 1024.0 * 1024.0;
+
+bool is_gone(const WriterPicture& writer) { return writer.state == monitor::WriterState::kStopped; }
+
+std::string number(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string writers_text(const TopicPicture& topic) {
+  std::string text;
+  for (const WriterPicture& writer : topic.writers) {
+    text += (text.empty() ? "" : ", ") + writer.owner;
+    if (topic.profile == "order") text += fmt::format(" strength {}", writer.strength);
+    if (is_gone(writer)) text += " GONE";
+  }
+  return text.empty() ? "nobody" : text;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "nobody" : text;
+}
+
+std::string stream_line(const TopicPicture& topic, const std::string& robot, const StreamFigures& figures) {
+  return fmt::format("{:<16}{:>5} {:>8.1f} {:>8.1f} {:>9} {:>9} {:>8} {:>7} {:>6}  {} -> {}\n", topic.topic, robot,
+                     figures.rate_now_hz, figures.rate_hz, number(figures.latency_p50_us, 0),
+                     number(figures.latency_p99_us, 0), number(figures.age_p50_ms, 2), figures.lost,
+                     figures.missed_deadlines, writers_text(topic), joined(topic.readers));
+}
+
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json json_of(const StreamFigures& figures, int robot_id) {
+  return {{"robot", robot_id},
+          {"rate_hz", figures.rate_hz},
+          {"rate_now_hz", figures.rate_now_hz},
+          {"latency_p50_us", json_of(figures.latency_p50_us)},
+          {"latency_p99_us", json_of(figures.latency_p99_us)},
+          {"age_p50_ms", json_of(figures.age_p50_ms)},
+          {"received", figures.received},
+          {"lost", figures.lost},
+          {"out_of_order", figures.out_of_order},
+          {"missed_deadlines", figures.missed_deadlines},
+          {"silent_for_s", json_of(figures.silent_for_s)}};
+}
+
+Json json_of(const TopicPicture& topic) {
+  Json writers = Json::array(), streams = Json::array();
+  for (const WriterPicture& writer : topic.writers)
+    writers.push_back({{"node", writer.owner},
+                       {"host", writer.host},
+                       {"pid", writer.pid},
+                       {"strength", writer.strength},
+                       {"gone", is_gone(writer)}});
+  for (const auto& [robot_id, figures] : topic.robots) streams.push_back(json_of(figures, robot_id));
+  return {{"topic", topic.topic}, {"profile", topic.profile}, {"period_s", topic.period_s},
+          {"writers", writers},   {"readers", topic.readers}, {"robots", streams}};
+}
+
+std::string process_line(const monitor::ProcessPicture& process) {
+  const bool known = process.load.has_value();
+  return fmt::format(
+      "{:<16}{:>8} {:>9} {:>7}  {}\n", process.name, process.pid,
+      known ? fmt::format("{:.1f}", static_cast<double>(process.load->memory_bytes) / kBytesPerMegabyte) : "-",
+      known ? number(process.load->cpu_percent, 1) : "-", process.host);
+}
+
+}  // namespace
+
+std::string top_table(const BusPicture& picture) {
+  std::string text =
+      fmt::format("{:<16}{:>5} {:>8} {:>8} {:>9} {:>9} {:>8} {:>7} {:>6}  {}\n", "topic", "robot", "Hz now", "Hz 5 s",
+                  "p50 us", "p99 us", "age ms", "lost", "late", "writers -> readers");
+  std::string quiet;
+  for (const TopicPicture& topic : picture.topics) {
+    for (const auto& [robot_id, figures] : topic.robots) text += stream_line(topic, std::to_string(robot_id), figures);
+    if (!topic.robots.empty()) continue;
+    if (topic.writers.empty()) {
+      quiet += (quiet.empty() ? "" : ", ") + topic.topic;
+    } else {
+      text += stream_line(topic, "-", {});
+    }
+  }
+  if (!quiet.empty()) text += fmt::format("nobody writes: {}\n", quiet);
+  text += fmt::format("\n{:<16}{:>8} {:>9} {:>7}  {}\n", "process", "pid", "memory MB", "CPU %", "host");
+  for (const monitor::ProcessPicture& process : picture.processes) text += process_line(process);
+  if (picture.processes.empty()) text += "nobody is in the domain\n";
+  return text;
+}
+
+std::string top_json(const BusPicture& picture, unsigned domain_id) {
+  Json topics = Json::array(), processes = Json::array();
+  for (const TopicPicture& topic : picture.topics) topics.push_back(json_of(topic));
+  for (const monitor::ProcessPicture& process : picture.processes) {
+    const auto& load = process.load;
+    processes.push_back({{"name", process.name},
+                         {"host", process.host},
+                         {"pid", process.pid},
+                         {"memory_bytes", load ? Json(load->memory_bytes) : Json(nullptr)},
+                         {"cpu_percent", load ? json_of(load->cpu_percent) : Json(nullptr)}});
+  }
+  const Json all{{"domain", domain_id}, {"topics", topics}, {"processes", processes}};
+  return all.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace trivela::cli
