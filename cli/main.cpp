@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "cli/finite_numbers.hpp"
-#include "cli/nearest_word.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "config/installation.hpp"
+#include "kicking/text/nearest_word.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace cli = trivela::cli;
@@ -61,7 +61,7 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** ar
       names.push_back(verb->get_name());
     if (std::ranges::find(names, argv[i]) == names.end()) {
       if (names.empty() || argv[i][0] == '-') return std::nullopt;
-      const auto meant = cli::nearest_word(argv[i], names);
+      const auto meant = trivela::kicking::nearest_word(argv[i], names);
       return fmt::format("there is no verb \"{}\"; {}trivela --help names them all", argv[i],
                          meant ? fmt::format("did you mean {}{}? ", before, *meant) : "");
     }
