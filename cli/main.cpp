@@ -36,6 +36,7 @@ const std::vector<Group>& groups() {
       {"After a match",
        {cli::add_report, cli::add_query, cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn,
         cli::add_migrate}},
+      {"Across the team", {cli::add_team}},
       {"On the robot",
        {cli::add_hardware, cli::add_solve, cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate}}};
   return all;
