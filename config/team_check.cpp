@@ -14,7 +14,7 @@ namespace trivela::config {
 namespace {
 
 constexpr std::uint32_t kLastDomain = 100;  // 7400 + 250 * 101 + 249 lies where Linux gives out ephemeral ports
-constexpr std::size_t kLongestName = 32;
+constexpr std::size_t kLongestTeamName = 32;
 constexpr std::size_t kLongestInterface = 15;  // IFNAMSIZ less the end
 
 /// Everything that is wrong, in the order in which it was looked for.
@@ -41,10 +41,10 @@ class TeamCheck {
   void check_name() {
     const TeamFields& t = team_.team;
     constexpr std::string_view kAllowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
-    if (t.name.empty() || t.name.size() > kLongestName || t.name.find_first_not_of(kAllowed) != std::string::npos) {
+    if (t.name.empty() || t.name.size() > kLongestTeamName || t.name.find_first_not_of(kAllowed) != std::string::npos) {
       add(t.lines, "name",
           fmt::format("team.name = \"{}\": must be 1 to {} of A-Z a-z 0-9 . _ -, for tags and names of logs", t.name,
-                      kLongestName));
+                      kLongestTeamName));
     }
     if (t.logs.empty() || t.logs.front() != '/')
       add(t.lines, "logs", fmt::format("team.logs = \"{}\": must be a whole path on the robots", t.logs));
