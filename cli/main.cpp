@@ -12,11 +12,11 @@
 
 #include "cli/finite_numbers.hpp"
 #include "cli/manual/manual_flags.hpp"
-#include "cli/nearest_word.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "config/installation.hpp"
+#include "kicking/text/nearest_word.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
 namespace cli = trivela::cli;
@@ -38,8 +38,8 @@ const std::vector<Group>& groups() {
        {cli::add_collect, cli::add_merge, cli::add_report, cli::add_query, cli::add_import, cli::add_replay,
         cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
       {"On the robot",
-       {cli::add_top, cli::add_doctor, cli::add_hardware, cli::add_solve, cli::add_align, cli::add_predict,
-        cli::add_refbox, cli::add_emulate}}};
+       {cli::add_team, cli::add_top, cli::add_doctor, cli::add_hardware, cli::add_solve, cli::add_align,
+        cli::add_predict, cli::add_refbox, cli::add_emulate}}};
   return all;
 }
 
@@ -63,7 +63,7 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** ar
       names.push_back(verb->get_name());
     if (std::ranges::find(names, argv[i]) == names.end()) {
       if (names.empty() || argv[i][0] == '-') return std::nullopt;
-      const auto meant = cli::nearest_word(argv[i], names);
+      const auto meant = trivela::kicking::nearest_word(argv[i], names);
       return fmt::format("there is no verb \"{}\"; {}trivela --help names them all", argv[i],
                          meant ? fmt::format("did you mean {}{}? ", before, *meant) : "");
     }

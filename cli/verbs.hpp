@@ -42,5 +42,6 @@ void add_tune(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_align(CLI::App& app, int& exit_code);
 void add_predict(CLI::App& app, int& exit_code);
+void add_team(CLI::App& app, int& exit_code);
 
 }  // namespace trivela::cli

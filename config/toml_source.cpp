@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "config/installation.hpp"
+#include "kicking/text/nearest_word.hpp"
 
 namespace trivela::config {
 namespace {
@@ -146,13 +147,20 @@ const toml::array& TableReader::array_of(std::string_view key, const toml::node&
   return *node.as_array();
 }
 
-void TableReader::refuse_unknown_keys() const {
+std::vector<std::string> TableReader::unknown_keys() const {
+  std::vector<std::string> unknown;
   for (const auto& [key, node] : table_) {
-    if (std::find(asked_.begin(), asked_.end(), key.str()) == asked_.end()) {
-      throw Error{fmt::format("{}:{}: {}{}{}: unknown key", file_, key.source().begin.line, section_,
-                              section_.empty() ? "" : ".", key.str())};
-    }
+    if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    const auto meant = kicking::nearest_word(key.str(), asked_);
+    unknown.push_back(fmt::format("{}:{}: {}{}{}: unknown key{}", file_, key.source().begin.line, section_,
+                                  section_.empty() ? "" : ".", key.str(),
+                                  meant ? fmt::format("; did you mean {}?", *meant) : ""));
   }
+  return unknown;
+}
+
+void TableReader::refuse_unknown_keys() const {
+  if (const auto unknown = unknown_keys(); !unknown.empty()) throw Error{unknown.front()};
 }
 
 }  // namespace trivela::config

@@ -103,7 +103,10 @@ class TableReader {
     inner.refuse_unknown_keys();
   }
 
-  /// Throws Error at the first key that no field asked for.
+  /// In words, each key that no field asked for, with its line and the key that was probably meant.
+  std::vector<std::string> unknown_keys() const;
+
+  /// Throws Error at the first of them.
   void refuse_unknown_keys() const;
 
  private:

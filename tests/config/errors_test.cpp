@@ -166,7 +166,7 @@ TEST(ChangedWorld, ABadLineIsNamedWithItsKeyAndValue) {
     return "accepted";
   };
   EXPECT_EQ(said("keeper.reaction_s = 9"), "--world:1: keeper.reaction_s = 9: must lie in [0, 5]");
-  EXPECT_EQ(said("keeper.reactions = 1"), "--world:1: keeper.reactions: unknown key");
+  EXPECT_EQ(said("keeper.reactions = 1"), "--world:1: keeper.reactions: unknown key; did you mean reaction_s?");
   EXPECT_NE(said("possession.speed_min_mps = 5").find("the minimum 5 is above the maximum 2"), std::string::npos);
   EXPECT_NE(said("defenders.count = 1.5").find("no whole number"), std::string::npos);
   EXPECT_NE(said("keeper.reaction_s").find("--world"), std::string::npos);

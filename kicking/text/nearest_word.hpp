@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace trivela::cli {
+namespace trivela::kicking {
 
 /// Letters that have to be put in, left out, replaced or swapped with their neighbour to make one word of the other
 /// (Damerau's distance, each letter touched once).
@@ -37,4 +37,4 @@ inline std::optional<std::string> nearest_word(std::string_view typed, const std
   return *nearest;
 }
 
-}  // namespace trivela::cli
+}  // namespace trivela::kicking

@@ -1,8 +1,8 @@
-#include "cli/nearest_word.hpp"
+#include "kicking/text/nearest_word.hpp"
 
 #include <gtest/gtest.h>
 
-namespace trivela::cli {
+namespace trivela::kicking {
 namespace {
 
 TEST(EditDistance, CountsLettersPutInLeftOutReplacedAndSwapped) {
@@ -43,4 +43,4 @@ TEST(NearestWord, IsNoneWhereNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace trivela::cli
+}  // namespace trivela::kicking
