@@ -99,7 +99,8 @@ void CensusTaker::take_ends(std::int32_t reader, bool writers, Handles& ends) {
 
 std::vector<End> CensusTaker::ends_of(const Handles& ends) const {
   std::vector<End> all;
-  for (const auto& [handle, found] : ends) {
+  for (const auto& entry : ends) {
+    const auto& found = entry.second;
     if (found.member == own_key_) continue;
     End end = found.end;
     const auto member =

@@ -22,8 +22,9 @@ struct DigestedTable {
 
 /// What is recorded of a session, in the order of the digest: the tables of the version's schema that have a
 /// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and nothing
-/// that is said of a session afterwards, as merging does in `session_clocks` and `merged_sessions`. `texts` are covered by the hashes that sessions name them by. A change of
-/// these tables, or of their order, is another version of the log.
+/// that is said of a session afterwards, as merging does in `session_clocks` and `merged_sessions`. `texts` are covered
+/// by the hashes that sessions name them by. A change of these tables, or of their order, is another version of the
+/// log.
 const std::vector<DigestedTable>& digested_tables(int version = kMatchLog.version);
 
 /// Version of a match log.
