@@ -73,7 +73,9 @@ class Merging {
     std::map<std::int64_t, std::vector<std::size_t>> holders;
     for (std::size_t i = 0; i < sources_.size(); ++i)
       for (const auto& [session_id, copy] : sources_[i].sessions()) holders[session_id].push_back(i);
-    for (const auto& [session_id, places] : holders) {
+    for (const auto& holder : holders) {
+      const std::int64_t session_id = holder.first;
+      const std::vector<std::size_t>& places = holder.second;
       const auto copy_in = [&](std::size_t i) { return sources_[i].sessions().at(session_id); };
       std::size_t best = places.front();
       std::int64_t best_rows = -1;
