@@ -51,9 +51,9 @@ Bench bench_of(const HardwareFlags& flags, SignalInbox& signals) {
   config::override_settings(settings, flags.overrides, "--set");
   if (settings.run.lockstep) throw UsageError{"run.lockstep = true: devices wait for nobody"};
   config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
-  bus::Participant participant{nodes::domain_of(settings.domain)};
-  Claims claims{participant, static_cast<std::uint8_t>(settings.run.robot_id)};
-  return {std::move(settings), std::move(robot), signals, std::move(participant), std::move(claims)};
+  const bus::Participant participant{nodes::domain_of(settings.domain)};
+  const auto robot_id = static_cast<std::uint8_t>(settings.run.robot_id);
+  return {std::move(settings), std::move(robot), signals, participant, Claims{participant, robot_id}};
 }
 
 void say_who(const Bench& bench) {
