@@ -37,7 +37,8 @@ const std::vector<Group>& groups() {
        {cli::add_report, cli::add_query, cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn,
         cli::add_migrate}},
       {"On the robot",
-       {cli::add_hardware, cli::add_solve, cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate}}};
+       {cli::add_hardware, cli::add_solve, cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate,
+        cli::add_keys}}};
   return all;
 }
 

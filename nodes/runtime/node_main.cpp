@@ -40,6 +40,12 @@ bus::DomainConfig domain_of(const config::Domain& domain) {
                                  : bus::from_file(domain.domain_id, domain.dds_file);
 }
 
+bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node) {
+  const bus::DomainConfig domain = domain_of(settings.domain);
+  if (keys.empty()) return domain;
+  return bus::secured(domain, std::filesystem::path{keys} / fmt::format("robot_{}", settings.run.robot_id), node);
+}
+
 namespace {
 
 std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string& level) {
@@ -50,24 +56,25 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
   return logger;
 }
 
-bus::Participant join(const config::Settings& settings, const std::shared_ptr<spdlog::logger>& logger,
-                      std::chrono::seconds stay) {
-  if (settings.run.lockstep) return bus::Participant{domain_of(settings.domain)};
-  return {domain_of(settings.domain),
+bus::Participant join(const config::Settings& settings, const bus::DomainConfig& domain,
+                      const std::shared_ptr<spdlog::logger>& logger, std::chrono::seconds stay) {
+  if (settings.run.lockstep) return bus::Participant{domain};
+  return {domain,
           {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
 }
 
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know
 /// anew. Should that not help either, since the other side is silent, each stays longer than the one before.
-void run_as_member(const config::Settings& settings, const config::Robot& robot,
+void run_as_member(const config::Settings& settings, const config::Robot& robot, const bus::DomainConfig& domain,
                    const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
   constexpr std::chrono::seconds kShortestStay{5};
   constexpr std::chrono::seconds kLongestStay{60};
   for (auto stay = kShortestStay;; stay = std::min(2 * stay, kLongestStay)) {
     try {
-      NodeContext context{settings, robot, join(settings, logger, stay), logger, stop};
-      logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
+      NodeContext context{settings, robot, join(settings, domain, logger, stay), logger, stop};
+      logger->info("robot {} ({}) in domain {}{}", settings.run.robot_id, robot.name, settings.domain.domain_id,
+                   domain.xml.find("<Security>") == std::string::npos ? "" : ", secured");
       return body(context);
     } catch (const bus::Deaf& deaf) {
       logger->error("{}: joins the bus anew", deaf.what());
@@ -84,9 +91,12 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   app.set_version_flag("--version", config::version_lines(fmt::format("trivela-{}", name)));
   std::string config_file;
   std::vector<std::string> overrides;
+  std::string keys;
   int realtime_priority = 0;
   app.add_option("--config", config_file, "configuration (config/default.toml says what it may hold)")->required();
   app.add_option("--set", overrides, "one setting on top, e.g. --set run.robot_id=2");
+  app.add_option("--secure", keys, "speak to holders of keys alone; the folder of trivela keys, with ours")
+      ->envname(kKeysVariable);
   app.add_option("--realtime", realtime_priority, "SCHED_FIFO priority, locked memory")->check(CLI::Range(1, 99));
   try {
     app.parse(argc, argv);
@@ -110,7 +120,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
       logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
     }};
-    run_as_member(settings, robot, logger, stop, body);
+    run_as_member(settings, robot, domain_of(settings, keys, name), logger, stop, body);
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {
