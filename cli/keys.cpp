@@ -67,7 +67,7 @@ int init_keys(const KeyFlags& flags) {
   check_key_nodes(flags);
   const auto validity = asked_validity(flags);
   const security::KeyFolder keys{flags.folder};
-  keys.init();
+  keys.init(validity);
   for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags), validity);
   say_keys(keys, validity);
   return kDone;
@@ -95,7 +95,11 @@ int revoke_keys(const KeyFlags& flags) {
   const auto validity = asked_validity(flags);
   const security::KeyFolder keys{flags.folder};
   for (const std::uint32_t robot_id : flags.robots) {
-    if (flags.nodes.empty()) keys.revoke_robot(robot_id);
+    if (flags.nodes.empty()) {
+      keys.revoke_robot(robot_id);
+      say(fmt::format("robot {}: forgotten; its nodes were strangers to every other robot before\n", robot_id));
+      continue;
+    }
     for (const std::string& node : flags.nodes) keys.revoke(robot_id, node, validity);
     say(fmt::format("copy {} to the robot and start its nodes again: those that run go on with the old keys\n",
                     keys.robot_folder(robot_id).string()));

@@ -20,8 +20,9 @@ constexpr std::string_view kRobotPrefix = "robot_";
 constexpr std::chrono::days kAuthorityLife{3650};
 
 void write_authority(const fs::path& stem, std::string_view name, const Validity& validity) {
+  const auto from = std::min(validity.from, days_from(this_second(), 0).from);
   const Key key = new_key();
-  const Certificate certificate = new_authority(key, name, {validity.from, validity.from + kAuthorityLife});
+  const Certificate certificate = new_authority(key, name, {from, from + kAuthorityLife});
   write_private_file(stem.string() + ".key", pem_of(key));
   write_private_file(stem.string() + ".pem", pem_of(certificate));
 }
@@ -73,14 +74,14 @@ std::vector<std::string> KeyFolder::nodes(std::uint32_t robot_id) const {
   return names;
 }
 
-void KeyFolder::init() const {
+void KeyFolder::init(const Validity& validity) const {
   if (fs::exists(authority() / "permissions_ca.key"))
     throw std::runtime_error{fmt::format("{}: has a permissions authority; its robots are added by issue, renewed by "
                                          "renew",
                                          folder_.string())};
   make_private_folder(folder_);
   make_private_folder(authority());
-  write_authority(authority() / "permissions_ca", "Permissions CA", days_from(this_second(), 1));
+  write_authority(authority() / "permissions_ca", "Permissions CA", validity);
 }
 
 void KeyFolder::require_authority() const {

@@ -22,8 +22,8 @@ class KeyFolder {
  public:
   explicit KeyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Makes the permissions authority. Refuses a folder that has one.
-  void init() const;
+  /// Makes the permissions authority, which holds for what begins then or later. Refuses a folder that has one.
+  void init(const Validity& validity) const;
 
   /// Makes an identity for these nodes of the robot, beside those that it has; makes the robot's authority where there
   /// is none. Nodes that have one get another.

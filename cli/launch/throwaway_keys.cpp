@@ -19,10 +19,11 @@ ThrowawayKeys::ThrowawayKeys(std::uint32_t robot_id) {
   if (mkdtemp(pattern.data()) == nullptr) throw std::system_error{errno, std::generic_category(), pattern};
   folder_ = pattern;
   const security::KeyFolder keys{folder_};
-  keys.init();
+  const security::Validity today = security::days_from(security::this_second(), 1);
+  keys.init(today);
   std::vector<std::string> every;
   for (const security::Rights& rights : security::all_rights()) every.push_back(rights.node);
-  keys.issue(robot_id, every, security::days_from(security::this_second(), 1));
+  keys.issue(robot_id, every, today);
 }
 
 ThrowawayKeys::~ThrowawayKeys() {

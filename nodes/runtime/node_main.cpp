@@ -56,6 +56,14 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
   return logger;
 }
 
+/// A secured node that hears of others before its own identity stands says that it does not know them yet; a moment later
+/// it does. Strangers are told in other words.
+spdlog::level::level_enum level_of(bool severe, std::string_view text) {
+  if (severe) return spdlog::level::err;
+  const bool of_the_start = text.starts_with("Remote secure participant") && text.find("not allowed") != text.npos;
+  return of_the_start ? spdlog::level::debug : spdlog::level::warn;
+}
+
 bus::Participant join(const config::Settings& settings, const bus::DomainConfig& domain,
                       const std::shared_ptr<spdlog::logger>& logger, std::chrono::seconds stay) {
   if (settings.run.lockstep) return bus::Participant{domain};
@@ -117,9 +125,8 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     if (realtime_priority > 0 && !bus::set_realtime(realtime_priority).scheduled) {
       logger->warn("real-time scheduling was not permitted");
     }
-    const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
-      logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
-    }};
+    const bus::LibraryLog library{
+        [logger](bool severe, std::string_view text) { logger->log(level_of(severe, text), "dds: {}", text); }};
     run_as_member(settings, robot, domain_of(settings, keys, name), logger, stop, body);
     logger->info("stopped");
     return 0;
