@@ -61,9 +61,8 @@ DomainConfig secured(DomainConfig config, const fs::path& robot_folder, std::str
                        "<Governance>file:{}</Governance><Permissions>file:{}</Permissions></AccessControl>"
                        "<Cryptographic>{}</Cryptographic></Security>",
                        plugin("auth", "authentication"), file("identity_ca.pem").string(), file(own + ".pem").string(),
-                       file(own + ".key").string(), plugin("ac", "access_control"),
-                       file("permissions_ca.pem").string(), file("governance.p7s").string(),
-                       file(own + ".p7s").string(), plugin("crypto", "crypto")));
+                       file(own + ".key").string(), plugin("ac", "access_control"), file("permissions_ca.pem").string(),
+                       file("governance.p7s").string(), file(own + ".p7s").string(), plugin("crypto", "crypto")));
   return config;
 }
 

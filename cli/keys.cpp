@@ -41,8 +41,7 @@ sys_seconds utc_day(const std::string& text, const char* flag) {
 security::Validity asked_validity(const KeyFlags& flags) {
   if (flags.from.empty()) return security::days_from(security::this_second(), flags.days);
   const security::Validity validity{utc_day(flags.from, "--from"), utc_day(flags.to, "--to") + std::chrono::days{1}};
-  if (validity.to <= validity.from)
-    throw UsageError{fmt::format("--to {} is before --from {}", flags.to, flags.from)};
+  if (validity.to <= validity.from) throw UsageError{fmt::format("--to {} is before --from {}", flags.to, flags.from)};
   return validity;
 }
 
@@ -119,8 +118,8 @@ int check_keys(const KeyFlags& flags) {
 
 using KeyTask = int (*)(const KeyFlags&);
 
-CLI::App* add_key_verb(CLI::App& keys, const char* name, const char* what, const std::shared_ptr<KeyFlags>& flags, KeyTask task,
-              int& exit_code) {
+CLI::App* add_key_verb(CLI::App& keys, const char* name, const char* what, const std::shared_ptr<KeyFlags>& flags,
+                       KeyTask task, int& exit_code) {
   auto* verb = keys.add_subcommand(name, what);
   verb->add_option("--dir", flags->folder, "folder of the keys")->required();
   verb->callback([flags, task, &exit_code] { exit_code = task(*flags); });
@@ -136,8 +135,9 @@ void add_key_robots(CLI::App* verb, KeyFlags& flags, const char* nodes) {
 }
 
 void add_key_validity(CLI::App* verb, KeyFlags& flags) {
-  auto* days = verb->add_option("--days", flags.days, "how long they hold from now: a tournament's week and a day on "
-                                                      "each side")
+  auto* days = verb->add_option("--days", flags.days,
+                                "how long they hold from now: a tournament's week and a day on "
+                                "each side")
                    ->check(CLI::Range(1, 366))
                    ->capture_default_str();
   auto* from = verb->add_option("--from", flags.from, "first day, e.g. 2026-07-01 (UTC)")->excludes(days);
@@ -154,12 +154,15 @@ void add_keys(CLI::App& app, int& exit_code) {
   auto* made = add_key_verb(*verb, "init", "Make authorities, and keys of the robots", flags, init_keys, exit_code);
   add_key_robots(made, *flags, "nodes such as kick_decision,recorder; default: all that run on a robot");
   add_key_validity(made, *flags);
-  auto* more = add_key_verb(*verb, "issue", "Add a robot, or nodes to one; all of its nodes get new keys", flags, issue_keys, exit_code);
+  auto* more = add_key_verb(*verb, "issue", "Add a robot, or nodes to one; all of its nodes get new keys", flags,
+                            issue_keys, exit_code);
   add_key_robots(more, *flags, "nodes, simulator and replay_player only by name; default: all that run on a robot");
   add_key_validity(more, *flags);
-  auto* next = add_key_verb(*verb, "renew", "New keys for all, of the same names, for another week", flags, renew_keys, exit_code);
+  auto* next = add_key_verb(*verb, "renew", "New keys for all, of the same names, for another week", flags, renew_keys,
+                            exit_code);
   add_key_validity(next, *flags);
-  auto* lost = add_key_verb(*verb, "revoke", "Count a node's keys, or a whole robot's, no more", flags, revoke_keys, exit_code);
+  auto* lost =
+      add_key_verb(*verb, "revoke", "Count a node's keys, or a whole robot's, no more", flags, revoke_keys, exit_code);
   add_key_robots(lost, *flags, "the node whose keys are lost; default: the whole robot");
   add_key_validity(lost, *flags);
   add_key_verb(*verb, "check", "Say what is wrong with the keys, on a robot too", flags, check_keys, exit_code);

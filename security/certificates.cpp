@@ -135,7 +135,9 @@ std::string pem_of(const Certificate& certificate) {
 
 Key read_key(const std::filesystem::path& file) { return read_pem<Key>(file, PEM_read_bio_PrivateKey); }
 
-Certificate read_certificate(const std::filesystem::path& file) { return read_pem<Certificate>(file, PEM_read_bio_X509); }
+Certificate read_certificate(const std::filesystem::path& file) {
+  return read_pem<Certificate>(file, PEM_read_bio_X509);
+}
 
 std::string signed_document(const std::string& text, const Certificate& authority, const Key& authority_key) {
   constexpr int kFlags = PKCS7_TEXT | PKCS7_DETACHED | PKCS7_STREAM;
@@ -186,8 +188,9 @@ bool belongs(const Key& key, const Certificate& certificate) {
 }
 
 bool is_signed_by(const Certificate& certificate, const Certificate& authority) {
-  const bool good = X509_NAME_cmp(X509_get_issuer_name(certificate.get()), X509_get_subject_name(authority.get())) == 0 &&
-                    X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) == 1;
+  const bool good =
+      X509_NAME_cmp(X509_get_issuer_name(certificate.get()), X509_get_subject_name(authority.get())) == 0 &&
+      X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) == 1;
   ERR_clear_error();
   return good;
 }

@@ -19,8 +19,8 @@ void check_modes(const fs::path& folder, Faults& faults) {
   const auto check = [&](const fs::path& path) {
     const auto others = fs::perms::group_all | fs::perms::others_all;
     if ((fs::status(path).permissions() & others) != fs::perms::none)
-      faults.push_back(fmt::format("{}: somebody else than its owner may read or change it: chmod go= it",
-                                   path.string()));
+      faults.push_back(
+          fmt::format("{}: somebody else than its owner may read or change it: chmod go= it", path.string()));
   };
   check(folder);
   for (const auto& entry : fs::directory_iterator{folder}) check(entry.path());
@@ -39,8 +39,8 @@ void check_document(const fs::path& file, const Certificate& authority, const st
   if (!text) {
     faults.push_back(fmt::format("{}: is not signed by the permissions authority's own key", file.string()));
   } else if (*text != expected) {
-    faults.push_back(fmt::format("{}: does not say what this version of Trivela writes: trivela keys renew",
-                                 file.string()));
+    faults.push_back(
+        fmt::format("{}: does not say what this version of Trivela writes: trivela keys renew", file.string()));
   }
 }
 
@@ -73,18 +73,17 @@ void check_node(const fs::path& folder, std::uint32_t robot_id, const std::strin
 void check_authorities(const fs::path& folder, const Authorities& authorities, std::chrono::sys_seconds now,
                        Faults& faults) {
   if (same_public_key(authorities.identity, authorities.permissions))
-    faults.push_back(fmt::format("{}: identity and permissions authority are the same: Cyclone 0.10.2 would take "
-                                 "permissions that any node signs for itself (CVE-2023-24011)",
-                                 folder.string()));
+    faults.push_back(
+        fmt::format("{}: identity and permissions authority are the same: Cyclone 0.10.2 would take "
+                    "permissions that any node signs for itself (CVE-2023-24011)",
+                    folder.string()));
   check_clock(folder / "identity_ca.pem", validity_of(authorities.identity), now, faults);
   check_clock(folder / "permissions_ca.pem", validity_of(authorities.permissions), now, faults);
   check_document(folder / "governance.p7s", authorities.permissions, governance_xml(), faults);
 }
 
 /// Runs the check; what is missing or no PEM at all is a fault too.
-void noting(Faults& faults, const auto& check) try {
-  check();
-} catch (const std::exception& error) {
+void noting(Faults& faults, const auto& check) try { check(); } catch (const std::exception& error) {
   faults.emplace_back(error.what());
 }
 

@@ -76,9 +76,10 @@ std::vector<std::string> KeyFolder::nodes(std::uint32_t robot_id) const {
 
 void KeyFolder::init(const Validity& validity) const {
   if (fs::exists(authority() / "permissions_ca.key"))
-    throw std::runtime_error{fmt::format("{}: has a permissions authority; its robots are added by issue, renewed by "
-                                         "renew",
-                                         folder_.string())};
+    throw std::runtime_error{
+        fmt::format("{}: has a permissions authority; its robots are added by issue, renewed by "
+                    "renew",
+                    folder_.string())};
   make_private_folder(folder_);
   make_private_folder(authority());
   write_authority(authority() / "permissions_ca", "Permissions CA", validity);
@@ -131,8 +132,8 @@ void KeyFolder::write_robot(std::uint32_t robot_id, const std::vector<std::strin
   const Authority identity{authority() / identity_authority(robot_id)};
   const Authority permissions{authority() / "permissions_ca"};
   if (same_public_key(identity.certificate, permissions.certificate))
-    throw std::runtime_error{fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)",
-                                         authority().string())};
+    throw std::runtime_error{
+        fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)", authority().string())};
   const fs::path made = folder_ / fmt::format(".new_{}{}", kRobotPrefix, robot_id);
   fs::remove_all(made);
   make_private_folder(made);

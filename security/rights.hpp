@@ -12,8 +12,8 @@ struct Rights {
   std::string node;
   std::vector<std::string> publish;
   std::vector<std::string> subscribe;
-  /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has not,
-  /// since it may write what referee and devices say.
+  /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has
+  /// not, since it may write what referee and devices say.
   bool on_robot = true;
 };
 
@@ -24,8 +24,8 @@ const std::vector<Rights>& all_rights();
 /// Of one kind. Throws std::invalid_argument naming it and the known ones if there is none.
 const Rights& rights_of(std::string_view node);
 
-/// What certificates and permissions call a robot's node: "kick_decision.1". A slash, as owners of writers have it, would
-/// be a separator in a subject name.
+/// What certificates and permissions call a robot's node: "kick_decision.1". A slash, as owners of writers have it,
+/// would be a separator in a subject name.
 std::string common_name(std::string_view node, std::uint32_t robot_id);
 
 }  // namespace trivela::security

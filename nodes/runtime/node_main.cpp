@@ -56,8 +56,8 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
   return logger;
 }
 
-/// A secured node that hears of others before its own identity stands says that it does not know them yet; a moment later
-/// it does. Strangers are told in other words.
+/// A secured node that hears of others before its own identity stands says that it does not know them yet; a moment
+/// later it does. Strangers are told in other words.
 spdlog::level::level_enum level_of(bool severe, std::string_view text) {
   if (severe) return spdlog::level::err;
   const bool of_the_start = text.starts_with("Remote secure participant") && text.find("not allowed") != text.npos;
@@ -67,8 +67,7 @@ spdlog::level::level_enum level_of(bool severe, std::string_view text) {
 bus::Participant join(const config::Settings& settings, const bus::DomainConfig& domain,
                       const std::shared_ptr<spdlog::logger>& logger, std::chrono::seconds stay) {
   if (settings.run.lockstep) return bus::Participant{domain};
-  return {domain,
-          {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
+  return {domain, {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
 }
 
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know

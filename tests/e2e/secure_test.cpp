@@ -50,9 +50,8 @@ TEST(Secure, AMatchPlaysWithATeamsKeysAndSaysWhatIsWrongWithThem) {
   Program refused{"trivela", with(short_match("no.db"), {"--secure", "keys"}), folder.path()};
   EXPECT_EQ(refused.wait(), 2);
   EXPECT_THAT(refused.errors(), HasSubstr("CVE-2023-24011"));
-  Program node{"trivela-odometry",
-               {"--config", TRIVELA_SOURCE_DIR "/config/default.toml", "--secure", "keys"},
-               folder.path()};
+  Program node{
+      "trivela-odometry", {"--config", TRIVELA_SOURCE_DIR "/config/default.toml", "--secure", "keys"}, folder.path()};
   EXPECT_EQ(node.wait(), 1);
   EXPECT_THAT(node.errors(), HasSubstr("CVE-2023-24011"));
 }

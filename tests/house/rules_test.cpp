@@ -78,8 +78,8 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
 };
 
-const std::vector<std::string> kRooms{"kicking", "refbox", "idl",     "sim",     "config",      "evaluator",
-                                      "bus",     "hal",    "robot",   "nodes",   "calibration", "experiment",
+const std::vector<std::string> kRooms{"kicking", "refbox", "idl",     "sim",      "config",      "evaluator",
+                                      "bus",     "hal",    "robot",   "nodes",    "calibration", "experiment",
                                       "pages",   "cli",    "include", "examples", "security"};
 
 std::string room_of(const std::string& path) {

@@ -85,7 +85,8 @@ TEST_F(Keys, ANodeOfAnotherRobotIsAStranger) {
     fs::copy_file(team.robot(2) / (std::string("kick_decision") + ending),
                   team.robot(1) / (std::string("kick_decision") + ending), fs::copy_options::overwrite_existing);
   EXPECT_THAT(faults(), Contains(HasSubstr("is not signed by the robot's identity authority")));
-  EXPECT_THAT(faults(), Contains(HasSubstr("is of O=Trivela,CN=kick_decision.2, must be of O=Trivela,CN=kick_decision.1")));
+  EXPECT_THAT(faults(),
+              Contains(HasSubstr("is of O=Trivela,CN=kick_decision.2, must be of O=Trivela,CN=kick_decision.1")));
 }
 
 TEST_F(Keys, OneAuthorityForBothIsRefused) {
@@ -103,7 +104,8 @@ TEST_F(Keys, PermissionsThatANodeSignedForItselfAreSeen) {
   const fs::path own = team.robot(1) / "kick_decision";
   write_private_file(own.string() + ".p7s",
                      signed_document(all, read_certificate(own.string() + ".pem"), read_key(own.string() + ".key")));
-  EXPECT_THAT(faults(), ElementsAre(HasSubstr("kick_decision.p7s: is not signed by the permissions authority's own key")));
+  EXPECT_THAT(faults(),
+              ElementsAre(HasSubstr("kick_decision.p7s: is not signed by the permissions authority's own key")));
 }
 
 TEST_F(Keys, AChangedWordOfSignedPermissionsIsSeen) {

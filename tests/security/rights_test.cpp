@@ -89,7 +89,8 @@ TEST(Rights, PermissionsNameTheNodeItsTopicsAndItsWeekAndDenyTheRest) {
   const Validity week{std::chrono::sys_days{2026y / 7 / 1}, std::chrono::sys_days{2026y / 7 / 10}};
   const std::string xml = permissions_xml(rights_of("world_state"), 3, week);
   EXPECT_THAT(xml, HasSubstr("<subject_name>O=Trivela,CN=world_state.3</subject_name>"));
-  EXPECT_THAT(xml, HasSubstr("<not_before>2026-07-01T00:00:00Z</not_before><not_after>2026-07-10T00:00:00Z</not_after>"));
+  EXPECT_THAT(xml,
+              HasSubstr("<not_before>2026-07-01T00:00:00Z</not_before><not_after>2026-07-10T00:00:00Z</not_after>"));
   EXPECT_THAT(xml, HasSubstr("<publish><topics><topic>world_state</topic></topics></publish>"));
   EXPECT_THAT(xml, HasSubstr("<topic>odometry</topic>"));
   EXPECT_THAT(xml, HasSubstr("<default>DENY</default>"));

@@ -138,10 +138,10 @@ TEST_F(SecuredBus, WithOneAuthorityForBothDebiansCycloneTakesWhatANodeSignedForI
   const Key key = read_key(team.authority() / "identity_ca_1.key");
   write_private_file(folder / "permissions_ca.pem", pem_of(both) + "\n");  // the guard compares the files
   write_private_file(folder / "governance.p7s", signed_document(governance_xml(), both, key));
-  write_private_file(
-      folder / "kicker_driver.p7s",
-      signed_document(permissions_xml(rights_of("kicker_driver"), 1, validity_of(read_certificate(folder / "kicker_driver.pem"))),
-                      both, key));
+  write_private_file(folder / "kicker_driver.p7s",
+                     signed_document(permissions_xml(rights_of("kicker_driver"), 1,
+                                                     validity_of(read_certificate(folder / "kicker_driver.pem"))),
+                                     both, key));
   sign_for_itself(folder, "vision");
   bus::Writer<msg::KickOrder> forged{bus::Participant(as("vision", team))};
   bus::Reader<msg::KickOrder> driver{bus::Participant(as("kicker_driver", team))};
@@ -167,7 +167,8 @@ class Tap {
     std::array<char, 65536> packet{};
     bool seen = false;
     for (ssize_t size = 0; (size = ::recv(socket_, packet.data(), packet.size(), 0)) > 0;)
-      seen = seen || std::string_view{packet.data(), static_cast<std::size_t>(size)}.find(bytes) != std::string_view::npos;
+      seen =
+          seen || std::string_view{packet.data(), static_cast<std::size_t>(size)}.find(bytes) != std::string_view::npos;
     tpacket_stats count{};
     socklen_t size = sizeof count;
     EXPECT_EQ(::getsockopt(socket_, SOL_PACKET, PACKET_STATISTICS, &count, &size), 0);
