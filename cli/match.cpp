@@ -154,10 +154,12 @@ void add_match(CLI::App& app, int& exit_code) {
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
-  auto* secure = verb->add_option("--secure", flags->keys,
-                                  "every node with the keys of this folder (trivela keys), which must have some of "
-                                  "simulator and refbox too; without a folder with keys that go with the match")
-                     ->expected(0, 1);
+  auto* secure =
+      verb->add_option(
+              "--secure", flags->keys,
+              "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), in which "
+              "simulator has some; without a folder, with keys that go with the match")
+          ->expected(0, 1);
   verb->callback([flags, secure, &exit_code] {
     if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
     config::Settings settings = settings_of(*flags);

@@ -43,11 +43,11 @@ TEST(Secure, AMatchPlaysWithATeamsKeysAndSaysWhatIsWrongWithThem) {
   Program check{"trivela", {"keys", "check", "--dir", "keys"}, folder.path()};
   EXPECT_EQ(check.wait(), 0) << check.errors();
   EXPECT_THAT(check.output(), HasSubstr("robot 1: 13 identities, nothing wrong"));
-  Program match{"trivela", with(short_match("match.db"), {"--secure", "keys"}), folder.path()};
+  Program match{"trivela", with(short_match("match.db"), {"--secure", "./keys"}), folder.path()};
   EXPECT_EQ(match.wait(), 0) << match.errors();
   std::filesystem::copy_file(folder / "keys/robot_1/identity_ca.pem", folder / "keys/robot_1/permissions_ca.pem",
                              std::filesystem::copy_options::overwrite_existing);
-  Program refused{"trivela", with(short_match("no.db"), {"--secure", "keys"}), folder.path()};
+  Program refused{"trivela", with(short_match("no.db"), {"--secure", "./keys"}), folder.path()};
   EXPECT_EQ(refused.wait(), 2);
   EXPECT_THAT(refused.errors(), HasSubstr("CVE-2023-24011"));
   Program node{
