@@ -24,4 +24,10 @@ DomainConfig loopback(std::uint32_t domain_id, std::string_view tag);
 /// The configuration in a Cyclone XML file. Throws Error if the id is outside 0..100 or the file cannot be read.
 DomainConfig from_file(std::uint32_t domain_id, const std::filesystem::path& file);
 
+/// The same for the node whose identity lies in the folder (security/key_folder.hpp): DDS Security by Cyclone's
+/// plug-ins, which come with the library (Debian: libddsc0debian). Throws Error naming the file if one of the node's is
+/// missing, if others than its owner may read the key, if identity and permissions authority are one certificate, or if
+/// the configuration has a Security element already.
+DomainConfig secured(DomainConfig config, const std::filesystem::path& robot_folder, std::string_view node);
+
 }  // namespace trivela::bus

@@ -39,7 +39,7 @@ const std::vector<Group>& groups() {
         cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
       {"On the robot",
        {cli::add_team, cli::add_top, cli::add_doctor, cli::add_hardware, cli::add_solve, cli::add_align,
-        cli::add_predict, cli::add_refbox, cli::add_emulate}}};
+        cli::add_predict, cli::add_refbox, cli::add_emulate, cli::add_keys}}};
   return all;
 }
 

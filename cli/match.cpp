@@ -6,6 +6,7 @@
 
 #include "cli/launch/record_emulated.hpp"
 #include "cli/launch/record_lockstep.hpp"
+#include "cli/launch/throwaway_keys.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
@@ -41,6 +42,7 @@ struct MatchFlags {
   std::string config = config::shipped("default.toml").string();
   std::vector<std::string> overrides;
   std::string log_level = "warn";
+  std::string keys;
 };
 
 std::string list(const std::vector<std::string>& policies) {
@@ -152,9 +154,16 @@ void add_match(CLI::App& app, int& exit_code) {
   verb->add_option("--log-level", flags->log_level, "of the nodes")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
-  verb->callback([flags, &exit_code] {
+  auto* secure =
+      verb->add_option(
+              "--secure", flags->keys,
+              "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), in which "
+              "simulator has some; without a folder, with keys that go with the match")
+          ->expected(0, 1);
+  verb->callback([flags, secure, &exit_code] {
     if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
     config::Settings settings = settings_of(*flags);
+    const auto keys = secure->count() == 0 ? nullptr : secure_children(flags->keys, settings.run.robot_id);
     exit_code = flags->devices == kEmulated
                     ? record_emulated(std::move(settings), flags->domain, flags->out)
                     : record_lockstep("simulator", std::move(settings), flags->domain, flags->out);

@@ -23,6 +23,7 @@ void add_emulate(CLI::App& app, int& exit_code);
 void add_top(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_hardware(CLI::App& app, int& exit_code);
+void add_keys(CLI::App& app, int& exit_code);
 void add_lob(CLI::App& app, int& exit_code);
 void add_calibrate(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);

@@ -6,18 +6,24 @@
 
 namespace trivela::nodes {
 
+/// What names the folder of keys where `--secure` does not.
+inline constexpr const char* kKeysVariable = "TRIVELA_SECURITY";
+
 /// What every node's command line says.
 struct NodeFlags {
   std::string config_file;
   std::vector<std::string> overrides;
+  std::string keys;           ///< folder of trivela keys; empty: the bus is not secured
   int realtime_priority = 0;  ///< 0: none
 };
 
-/// Adds `--config`, `--set` and `--realtime`, and what they mean. The flags outlive the parsing.
+/// Adds `--config`, `--set`, `--secure` and `--realtime`, and what they mean. The flags outlive the parsing.
 inline void add_node_flags(CLI::App& app, NodeFlags& flags) {
   app.add_option("--config", flags.config_file, "configuration (config/default.toml says what it may hold)")
       ->required();
   app.add_option("--set", flags.overrides, "one setting on top, e.g. --set run.robot_id=2");
+  app.add_option("--secure", flags.keys, "speak to holders of keys alone; the folder of trivela keys, with ours")
+      ->envname(kKeysVariable);
   app.add_option("--realtime", flags.realtime_priority, "SCHED_FIFO priority, locked memory")->check(CLI::Range(1, 99));
 }
 

@@ -57,6 +57,12 @@ bus::DomainConfig domain_of(const config::Domain& domain) {
                                  : bus::from_file(domain.domain_id, domain.dds_file);
 }
 
+bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node) {
+  const bus::DomainConfig domain = domain_of(settings.domain);
+  if (keys.empty()) return domain;
+  return bus::secured(domain, std::filesystem::path{keys} / fmt::format("robot_{}", settings.run.robot_id), node);
+}
+
 namespace {
 
 std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string& level) {
@@ -67,16 +73,23 @@ std::shared_ptr<spdlog::logger> make_logger(const char* name, const std::string&
   return logger;
 }
 
-bus::Participant join(const config::Settings& settings, const std::shared_ptr<spdlog::logger>& logger,
-                      std::chrono::seconds stay) {
-  if (settings.run.lockstep) return bus::Participant{domain_of(settings.domain)};
-  return {domain_of(settings.domain),
-          {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
+/// A secured node that hears of others before its own identity stands says that it does not know them yet; a moment
+/// later it does. Strangers are told in other words.
+spdlog::level::level_enum level_of(bool severe, std::string_view text) {
+  if (severe) return spdlog::level::err;
+  const bool of_the_start = text.starts_with("Remote secure participant") && text.find("not allowed") != text.npos;
+  return of_the_start ? spdlog::level::debug : spdlog::level::warn;
+}
+
+bus::Participant join(const config::Settings& settings, const bus::DomainConfig& domain,
+                      const std::shared_ptr<spdlog::logger>& logger, std::chrono::seconds stay) {
+  if (settings.run.lockstep) return bus::Participant{domain};
+  return {domain, {.warn = [logger](const std::string& line) { logger->warn(line); }, .stay = stay}};
 }
 
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know
 /// anew. Should that not help either, since the other side is silent, each stays longer than the one before.
-void run_as_member(const config::Settings& settings, const config::Robot& robot,
+void run_as_member(const config::Settings& settings, const config::Robot& robot, const bus::DomainConfig& domain,
                    const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
   const auto supervisor = Supervisor::of_environment();
@@ -84,9 +97,10 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
   constexpr std::chrono::seconds kLongestStay{60};
   for (auto stay = kShortestStay;; stay = std::min(2 * stay, kLongestStay)) {
     try {
-      NodeContext context{settings, robot, join(settings, logger, stay), logger, stop};
+      NodeContext context{settings, robot, join(settings, domain, logger, stay), logger, stop};
       context.supervisor = supervisor;
-      logger->info("robot {} ({}) in domain {}", settings.run.robot_id, robot.name, settings.domain.domain_id);
+      logger->info("robot {} ({}) in domain {}{}", settings.run.robot_id, robot.name, settings.domain.domain_id,
+                   domain.xml.find("<Security>") == std::string::npos ? "" : ", secured");
       return body(context);
     } catch (const bus::Deaf& deaf) {
       logger->error("{}: joins the bus anew", deaf.what());
@@ -126,10 +140,9 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
     if (flags.realtime_priority > 0) warn_of_refusals(bus::set_realtime(flags.realtime_priority), *logger);
-    const bus::LibraryLog library{[logger](bool severe, std::string_view text) {
-      logger->log(severe ? spdlog::level::err : spdlog::level::warn, "dds: {}", text);
-    }};
-    run_as_member(settings, robot, logger, stop, body);
+    const bus::LibraryLog library{
+        [logger](bool severe, std::string_view text) { logger->log(level_of(severe, text), "dds: {}", text); }};
+    run_as_member(settings, robot, domain_of(settings, flags.keys, name), logger, stop, body);
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {

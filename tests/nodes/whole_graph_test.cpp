@@ -12,6 +12,7 @@
 #include "nodes/runtime/readers.hpp"
 #include "nodes/shot_observer/shot_observer_node.hpp"
 #include "nodes/world_state/world_state_node.hpp"
+#include "security/rights.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -64,6 +65,24 @@ TEST_F(WholeGraphTest, WritersWaitForThoseWhoRead) {
     constexpr bool device = std::is_same_v<T, msg::DeviceWheels> || std::is_same_v<T, msg::DeviceKicker>;
     EXPECT_EQ(readers_of<T>(context.settings), std::ranges::count_if(nodes, reads) + device) << bus::meta<T>::topic;
   });
+}
+
+// On a secured bus it would be refused what its permissions leave out.
+TEST_F(WholeGraphTest, ANodeReadsAndWritesWhatItsKeysAllow) {
+  for (const bus::Node* const node : whole()) {
+    const auto reactions = node->reactions();
+    ASSERT_FALSE(reactions.empty());
+    const std::string name = reactions.front().name.substr(0, reactions.front().name.find('/'));
+    const security::Rights& rights = security::rights_of(name);
+    for (const bus::Reaction& reaction : reactions)
+      for (const std::string& output : reaction.outputs) EXPECT_THAT(rights.publish, Contains(output)) << name;
+    for (const bus::Input& input : node->inputs()) {
+      const bool topic = input.name.find(':') == std::string::npos;  // else a device or a timer
+      if (topic) {
+        EXPECT_THAT(rights.subscribe, Contains(input.name)) << name;
+      }
+    }
+  }
 }
 
 TEST_F(WholeGraphTest, HasNoCycle) {

@@ -1,0 +1,158 @@
+#include "security/key_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+
+#include "security/certificates.hpp"
+#include "security/documents.hpp"
+#include "security/private_files.hpp"
+
+namespace trivela::security {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kRobotPrefix = "robot_";
+// Authorities outlive tournaments; what ends after a week is what they sign.
+constexpr std::chrono::days kAuthorityLife{3650};
+
+void write_authority(const fs::path& stem, std::string_view name, const Validity& validity) {
+  const auto from = std::min(validity.from, days_from(this_second(), 0).from);
+  const Key key = new_key();
+  const Certificate certificate = new_authority(key, name, {from, from + kAuthorityLife});
+  write_private_file(stem.string() + ".key", pem_of(key));
+  write_private_file(stem.string() + ".pem", pem_of(certificate));
+}
+
+/// An authority as it lies in the folder.
+struct Authority {
+  explicit Authority(const fs::path& stem)
+      : certificate(read_certificate(stem.string() + ".pem")), key(read_key(stem.string() + ".key")) {}
+  Certificate certificate;
+  Key key;
+};
+
+std::string identity_authority(std::uint32_t robot_id) { return fmt::format("identity_ca_{}", robot_id); }
+
+}  // namespace
+
+std::vector<std::string> usual_nodes() {
+  std::vector<std::string> names;
+  for (const Rights& rights : all_rights())
+    if (rights.on_robot) names.push_back(rights.node);
+  return names;
+}
+
+fs::path KeyFolder::robot_folder(std::uint32_t robot_id) const {
+  return folder_ / fmt::format("{}{}", kRobotPrefix, robot_id);
+}
+
+std::vector<std::uint32_t> KeyFolder::robots() const {
+  std::vector<std::uint32_t> ids;
+  if (!fs::exists(folder_)) return ids;
+  for (const auto& entry : fs::directory_iterator{folder_}) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kRobotPrefix)) continue;
+    std::uint32_t id = 0;
+    const char* const end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + kRobotPrefix.size(), end, id);
+    if (read.ec == std::errc{} && read.ptr == end) ids.push_back(id);
+  }
+  std::ranges::sort(ids);
+  return ids;
+}
+
+std::vector<std::string> KeyFolder::nodes(std::uint32_t robot_id) const {
+  std::vector<std::string> names;
+  if (!fs::exists(robot_folder(robot_id))) return names;
+  for (const auto& entry : fs::directory_iterator{robot_folder(robot_id)})
+    if (entry.path().extension() == ".key") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+void KeyFolder::init(const Validity& validity) const {
+  if (fs::exists(authority() / "permissions_ca.key"))
+    throw std::runtime_error{
+        fmt::format("{}: has a permissions authority; its robots are added by issue, renewed by "
+                    "renew",
+                    folder_.string())};
+  make_private_folder(folder_);
+  make_private_folder(authority());
+  write_authority(authority() / "permissions_ca", "Permissions CA", validity);
+}
+
+void KeyFolder::require_authority() const {
+  if (!fs::exists(authority() / "permissions_ca.key"))
+    throw std::runtime_error{
+        fmt::format("{}: has no authority/permissions_ca.key; trivela keys init makes one", folder_.string())};
+}
+
+void KeyFolder::make_identity_authority(std::uint32_t robot_id, const Validity& validity) const {
+  write_authority(authority() / identity_authority(robot_id), fmt::format("Identity CA of robot {}", robot_id),
+                  validity);
+}
+
+void KeyFolder::issue(std::uint32_t robot_id, const std::vector<std::string>& nodes, const Validity& validity) const {
+  require_authority();
+  std::set<std::string> all(nodes.begin(), nodes.end());
+  for (const std::string& node : this->nodes(robot_id)) all.insert(node);
+  for (const std::string& node : all) rights_of(node);
+  if (!fs::exists(authority() / (identity_authority(robot_id) + ".key"))) make_identity_authority(robot_id, validity);
+  write_robot(robot_id, {all.begin(), all.end()}, validity);
+}
+
+void KeyFolder::renew(const Validity& validity) const {
+  require_authority();
+  for (const std::uint32_t robot_id : robots()) write_robot(robot_id, nodes(robot_id), validity);
+}
+
+void KeyFolder::revoke(std::uint32_t robot_id, const std::string& node, const Validity& validity) const {
+  require_authority();
+  std::vector<std::string> left = nodes(robot_id);
+  if (std::erase(left, node) == 0)
+    throw std::runtime_error{fmt::format("{}: has no identity of {}", robot_folder(robot_id).string(), node)};
+  make_identity_authority(robot_id, validity);
+  write_robot(robot_id, left, validity);
+}
+
+void KeyFolder::revoke_robot(std::uint32_t robot_id) const {
+  require_authority();
+  if (!fs::exists(robot_folder(robot_id)))
+    throw std::runtime_error{fmt::format("{}: is not there", robot_folder(robot_id).string())};
+  for (const char* ending : {".key", ".pem"}) fs::remove(authority() / (identity_authority(robot_id) + ending));
+  fs::remove_all(robot_folder(robot_id));
+}
+
+void KeyFolder::write_robot(std::uint32_t robot_id, const std::vector<std::string>& nodes,
+                            const Validity& validity) const {
+  const Authority identity{authority() / identity_authority(robot_id)};
+  const Authority permissions{authority() / "permissions_ca"};
+  if (same_public_key(identity.certificate, permissions.certificate))
+    throw std::runtime_error{
+        fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)", authority().string())};
+  const fs::path made = folder_ / fmt::format(".new_{}{}", kRobotPrefix, robot_id);
+  fs::remove_all(made);
+  make_private_folder(made);
+  write_private_file(made / "identity_ca.pem", pem_of(identity.certificate));
+  write_private_file(made / "permissions_ca.pem", pem_of(permissions.certificate));
+  const auto sign = [&](const std::string& text) {
+    return signed_document(text, permissions.certificate, permissions.key);
+  };
+  write_private_file(made / "governance.p7s", sign(governance_xml()));
+  for (const std::string& node : nodes) {
+    const Key key = new_key();
+    const Certificate certificate =
+        new_identity(key, common_name(node, robot_id), validity, identity.certificate, identity.key);
+    write_private_file(made / (node + ".key"), pem_of(key));
+    write_private_file(made / (node + ".pem"), pem_of(certificate));
+    write_private_file(made / (node + ".p7s"), sign(permissions_xml(rights_of(node), robot_id, validity)));
+  }
+  fs::remove_all(robot_folder(robot_id));
+  fs::rename(made, robot_folder(robot_id));
+}
+
+}  // namespace trivela::security

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "security/validity.hpp"
+
+namespace trivela::security {
+
+/// A team's keys, a folder that its owner alone may read:
+///
+///     authority/                permissions_ca.{pem,key}, identity_ca_N.{pem,key}: never leaves the team's own machine
+///     robot_N/                  what is copied to robot N, no more: identity_ca.pem, permissions_ca.pem,
+///     governance.p7s,
+///                               and of each node NODE.pem, NODE.key, NODE.p7s
+///
+/// Each robot has an identity authority of its own: a node of another robot is a stranger there, whatever it may do at
+/// home. Every function writes a robot's folder anew beside the old one and then puts it in its place; throws
+/// std::runtime_error, std::invalid_argument (a kind of node that is none) or std::filesystem::filesystem_error.
+class KeyFolder {
+ public:
+  explicit KeyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Makes the permissions authority, which holds for what begins then or later. Refuses a folder that has one.
+  void init(const Validity& validity) const;
+
+  /// Makes an identity for these nodes of the robot, beside those that it has; makes the robot's authority where there
+  /// is none. Nodes that have one get another.
+  void issue(std::uint32_t robot_id, const std::vector<std::string>& nodes, const Validity& validity) const;
+
+  /// New keys, certificates and permissions for all that there are, under the same authorities.
+  void renew(const Validity& validity) const;
+
+  /// Another identity authority for the robot, and under it all of its nodes but `node`: what was signed before counts
+  /// no more on this robot once its folder has been copied there.
+  void revoke(std::uint32_t robot_id, const std::string& node, const Validity& validity) const;
+
+  /// Forgets the robot. No other robot has to be told: none ever trusted its authority.
+  void revoke_robot(std::uint32_t robot_id) const;
+
+  std::vector<std::uint32_t> robots() const;
+  /// Nodes of a robot that have an identity, sorted.
+  std::vector<std::string> nodes(std::uint32_t robot_id) const;
+  std::filesystem::path robot_folder(std::uint32_t robot_id) const;
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path authority() const { return folder_ / "authority"; }
+  void make_identity_authority(std::uint32_t robot_id, const Validity& validity) const;
+  void require_authority() const;
+  void write_robot(std::uint32_t robot_id, const std::vector<std::string>& nodes, const Validity& validity) const;
+
+  std::filesystem::path folder_;
+};
+
+/// What a robot has by default: every kind of node but those that stand in for the world.
+std::vector<std::string> usual_nodes();
+
+}  // namespace trivela::security

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trivela::security {
+
+/// The topics that one kind of node writes and reads, and nothing else of the bus.
+struct Rights {
+  std::string node;
+  std::vector<std::string> publish;
+  std::vector<std::string> subscribe;
+  /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has
+  /// not, since it may write what referee and devices say.
+  bool on_robot = true;
+};
+
+/// Of every kind of node, in the order of the chain; what the programs take and write (nodes/runtime/readers.hpp), and
+/// the team's own processes of idl/README.md.
+const std::vector<Rights>& all_rights();
+
+/// Of one kind. Throws std::invalid_argument naming it and the known ones if there is none.
+const Rights& rights_of(std::string_view node);
+
+/// What certificates and permissions call a robot's node: "kick_decision.1". A slash, as owners of writers have it,
+/// would be a separator in a subject name.
+std::string common_name(std::string_view node, std::uint32_t robot_id);
+
+}  // namespace trivela::security

@@ -1,0 +1,110 @@
+// Who may write and read what, against the contract's page.
+#include "security/rights.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "security/documents.hpp"
+
+namespace trivela::security {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Row {
+  std::set<std::string> writers;
+  std::set<std::string> readers;
+};
+
+std::set<std::string> names(const std::string& cell) {
+  static const std::map<std::string, std::string> kNodeOf{{"vision (simulator)", "vision simulator"},
+                                                          {"goal camera (simulator)", "goal_camera simulator"},
+                                                          {"refbox (simulator)", "refbox simulator"},
+                                                          {"a bridge (simulator)", "bridge simulator"},
+                                                          {"a bridge", "bridge"},
+                                                          {"the team's own program", "team"},
+                                                          {"hal/bus wheels", "odometry"},
+                                                          {"hal/bus kicker", "kicker_driver"},
+                                                          {"hal/sim range finder", "scan_recorder"}};
+  std::set<std::string> found;
+  std::stringstream list(cell);
+  for (std::string name; std::getline(list, name, ',');) {
+    name.erase(0, name.find_first_not_of(' '));
+    name.erase(name.find_last_not_of(' ') + 1);
+    const auto known = kNodeOf.find(name);
+    std::stringstream nodes(known == kNodeOf.end() ? name : known->second);
+    for (std::string node; nodes >> node;) found.insert(node);
+  }
+  return found;
+}
+
+/// The table of idl/README.md by topic.
+std::map<std::string, Row> contract() {
+  std::ifstream page(TRIVELA_SOURCE_DIR "/idl/README.md");
+  std::map<std::string, Row> rows;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::stringstream text(line.substr(1));
+    for (std::string cell; std::getline(text, cell, '|');) cells.push_back(cell);
+    if (cells.size() < 7) continue;
+    rows[cells[0].substr(2, cells[0].rfind('`') - 2)] = {names(cells[5]), names(cells[6])};
+  }
+  return rows;
+}
+
+TEST(Rights, AreWhatTheContractsTableSays) {
+  std::map<std::string, Row> granted;
+  for (const Rights& rights : all_rights()) {
+    // An emulation of the camera's and the referee's words out of a log; the table names who says them in a match.
+    if (rights.node == "replay_player") continue;
+    for (const std::string& topic : rights.publish) granted[topic].writers.insert(rights.node);
+    for (const std::string& topic : rights.subscribe) granted[topic].readers.insert(rights.node);
+  }
+  const auto written = contract();
+  ASSERT_GT(written.size(), 20u);
+  for (const auto& [topic, row] : written) {
+    EXPECT_EQ(granted[topic].writers, row.writers) << topic;
+    EXPECT_EQ(granted[topic].readers, row.readers) << topic;
+  }
+  EXPECT_EQ(granted.size(), written.size());
+}
+
+TEST(Rights, AnOrderIsWrittenByKickDecisionAlone) {
+  std::vector<std::string> writers;
+  for (const Rights& rights : all_rights())
+    for (const std::string& topic : rights.publish)
+      if (topic == "kick_order") writers.push_back(rights.node);
+  EXPECT_THAT(writers, ElementsAre("kick_decision"));
+}
+
+TEST(Rights, PermissionsNameTheNodeItsTopicsAndItsWeekAndDenyTheRest) {
+  using namespace std::chrono_literals;
+  const Validity week{std::chrono::sys_days{2026y / 7 / 1}, std::chrono::sys_days{2026y / 7 / 10}};
+  const std::string xml = permissions_xml(rights_of("world_state"), 3, week);
+  EXPECT_THAT(xml, HasSubstr("<subject_name>O=Trivela,CN=world_state.3</subject_name>"));
+  EXPECT_THAT(xml,
+              HasSubstr("<not_before>2026-07-01T00:00:00Z</not_before><not_after>2026-07-10T00:00:00Z</not_after>"));
+  EXPECT_THAT(xml, HasSubstr("<publish><topics><topic>world_state</topic></topics></publish>"));
+  EXPECT_THAT(xml, HasSubstr("<topic>odometry</topic>"));
+  EXPECT_THAT(xml, HasSubstr("<default>DENY</default>"));
+  EXPECT_THAT(xml, Not(HasSubstr("kick_order")));
+}
+
+TEST(Rights, AKindOfNodeThatIsNoneIsNamedWithThoseThatAre) {
+  try {
+    rights_of("kick_desicion");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("\"kick_desicion\" is no kind of node; there are odometry, world_state"));
+  }
+}
+
+}  // namespace
+}  // namespace trivela::security
