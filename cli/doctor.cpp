@@ -50,15 +50,14 @@ void say_findings(const std::vector<network::Finding>& findings) {
 }
 
 void say_json(const std::vector<network::Finding>& findings) {
-  using Json = nlohmann::ordered_json;
-  Json all = Json::array();
+  auto all = nlohmann::ordered_json::array();
   for (const network::Finding& finding : findings) {
     std::string verdict = verdict_text(finding.verdict);
     if (finding.verdict == network::Verdict::kBad) verdict = "bad";
     all.push_back(
         {{"check", finding.check}, {"verdict", verdict}, {"value", finding.value}, {"advice", finding.advice}});
   }
-  say(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  say(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 int examine(const DoctorFlags& flags) {
