@@ -7,6 +7,7 @@
 
 #include "cli/collect/fetch.hpp"
 #include "cli/output.hpp"
+#include "cli/sound_team.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/report/text_table.hpp"
 
@@ -20,9 +21,22 @@ struct CollectArguments {
   std::string folder = ".";
 };
 
-int run_collect(const CollectArguments& arguments) {
+/// A file that ends in .toml is a team's and stands for its robots, whose logs are where the team says.
+std::vector<LogHost> hosts_of(const CollectArguments& arguments) {
   std::vector<LogHost> hosts;
-  for (const std::string& host : arguments.hosts) hosts.push_back(log_host(host, arguments.folder));
+  for (const std::string& host : arguments.hosts) {
+    if (!host.ends_with(".toml")) {
+      hosts.push_back(log_host(host, arguments.folder));
+      continue;
+    }
+    const config::Team team = sound_team(host);
+    for (const config::TeamRobot& robot : team.robots) hosts.push_back({robot.address, team.team.logs});
+  }
+  return hosts;
+}
+
+int run_collect(const CollectArguments& arguments) {
+  const std::vector<LogHost> hosts = hosts_of(arguments);
   require_program("rsync", "apt-get install rsync");
   if (arguments.ssh == "ssh") require_program("ssh", "apt-get install openssh-client");
   std::error_code error;
@@ -60,7 +74,8 @@ void add_collect(CLI::App& app, int& exit_code) {
       "Ends\n"
       "with \"missing: nothing\", or with what is missing and exit code 3. Then: trivela merge OUT DIR/*/*.db");
   const auto arguments = std::make_shared<CollectArguments>();
-  verb->add_option("hosts", arguments->hosts, "[USER@]HOST[:PATH] of each robot, PATH a folder of logs or one log")
+  verb->add_option("hosts", arguments->hosts,
+                   "A team's file (.toml), or [USER@]HOST[:PATH] of each robot, PATH a folder of logs or one log")
       ->required();
   verb->add_option("--to", arguments->to, "Folder that the logs are put in, made where it is not there")->required();
   verb->add_option("--path", arguments->folder, "Folder of the logs on those robots that name none")

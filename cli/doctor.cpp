@@ -9,6 +9,7 @@
 
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
+#include "cli/sound_team.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
 #include "config/settings.hpp"
@@ -26,6 +27,7 @@ struct DoctorFlags {
   std::optional<std::uint32_t> domain;
   std::string interface;
   std::vector<std::string> peers;
+  std::string team;
   bool network = false;
   bool json = false;
 };
@@ -60,6 +62,17 @@ void say_json(const std::vector<network::Finding>& findings) {
   say(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+/// The team's machines are peers, its interface and the domain between the machines what is looked at.
+DoctorFlags with_team(DoctorFlags flags) {
+  if (flags.team.empty()) return flags;
+  const config::Team team = sound_team(flags.team);
+  if (flags.interface.empty()) flags.interface = team.team.interface;
+  if (!flags.domain) flags.domain = team.domains.team;
+  for (const config::TeamRobot& robot : team.robots) flags.peers.push_back(robot.address);
+  flags.peers.push_back(team.base.address);
+  return flags;
+}
+
 int examine(const DoctorFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
   if (flags.domain) settings.domain.domain_id = *flags.domain;
@@ -88,8 +101,11 @@ void add_doctor(CLI::App& app, int& exit_code) {
   verb->add_option("--interface", flags->interface,
                    "name or address; default: what the DDS configuration names, else the first that is up");
   verb->add_option("--peers", flags->peers, "names or addresses of machines that should be there");
+  verb->add_option("--team", flags->team,
+                   "a team's file: its machines are peers, its interface and domain are looked at")
+      ->check(readable_file());
   verb->add_flag("--json", flags->json, "findings as JSON");
-  verb->callback([flags, &exit_code] { exit_code = examine(*flags); });
+  verb->callback([flags, &exit_code] { exit_code = examine(with_team(*flags)); });
 }
 
 }  // namespace trivela::cli

@@ -98,6 +98,24 @@ TEST_F(Collect, ARobotThatIsNotThereIsSaid) {
   EXPECT_THAT(fetched().missing, ElementsAre(HasSubstr("there is no log in")));
 }
 
+TEST_F(Collect, ATeamsFileStandsForItsRobots) {
+  record("team-3-20261122T100000Z.db", 2);
+  std::ofstream(path("team.toml")) << "[team]\nname = \"t\"\nnumber = 39\nnetwork = \"172.16.39.0/24\"\n"
+                                      "group = \"224.16.32.39\"\nlogs = \""
+                                   << path("robot").string()
+                                   << "\"\n[domains]\nrobot = 60\nteam = 61\n[[robot]]\nnumber = 3\n"
+                                   << "address = \"172.16.39.3\"\nrobot = \"" TRIVELA_SOURCE_DIR
+                                      "/config/robots/cambada_1.toml\"\n[base]\naddress = \"172.16.39.9\"\n";
+  CLI::App app;
+  int exit_code = -1;
+  add_collect(app, exit_code);
+  testing::internal::CaptureStdout();
+  app.parse(std::vector<std::string>{path("ssh"), "--ssh", path("here"), "--to", path("team.toml"), "collect"});
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), AllOf(HasSubstr("172.16.39.3"), HasSubstr("missing: nothing")));
+  EXPECT_EQ(exit_code, kDone);
+  EXPECT_TRUE(fs::exists(path("here") / "172.16.39.3" / "team-3-20261122T100000Z.db"));
+}
+
 TEST(LogHosts, AreReadOrRefused) {
   EXPECT_EQ(log_host("robot3", "logs").path, "logs");
   EXPECT_EQ(log_host("me@robot3:/var/lib/trivela", "logs").host, "me@robot3");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/e2e/folder.hpp"
@@ -16,6 +17,8 @@ using testing::HasSubstr;
 
 class Doctor : public testing::Test {
  protected:
+  Folder folder_;
+
   void SetUp() override {
     if (std::system("unshare -rn ip link set lo up 2>/dev/null") != 0)
       GTEST_SKIP() << "this machine lets nobody make a network namespace";
@@ -46,7 +49,6 @@ class Doctor : public testing::Test {
       "ip link set team0 up\nip link set air0 up";
 
  private:
-  Folder folder_;
   json findings_;
 };
 
@@ -74,6 +76,18 @@ TEST_F(Doctor, FindsAnInterfaceWithoutMulticast) {
 
 TEST_F(Doctor, FindsAPeerThatIsSilent) {
   EXPECT_EQ(examine(kUp, "--interface team0 --peers 172.16.39.9"), 1);
+  EXPECT_EQ(value("peer 172.16.39.9"), "silent");
+}
+
+TEST_F(Doctor, ATeamsFileSaysInterfaceAndPeers) {
+  std::ofstream(folder_.path() / "team.toml")
+      << "[team]\nname = \"t\"\nnumber = 39\nnetwork = \"172.16.39.0/24\"\ninterface = \"team0\"\n"
+         "group = \"224.16.32.39\"\nlogs = \"/var/lib/trivela\"\n[domains]\nrobot = 60\nteam = 61\n"
+         "[[robot]]\nnumber = 3\naddress = \"172.16.39.3\"\nrobot = \"" TRIVELA_SOURCE_DIR
+         "/config/robots/cambada_1.toml\"\n[base]\naddress = \"172.16.39.9\"\n";
+  EXPECT_EQ(examine(kUp, "--team " + (folder_.path() / "team.toml").string()), 1);
+  EXPECT_EQ(verdict("interface"), "ok") << value("interface");
+  EXPECT_EQ(verdict("peer 172.16.39.3"), "ok");
   EXPECT_EQ(value("peer 172.16.39.9"), "silent");
 }
 
