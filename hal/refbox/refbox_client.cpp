@@ -73,6 +73,7 @@ void RefboxClient::hear(Clock::time_point deadline) {
     }
     std::visit([this](auto& said) { events_.emplace_back(std::move(said)); }, word);
   }
+  if (const auto why = words_.wrong_protocol()) return lose(std::string{*why});
   look_at_acknowledgements();
 }
 

@@ -65,15 +65,36 @@ Word read_letter(char letter, Colour ours) {
   return Command{known->kind, *known->team == ours ? Side::kOurs : Side::kTheirs};
 }
 
-std::vector<Word> WordStream::add(std::string_view bytes) {
+std::optional<std::string_view> WordStream::wrong_protocol() const {
+  if (!objects_for_letters_) return std::nullopt;
+  return "it speaks objects, not letters: set refbox.letters = false";
+}
+
+std::vector<Word> WordStream::letters(std::string_view bytes) {
   std::vector<Word> words;
-  if (team_.protocol == Protocol::kLetters) {
-    for (const char letter : bytes) {
-      const bool space = letter == '\0' || letter == '\n' || letter == '\r' || letter == ' ';
-      if (!space) words.push_back(read_letter(letter, team_.colour));
-    }
-    return words;
+  for (const char letter : bytes) {
+    objects_for_letters_ = objects_for_letters_ || letter == '{';
+    if (objects_for_letters_) break;
+    const bool space = letter == '\0' || letter == '\n' || letter == '\r' || letter == ' ';
+    if (!space) words.push_back(read_letter(letter, team_.colour));
   }
+  return words;
+}
+
+std::optional<Word> WordStream::no_object(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const auto first = bytes.find_first_not_of(" \t\r\n\0"sv);
+  if (begun_ || first == std::string_view::npos) return std::nullopt;
+  begun_ = true;
+  if (bytes[first] == '{') return std::nullopt;
+  return no_command("a beginning that is no object (of a box that speaks letters? refbox.letters = true)",
+                    bytes.substr(first));
+}
+
+std::vector<Word> WordStream::add(std::string_view bytes) {
+  if (team_.protocol == Protocol::kLetters) return letters(bytes);
+  std::vector<Word> words;
+  if (auto word = no_object(bytes)) words.push_back(std::move(*word));
   for (const Framed& framed : framing_.add(bytes)) {
     words.push_back(framed.overlong ? Word{NoCommand{fmt::format("an object of over {} bytes", kLongestObject_B)}}
                                     : read_object(framed.text, team_.group));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -43,11 +44,21 @@ class WordStream {
  public:
   explicit WordStream(TeamMarks team) : team_(std::move(team)) {}
 
-  /// The words that these bytes end, in their order.
+  /// The words that these bytes end, in their order. None of those that follow an object where letters are spoken: the
+  /// letters of its text are commands, too, a START among them.
   std::vector<Word> add(std::string_view bytes);
 
+  /// What is to be set otherwise, where the box speaks objects to who hears letters; nothing that it says counts then.
+  std::optional<std::string_view> wrong_protocol() const;
+
  private:
+  std::vector<Word> letters(std::string_view bytes);
+  /// Once a connection: that it begins with no object.
+  std::optional<Word> no_object(std::string_view bytes);
+
   TeamMarks team_;
+  bool begun_ = false;
+  bool objects_for_letters_ = false;
   Framing framing_;
 };
 

@@ -35,6 +35,13 @@ TEST(RefboxClient, HearsTheLettersOfAnOlderBox) {
   }
 }
 
+TEST(RefboxClient, LosesABoxThatSpeaksObjectsWhereLettersAreHeard) {
+  BoxLink link{{.protocol = Protocol::kLetters}};
+  link.meet();
+  link.box.act(BoxFault::kStatus);
+  EXPECT_THAT(link.next<Lost>().value_or(Lost{}).why, HasSubstr("refbox.letters = false"));
+}
+
 TEST(RefboxClient, MergedAndHalvedObjectsAreWhole) {
   BoxLink link;
   link.meet();

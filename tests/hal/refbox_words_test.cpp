@@ -148,7 +148,7 @@ TEST(RefboxLetters, OfBothTeamsMeanOneThingEach) {
     EXPECT_THAT(why(read_letter(letter, Colour::kCyan)), HasSubstr("a letter that nobody knows"));
 }
 
-TEST(RefboxWordStream, ReadsObjectsOrLettersAcrossReads) {
+TEST(RefboxWordStream, ReadsObjectsAcrossReads) {
   WordStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
   EXPECT_TRUE(objects.add(R"({"command":"KICK)").empty());
   const auto words =
@@ -159,6 +159,27 @@ TEST(RefboxWordStream, ReadsObjectsOrLettersAcrossReads) {
   const auto overlong = objects.add(std::string(kLongestObject_B + 1, ' ') + '\0');
   ASSERT_EQ(overlong.size(), 1U);
   EXPECT_THAT(why(overlong[0]), HasSubstr("over 100000 bytes"));
+}
+
+TEST(RefboxWordStream, WhoHearsLettersObeysNoneOfAnObject) {
+  WordStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
+  EXPECT_EQ(letters.add("S").size(), 1U);
+  EXPECT_FALSE(letters.wrong_protocol());
+  EXPECT_EQ(letters.add(R"(S{"command":"SUBSTITUTION","targetTeam":"","s)").size(), 1U);
+  EXPECT_THAT(std::string{letters.wrong_protocol().value()}, HasSubstr("refbox.letters = false"));
+  EXPECT_TRUE(letters.add("s").empty());
+}
+
+TEST(RefboxWordStream, WhoHearsObjectsSaysOnceThatItBeganWithNone) {
+  WordStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
+  EXPECT_TRUE(objects.add("\0\n"s).empty());
+  const auto words = objects.add("W");
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_THAT(why(words[0]), HasSubstr("refbox.letters = true"));
+  EXPECT_TRUE(objects.add("1Ks").empty());
+}
+
+TEST(RefboxWordStream, ReadsLettersAcrossReads) {
   WordStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
   const auto told = letters.add("k\r\n\0s"s);
   ASSERT_EQ(told.size(), 2U);
