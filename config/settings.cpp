@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <sstream>
 
 #include "config/field.hpp"
+#include "config/installation.hpp"
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
@@ -17,8 +19,15 @@
 namespace trivela::config {
 namespace {
 
-void make_relative_to(const std::filesystem::path& folder, std::string& file) {
-  if (!file.empty() && std::filesystem::path{file}.is_relative()) file = (folder / file).string();
+std::array<std::string*, 6> files_of(Settings& settings) {
+  return {&settings.run.robot,       &settings.run.scenario,   &settings.run.field_file,
+          &settings.domain.dds_file, &settings.hal.replay_log, &settings.kick_decision.learned_model};
+}
+
+/// Robot and world that the file does not name are the shipped ones, wherever it lies.
+void take_shipped(const TomlSource& said, Settings& settings) {
+  if (!said.root.at_path("run.robot")) settings.run.robot = absolute(shipped(settings.run.robot)).string();
+  if (!said.root.at_path("run.scenario")) settings.run.scenario = absolute(shipped(settings.run.scenario)).string();
 }
 
 /// Brings policy.learned in line with kick_decision.learned_model.
@@ -73,6 +82,8 @@ void check_lockstep(const Settings& settings, const std::string& source) {
 void settle(Settings& settings, const std::string& source) {
   check_policies(settings.kick_decision, source);
   check_lockstep(settings, source);
+  if (settings.recorder.log.empty())
+    throw Error{fmt::format("{}: recorder.log = \"\": expected a file, a folder or a pattern", source)};
   settings.policy.cycle_s = settings.run.cycle_s;
   read_learned_model(settings, source);
 }
@@ -84,16 +95,19 @@ Settings load_settings(const std::filesystem::path& path) {
   std::vector<TomlSource> said;  // moved, not copied: a copy forgets its lines
   said.push_back(parse_file(path));
   read_into(said.front(), settings);
-  const std::filesystem::path folder = path.parent_path();
-  make_relative_to(folder, settings.run.robot);
-  make_relative_to(folder, settings.run.scenario);
-  make_relative_to(folder, settings.run.field_file);
-  make_relative_to(folder, settings.domain.dds_file);
-  make_relative_to(folder, settings.hal.replay_log);
-  make_relative_to(folder, settings.kick_decision.learned_model);
+  take_shipped(said.front(), settings);
+  for (std::string* const file : files_of(settings)) {
+    if (!file->empty()) *file = (path.parent_path() / *file).string();  // what is whole stays
+  }
   follow_field_file(settings, said);
   settle(settings, said.front().file);
   return settings;
+}
+
+void make_files_whole(Settings& settings) {
+  for (std::string* const file : files_of(settings)) {
+    if (!file->empty()) *file = std::filesystem::absolute(*file).string();
+  }
 }
 
 void check_policies(const KickDecision& settings, const std::string& source) {

@@ -177,8 +177,12 @@ struct Settings {
   Refbox refbox;
 };
 
-/// The defaults overridden by `path`; relative file names in it are made relative to its folder. Throws config::Error.
+/// The defaults overridden by `path`; relative file names in it are relative to its folder, robot and scenario that it
+/// does not name the shipped ones (config/installation.hpp). Throws config::Error.
 Settings load_settings(const std::filesystem::path& path);
+
+/// Makes relative names of files whole, for a copy of the settings that is read from elsewhere.
+void make_files_whole(Settings& settings);
 
 /// Throws Error naming key and value where the policies in charge make no sense together.
 void check_policies(const KickDecision& settings, const std::string& source);

@@ -267,7 +267,7 @@ void fields(V& v, KickDecision& k) {
 
 template <class V>
 void fields(V& v, KickerDriver& k) {
-  v("min_interval_s", k.min_interval_s, Range{0.0, 10.0});
+  v("min_interval_s", k.min_interval_s, Range{0.01, 10.0});
   v("min_charge_ratio", k.min_charge_ratio, Range{0.0, 1.0});
   v("max_order_age_s", k.max_order_age_s, Range{0.001, 1.0});
   v("future_tolerance_s", k.future_tolerance_s, Range{0.0, 1.0});

@@ -171,6 +171,7 @@ calibration::DriveRecord RobotDrives::play(const calibration::DrivePlan& plan, c
     settings.refbox.port = referee->port();
     settings.refbox.group = kOwnGroup;
   }
+  config::make_files_whole(settings);
   DriveProgress progress{participant, robot_id, plan.possessions, settings.shot_observer.time_out_s};
   const ConfigFile config{config::to_toml_text(settings)};
   const auto began = DriveClock::now();

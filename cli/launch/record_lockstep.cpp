@@ -34,10 +34,7 @@ config::Settings match_settings(config::Settings settings, int domain, const std
   settings.domain.tag = fmt::format("run-{}-{:08x}", getpid(), random());
   settings.recorder.log = fs::absolute(log).string();
   settings.scan_recorder.file = fs::absolute(settings.scan_recorder.file).string();
-  for (std::string* file : {&settings.run.robot, &settings.run.scenario, &settings.run.field_file,
-                            &settings.hal.replay_log, &settings.kick_decision.learned_model}) {
-    if (!file->empty()) *file = fs::absolute(*file).string();
-  }
+  config::make_files_whole(settings);
   return settings;
 }
 

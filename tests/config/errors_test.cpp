@@ -96,6 +96,17 @@ TEST(BadSettings, MissingFileIsNamed) {
               ::testing::ThrowsMessage<Error>(HasSubstr("no/such/file.toml: cannot read")));
 }
 
+TEST(BadSettings, ALogWithoutANameIsRefused) {
+  EXPECT_THAT(settings_error("[recorder]\nlog = \"\""), HasSubstr("recorder.log = \"\""));
+}
+
+TEST(Settings, RobotAndWorldThatAFileDoesNotNameAreTheShippedOnesWhereverItLies) {
+  const Scratch scratch;
+  const Settings settings = load_settings(scratch.file("[run]\nrobot_id = 3\n"));
+  EXPECT_TRUE(fs::exists(settings.run.robot)) << settings.run.robot;
+  EXPECT_TRUE(fs::exists(settings.run.scenario)) << settings.run.scenario;
+}
+
 TEST(Settings, AnEmptyFileGivesTheDefaults) { EXPECT_EQ(settings_error(""), "accepted"); }
 
 std::string robot_error(const std::string& text) {
