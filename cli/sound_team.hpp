@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -11,16 +12,13 @@
 
 namespace trivela::cli {
 
-/// The team of a file in which nothing is wrong. Throws std::runtime_error with the first finding, and how many there
-/// are; config::Error as load_team() does.
+/// The team of a file in which nothing is wrong. Throws std::runtime_error with all that is, a line each; config::Error
+/// as load_team() does.
 inline config::Team sound_team(const std::string& file) {
   config::ReadTeam read = config::load_team(file);
   std::ranges::move(config::team_findings(read.team), std::back_inserter(read.findings));
-  if (read.findings.empty()) return std::move(read.team);
-  throw std::runtime_error{read.findings.size() == 1
-                               ? read.findings.front()
-                               : fmt::format("{} (and {} more: trivela team check {})", read.findings.front(),
-                                             read.findings.size() - 1, file)};
+  if (!read.findings.empty()) throw std::runtime_error{fmt::format("{}", fmt::join(read.findings, "\n"))};
+  return std::move(read.team);
 }
 
 }  // namespace trivela::cli

@@ -1,27 +1,72 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/output.hpp"
+#include "cli/sealed_files.hpp"
+#include "cli/sound_team.hpp"
 #include "cli/verbs.hpp"
-#include "config/team_check.hpp"
+#include "config/installation.hpp"
+#include "config/team_bus.hpp"
+#include "config/team_files.hpp"
 
 namespace trivela::cli {
 namespace {
 
 int check_team(const std::string& file) {
-  config::ReadTeam read = config::load_team(file);
-  for (std::string& more : config::team_findings(read.team)) read.findings.push_back(std::move(more));
-  for (const std::string& finding : read.findings) warn(finding);
-  if (!read.findings.empty()) return kFailed;
-  const config::Team& team = read.team;
+  const config::Team team = sound_team(file);
   say(fmt::format("{}: domain {} on each robot, {} between them, {}\n", team.team.name, team.domains.robot,
                   team.domains.team, team.team.group.empty() ? "peers" : "group " + team.team.group));
   for (const config::TeamRobot& robot : team.robots)
     say(fmt::format("{:>6}  {:<15}  {:<8}  {:<12}  {}\n", robot.number, robot.address, team.interface_of(robot),
                     robot.policy ? kicking::name(*robot.policy) : "by settings", robot.robot));
   say(fmt::format("{:>6}  {:<15}  {}\n", "base", team.base.address, team.interface_of_base()));
+  const config::AirEstimate air = config::air_estimate(team);
+  say(fmt::format(
+      "on the air, an estimate: {:.0f} of {:.0f} kbit/s (referee {:.0f}, team_state {:.0f}, discovery {:.0f})\n",
+      air.total_bps() / 1e3, team.team.budget_bps / 1e3, air.referee_bps / 1e3, air.state_bps / 1e3,
+      air.discovery_bps / 1e3));
   return kDone;
+}
+
+struct ConfigureFlags {
+  std::string file = "team.toml";
+  std::optional<std::uint32_t> robot;
+  bool base = false;
+  std::string out;
+  bool force = false;
+};
+
+int configure_machine(const ConfigureFlags& flags) {
+  if (flags.robot.has_value() == flags.base) throw UsageError{"one of --robot N and --base is required"};
+  const config::Team team = sound_team(flags.file);
+  const config::TeamRobot* const robot = flags.robot ? team.robot(*flags.robot) : nullptr;
+  if (flags.robot && robot == nullptr)
+    throw UsageError{fmt::format("--robot {}: {} has no such robot", *flags.robot, flags.file)};
+  const auto shipped_folder =
+      config::trouble_with_folder().empty() ? std::filesystem::absolute(config::folder()).lexically_normal() : "";
+  const auto files = config::team_files(team, robot, flags.out, shipped_folder);
+  std::filesystem::create_directories(flags.out);
+  const auto edited = flags.force ? std::vector<std::filesystem::path>{} : edited_files(files, flags.out);
+  for (const auto& path : edited)
+    warn(fmt::format("{}: edited by hand, or not written by this verb; --force overwrites it", path.string()));
+  if (!edited.empty()) return kFailed;
+  const auto written = write_sealed(files, flags.out);
+  for (const auto& path : written) say(fmt::format("wrote {}\n", path.string()));
+  if (written.empty()) say(fmt::format("{}: nothing to write, all is as configured\n", flags.out));
+  return kDone;
+}
+
+void add_configure(CLI::App& team, int& exit_code) {
+  auto* const verb = team.add_subcommand("configure", "Write the configuration of one machine of a team");
+  auto flags = std::make_shared<ConfigureFlags>();
+  verb->add_option("file", flags->file, "such as config/teams/example.toml")->capture_default_str();
+  verb->add_option("--robot", flags->robot, "the robot of this number");
+  verb->add_flag("--base", flags->base, "the base station");
+  verb->add_option("--out", flags->out, "its folder, made where there is none")->required();
+  verb->add_flag("--force", flags->force, "overwrite files that were edited by hand");
+  verb->callback([flags, &exit_code] { exit_code = configure_machine(*flags); });
 }
 
 }  // namespace
@@ -33,6 +78,7 @@ void add_team(CLI::App& app, int& exit_code) {
   auto file = std::make_shared<std::string>("team.toml");
   check->add_option("file", *file, "such as config/teams/example.toml")->capture_default_str();
   check->callback([file, &exit_code] { exit_code = check_team(*file); });
+  add_configure(*verb, exit_code);
 }
 
 }  // namespace trivela::cli

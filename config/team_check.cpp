@@ -8,6 +8,7 @@
 #include "config/error.hpp"
 #include "config/ipv4.hpp"
 #include "config/robot.hpp"
+#include "config/team_bus.hpp"
 #include "config/team_settings.hpp"
 
 namespace trivela::config {
@@ -30,6 +31,7 @@ class TeamCheck {
     check_base();
     if (team_.robots.empty()) found_.push_back(fmt::format("{}: no [[robot]]: a team has one at least", team_.file));
     for (const TeamRobot& robot : team_.robots) check_robot(robot);
+    check_budget();
     return std::move(found_);
   }
 
@@ -172,6 +174,17 @@ class TeamCheck {
                             : !facts(policy).plays()    ? "calibrates a robot and plays no match"
                                                         : nullptr;
     if (why != nullptr) add(robot.lines, "policy", fmt::format("{}: policy \"{}\" {}", who, name(policy), why));
+  }
+
+  void check_budget() {
+    const AirEstimate air = air_estimate(team_);
+    if (air.total_bps() <= team_.team.budget_bps) return;
+    add(team_.team.lines, "budget_bps",
+        fmt::format(
+            "team.budget_bps = {}: {} robots and a base need {:.0f} bit/s, an estimate (referee {:.0f}, team_state "
+            "{:.0f}, discovery {:.0f})",
+            team_.team.budget_bps, team_.robots.size(), air.total_bps(), air.referee_bps, air.state_bps,
+            air.discovery_bps));
   }
 
   const Team& team_;

@@ -15,6 +15,7 @@ Settings beginning(const Team& team, const std::string& file) {
   if (!file.empty()) settings = load_settings(file);
   settings.run.lockstep = false;
   settings.run.scenario = Run{}.scenario;
+  settings.run.team = team.team.name;
   settings.domain.domain_id = team.domains.robot;
   settings.domain.dds_file.clear();
   settings.refbox.team_name = team.team.name;
@@ -25,8 +26,8 @@ Settings beginning(const Team& team, const std::string& file) {
   return settings;
 }
 
-std::string log_of(const Team& team, const std::string& machine) {
-  return (std::filesystem::path{team.team.logs} / fmt::format("{}-{}.db", team.team.name, machine)).string();
+std::string logs_of(const Team& team, const char* machine) {
+  return (std::filesystem::path{team.team.logs} / fmt::format("{{team}}-{}-{{time}}.db", machine)).string();
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ Settings settings_of(const Team& team, const TeamRobot& robot) {
   settings.run.robot_id = robot.number;
   settings.run.robot = robot.robot;
   settings.domain.tag = tag_of(team, robot);
-  settings.recorder.log = log_of(team, std::to_string(robot.number));
+  settings.recorder.log = logs_of(team, "{robot}");
   if (robot.policy) {
     settings.kick_decision.policy_by_half = {*robot.policy};
     settings.kick_decision.policy_by_robot.clear();
@@ -54,7 +55,7 @@ Settings settings_of(const Team& team, const TeamRobot& robot) {
 Settings settings_of_base(const Team& team) {
   Settings settings = beginning(team, team.team.settings);
   settings.domain.tag = team.team.name + "-base";
-  settings.recorder.log = log_of(team, "base");
+  settings.recorder.log = logs_of(team, "base");
   settings.refbox.robots.clear();
   for (const TeamRobot& robot : team.robots) settings.refbox.robots.push_back(robot.number);
   if (!team.robots.empty()) {

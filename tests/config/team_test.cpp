@@ -37,7 +37,8 @@ TEST(Team, ARobotsSettingsAreTheTeamsWord) {
   const Settings settings = settings_of(team, team.robots[1]);
   EXPECT_EQ(settings.run.robot_id, 2u);
   EXPECT_EQ(settings.domain.tag, "example-2");
-  EXPECT_EQ(settings.recorder.log, "/var/lib/trivela/example-2.db");
+  EXPECT_EQ(settings.run.team, "example");
+  EXPECT_EQ(settings.recorder.log, "/var/lib/trivela/{team}-{robot}-{time}.db");
   EXPECT_THAT(to_short_toml_text(settings, {}), HasSubstr("policy_by_half = [\"predictive\"]"));
 }
 

@@ -1,0 +1,151 @@
+#include "config/team_files.hpp"
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "config/error.hpp"
+#include "config/team_bus.hpp"
+#include "config/team_check.hpp"
+#include "config/team_settings.hpp"
+
+namespace trivela::config {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+Team five_robots() {
+  Team team = load_team(TRIVELA_SOURCE_DIR "/config/teams/example.toml").team;
+  for (std::uint32_t number = 3; number <= 5; ++number) {
+    TeamRobot robot = team.robots.front();
+    robot.number = number;
+    robot.address = "172.16.39." + std::to_string(number);
+    team.robots.push_back(robot);
+  }
+  return team;
+}
+
+std::string text_in(const std::vector<TeamFile>& files, const std::string& name) {
+  for (const TeamFile& file : files)
+    if (file.name == name) return file.text;
+  return "no " + name;
+}
+
+/// A file of a test's own folder, which goes with the object.
+class WrittenFile {
+ public:
+  explicit WrittenFile(const std::string& text) {
+    std::string pattern = testing::TempDir() + "trivela_team_XXXXXX";
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"no folder " + pattern};
+    folder_ = pattern;
+    std::ofstream{path()} << text;
+  }
+  WrittenFile(const WrittenFile&) = delete;
+  WrittenFile& operator=(const WrittenFile&) = delete;
+  ~WrittenFile() { std::filesystem::remove_all(folder_); }
+  std::filesystem::path path() const { return folder_ / "written.toml"; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST(TeamFiles, SettingsReadBackAreThoseOfTheTeam) {
+  const Team team = five_robots();
+  const TeamRobot* const robot = team.robot(2);
+  const WrittenFile written{text_in(team_files(team, robot, "/etc/trivela/here", ""), "settings.toml")};
+  const Settings read = load_settings(written.path());
+  Settings meant = settings_of(team, *robot);
+  meant.domain.dds_file = "/etc/trivela/here/robot_bus.xml";
+  meant.run.robot = std::filesystem::absolute(meant.run.robot).lexically_normal().string();
+  meant.run.scenario = read.run.scenario;  // the simulator's
+  EXPECT_EQ(to_toml_text(read), to_toml_text(meant));
+  EXPECT_EQ(read.run.robot_id, 2u);
+}
+
+TEST(TeamFiles, SettingsOfTheBaseReadBackNameEveryRobot) {
+  const Team team = five_robots();
+  const WrittenFile written{text_in(team_files(team, nullptr, "/etc/trivela/here", ""), "settings.toml")};
+  const Settings read = load_settings(written.path());
+  EXPECT_THAT(read.refbox.robots, ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_EQ(read.domain.tag, "example-base");
+}
+
+TEST(TeamFiles, TheSameTeamGivesTheSameFiles) {
+  const Team team = five_robots();
+  const auto once = team_files(team, team.robot(1), "out", "/etc/trivela");
+  const auto again = team_files(team, team.robot(1), "./out", "/etc/trivela");
+  ASSERT_EQ(once.size(), again.size());
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].text, again[i].text) << once[i].name;
+}
+
+TEST(TeamFiles, TheEnvironmentNamesWhatTheLauncherReads) {
+  const Team team = five_robots();
+  const std::string robot = text_in(team_files(team, team.robot(1), "/here", "/etc/trivela"), "robot.env");
+  EXPECT_THAT(robot, HasSubstr("TRIVELA_CONFIG=\"/etc/trivela\"\nTRIVELA_SETTINGS=\"/here/settings.toml\"\n"));
+  EXPECT_THAT(robot, HasSubstr("TRIVELA_FLAGS_kicker_driver=\"--realtime 50\"\n"));
+  const std::string base = text_in(team_files(team, nullptr, "/here", ""), "robot.env");
+  EXPECT_THAT(base, HasSubstr("TRIVELA_NODES=\"recorder refbox\"\n"));
+  EXPECT_THAT(base, Not(HasSubstr("TRIVELA_CONFIG")));
+}
+
+TEST(TeamFiles, APathThatAShellWouldReadOtherwiseIsRefused) {
+  const Team team = five_robots();
+  EXPECT_THROW(team_files(team, nullptr, "/here/$HOME", ""), Error);
+  EXPECT_THROW(team_files(team, nullptr, "/here/\"x", ""), Error);
+}
+
+TEST(TeamBus, AGroupIsTheDiscoverysAndPeersAreEveryMachine) {
+  Team team = five_robots();
+  EXPECT_THAT(team_bus_xml(team, "wlan0"), HasSubstr("<SPDPMulticastAddress>224.16.32.39</SPDPMulticastAddress>"));
+  team.team.group.clear();
+  team.team.peers = {"172.16.39.77"};
+  const std::string peers = team_bus_xml(team, "wlan0");
+  for (const char* address : {"172.16.39.1\"", "172.16.39.5\"", "172.16.39.100\"", "172.16.39.77\""})
+    EXPECT_THAT(peers, HasSubstr(std::string{"<Peer address=\""} + address));
+  EXPECT_THAT(peers, HasSubstr("<AllowMulticast>false</AllowMulticast>"));
+}
+
+TEST(TeamBus, TheEstimateIsTheDocumentedArithmetic) {
+  const AirEstimate air = air_estimate(five_robots());
+  EXPECT_DOUBLE_EQ(air.referee_bps, 5 * 10 * (120 + 104) * 8);
+  EXPECT_DOUBLE_EQ(air.state_bps, 5 * 5 * 10 * (300 + 104) * 8);
+  EXPECT_DOUBLE_EQ(air.discovery_bps, (6 * 480 + 6 * 5 * 100) * 8 / 2);
+}
+
+TEST(TeamBus, FiveRobotsAndABaseKeepTheDefaultBudgetByGroupAndByPeers) {
+  Team team = five_robots();
+  EXPECT_LT(air_estimate(team).total_bps(), TeamFields{}.budget_bps);
+  team.team.group.clear();
+  EXPECT_LT(air_estimate(team).total_bps(), TeamFields{}.budget_bps);
+}
+
+TEST(TeamBus, MoreThanTheBudgetIsAFindingAtItsLine) {
+  Team team = five_robots();
+  team.team.budget_bps = 900'000;
+  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:11: team.budget_bps = 900000")));
+}
+
+TEST(TeamReader, EveryUnknownKeyAndWrongTypeIsSaidWithItsLine) {
+  const WrittenFile written{
+      "[team]\nname = 7\nnummber = 39\nbudget_bps = \"much\"\n\n[[robot]]\nnumber = 300\n\n[bose]\naddress = \"\"\n"};
+  const auto findings = load_team(written.path()).findings;
+  for (const char* said : {"written.toml:2: team.name", "written.toml:3: team.nummber", "did you mean",
+                           "written.toml:4: team.budget_bps", "written.toml:7: robot.number", "written.toml:9: bose"})
+    EXPECT_THAT(findings, Contains(HasSubstr(said)));
+}
+
+TEST(TeamReader, ARobotThatIsNoArrayAndATeamThatIsNoTableAreSaid) {
+  const WrittenFile written{"team = 3\nrobot = 4\n"};
+  EXPECT_THAT(load_team(written.path()).findings,
+              ElementsAre(HasSubstr("written.toml:1: team: expected a table"),
+                          HasSubstr("written.toml:2: robot: expected [[robot]] tables")));
+}
+
+}  // namespace
+}  // namespace trivela::config
