@@ -45,8 +45,8 @@ std::vector<Rights> of_the_chain() {
        topics(nodes::KickerDriverInputs{})},
       {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},
       {"recorder", these<StepDone>(), recorded()},
-      {"scan_recorder", these<StepDone>(), topics(nodes::ScanRecorderInputs{})},
-      {"refbox", these<Referee>(), these<WorldState>()},
+      {"scan_recorder", these<DeviceEmulated, StepDone>(), topics(nodes::ScanRecorderInputs{})},
+      {"refbox", these<Referee, DeviceEmulated>(), these<WorldState>()},
   };
 }
 

@@ -88,7 +88,7 @@ std::optional<Word> WordStream::no_object(std::string_view bytes) {
   begun_ = true;
   if (bytes[first] == '{') return std::nullopt;
   return no_command("a beginning that is no object (of a box that speaks letters? refbox.letters = true)",
-                    bytes.substr(first));
+                    bytes.substr(first, 1));
 }
 
 std::vector<Word> WordStream::add(std::string_view bytes) {
