@@ -84,7 +84,7 @@ int watch_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, 
   pollfd inbox{signals.file_descriptor(), POLLIN, 0};
   for (; !signals.stop_requested(); poll(&inbox, 1, 100)) {
     cable.move();
-    emulator.with_board(look);
+    emulator.with_board(std::ref(look));  // a copy would forget what it has said
     std::fflush(stdout);
   }
   return kDone;

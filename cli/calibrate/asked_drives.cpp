@@ -4,17 +4,28 @@
 
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/output.hpp"
+#include "config/csv_row.hpp"
 #include "config/parse_number.hpp"
 
 namespace trivela::cli {
 namespace {
 
 std::string answer_to(Person& person, const std::string& question, const calibration::EveningBook& book) {
-  const auto answer = person.ask(question);
-  if (!answer || *answer == "q")
+  const auto said = person.ask(question);
+  const std::string answer = said ? config::trimmed(*said) : "q";
+  if (answer == "q" || answer == "Q" || answer == "quit")
     throw LeftForToday{
         fmt::format("left for today; the same command goes on from here, with {}", book.folder().string())};
-  return *answer;
+  return answer;
+}
+
+/// Whoever types anything else did not mean to start a robot.
+void wait_for_enter(Person& person, const calibration::EveningBook& book) {
+  for (;;) {
+    const std::string answer = answer_to(person, "Enter: begin; q: leave for today: ", book);
+    if (answer.empty()) return;
+    say(fmt::format("'{}' begins nothing.\n", answer));
+  }
 }
 
 }  // namespace
@@ -46,7 +57,7 @@ calibration::DriveRecord AskedDrives::play(const calibration::DrivePlan& plan, c
   if (calibration::set_aside(book_.folder(), plan.name) > 0)
     say(fmt::format("{}: what was recorded of an earlier start is kept as {}.partial-*\n", plan.name, plan.name));
   say(fmt::format("\n{}\n{}", plan.name, calibration::instructions(plan, settings_)));
-  answer_to(person_, "Enter: begin; q: leave for today: ", book_);
+  wait_for_enter(person_, book_);
   calibration::DriveRecord record = played_by_.play(plan, robot);
   book_.finish(plan.name);
   return record;

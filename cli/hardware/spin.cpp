@@ -53,6 +53,7 @@ class Mean {
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += sample.wheel_radps[i];
     ++count_;
   }
+  bool empty() const { return count_ == 0; }
   SpinReading reading() const {
     SpinReading reading;
     for (const double sum : sums_) reading.mean_radps.push_back(sum / count_);
@@ -109,6 +110,9 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
     }
   }
   if (!newest) throw std::runtime_error{"the wheels say nothing"};
+  if (mean.empty())
+    throw std::runtime_error{
+        fmt::format("link lost: whether wheel {} stands is not known; use the stop button", spin.wheel + 1)};
   say(fmt::format("asked wheel {} for {:.2f} rad/s; {}\n", spin.wheel + 1, spin.radps, wheels_text(*newest)));
   const std::string problem = spin_problem(spin, mean.reading());
   if (problem.empty()) return kDone;

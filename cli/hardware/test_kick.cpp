@@ -55,6 +55,12 @@ bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::Kick
   return true;
 }
 
+/// From empty to full, of a board whose charge is modelled from its opening on.
+std::chrono::duration<double> charging_time(const config::KickerDevice& device) {
+  const auto* const board = std::get_if<config::IoBoardDevice>(&device);
+  return std::chrono::duration<double>{board == nullptr ? 0.0 : board->charge_time_s};
+}
+
 bool sound(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
 
 int not_fired(const std::string& why) {
@@ -97,19 +103,24 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   gate.referee(robot::RefereeSays::kPlay);
   std::optional<hal::KickerSample> newest;
   if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
-              [&] { return newest && sound(*newest); }))
+              [&] { return newest && sound(*newest) && newest->armed; }))
     return not_fired("stopped");
   if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
+  if (!sound(*newest) || !newest->armed)
+    return not_fired(fmt::format("refused, {}; {}", sound(*newest) ? "unarmed" : "fault", kicker_text(*newest)));
   say(
       fmt::format("kicker: {}\n"
                   "One kick with set-point {:.2f}, the lowest of {}. No referee is asked: you are the referee.\n"
                   "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
                   kicker_text(*newest), powers.min, robot.name));
   if (!person.confirms("kick")) return not_fired("not confirmed");
+  const std::chrono::duration<double> patience = kKickerPatience + charging_time(settings.hal.kicker);
+  say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", patience.count()));
+  std::fflush(stdout);
   kicker.charge(hal::ChargeWord::kUp);
   newest.reset();  // what waited while the person thought is too old
-  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
-              [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
+  if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(patience),
+              signals, [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =
       order_of(powers.min, settings.kick_decision.order_validity_s, static_cast<std::uint8_t>(settings.run.robot_id));

@@ -47,8 +47,9 @@ TEST_F(CalibrateInField, ASecondStartGoesOnWhereTheFirstOneEnded) {
   answer(*first, "'far' is no length from 2.0 to 12.0 m.\nStanding kicks: ball to goal line, m [12.000]: ", "");
   answer(*first, "behind it), m [4.000]: ", "4.0");
   answer(*first, "floor, m [0.050]: ", "");
-  answer(*first, "leave for today: ", "", "1_standing\n");
-  answer(*first, "leave for today: ", "q", "1_standing_2\n");
+  answer(*first, "leave for today: ", "go", "1_standing\n");
+  answer(*first, "'go' begins nothing.\nEnter: begin; q: leave for today: ", "");
+  answer(*first, "leave for today: ", " quit ", "1_standing_2\n");
   EXPECT_EQ(first->wait(), 1);
   EXPECT_THAT(first->output(), HasSubstr("A REHEARSAL"));
   EXPECT_THAT(first->output(), HasSubstr("left for today"));

@@ -66,6 +66,7 @@ TEST_F(Hardware, TheTypedWordFiresOneKickWithTheLowestSetPoint) {
   EXPECT_EQ(answered(*trivela, "kick\n"), 0) << trivela->errors();
   EXPECT_THAT(trivela->output(), HasSubstr("fired with set-point 15.00"));
   EXPECT_THAT(trivela->output(), HasSubstr("No referee is asked"));
+  EXPECT_THAT(trivela->output(), HasSubstr("the shot comes by itself within"));
   ASSERT_EQ(pulses(), 1u);
   board_.with_board([](const auto& board) { EXPECT_EQ(board.pulses().front().units, 15); });
 }
@@ -77,10 +78,23 @@ TEST_F(Hardware, AnotherWordFiresNothing) {
   EXPECT_EQ(pulses(), 0u);
 }
 
-TEST_F(Hardware, AnOpenSwitchIsRefusedByTheGateOfTheDriver) {
+TEST_F(Hardware, AnOpenSwitchIsRefusedBeforeAnybodyIsAsked) {
   board_.with_board([](auto& board) { board.in_play = false; });
   const auto trivela = start(on_the_board({"--kick", "--armed"}));
-  EXPECT_EQ(answered(*trivela, "kick\n"), 1);
+  EXPECT_EQ(trivela->wait(), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("refused, unarmed"));
+  EXPECT_EQ(trivela->output().find("Lay the ball"), std::string::npos);
+  EXPECT_EQ(pulses(), 0u);
+}
+
+TEST_F(Hardware, ASwitchThatIsOpenedAfterTheQuestionIsRefusedByTheGateOfTheDriver) {
+  const auto trivela = start(on_the_board({"--kick", "--armed"}));
+  ASSERT_TRUE(wait_for_change(folder_.path(), trivela->watch(),
+                              [&] { return trivela->output().find("press Enter") != std::string::npos; }));
+  EXPECT_THAT(trivela->output(), testing::ContainsRegex("kicker: charge [^\n]*, armed"));
+  board_.with_board([](auto& board) { board.in_play = false; });
+  person_.type("kick\n");
+  EXPECT_EQ(trivela->wait(), 1);
   EXPECT_THAT(trivela->errors(), HasSubstr("refused, unarmed"));
   EXPECT_EQ(pulses(), 0u);
 }
@@ -153,6 +167,27 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
   for (const std::string value : {"wheels: wheel 1 0.00, ", "gyro: 1.25 rad/s, [0-9]+ ms old", "kicker: charge ",
                                   "range finder: 2.00 m in front; [0-9]+/s", "referee box: last word WELCOME"})
     EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
+}
+
+TEST_F(Hardware, AnEmulatedBoardOfAProcessOfItsOwnSaysAPulseOnce) {
+  Program board{"trivela", {"emulate", "ioboard"}, folder_.path()};
+  const auto count = [&] {
+    std::size_t n = 0;
+    for (auto at = board.output().find("pulse of"); at != std::string::npos;
+         at = board.output().find("pulse of", at + 1))
+      ++n;
+    return n;
+  };
+  ASSERT_TRUE(
+      wait_for_change(folder_.path(), board.watch(), [&] { return board.output().find('\n') != std::string::npos; }));
+  Arguments settings = on_the_board({"--kick", "--armed"});
+  settings.back() = "hal.ioboard.port=\"" + board.output().substr(0, board.output().find('\n')) + "\"";
+  for (std::size_t kicks = 1; kicks <= 2; ++kicks) {
+    const auto trivela = start(settings);
+    EXPECT_EQ(answered(*trivela, "kick\n"), 0) << trivela->errors();
+    EXPECT_TRUE(wait_for_change(folder_.path(), board.watch(), [&] { return count() >= kicks; })) << board.output();
+    EXPECT_EQ(count(), kicks);
+  }
 }
 
 /// Drives of a process of their own, as a team that has none yet tries --spin.
