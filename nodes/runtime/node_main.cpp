@@ -58,7 +58,7 @@ bus::DomainConfig domain_of(const config::Domain& domain) {
 }
 
 bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node) {
-  const bus::DomainConfig domain = domain_of(settings.domain);
+  bus::DomainConfig domain = domain_of(settings.domain);
   if (keys.empty()) return domain;
   return bus::secured(domain, std::filesystem::path{keys} / fmt::format("robot_{}", settings.run.robot_id), node);
 }
