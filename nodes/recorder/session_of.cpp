@@ -69,8 +69,8 @@ Session session_of(const NodeContext& context) {
   std::optional<sim::Scenario> scenario;
   if (std::holds_alternative<config::ReplayDevice>(settings.hal.wheels)) {
     describe_replay(settings.hal, session);
-  } else if (perhaps_simulated) {
-    scenario = config::load_scenario(settings.run.scenario);
+  } else if (perhaps_simulated && (settings.run.lockstep || std::filesystem::exists(settings.run.scenario))) {
+    scenario = config::load_scenario(settings.run.scenario);  // in real time a robot records without a world's file
   }
   session.config_toml =
       robot::session_config(settings, {context.robot}, scenario ? config::to_toml_text(*scenario) : "");

@@ -1,6 +1,7 @@
 // What the recorder writes down of a match before it begins.
 #include <gmock/gmock.h>
 
+#include "config/error.hpp"
 #include "config/settings.hpp"
 #include "evaluator/log/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
@@ -44,6 +45,13 @@ TEST_F(SessionOf, DoesNotCallASessionSimulatedForItsConfiguration) {
     EXPECT_FALSE(session.simulated || session.seed || session.paired_halves || session.planned_s);
     EXPECT_EQ(session.scenario, "");
   }
+}
+
+TEST_F(SessionOf, NeedsAWorldsFileInLockstepAlone) {
+  context.settings.run.scenario = "/nowhere/world.toml";
+  EXPECT_THROW(session_of(context), config::Error);
+  context.settings.run.lockstep = false;
+  EXPECT_NO_THROW(session_of(context));
 }
 
 TEST_F(SessionOf, NamesThePoliciesOfRobotsThatHaveTheirOwn) {
