@@ -2,18 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "config/error.hpp"
+#include "evaluator/log/reader.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/write_file.hpp"
 
 namespace trivela::calibration {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool is_whole_log(const fs::path& file) {
+  try {
+    const auto sessions = evaluator::log::Reader{file}.sessions();
+    return !sessions.empty() && std::ranges::all_of(sessions, [](const auto& s) { return s.closed_t_ns.has_value(); });
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+/// Drives whose logs were closed; scans (NAME.scans.db) and what was set aside have a dot in their names.
+std::set<std::string> played_in(const fs::path& folder) {
+  std::set<std::string> drives;
+  for (const auto& entry : fs::directory_iterator{folder}) {
+    const fs::path& file = entry.path();
+    const std::string drive = file.stem().string();
+    if (file.extension() == ".db" && drive.find('.') == std::string::npos && is_whole_log(file)) drives.insert(drive);
+  }
+  return drives;
+}
+
+}  // namespace
 
 EveningBook::EveningBook(fs::path folder, std::string arguments)
     : folder_(std::move(folder)), file_(folder_ / "evening.json"), arguments_(std::move(arguments)) {
@@ -28,8 +54,11 @@ void EveningBook::read() {
     begun_with = json.at("arguments").get<std::string>();
     for (const auto& [what, value] : json.at("measured").items()) measured_[what] = value.get<double>();
     finished_ = json.at("finished").get<std::set<std::string>>();
-  } catch (const evaluator::Json::exception& error) {
-    throw std::runtime_error{fmt::format("{} is no book of an evening: {}", file_.string(), error.what())};
+  } catch (const evaluator::Json::exception&) {
+    throw std::runtime_error{
+        fmt::format("{} is cut short, or no book of an evening. Its drives are not lost: to go on with those whose "
+                    "logs are whole beside it, write this into it (what was measured is asked again):\n{}",
+                    file_.string(), text_with(played_in(folder_)))};
   }
   if (begun_with == arguments_) return;
   throw config::BadArgument{
@@ -37,10 +66,12 @@ void EveningBook::read() {
                   begun_with, arguments_)};
 }
 
-void EveningBook::write() const {
-  const evaluator::Json json{{"arguments", arguments_}, {"measured", measured_}, {"finished", finished_}};
-  evaluator::replace_file(file_, evaluator::json_text(json), "the evening's book");
+std::string EveningBook::text_with(const std::set<std::string>& finished) const {
+  return evaluator::json_text(
+      evaluator::Json{{"arguments", arguments_}, {"measured", measured_}, {"finished", finished}});
 }
+
+void EveningBook::write() const { evaluator::replace_file(file_, text_with(finished_), "the evening's book"); }
 
 std::optional<double> EveningBook::measured(const std::string& what) const {
   const auto found = measured_.find(what);

@@ -13,7 +13,8 @@ namespace trivela::calibration {
 class EveningBook {
  public:
   /// Goes on with the folder's book, or begins it. Throws config::BadArgument where it was begun with other
-  /// `arguments`, naming both; std::runtime_error naming a book that cannot be read or written.
+  /// `arguments`, naming both; std::runtime_error naming a book that cannot be written, or read,
+  /// with the text that takes its place.
   EveningBook(std::filesystem::path folder, std::string arguments);
 
   /// What a person has measured, by the name of what it is; none: not yet.
@@ -29,6 +30,8 @@ class EveningBook {
  private:
   void read();
   void write() const;
+  /// The book's text where those drives are finished.
+  std::string text_with(const std::set<std::string>& finished) const;
 
   std::filesystem::path folder_;
   std::filesystem::path file_;

@@ -11,6 +11,7 @@
 
 #include "config/field.hpp"
 #include "config/installation.hpp"
+#include "config/ipv4.hpp"
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
 #include "config/toml_source.hpp"
@@ -78,10 +79,19 @@ void check_lockstep(const Settings& settings, const std::string& source) {
   if (settings.scan_recorder.enabled) check("scan_recorder.device", settings.scan_recorder.device);
 }
 
+void check_group(const Refbox& refbox, const std::string& source) {
+  if (refbox.letters || refbox.group.empty()) return;
+  const auto group = ipv4(refbox.group);
+  if (group && *group >> 28 == 0xE) return;
+  throw Error{
+      fmt::format("{}: refbox.group = \"{}\": expected our multicast group, 224.16.32.N", source, refbox.group)};
+}
+
 /// What follows from several settings together.
 void settle(Settings& settings, const std::string& source) {
   check_policies(settings.kick_decision, source);
   check_lockstep(settings, source);
+  check_group(settings.refbox, source);
   if (settings.recorder.log.empty())
     throw Error{fmt::format("{}: recorder.log = \"\": expected a file, a folder or a pattern", source)};
   settings.policy.cycle_s = settings.run.cycle_s;

@@ -151,10 +151,15 @@ std::vector<std::string> TableReader::unknown_keys() const {
   std::vector<std::string> unknown;
   for (const auto& [key, node] : table_) {
     if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
+    const auto choice = choice_of_.find(key.str());
     const auto meant = kicking::nearest_word(key.str(), asked_);
+    std::string hint;
+    if (choice != choice_of_.end())
+      hint = fmt::format("; it is read where {}", choice->second);
+    else if (meant)
+      hint = fmt::format("; did you mean {}?", *meant);
     unknown.push_back(fmt::format("{}:{}: {}{}{}: unknown key{}", file_, key.source().begin.line, section_,
-                                  section_.empty() ? "" : ".", key.str(),
-                                  meant ? fmt::format("; did you mean {}?", *meant) : ""));
+                                  section_.empty() ? "" : ".", key.str(), hint));
   }
   return unknown;
 }

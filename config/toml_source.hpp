@@ -3,6 +3,8 @@
 #include <toml++/toml.h>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -92,6 +94,7 @@ class TableReader {
           if constexpr (Section<std::remove_reference_t<decltype(backend)>>) (*this)(backend.kName, backend);
         },
         device);
+    (read_where<Backends>(key), ...);
   }
   template <Section S>
   void operator()(std::string_view key, S& section) {
@@ -111,6 +114,13 @@ class TableReader {
 
  private:
   const toml::node* find(std::string_view key);
+  /// For the message where the backend's table is there and another backend is chosen.
+  template <class Backend>
+  void read_where(std::string_view key) {
+    if constexpr (Section<Backend>)
+      choice_of_[std::string{Backend::kName}] =
+          (section_.empty() ? "" : section_ + ".") + std::string{key} + " = \"" + std::string{Backend::kName} + '"';
+  }
   void read_number(std::string_view key, double& value, const Range* range);
   void read_angle(std::string_view key, double& value_rad, const Range* range_deg);
   bool read_integer(std::string_view key, std::int64_t& value, Range range);
@@ -137,6 +147,7 @@ class TableReader {
   const toml::table& table_;
   std::string section_;
   std::vector<std::string> asked_;
+  std::map<std::string, std::string, std::less<>> choice_of_;  // by table of a backend
 };
 
 /// Overrides `target` with what `source` names.

@@ -28,7 +28,7 @@ std::string backend_text(const Backend& backend) {
 class HeldByANode final : public Fixture {
  public:
   HeldByANode(const std::string& name, const std::string& device, const std::string& node)
-      : Fixture(name, device), says_(node + " runs and has it; it was not opened") {}
+      : Fixture(name, device), says_(node + " (or another trivela hardware) runs and has it; it was not opened") {}
   bool found() override { return true; }
   std::string says() const override { return says_; }
   void look() override {}

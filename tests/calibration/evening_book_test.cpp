@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "config/error.hpp"
+#include "evaluator/log/writer.hpp"
 #include "tests/e2e/folder.hpp"
 
 namespace trivela::calibration {
@@ -42,7 +43,30 @@ TEST(EveningBook, ABrokenBookIsNamed) {
   const e2e::Folder folder;
   touch(folder / "evening.json");
   EXPECT_THAT([&] { EveningBook(folder.path(), "--kicks 16"); },
-              ThrowsMessage<std::runtime_error>(HasSubstr("evening.json is no book of an evening")));
+              ThrowsMessage<std::runtime_error>(HasSubstr("evening.json is cut short")));
+}
+
+TEST(EveningBook, ABrokenBookIsMendedWithWhatItsMessageSays) {
+  const e2e::Folder folder;
+  for (const char* const drive : {"1_standing.db", "2_straight.db"}) {
+    evaluator::log::Session session;
+    session.uuid = std::string("00000000-0000-4000-8000-00000000000") + drive[0];
+    evaluator::log::Writer log{folder / drive, session, {}};
+    if (drive[0] == '1') log.finalise();
+  }
+  touch(folder / "3_lateral.db");
+  touch(folder / "evening.json");
+  std::string said;
+  try {
+    EveningBook(folder.path(), "--kicks 16");
+  } catch (const std::runtime_error& error) {
+    said = error.what();
+  }
+  ASSERT_NE(said.find('{'), std::string::npos) << said;
+  std::ofstream{folder / "evening.json"} << said.substr(said.find('{'));
+  const EveningBook book{folder.path(), "--kicks 16"};
+  EXPECT_TRUE(book.finished("1_standing"));
+  EXPECT_FALSE(book.finished("2_straight") || book.finished("3_lateral"));
 }
 
 TEST(EveningBook, RecordsOfAnUnfinishedDriveAreKeptBesideTheNextOnes) {

@@ -96,6 +96,18 @@ TEST(BadSettings, MissingFileIsNamed) {
               ::testing::ThrowsMessage<Error>(HasSubstr("no/such/file.toml: cannot read")));
 }
 
+TEST(BadSettings, ATableOfABackendThatIsNotChosenSaysWhereItIsRead) {
+  EXPECT_THAT(settings_error("[hal]\nkicker = \"bus\"\n[hal.ioboard]\nport = \"/dev/kicker\"\n"),
+              AllOf(HasSubstr("bad.toml:3: hal.ioboard"), HasSubstr("it is read where hal.kicker = \"ioboard\"")));
+}
+
+TEST(BadSettings, AGroupThatIsNoMulticastAddressIsRefused) {
+  for (const char* const group : {"10.0.0.1", "224.16.32"})
+    EXPECT_THAT(settings_error(std::string{"[refbox]\ngroup = \""} + group + "\"\n"), HasSubstr("224.16.32.N"))
+        << group;
+  EXPECT_EQ(settings_error("[refbox]\ngroup = \"10.0.0.1\"\nletters = true\n"), "accepted");
+}
+
 TEST(BadSettings, ALogWithoutANameIsRefused) {
   EXPECT_THAT(settings_error("[recorder]\nlog = \"\""), HasSubstr("recorder.log = \"\""));
 }
