@@ -88,8 +88,9 @@ int list_and_watch(const Bench& bench, std::optional<double> seconds) {
                          ? held_by("kicker", kicker, "kicker_driver")
                          : kicker_fixture(hal::open_kicker(bench.devices(), bench.owner()), kicker));
   fixtures.push_back(range_finder_fixture(settings.scan_recorder, bench.owner()));
-  fixtures.push_back(bench.claims.referee_is_written() ? held_by("referee box", "none", "a writer of referee")
-                                                       : referee_box_fixture(settings.refbox));
+  fixtures.push_back(bench.claims.referee_is_written() && is_wanted(settings.refbox)
+                         ? held_by("referee box", "none", "refbox, a simulator")
+                         : referee_box_fixture(settings.refbox));
   say_who(bench);
   return watch(fixtures, seconds, bench.signals);
 }
@@ -166,9 +167,9 @@ void add_hardware(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("hardware", "List a robot's devices, show what they say, try one at a time");
   auto flags = std::make_shared<HardwareFlags>();
   verb->footer(
-      "Opens what the nodes of this configuration would open. A device whose node runs is left to it.\n"
-      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, a wheel did\n"
-      "something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
+      "Opens what the nodes of this configuration would open. A device that somebody else has is left to them.\n"
+      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer or was not\n"
+      "opened, a wheel did something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
   verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
   verb->add_option("--seconds", flags->seconds,
