@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,7 +75,7 @@ void add_base(const Bench& bench, std::vector<std::unique_ptr<Fixture>>& fixture
   }
   config::Hal wheels_alone = devices;
   wheels_alone.gyro = config::WheelsGyro{};
-  fixtures.push_back(wheels_fixture(hal::open_wheels(wheels_alone, bench.owner()), wheels));
+  fixtures.push_back(wheels_fixture(hal::open_wheels(wheels_alone, bench.owner(), hal::WheelsUse::kListen), wheels));
   if (own_gyro) fixtures.push_back(gyro_fixture(hal::open_gyro(devices.gyro), gyro));
 }
 
@@ -86,10 +88,30 @@ int list_and_watch(const Bench& bench, std::optional<double> seconds) {
                          ? held_by("kicker", kicker, "kicker_driver")
                          : kicker_fixture(hal::open_kicker(bench.devices(), bench.owner()), kicker));
   fixtures.push_back(range_finder_fixture(settings.scan_recorder, bench.owner()));
-  fixtures.push_back(bench.claims.referee_is_written() ? held_by("referee box", "none", "a writer of referee")
-                                                       : referee_box_fixture(settings.refbox));
+  fixtures.push_back(bench.claims.referee_is_written() && is_wanted(settings.refbox)
+                         ? held_by("referee box", "none", "refbox, a simulator")
+                         : referee_box_fixture(settings.refbox));
   say_who(bench);
   return watch(fixtures, seconds, bench.signals);
+}
+
+int no_wheel_turned(const std::string& why) {
+  warn(why + ": no wheel was turned");
+  return kFailed;
+}
+
+/// False: somebody asked to stop before the wheels answered. Throws std::runtime_error where they do not within 5 s, of
+/// which a drive may take 3 for its reset.
+bool answers(hal::Wheels& wheels, const Bench& bench) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!wheels.connected(std::chrono::milliseconds(50))) {
+    if (bench.signals.stop_requested()) return false;
+    if (std::chrono::steady_clock::now() < end) continue;
+    const std::string status = wheels.status();
+    throw std::runtime_error{fmt::format("wheels, {}: no answer{}{}", device_text(bench.settings.hal.wheels),
+                                         status.empty() ? "" : "; ", status)};
+  }
+  return true;
 }
 
 int spin(const Bench& bench, const HardwareFlags& flags) {
@@ -98,9 +120,8 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
     throw UsageError{fmt::format("--spin {}: {} has wheels 1 to {}", *flags.spin, bench.robot.name, wheels)};
   if (!Person::is_there()) throw std::runtime_error{"--spin asks before it does it: standard input is no terminal"};
   bench.claims.require_wheels();
-  const auto device = hal::open_wheels(bench.settings.hal, bench.owner());
-  if (!device->connected(std::chrono::seconds(3)))
-    throw std::runtime_error{fmt::format("wheels, {}: no answer", device_text(bench.settings.hal.wheels))};
+  if (!answers(*hal::open_wheels(bench.settings.hal, bench.owner(), hal::WheelsUse::kListen), bench))
+    return no_wheel_turned("stopped");
   const Spin what{.wheel = *flags.spin - 1, .radps = flags.radps, .seconds = flags.seconds.value_or(2.0)};
   say_who(bench);
   say(fmt::format(
@@ -108,10 +129,11 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
       "positive.\nDo all wheels hang free, and nobody's hand near them?\n",
       *flags.spin, what.radps, what.seconds));
   Person person{bench.signals};
-  if (!person.confirms(fmt::format("spin {}", *flags.spin))) {
-    warn("not confirmed: no wheel was turned");
-    return kFailed;
-  }
+  if (!person.confirms(fmt::format("spin {}", *flags.spin))) return no_wheel_turned("not confirmed");
+  say("The motors get power now; Ctrl-C stops the wheel.\n");
+  std::fflush(stdout);
+  const auto device = hal::open_wheels(bench.settings.hal, bench.owner());
+  if (!answers(*device, bench)) return no_wheel_turned("stopped");
   return spin_wheel(what, *device, bench.robot.base, bench.signals);
 }
 
@@ -145,9 +167,9 @@ void add_hardware(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("hardware", "List a robot's devices, show what they say, try one at a time");
   auto flags = std::make_shared<HardwareFlags>();
   verb->footer(
-      "Opens what the nodes of this configuration would open. A device whose node runs is left to it.\n"
-      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, a wheel did\n"
-      "something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
+      "Opens what the nodes of this configuration would open. A device that somebody else has is left to them.\n"
+      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer or was not\n"
+      "opened, a wheel did something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
   verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
   verb->add_option("--seconds", flags->seconds,

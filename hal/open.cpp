@@ -28,15 +28,15 @@ namespace {
 using config::BusDevice, config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice,
     config::ReplayDevice, config::ScipDevice, config::SimDevice;
 
-std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner) {
+std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner, WheelsUse) {
   return std::make_unique<BusWheels>(owner.participant, owner.robot_id);
 }
-std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner) {
+std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner, WheelsUse) {
   return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
 }
 
-std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner) {
-  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base);
+std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner, WheelsUse use) {
+  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base, use);
 }
 
 /// Whether the port's other end is a program.
@@ -76,8 +76,8 @@ std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner
 
 }  // namespace
 
-std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner) {
-  auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner); }, devices.wheels);
+std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner, WheelsUse use) {
+  auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner, use); }, devices.wheels);
   auto gyro = open_gyro(devices.gyro);
   if (!gyro) return opened;
   const bool emulated = std::visit([](const auto& backend) { return is_emulated(backend); }, devices.gyro);

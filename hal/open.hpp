@@ -25,7 +25,8 @@ struct Owner {
   kicking::WheelBase base{};  ///< for wheels that are driven one by one
 };
 
-std::unique_ptr<Wheels> open_wheels(const config::Hal& devices, const Owner& owner);
+/// kListen is for backends that power motors; a bridge on the bus and a recording are opened as ever.
+std::unique_ptr<Wheels> open_wheels(const config::Hal& devices, const Owner& owner, WheelsUse use = WheelsUse::kDrive);
 std::unique_ptr<Kicker> open_kicker(const config::Hal& devices, const Owner& owner);
 std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& device, const Owner& owner);
 

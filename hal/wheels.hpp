@@ -20,6 +20,12 @@ struct WheelSample {
   bool gyro_emulated = false;           ///< gyro_radps is a program's
 };
 
+/// What a base is opened for.
+enum class WheelsUse {
+  kDrive,
+  kListen  ///< samples and status alone: motors stay without power, faults as they are, and commands do nothing
+};
+
 /// The base: wheel speeds in, set-points out. read() is for one thread at a time, the commands for another.
 class Wheels {
  public:

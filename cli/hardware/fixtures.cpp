@@ -28,11 +28,12 @@ std::string backend_text(const Backend& backend) {
 class HeldByANode final : public Fixture {
  public:
   HeldByANode(const std::string& name, const std::string& device, const std::string& node)
-      : Fixture(name, device), says_(node + " (or another trivela hardware) runs and has it; it was not opened") {}
+      : Fixture(name, device), says_(node + " or another trivela hardware has it") {}
+  bool opened() const override { return false; }
   bool found() override { return true; }
   std::string says() const override { return says_; }
   void look() override {}
-  std::string values() override { return "with its node"; }
+  std::string values() override { return "not opened"; }
 
  private:
   std::string says_;
@@ -262,9 +263,10 @@ std::unique_ptr<Fixture> range_finder_fixture(const config::ScanRecorder& settin
                                               config::text_of(settings.device));
 }
 
+bool is_wanted(const config::Refbox& settings) { return !settings.group.empty() || settings.letters; }
+
 std::unique_ptr<Fixture> referee_box_fixture(const config::Refbox& settings) {
-  if (settings.group.empty() && !settings.letters)
-    return std::make_unique<NotWanted>("referee box", "refbox.group is empty");
+  if (!is_wanted(settings)) return std::make_unique<NotWanted>("referee box", "refbox.group is empty");
   return std::make_unique<RefereeBoxFixture>(nodes::open_refbox(settings));
 }
 

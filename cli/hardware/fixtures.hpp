@@ -22,6 +22,8 @@ class Fixture {
 
   /// The configuration means it to be there.
   virtual bool wanted() const { return true; }
+  /// Nobody else has it.
+  virtual bool opened() const { return true; }
   /// It answers.
   virtual bool found() = 0;
   /// What it says of itself and of its link; empty: nothing.
@@ -60,7 +62,7 @@ std::string kicker_text(const hal::KickerSample& sample);
 /// "wheel 1 0.00, wheel 2 1.99 rad/s; gyro 0.01 rad/s".
 std::string wheels_text(const hal::WheelSample& sample);
 
-/// One that a node of this robot holds: it is not opened.
+/// One that somebody else has, `node` or another program of this kind: it is not opened.
 std::unique_ptr<Fixture> held_by(const std::string& name, const std::string& device, const std::string& node);
 std::unique_ptr<Fixture> wheels_fixture(std::unique_ptr<hal::Wheels> wheels, const std::string& device);
 std::unique_ptr<Fixture> kicker_fixture(std::unique_ptr<hal::Kicker> kicker, const std::string& device);
@@ -68,7 +70,9 @@ std::unique_ptr<Fixture> kicker_fixture(std::unique_ptr<hal::Kicker> kicker, con
 std::unique_ptr<Fixture> gyro_fixture(std::unique_ptr<hal::Gyro> gyro, const std::string& device);
 /// Where no scans are to be recorded it is none that is wanted, and nothing is opened.
 std::unique_ptr<Fixture> range_finder_fixture(const config::ScanRecorder& settings, const hal::Owner& owner);
-/// The same where the referee box has no name for us.
+/// A referee box is named.
+bool is_wanted(const config::Refbox& settings);
+/// The same where it is not.
 std::unique_ptr<Fixture> referee_box_fixture(const config::Refbox& settings);
 
 }  // namespace trivela::cli

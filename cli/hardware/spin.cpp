@@ -17,6 +17,7 @@ namespace {
 
 using SpinClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kCommandPeriod{20};  // a base stops that hears nothing for some tenths of a second
+constexpr std::chrono::milliseconds kSilence{500};       // of a base that has been lost
 
 std::int64_t spin_now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(SpinClock::now().time_since_epoch()).count();
@@ -33,6 +34,14 @@ class AtRestAfterwards {
  private:
   hal::Wheels& wheels_;
 };
+
+/// What the wheels said before is no answer to what they do now.
+std::runtime_error lost(const Spin& spin, const hal::Wheels& wheels) {
+  const std::string status = wheels.status();
+  return std::runtime_error{
+      fmt::format("link to the wheels lost{}{}: whether wheel {} stands is not known; use the stop button",
+                  status.empty() ? "" : ", ", status, spin.wheel + 1)};
+}
 
 void turn(const Spin& spin, hal::Wheels& wheels, const kicking::OmniKinematics& kinematics) {
   if (wheels.drive_wheel(spin.wheel, spin.radps, spin_now_ns())) return;
@@ -95,6 +104,7 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
   const AtRestAfterwards at_rest{wheels};
   const auto began = SpinClock::now();
   const auto lasts = std::chrono::duration<double>(spin.seconds);
+  auto heard = began;
   while (SpinClock::now() - began < lasts) {
     turn(spin, wheels, kinematics);
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};
@@ -106,13 +116,13 @@ int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& b
     for (auto sample = wheels.read(std::chrono::nanoseconds{0}); sample;
          sample = wheels.read(std::chrono::nanoseconds{0})) {
       newest = sample;
-      if (SpinClock::now() - began > lasts / 2) mean.add(*sample);
+      heard = SpinClock::now();
+      if (heard - began > lasts / 2) mean.add(*sample);
     }
+    if (SpinClock::now() - heard > kSilence || !wheels.connected(std::chrono::nanoseconds{0})) throw lost(spin, wheels);
   }
   if (!newest) throw std::runtime_error{"the wheels say nothing"};
-  if (mean.empty())
-    throw std::runtime_error{
-        fmt::format("link lost: whether wheel {} stands is not known; use the stop button", spin.wheel + 1)};
+  if (mean.empty()) throw lost(spin, wheels);
   say(fmt::format("asked wheel {} for {:.2f} rad/s; {}\n", spin.wheel + 1, spin.radps, wheels_text(*newest)));
   const std::string problem = spin_problem(spin, mean.reading());
   if (problem.empty()) return kDone;

@@ -27,8 +27,8 @@ struct SpinReading {
 std::string spin_problem(const Spin& spin, const SpinReading& reading);
 
 /// Turns one wheel for its time and stops it, whatever happens: also when somebody asks to stop, and then says so. The
-/// others stand. Throws std::runtime_error where this base cannot turn one wheel alone, or its wheels say nothing.
-/// Returns the exit code.
+/// others stand. Throws std::runtime_error where this base cannot turn one wheel alone, or its wheels say nothing; at
+/// once, and without a figure, where they are lost meanwhile. Returns the exit code.
 int spin_wheel(const Spin& spin, hal::Wheels& wheels, const config::WheelBase& base, SignalInbox& signals);
 
 }  // namespace trivela::cli

@@ -93,7 +93,21 @@ int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder&
   return kDone;
 }
 
+/// What stands in the way of firing where `armed` is false, by what the board's backend makes it of.
+std::string open_switch(const config::KickerDevice& device) {
+  if (std::holds_alternative<config::IoBoardDevice>(device)) return "the in-play or the software-on switch is open";
+  if (std::holds_alternative<config::ReKickDevice>(device)) return "the kicker's supply is off";
+  return "the arm switch is open";
+}
+
 }  // namespace
+
+std::string refused_at_once(const hal::KickerSample& sample, const config::KickerDevice& device,
+                            const std::string& status) {
+  if (!sound(sample))
+    return fmt::format("refused, fault; {}{}{}", kicker_text(sample), status.empty() ? "" : "; ", status);
+  return sample.armed ? "" : fmt::format("refused, unarmed: {}; {}", open_switch(device), kicker_text(sample));
+}
 
 int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
                    SignalInbox& signals) {
@@ -106,8 +120,8 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
               [&] { return newest && sound(*newest) && newest->armed; }))
     return not_fired("stopped");
   if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
-  if (!sound(*newest) || !newest->armed)
-    return not_fired(fmt::format("refused, {}; {}", sound(*newest) ? "unarmed" : "fault", kicker_text(*newest)));
+  const std::string refused = refused_at_once(*newest, settings.hal.kicker, kicker.status());
+  if (!refused.empty()) return not_fired(refused);
   say(
       fmt::format("kicker: {}\n"
                   "One kick with set-point {:.2f}, the lowest of {}. No referee is asked: you are the referee.\n"

@@ -16,7 +16,6 @@ namespace trivela::cli {
 namespace {
 
 using WatchClock = std::chrono::steady_clock;
-using Fixtures = std::vector<std::unique_ptr<Fixture>>;
 
 constexpr std::chrono::seconds kPatienceOfAListing{3};
 constexpr std::chrono::milliseconds kGlance{10};   // between two looks at the devices
@@ -36,17 +35,6 @@ bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& sig
 
 bool all_found(const Fixtures& fixtures) {
   return std::ranges::all_of(fixtures, [](const auto& fixture) { return !fixture->wanted() || fixture->found(); });
-}
-
-void list(const Fixtures& fixtures) {
-  for (const auto& fixture : fixtures) {
-    const std::string says = fixture->says();
-    say(fmt::format("  {:<14}{:<28} {}{}\n", fixture->name(), fixture->device(),
-                    !fixture->wanted() ? "not used"
-                    : fixture->found() ? "there"
-                                       : "NOT THERE",
-                    says.empty() ? "" : ": " + says));
-  }
 }
 
 std::string line_of(const Fixture& fixture, const std::string& values) {
@@ -83,13 +71,31 @@ void say_line(const Fixtures& fixtures) {
 
 }  // namespace
 
-int watch(std::vector<std::unique_ptr<Fixture>>& fixtures, std::optional<double> seconds, SignalInbox& signals) {
+bool all_answer(const Fixtures& fixtures) {
+  return all_found(fixtures) && std::ranges::all_of(fixtures, [](const auto& fixture) { return fixture->opened(); });
+}
+
+std::string listing(const Fixtures& fixtures) {
+  std::string rows;
+  for (const auto& fixture : fixtures) {
+    const std::string says = fixture->says();
+    rows += fmt::format("  {:<14}{:<28} {}{}\n", fixture->name(), fixture->device(),
+                        !fixture->wanted()   ? "not used"
+                        : !fixture->opened() ? "not opened"
+                        : fixture->found()   ? "there"
+                                             : "NOT THERE",
+                        says.empty() ? "" : ": " + says);
+  }
+  return rows;
+}
+
+int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signals) {
   const auto patience_ends = WatchClock::now() + kPatienceOfAListing;
   bool goes_on = true;
   while (goes_on && !all_found(fixtures) && WatchClock::now() < patience_ends)
     goes_on = look_until(fixtures, WatchClock::now(), signals);
   if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals);
-  list(fixtures);
+  say(listing(fixtures));
   std::fflush(stdout);
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
   const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
@@ -102,7 +108,7 @@ int watch(std::vector<std::unique_ptr<Fixture>>& fixtures, std::optional<double>
     if (!goes_on) break;
     terminal ? board.draw(fixtures) : say_line(fixtures);
   }
-  return all_found(fixtures) ? kDone : kFailed;
+  return all_answer(fixtures) ? kDone : kFailed;
 }
 
 }  // namespace trivela::cli

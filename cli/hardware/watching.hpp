@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/hardware/fixtures.hpp"
@@ -9,9 +10,17 @@
 
 namespace trivela::cli {
 
+using Fixtures = std::vector<std::unique_ptr<Fixture>>;
+
+/// Every device that is wanted was opened and answers.
+bool all_answer(const Fixtures& fixtures);
+
+/// A row for each: is it there, and what it says.
+std::string listing(const Fixtures& fixtures);
+
 /// Lists the devices, once all have answered or 3 s are over, and shows their values: on a terminal drawn over five
 /// times a second until somebody asks to stop, else a line each second; both for `seconds`, where it is given, a
-/// pipe's for one. Returns the exit code: kFailed where a device that is wanted does not answer.
-int watch(std::vector<std::unique_ptr<Fixture>>& fixtures, std::optional<double> seconds, SignalInbox& signals);
+/// pipe's for one. Returns the exit code: kFailed where not all_answer().
+int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signals);
 
 }  // namespace trivela::cli

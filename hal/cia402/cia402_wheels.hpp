@@ -17,15 +17,16 @@ namespace trivela::hal::cia402 {
 class Cia402Wheels final : public Wheels {
  public:
   /// Starts the thread. Throws as Drives and as LineThread.
-  Cia402Wheels(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base)
-      : drives_(std::move(bus), settings, base), thread_(drives_, "wheels") {}
+  Cia402Wheels(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base,
+               WheelsUse use = WheelsUse::kDrive)
+      : drives_(std::move(bus), settings, base, use), thread_(drives_, "wheels") {}
   ~Cia402Wheels() override {
     thread_.with_client([this] { drives_.stop(); });
   }
   Cia402Wheels(const Cia402Wheels&) = delete;
   Cia402Wheels& operator=(const Cia402Wheels&) = delete;
 
-  /// Every drive is in operation.
+  /// Every drive is in operation; of those that are listened to: says its state.
   bool connected(std::chrono::nanoseconds timeout) override {
     return thread_.wait(timeout, [this] { return drives_.up(); });
   }

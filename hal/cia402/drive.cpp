@@ -21,16 +21,17 @@ constexpr double kRpmOfRadps = 60.0 / (2.0 * std::numbers::pi);
 
 }  // namespace
 
-Drive::Drive(std::uint8_t node, bool reversed, const config::Cia402Device& settings)
+Drive::Drive(std::uint8_t node, bool reversed, const config::Cia402Device& settings, WheelsUse use)
     : node_(node),
       sign_(reversed ? -1.0 : 1.0),
       settings_(settings),
+      use_(use),
       silence_ns_(kicking::nanoseconds(std::max(settings.heartbeat_s, 4.0 * settings.cycle_s))) {}
 
 void Drive::open(std::int64_t now_ns, Frames& out) { start(now_ns, out); }
 
 void Drive::start(std::int64_t now_ns, Frames& out) {
-  start_up_.emplace(node_, settings_, was_enabled_ ? StartUp::Reset::kNo : StartUp::Reset::kYes);
+  start_up_.emplace(node_, settings_, was_enabled_ ? StartUp::Reset::kNo : StartUp::Reset::kYes, use_);
   stage_ = Stage::kStarting;
   ask(now_ns, out);
 }
@@ -123,7 +124,7 @@ std::int64_t Drive::next_ns() const {
 }
 
 void Drive::lose(const std::string& why, std::int64_t now_ns, Frames& out) {
-  out.push_back(quick_stop());
+  if (use_ == WheelsUse::kDrive) out.push_back(quick_stop());
   problem_ = state_ == DriveState::kFault ? fault() : why;
   stage_ = Stage::kPaused;
   due_ns_ = now_ns + kStartPause_ns;
@@ -133,6 +134,11 @@ double Drive::motor_rpm(double wheel_radps) const { return sign_ * wheel_radps *
 
 double Drive::wheel_radps() const { return sign_ * velocity_ * scale_.rpm_per_unit / (scale_.gear * kRpmOfRadps); }
 
+void Drive::expect_answer(std::int64_t now_ns) {
+  answered_ = false;
+  if (!std::exchange(asked_, true)) asked_ns_ = now_ns;
+}
+
 can::Frame Drive::command(double motor_rpm, std::int64_t now_ns) {
   constexpr double kMost = std::numeric_limits<std::int32_t>::max();
   const bool coming_up = !was_enabled_ && now_ns - running_ns_ < kResets_ns;
@@ -140,8 +146,7 @@ can::Frame Drive::command(double motor_rpm, std::int64_t now_ns) {
   const bool after_our_loss = lost_us() && faulty_ns < kBeatsFlow_ns + kResets_ns;
   may_reset_ = coming_up || after_our_loss;
   controlword_ = next_controlword(state_, coming_up || (after_our_loss && faulty_ns >= kBeatsFlow_ns), controlword_);
-  answered_ = false;
-  if (!std::exchange(asked_, true)) asked_ns_ = now_ns;
+  expect_answer(now_ns);
   const double units = std::round(std::clamp(motor_rpm / scale_.rpm_per_unit, -kMost, kMost));
   return rx_pdo(node_, enabled() ? static_cast<std::int32_t>(units) : 0, controlword_);
 }
@@ -152,7 +157,7 @@ std::string Drive::fault() const {
 }
 
 std::string Drive::status() const {
-  if (enabled()) return "";
+  if (enabled() && use_ == WheelsUse::kDrive) return "";
   std::string text = "starting";
   if (!problem_.empty()) {
     text = problem_;

@@ -18,11 +18,13 @@ namespace trivela::hal::cia402 {
 /// A drive that is silent, restarts by itself or leaves its state is told a quick stop and started again after a pause.
 /// Its faults are reset while it comes up for the first time. Afterwards one is, that our heartbeat was missing, once
 /// the heartbeat flows again; for any other somebody has to start the program again.
+///
+/// One that is listened to is told no controlword: it stays in the state and with the fault that it has.
 class Drive {
  public:
   using Frames = std::vector<can::Frame>;
 
-  Drive(std::uint8_t node, bool reversed, const config::Cia402Device& settings);
+  Drive(std::uint8_t node, bool reversed, const config::Cia402Device& settings, WheelsUse use = WheelsUse::kDrive);
 
   /// The bus was opened, or lost.
   void open(std::int64_t now_ns, Frames& out);
@@ -37,19 +39,23 @@ class Drive {
   bool running() const { return stage_ == Stage::kRunning; }
   /// It turns as it is told.
   bool enabled() const { return running() && state_ == DriveState::kEnabled; }
+  /// It has said in which state it is.
+  bool heard() const { return running() && state_ != DriveState::kUnknown; }
 
   /// Revolutions a minute of the motor at this speed of the wheel, counter-clockwise about the robot's centre.
   double motor_rpm(double wheel_radps) const;
 
   /// The cycle's command, after which it has not answered yet.
   can::Frame command(double motor_rpm, std::int64_t now_ns);
+  /// The cycle goes round without a command; it has not answered yet.
+  void expect_answer(std::int64_t now_ns);
   bool answered() const { return answered_; }
   /// The wheel's speed by its last answer.
   double wheel_radps() const;
 
   can::Frame quick_stop() const { return rx_pdo(node_, 0, kQuickStopCommand); }
 
-  /// Empty: all is well.
+  /// Empty: all is well, and it turns as it is told.
   std::string status() const;
   const Scale& scale() const { return scale_; }
 
@@ -69,6 +75,7 @@ class Drive {
   std::uint8_t node_;
   double sign_;
   config::Cia402Device settings_;
+  WheelsUse use_;
   std::int64_t silence_ns_;
   std::optional<StartUp> start_up_;
   Scale scale_;

@@ -19,13 +19,13 @@ constexpr std::int64_t kNoteStands_ns = 1'000'000'000;
 constexpr int kMostReads = 64;    // so that a flood keeps no command waiting
 constexpr Line::Deadline kNow{};  // does not wait
 
-std::vector<Drive> drives_of(const config::Cia402Device& settings) {
+std::vector<Drive> drives_of(const config::Cia402Device& settings, WheelsUse use) {
   std::vector<Drive> drives;
   std::set<std::uint8_t> nodes{settings.master};
   for (const std::uint8_t node : settings.nodes) {
     if (!nodes.insert(node).second)
       throw std::runtime_error{fmt::format("hal.cia402: node {} is there twice (nodes and master)", node)};
-    drives.emplace_back(node, std::ranges::count(settings.reversed, node) > 0, settings);
+    drives.emplace_back(node, std::ranges::count(settings.reversed, node) > 0, settings, use);
   }
   for (const std::uint8_t node : settings.reversed) {
     if (node == settings.master || !nodes.contains(node))
@@ -36,11 +36,13 @@ std::vector<Drive> drives_of(const config::Cia402Device& settings) {
 
 }  // namespace
 
-Drives::Drives(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base)
+Drives::Drives(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base,
+               WheelsUse use)
     : bus_(std::move(bus)),
       settings_(settings),
       kinematics_(base),
-      drives_(drives_of(settings)),
+      use_(use),
+      drives_(drives_of(settings, use)),
       problem_("opening " + bus_->name()) {
   if (static_cast<int>(drives_.size()) == kinematics_.wheel_count()) return;
   throw std::runtime_error{fmt::format("hal.cia402.nodes: {} drives for a base of {} wheels (base.wheel_angles_rad)",
@@ -55,7 +57,7 @@ void Drives::step(std::int64_t now_ns) {
   for (Drive& drive : drives_) drive.step(now_ns, out_);
   if (now_ns >= next_beat_ns_) {
     next_beat_ns_ = now_ns + kBeat_ns;
-    out_.push_back(heartbeat(settings_.master, NodeState::kOperational));
+    if (use_ == WheelsUse::kDrive) out_.push_back(heartbeat(settings_.master, NodeState::kOperational));
   }
   if (running() && now_ns >= next_cycle_ns_) cycle(now_ns);
   send(now_ns);
@@ -72,7 +74,9 @@ std::int64_t Drives::next_ns() const {
 
 bool Drives::running() const { return std::ranges::any_of(drives_, &Drive::running); }
 
-bool Drives::up() const { return open_ && std::ranges::all_of(drives_, &Drive::enabled); }
+bool Drives::up() const {
+  return open_ && std::ranges::all_of(drives_, use_ == WheelsUse::kDrive ? &Drive::enabled : &Drive::heard);
+}
 
 void Drives::open(std::int64_t now_ns) {
   if (bus_->open(kNow) != Line::Opening::kOpen)
@@ -124,9 +128,16 @@ void Drives::cycle(std::int64_t now_ns) {
   sync_ns_ = now_ns;
   if (!up()) wheel_radps_ = {};  // what was asked for before is not done afterwards
   out_.push_back(sync());
+  if (use_ == WheelsUse::kListen) return expect_answers(now_ns);
   const std::vector<double> rpm = motor_rpm();
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (drives_[i].running()) out_.push_back(drives_[i].command(rpm[i], now_ns));
+  }
+}
+
+void Drives::expect_answers(std::int64_t now_ns) {
+  for (Drive& drive : drives_) {
+    if (drive.running()) drive.expect_answer(now_ns);
   }
 }
 
@@ -155,7 +166,7 @@ void Drives::drive_wheel(int wheel, double radps) {
 }
 
 void Drives::stop() noexcept {
-  if (std::exchange(stopped_, true) || !open_) return;
+  if (std::exchange(stopped_, true) || !open_ || use_ == WheelsUse::kListen) return;
   for (const Drive& drive : drives_) bus_->write(can::encode(drive.quick_stop()), kNow);
 }
 
@@ -181,11 +192,12 @@ void Drives::lose(const std::string& why, std::int64_t now_ns) {
 std::string Drives::status() const {
   if (!open_) return problem_;
   std::string text = bus_->name() + ": ";
-  if (up()) {
+  if (use_ == WheelsUse::kDrive && up()) {
     const Scale& scale = drives_.front().scale();
     text += fmt::format("{} drives in operation, {:g} rpm a unit, gear {:g}", drives_.size(), scale.rpm_per_unit,
                         scale.gear);
   } else {
+    if (use_ == WheelsUse::kListen) text += "listened to, not driven: ";
     const char* comma = "";
     for (const Drive& drive : drives_) {
       if (const std::string said = drive.status(); !said.empty()) text += std::exchange(comma, "; ") + said;

@@ -20,13 +20,16 @@ namespace trivela::hal::cia402 {
 /// and each drive's command, whose answers are one sample of SYNC's instant. The wheels turn while every drive is in
 /// operation; if one is not, the others are told to stand, and a set-point from before counts no more when all are
 /// again. The bus is opened again after a pause where it is lost.
+///
+/// Drives that are listened to hear SYNC alone: no heartbeat, which they would miss afterwards, no command and no stop.
 class Drives final : public LineClient {
  public:
   static constexpr std::int64_t kBeat_ns = 50'000'000;
 
   /// Throws std::runtime_error naming what does not go together: the number of drives and of wheels, nodes that are
   /// there twice.
-  Drives(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base);
+  Drives(std::unique_ptr<Line> bus, const config::Cia402Device& settings, const kicking::WheelBase& base,
+         WheelsUse use = WheelsUse::kDrive);
 
   void step(std::int64_t now_ns) override;
   std::int64_t next_ns() const override;
@@ -41,7 +44,7 @@ class Drives final : public LineClient {
   /// Every drive is told a quick stop, and nothing is sent any more.
   void stop() noexcept;
 
-  /// Every drive turns as it is told.
+  /// Every drive turns as it is told; of those that are listened to: has said its state.
   bool up() const;
 
   /// The newest sample that was not taken yet.
@@ -56,6 +59,7 @@ class Drives final : public LineClient {
   void take(const can::Frame& frame, std::int64_t now_ns);
   void finish_sample();
   void cycle(std::int64_t now_ns);
+  void expect_answers(std::int64_t now_ns);
   bool running() const;
   std::vector<double> motor_rpm() const;
   void send(std::int64_t now_ns);
@@ -64,6 +68,7 @@ class Drives final : public LineClient {
   std::unique_ptr<Line> bus_;
   config::Cia402Device settings_;
   kicking::OmniKinematics kinematics_;
+  WheelsUse use_;
   std::vector<Drive> drives_;
   Drive::Frames out_;                    // to be sent
   std::array<double, 4> wheel_radps_{};  // asked for

@@ -29,15 +29,19 @@ std::optional<double> rpm_per_unit_of(std::uint32_t object_60a9) {
   return std::pow(10.0, power);
 }
 
-StartUp::StartUp(std::uint8_t node, const config::Cia402Device& settings, Reset reset)
+StartUp::StartUp(std::uint8_t node, const config::Cia402Device& settings, Reset reset, WheelsUse use)
     : node_(node),
-      reset_(reset),
+      reset_(use == WheelsUse::kListen ? Reset::kNo : reset),
       consumer_heartbeat_(std::uint32_t{settings.master} << 16U |
                           static_cast<std::uint32_t>(std::lround(settings.heartbeat_s * 1e3))) {
   add_reads(settings);
-  add_settings(settings);
   const std::uint32_t id = node;
-  add_mapping(0x1400, 0x1600, kRxPdo1 + id, kAtOnce, {0x60FF0020, 0x60400010});
+  if (use == WheelsUse::kListen) {
+    tasks_.push_back({.object = kProducerHeartbeat, .size = 2, .value = kProducerPeriod_ms});
+  } else {
+    add_settings(settings);
+    add_mapping(0x1400, 0x1600, kRxPdo1 + id, kAtOnce, {0x60FF0020, 0x60400010});
+  }
   add_mapping(0x1800, 0x1A00, (kTxPdo1 + id) | kNoRemoteRequest, kEachSync, {0x606C0020, 0x60780010, 0x60410010});
 }
 

@@ -8,6 +8,7 @@
 #include "config/devices.hpp"
 #include "hal/cia402/canopen.hpp"
 #include "hal/cia402/sdo.hpp"
+#include "hal/wheels.hpp"
 
 namespace trivela::hal::cia402 {
 
@@ -25,13 +26,16 @@ std::optional<double> rpm_per_unit_of(std::uint32_t object_60a9);
 /// program on purpose, then its settings object by object. A drive that refuses to watch our heartbeat (1016) or to
 /// stop without it (6007) is refused, since its wheel would turn on when this program dies. One request is open at a
 /// time. No clock, no bus: the caller sends request() and says what came.
+///
+/// A drive that is listened to is not reset and not made ready to turn: it is asked for its counts and its error, and
+/// told its heartbeat and TxPDO 1.
 class StartUp {
  public:
   enum class Reset {
     kYes,
     kNo  ///< a drive that was lost may have a fault, which a reset would hide: its error code (603F) is asked for
   };
-  StartUp(std::uint8_t node, const config::Cia402Device& settings, Reset reset);
+  StartUp(std::uint8_t node, const config::Cia402Device& settings, Reset reset, WheelsUse use = WheelsUse::kDrive);
 
   enum class Progress {
     kWaiting,  ///< for the answer to request()

@@ -19,8 +19,10 @@ class CabledWheels final : public hal::Wheels {
  public:
   explicit CabledWheels(config::WheelBase base) : base_(std::move(base)) {}
 
-  bool connected(std::chrono::nanoseconds) override { return true; }
+  bool connected(std::chrono::nanoseconds) override { return lost_after < 0 || commands < lost_after; }
+  std::string status() const override { return "can0: the bus is cut"; }
   std::optional<hal::WheelSample> read(std::chrono::nanoseconds) override {
+    if (silent_after >= 0 && commands >= silent_after) return std::nullopt;
     return std::exchange(sample_, std::nullopt);
   }
   void drive(const Twist& twist, std::int64_t t_ns) override {
@@ -47,7 +49,9 @@ class CabledWheels final : public hal::Wheels {
 
   double sign = 1.0;
   bool by_wheel = false;
-  int stop_after = -1;  ///< commands, until somebody asks to stop
+  int stop_after = -1;    ///< commands, until somebody asks to stop
+  int lost_after = -1;    ///< commands, the link
+  int silent_after = -1;  ///< commands, no samples
   int commands = 0;
   hal::WheelSample last;
 
@@ -83,6 +87,34 @@ TEST(Spin, WhoeverStopsItFindsTheWheelsAtRest) {
   EXPECT_EQ(spin_wheel({.wheel = 0, .radps = 2.0, .seconds = 3600.0}, wheels, base, signals), kFailed);
   EXPECT_EQ(wheels.commands, 3);
   for (const double radps : wheels.last.wheel_radps) EXPECT_EQ(radps, 0.0);
+}
+
+/// What is thrown by a spin of wheels that are lost in it, and what was said before.
+std::string sentence_of_the_lost(CabledWheels& wheels, double seconds) {
+  SignalInbox signals;
+  testing::internal::CaptureStdout();
+  std::string sentence;
+  try {
+    spin_wheel({.wheel = 0, .radps = 2.0, .seconds = seconds}, wheels, config::WheelBase{}, signals);
+  } catch (const std::runtime_error& error) {
+    sentence = error.what();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "") << "a figure of before";
+  return sentence;
+}
+
+TEST(Spin, ALostLinkEndsItAtOnceAndNobodyKnowsWhetherTheWheelStands) {
+  CabledWheels wheels{config::WheelBase{}};
+  wheels.lost_after = 2;
+  EXPECT_EQ(sentence_of_the_lost(wheels, 3600.0),
+            "link to the wheels lost, can0: the bus is cut: whether wheel 1 stands is not known; use the stop button");
+  EXPECT_EQ(wheels.commands, 3) << "and they were told to stand, should they hear it";
+}
+
+TEST(Spin, WheelsThatFallSilentAreLost) {
+  CabledWheels wheels{config::WheelBase{}};
+  wheels.silent_after = 2;
+  EXPECT_THAT(sentence_of_the_lost(wheels, 0.1), HasSubstr("whether wheel 1 stands is not known"));
 }
 
 TEST(Spin, AWheelThatTurnsTheOtherWayFails) {

@@ -140,7 +140,7 @@ TEST_F(Hardware, ItListsWhatIsThereAndFailsWhereADeviceIsNot) {
 }
 
 TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
-  const hal::cia402::Emulator drives{std::uint8_t{3}};
+  hal::cia402::Emulator drives{std::uint8_t{3}};
   hal::mti::Emulator gyro;
   gyro.with_board([](hal::mti::EmulatedMti& mti) { mti.rate_radps = 1.25; });
   const hal::scip::Emulator scanner{{}, [t_ns = std::int64_t{0}]() mutable {
@@ -167,6 +167,12 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
   for (const std::string value : {"wheels: wheel 1 0.00, ", "gyro: 1.25 rad/s, [0-9]+ ms old", "kicker: charge ",
                                   "range finder: 2.00 m in front; [0-9]+/s", "referee box: last word WELCOME"})
     EXPECT_THAT(trivela->output(), testing::ContainsRegex(value));
+  drives.with_board([](const hal::cia402::EmulatedDrives& base) {
+    for (const auto& drive : base.drives()) {
+      EXPECT_EQ(drive.state(), hal::cia402::DriveState::kSwitchOnDisabled) << "its motor has no power";
+      EXPECT_EQ(drive.boots() + drive.resets(), 0u) << "a fault would be gone";
+    }
+  });
 }
 
 TEST_F(Hardware, AnEmulatedBoardOfAProcessOfItsOwnSaysAPulseOnce) {
@@ -226,6 +232,7 @@ TEST_F(SpunDrives, AnotherWordTurnsNothing) {
   EXPECT_EQ(answered(*trivela, "spin 1\n"), 1);
   EXPECT_THAT(trivela->errors(), HasSubstr("not confirmed: no wheel was turned"));
   EXPECT_EQ(drives_.output().find("the wheels turn"), std::string::npos);
+  EXPECT_EQ(drives_.output().find("drive "), std::string::npos) << "no state was left: " << drives_.output();
 }
 
 TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {

@@ -58,9 +58,9 @@ class DrivesOnABus {
   explicit DrivesOnABus(config::Cia402Device settings = {.gear = 12.0}) : settings_(std::move(settings)) { start(); }
 
   /// Another start of the program.
-  void start() {
+  void start(hal::WheelsUse use = hal::WheelsUse::kDrive) {
     client = std::make_unique<hal::cia402::Drives>(std::make_unique<BusOfDrives>(drives, now_ns, plugged), settings_,
-                                                   kicking::WheelBase{});
+                                                   kicking::WheelBase{}, use);
   }
 
   void run(double span_s) {
