@@ -93,6 +93,17 @@ TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
   EXPECT_TRUE(log.sessions()[0].closed_t_ns);
 }
 
+TEST_F(NodeProgramTest, TheRecorderStartsWithARobotsOwnFileThatNamesNoWorld) {
+  std::ofstream{folder / "robot.toml"} << "[domain]\ndomain_id = 17\ntag = \"" << tag << "\"\n[recorder]\nlog = \""
+                                       << (folder / "out.db").string()
+                                       << "\"\n[run]\nrobot_id = 3\n[hal]\nwheels = \"bus\"\n";
+  bus::Writer<msg::KickTruth> writer{participant};
+  Spawned node{program("recorder"), {"--config", (folder / "robot.toml").string()}};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+  node.send(SIGTERM);
+  EXPECT_EQ(node.exit_code(), 0) << node.said();
+}
+
 TEST_F(NodeProgramTest, OdometryOutlivesWheelSamplesThatAreNotNumbers) {
   bus::Writer<msg::DeviceWheels> wheels{participant};
   bus::Reader<msg::Odometry> odometry{participant};
