@@ -48,12 +48,13 @@ TEST(EveningBook, ABrokenBookIsNamed) {
 
 TEST(EveningBook, ABrokenBookIsMendedWithWhatItsMessageSays) {
   const e2e::Folder folder;
-  for (const char* const drive : {"1_standing.db", "2_straight.db"}) {
-    evaluator::log::Session session;
-    session.uuid = std::string("00000000-0000-4000-8000-00000000000") + drive[0];
-    evaluator::log::Writer log{folder / drive, session, {}};
-    if (drive[0] == '1') log.finalise();
-  }
+  const auto session = [](char last) {
+    evaluator::log::Session begun;
+    begun.uuid = std::string("00000000-0000-4000-8000-00000000000") + last;
+    return begun;
+  };
+  evaluator::log::Writer{folder / "1_standing.db", session('1'), {}}.finalise();
+  const evaluator::log::Writer running{folder / "2_straight.db", session('2'), {}};
   touch(folder / "3_lateral.db");
   touch(folder / "evening.json");
   std::string said;
