@@ -12,7 +12,7 @@ namespace {
 
 std::string answer_to(Person& person, const std::string& question, const calibration::EveningBook& book) {
   const auto said = person.ask(question);
-  const std::string answer = said ? config::trimmed(*said) : "q";
+  std::string answer = said ? config::trimmed(*said) : "q";
   if (answer == "q" || answer == "Q" || answer == "quit")
     throw LeftForToday{
         fmt::format("left for today; the same command goes on from here, with {}", book.folder().string())};
