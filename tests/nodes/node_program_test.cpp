@@ -143,8 +143,10 @@ TEST_F(NodeProgramTest, WhatRealTimeIsRefusedIsSaidAndTheNodeGoesOn) {
   Spawned node{"/usr/bin/prlimit", words};
   ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
   ASSERT_TRUE(node.says("robot 1 (cambada_1)")) << node.said();
-  EXPECT_THAT(node.said(),
-              AllOf(HasSubstr("real-time scheduling was not permitted"), HasSubstr("memory could not be locked")));
+  EXPECT_THAT(node.said(), HasSubstr("real-time scheduling was not permitted"));
+  // The address sanitizer answers mlockall() itself, and says yes.
+  if (std::string{TRIVELA_BINARY_DIR}.find("asan") == std::string::npos)
+    EXPECT_THAT(node.said(), HasSubstr("memory could not be locked"));
   node.send(SIGTERM);
   EXPECT_EQ(node.exit_code(), 0) << node.said();
 }
