@@ -11,10 +11,9 @@ namespace trivela::security {
 
 /// A team's keys, a folder that its owner alone may read:
 ///
-///     authority/                permissions_ca.{pem,key}, identity_ca_N.{pem,key}: never leaves the team's own machine
-///     robot_N/                  what is copied to robot N, no more: identity_ca.pem, permissions_ca.pem,
-///     governance.p7s,
-///                               and of each node NODE.pem, NODE.key, NODE.p7s
+///     authority/   permissions_ca.{pem,key}, identity_ca_N.{pem,key}: never leaves the team's own machine
+///     robot_N/     all that is copied to robot N: identity_ca.pem, permissions_ca.pem, governance.p7s,
+///                  and NODE.pem, NODE.key, NODE.p7s of each node
 ///
 /// Each robot has an identity authority of its own: a node of another robot is a stranger there, whatever it may do at
 /// home. Every function writes a robot's folder anew beside the old one and then puts it in its place; throws

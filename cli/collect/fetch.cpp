@@ -50,6 +50,9 @@ std::string listing_command(const std::string& path) {
       quoted);
 }
 
+/// A host without its user.
+std::string machine_of(const std::string& host) { return host.substr(host.find('@') + 1); }
+
 bool is_log(const std::string& path) { return path.ends_with(".db"); }
 
 /// What is wrong with a fetched log; empty: nothing.
@@ -103,7 +106,7 @@ void fetch_log(const LogHost& host, const std::string& path, const RemoteFiles& 
 LogHost log_host(const std::string& text, const std::string& folder) {
   const auto colon = text.find(':');
   LogHost host{text.substr(0, colon), colon == std::string::npos ? folder : text.substr(colon + 1)};
-  const std::string machine = host.host.substr(host.host.find('@') == std::string::npos ? 0 : host.host.find('@') + 1);
+  const std::string machine = machine_of(host.host);
   if (machine.empty() || host.path.empty() || text.front() == '-' || machine.front() == '-' ||
       host.host.find('/') != std::string::npos)
     throw UsageError{fmt::format("\"{}\" is no [USER@]HOST[:PATH] of a robot", text)};
@@ -128,7 +131,7 @@ Fetched fetch_logs(const LogHost& host, const fs::path& to, const std::string& s
     return fetched;
   }
   const RemoteFiles files = files_of(listed.output);
-  const fs::path folder = to / host.host.substr(host.host.find('@') == std::string::npos ? 0 : host.host.find('@') + 1);
+  const fs::path folder = to / machine_of(host.host);
   std::error_code error;
   fs::create_directories(folder, error);
   for (const auto& [path, file] : files) {

@@ -7,6 +7,7 @@
 #include "cli/collect/fetch.hpp"
 #include "cli/collect/remote_command.hpp"
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::cli {
@@ -106,13 +107,10 @@ TEST_F(Collect, ATeamsFileStandsForItsRobots) {
                                    << "\"\n[domains]\nrobot = 60\nteam = 61\n[[robot]]\nnumber = 3\n"
                                    << "address = \"172.16.39.3\"\nrobot = \"" TRIVELA_SOURCE_DIR
                                       "/config/robots/cambada_1.toml\"\n[base]\naddress = \"172.16.39.9\"\n";
-  CLI::App app;
-  int exit_code = -1;
-  add_collect(app, exit_code);
-  testing::internal::CaptureStdout();
-  app.parse(std::vector<std::string>{path("ssh"), "--ssh", path("here"), "--to", path("team.toml"), "collect"});
-  EXPECT_THAT(testing::internal::GetCapturedStdout(), AllOf(HasSubstr("172.16.39.3"), HasSubstr("missing: nothing")));
-  EXPECT_EQ(exit_code, kDone);
+  const VerbRun run =
+      run_verbs({add_collect}, {"collect", path("team.toml"), "--to", path("here"), "--ssh", path("ssh")});
+  EXPECT_THAT(run.out, AllOf(HasSubstr("172.16.39.3"), HasSubstr("missing: nothing")));
+  EXPECT_EQ(run.exit_code, kDone);
   EXPECT_TRUE(fs::exists(path("here") / "172.16.39.3" / "team-3-20261122T100000Z.db"));
 }
 

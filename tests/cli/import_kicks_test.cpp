@@ -7,6 +7,7 @@
 
 #include "cli/import/kick_labels.hpp"
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::cli {
@@ -22,18 +23,9 @@ const std::string kTable2 = std::string(TRIVELA_SOURCE_DIR) + "/config/labels/pa
 class ImportKicks : public evaluator::LogTest {
  protected:
   std::string run(const std::string& words) {
-    CLI::App app;
-    add_import(app, exit_code_);
-    add_report(app, exit_code_);
-    add_compare(app, exit_code_);
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(words);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      throw;
-    }
-    return testing::internal::GetCapturedStdout();
+    const VerbRun run = run_verbs({add_import, add_report, add_compare}, words);
+    exit_code_ = run.exit_code;
+    return run.out;
   }
 
   std::string import(const std::string& name, const std::string& csv) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 #include "tests/evaluator/team_log_writing.hpp"
 #include "tests/evaluator/zip_writing.hpp"
@@ -30,26 +31,7 @@ const char* const kShortGame =
 
 class ImportRefbox : public evaluator::LogTest {
  protected:
-  struct Result {
-    std::string out;
-    int exit_code = -1;
-  };
-
-  Result run(const std::string& words) const {
-    CLI::App app;
-    Result result;
-    add_import(app, result.exit_code);
-    add_report(app, result.exit_code);
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(words);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      throw;
-    }
-    result.out = testing::internal::GetCapturedStdout();
-    return result;
-  }
+  static VerbRun run(const std::string& words) { return run_verbs({add_import, add_report}, words); }
 
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
@@ -77,7 +59,7 @@ class ImportRefbox : public evaluator::LogTest {
 };
 
 TEST_F(ImportRefbox, ARealMatchIsPrintedAsItWasMeasured) {
-  const Result result = run("import refbox " + kMatchOf2018);
+  const VerbRun result = run("import refbox " + kMatchOf2018);
   EXPECT_EQ(result.exit_code, kDone);
   EXPECT_THAT(result.out, HasSubstr("33       15.3      13.0            8.40             3.9             39.6"));
   EXPECT_THAT(result.out, HasSubstr("Nothing is wrong with the files"));
@@ -88,7 +70,7 @@ TEST_F(ImportRefbox, ARealMatchIsPrintedAsItWasMeasured) {
 }
 
 TEST_F(ImportRefbox, MakesAMatchLogThatSaysWhereItIsFrom) {
-  const Result result = run("import refbox " + kMatchOf2018 + " --out " + path().string());
+  const VerbRun result = run("import refbox " + kMatchOf2018 + " --out " + path().string());
   EXPECT_EQ(result.exit_code, kDone);
   EXPECT_THAT(result.out, HasSubstr("170 words of the referee, 0 world states"));
   EXPECT_THAT((rows<int, int>("SELECT count(*), sum(playing) FROM referee")), ElementsAre(std::tuple(170, 33)));
@@ -99,7 +81,7 @@ TEST_F(ImportRefbox, MakesAMatchLogThatSaysWhereItIsFrom) {
   EXPECT_FALSE(session.simulated_clock);
   EXPECT_EQ(session.realtime_offset_ns, 1529326805014'000'000);
   EXPECT_TRUE(session.closed_t_ns);
-  const Result report = run("report " + path().string());
+  const VerbRun report = run("report " + path().string());
   EXPECT_EQ(report.exit_code, kDone);
   EXPECT_THAT(report.out, HasSubstr("imported from the referee box's 20180618_085311.msl: 170 commands, no kick"));
   EXPECT_THAT(report.out, HasSubstr("there are no kicks"));
@@ -111,7 +93,7 @@ TEST_F(ImportRefbox, RobotsAndBallOfAnArchiveStandInTheLogByGameTime) {
                                                           {"x.B.msl", team_log(1000000, 50)},
                                                           {"x.msl", kShortGame, false},
                                                           {"readme.txt", "hello"}}));
-  const Result result = run("import refbox " + zip + " --out " + path().string());
+  const VerbRun result = run("import refbox " + zip + " --out " + path().string());
   EXPECT_EQ(result.exit_code, kDone) << result.out;
   EXPECT_THAT(result.out, HasSubstr("4 words of the referee, 100 world states of the cyan team; --team takes"));
   EXPECT_THAT((rows<int, int, std::int64_t, std::int64_t>("SELECT robot_id, count(*), min(t_ns), max(t_ns) FROM "
@@ -146,7 +128,7 @@ TEST_F(ImportRefbox, VelocitiesThatAreNotToldFollowFromThePoses) {
   }
   log.close();
   const std::string files = write("x.A.msl", out.str()) + " " + write("x.msl", kShortGame);
-  const Result result = run("import refbox " + files + " --out " + path().string());
+  const VerbRun result = run("import refbox " + files + " --out " + path().string());
   EXPECT_THAT(result.out, HasSubstr("8 world states of the cyan team; 2 without a velocity left out"));
   EXPECT_THAT((rows<int>("SELECT count(*) FROM world_states WHERE abs(vx_mps - 2.0) < 1e-9 AND ball_known = 0")),
               ElementsAre(std::tuple(8)));

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::cli {
@@ -13,18 +14,10 @@ using testing::HasSubstr;
 class MergeVerb : public evaluator::LogTest {
  protected:
   std::string said(std::vector<std::string> words) {
-    CLI::App app;
-    add_merge(app, exit_code_);
-    std::ranges::reverse(words);
-    words.emplace_back("merge");
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(words);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      throw;
-    }
-    return testing::internal::GetCapturedStdout();
+    words.insert(words.begin(), "merge");
+    const VerbRun run = run_verbs({add_merge}, words);
+    exit_code_ = run.exit_code;
+    return run.out;
   }
 
   std::string robot_log(const std::string& name, int robot_id) {

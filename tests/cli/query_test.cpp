@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::cli {
@@ -22,20 +23,10 @@ class QueryVerb : public evaluator::LogTest {
   }
 
   std::string said(std::vector<std::string> words) const {
-    CLI::App app;
-    int exit_code = -1;
-    add_query(app, exit_code);
-    std::ranges::reverse(words);
-    words.emplace_back("query");
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(words);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      throw;
-    }
-    EXPECT_EQ(exit_code, kDone);
-    return testing::internal::GetCapturedStdout();
+    words.insert(words.begin(), "query");
+    const VerbRun run = run_verbs({add_query}, words);
+    EXPECT_EQ(run.exit_code, kDone);
+    return run.out;
   }
 
   std::string refusal(std::vector<std::string> words) const {

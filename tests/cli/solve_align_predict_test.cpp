@@ -6,6 +6,7 @@
 
 #include "cli/row_verbs.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/cli/verb_run.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::cli {
@@ -189,18 +190,9 @@ class CommandLine : public testing::Test {
  protected:
   /// Standard output of `trivela ...`.
   std::string run(const std::string& line) {
-    CLI::App app;
-    add_solve(app, exit_code_);
-    add_align(app, exit_code_);
-    add_predict(app, exit_code_);
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(line);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      throw;
-    }
-    return testing::internal::GetCapturedStdout();
+    const VerbRun run = run_verbs({add_solve, add_align, add_predict}, line);
+    exit_code_ = run.exit_code;
+    return run.out;
   }
   int exit_code_ = kDone;
 };

@@ -8,6 +8,7 @@
 
 #include "cli/verbs.hpp"
 #include "config/settings.hpp"
+#include "tests/cli/verb_run.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -29,22 +30,10 @@ class TeamVerb : public testing::Test {
 
   /// The exit code; what was said in `said`. Throws what the program's main turns into a sentence.
   int run(std::vector<std::string> words) {
-    CLI::App app;
-    int exit_code = -1;
-    add_team(app, exit_code);
-    std::ranges::reverse(words);
-    words.emplace_back("team");
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    try {
-      app.parse(words);
-    } catch (...) {
-      testing::internal::GetCapturedStdout();
-      testing::internal::GetCapturedStderr();
-      throw;
-    }
-    said = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
-    return exit_code;
+    words.insert(words.begin(), "team");
+    const VerbRun run = run_verbs({add_team}, words);
+    said = run.out + run.errors;
+    return run.exit_code;
   }
   std::vector<std::string> configure(const std::string& more = "") const {
     std::vector<std::string> words{"configure", team(), "--robot", "2", "--out", (folder / "out").string()};

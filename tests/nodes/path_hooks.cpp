@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <map>
@@ -20,11 +21,12 @@ namespace {
 // The names are looked up afterwards: who looks up inside malloc() may be asked to lock and to allocate.
 struct Callers {
   std::array<void*, 65536> at{};
-  std::size_t count = 0;
+  std::atomic<std::size_t> count = 0;  // another thread may look
 
   void add(void* caller) {
-    if (count < at.size()) at[count] = caller;
-    ++count;
+    const std::size_t i = count;
+    if (i < at.size()) at[i] = caller;
+    count = i + 1;
   }
 };
 
@@ -43,7 +45,7 @@ Lock real_lock() {
 
 std::vector<trivela::tests::Asked> by_object(const Callers& callers) {
   std::map<std::string, std::size_t> times;
-  for (std::size_t i = 0; i < std::min(callers.count, callers.at.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(callers.count.load(), callers.at.size()); ++i) {
     Dl_info info{};
     const bool known = dladdr(callers.at[i], &info) != 0 && info.dli_fname != nullptr;
     ++times[known ? std::filesystem::path(info.dli_fname).filename().string() : "?"];
@@ -89,6 +91,9 @@ void PathHooks::start() { counting = true; }
 void PathHooks::stop() { counting = false; }
 std::vector<Asked> PathHooks::allocations() { return by_object(allocating); }
 std::vector<Asked> PathHooks::mutex_waits() { return by_object(waiting); }
-void PathHooks::clear() { allocating.count = waiting.count = 0; }
+void PathHooks::clear() {
+  allocating.count = 0;
+  waiting.count = 0;
+}
 
 }  // namespace trivela::tests
