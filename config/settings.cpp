@@ -116,7 +116,7 @@ Settings load_settings(const std::filesystem::path& path) {
 
 void make_files_whole(Settings& settings) {
   for (std::string* const file : files_of(settings)) {
-    if (!file->empty()) *file = std::filesystem::absolute(*file).string();
+    if (!file->empty()) *file = std::filesystem::absolute(*file).lexically_normal().string();
   }
 }
 

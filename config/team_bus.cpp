@@ -23,26 +23,6 @@ std::string peer_elements(const Team& team) {
 
 }  // namespace
 
-std::string robot_bus_xml(const std::string& tag) {
-  return fmt::format(R"(<CycloneDDS xmlns="https://cdds.io/config">
-  <Domain Id="any">
-    <General>
-      <Interfaces><NetworkInterface name="lo"/></Interfaces>
-      <AllowMulticast>false</AllowMulticast>
-    </General>
-    <Discovery>
-      <Tag>{}</Tag>
-      <ParticipantIndex>auto</ParticipantIndex>
-      <MaxAutoParticipantIndex>60</MaxAutoParticipantIndex>
-      <SPDPInterval>2s</SPDPInterval>
-      <Peers><Peer address="127.0.0.1"/></Peers>
-    </Discovery>
-  </Domain>
-</CycloneDDS>
-)",
-                     tag);
-}
-
 std::string team_bus_xml(const Team& team, const std::string& interface) {
   const bool by_group = !team.team.group.empty();
   const std::string where =

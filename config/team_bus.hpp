@@ -4,7 +4,7 @@
 
 #include "config/team.hpp"
 
-/// The DDS buses of a team: each robot's own on its loopback, and the one between the machines.
+/// The DDS bus between the machines of a team.
 namespace trivela::config {
 
 /// Processes of one machine that may be on the team's bus at once, 0 to this. Without a group every one of these ports
@@ -14,10 +14,6 @@ inline constexpr unsigned kTeamLastParticipantIndex = 2;
 /// How often a machine says on the team's bus that it is there: a robot that was forgotten in an outage is found again
 /// within it. Longer among peers, who are asked one by one.
 inline unsigned team_discovery_interval_s(const Team& team) { return team.team.group.empty() ? 4 : 2; }
-
-/// Cyclone's configuration of a bus that never leaves the machine, for `tag` (A-Z a-z 0-9 . _ -) alone: what
-/// bus::loopback() has.
-std::string robot_bus_xml(const std::string& tag);
 
 /// Cyclone's configuration of the bus between the machines, for one whose interface is `interface`: messages that no
 /// radio has to cut, discovery by the team's group, or by the addresses of robots, base and team.peers.

@@ -9,10 +9,6 @@
 namespace trivela::config {
 namespace {
 
-void make_absolute(std::string& name) {
-  if (!name.empty()) name = std::filesystem::absolute(name).lexically_normal().string();
-}
-
 /// KEY="value", as sh and systemd both read it.
 std::string env_line(const char* key, const std::string& value) {
   if (value.find_first_of("\"\\$`\n") != std::string::npos)
@@ -21,24 +17,24 @@ std::string env_line(const char* key, const std::string& value) {
 }
 
 std::string env_text(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder,
-                     const std::filesystem::path& shipped_folder) {
+                     const std::filesystem::path& shipped_folder, const std::string& tag) {
   std::string text;
   if (!shipped_folder.empty()) text += env_line("TRIVELA_CONFIG", shipped_folder.string());
   text += env_line("TRIVELA_SETTINGS", (folder / "settings.toml").string());
   text += env_line("TRIVELA_FOLDER", team.team.logs);
+  if (!shipped_folder.empty())
+    text += env_line("CYCLONEDDS_URI", "file://" + (shipped_folder / "cyclonedds/loopback.xml").string());
+  text += env_line("TRIVELA_TAG", tag);
   if (robot == nullptr) return text + env_line("TRIVELA_NODES", "recorder refbox");
   text += env_line("TRIVELA_NODES", "recorder odometry world_state kick_decision kicker_driver shot_observer");
   text += env_line("TRIVELA_FLAGS_odometry", "--realtime 50");
   return text + env_line("TRIVELA_FLAGS_kicker_driver", "--realtime 50");
 }
 
-Settings settings_in(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder) {
+Settings settings_in(const Team& team, const TeamRobot* robot) {
   Settings settings = robot == nullptr ? settings_of_base(team) : settings_of(team, *robot);
-  make_absolute(settings.run.robot);
-  make_absolute(settings.run.field_file);
-  make_absolute(settings.hal.replay_log);
-  make_absolute(settings.kick_decision.learned_model);
-  settings.domain.dds_file = (folder / "robot_bus.xml").string();
+  make_files_whole(settings);
+  settings.run.scenario = Run{}.scenario;  // the simulator's
   return settings;
 }
 
@@ -47,12 +43,11 @@ Settings settings_in(const Team& team, const TeamRobot* robot, const std::filesy
 std::vector<TeamFile> team_files(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder,
                                  const std::filesystem::path& shipped_folder) {
   const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
-  const Settings settings = settings_in(team, robot, whole);
+  const Settings settings = settings_in(team, robot);
   const std::string interface = robot == nullptr ? team.interface_of_base() : team.interface_of(*robot);
   return {{"settings.toml", to_short_toml_text(settings, {"run.robot_id", "run.robot", "domain.domain_id"})},
-          {"robot_bus.xml", robot_bus_xml(settings.domain.tag)},
           {"team_bus.xml", team_bus_xml(team, interface)},
-          {"robot.env", env_text(team, robot, whole, shipped_folder)}};
+          {"robot.env", env_text(team, robot, whole, shipped_folder, settings.domain.tag)}};
 }
 
 }  // namespace trivela::config

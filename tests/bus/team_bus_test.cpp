@@ -1,5 +1,6 @@
 // What `trivela team configure` writes for Cyclone, on real participants.
 #include "config/team_bus.hpp"
+#include "config/team_settings.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -40,8 +41,18 @@ msg::Referee a_word() {
 }
 
 TEST(TeamBusXml, TwoRobotsOwnBusesInOneDomainNeverHearEachOther) {
-  const std::string tag = fmt::format("own-{}", getpid());
-  const WirePair robots = wired(config::robot_bus_xml(tag + "-1"), config::robot_bus_xml(tag + "-2"));
+  const config::Team team = team_here();
+  const auto own_bus = [&](std::uint32_t robot) {
+    return loopback(0, config::tag_of(team, {.number = robot,
+                                             .address = {},
+                                             .robot = {},
+                                             .policy = {},
+                                             .settings = {},
+                                             .interface = {},
+                                             .lines = {}}))
+        .xml;
+  };
+  const WirePair robots = wired(own_bus(1), own_bus(2));
   const WirePair again = {{robots.b.domain_id % 100 + 1, robots.a.xml}, {}};
   Reader<msg::Referee> other{Participant(robots.b)};
   Writer<msg::Referee> writer{Participant(robots.a)};

@@ -67,7 +67,7 @@ TEST_F(TeamVerb, CheckSaysEverythingThatIsWrongWithItsLine) {
 
 TEST_F(TeamVerb, ConfigureWritesOnceAndNeverOverWhatWasEdited) {
   EXPECT_EQ(run(configure()), kDone);
-  EXPECT_THAT(said, AllOf(HasSubstr("settings.toml"), HasSubstr("robot_bus.xml"), HasSubstr("robot.env")));
+  EXPECT_THAT(said, AllOf(HasSubstr("settings.toml"), HasSubstr("team_bus.xml"), HasSubstr("robot.env")));
   EXPECT_EQ(config::load_settings(folder / "out" / "settings.toml").run.robot_id, 2U);
   EXPECT_EQ(run(configure()), kDone);
   EXPECT_THAT(said, HasSubstr("nothing to write"));

@@ -61,7 +61,6 @@ TEST(TeamFiles, SettingsReadBackAreThoseOfTheTeam) {
   const WrittenFile written{text_in(team_files(team, robot, "/etc/trivela/here", ""), "settings.toml")};
   const Settings read = load_settings(written.path());
   Settings meant = settings_of(team, *robot);
-  meant.domain.dds_file = "/etc/trivela/here/robot_bus.xml";
   meant.run.robot = std::filesystem::absolute(meant.run.robot).lexically_normal().string();
   meant.run.scenario = read.run.scenario;  // the simulator's
   EXPECT_EQ(to_toml_text(read), to_toml_text(meant));
@@ -88,6 +87,8 @@ TEST(TeamFiles, TheEnvironmentNamesWhatTheLauncherReads) {
   const Team team = five_robots();
   const std::string robot = text_in(team_files(team, team.robot(1), "/here", "/etc/trivela"), "robot.env");
   EXPECT_THAT(robot, HasSubstr("TRIVELA_CONFIG=\"/etc/trivela\"\nTRIVELA_SETTINGS=\"/here/settings.toml\"\n"));
+  EXPECT_THAT(robot,
+              HasSubstr("CYCLONEDDS_URI=\"file:///etc/trivela/cyclonedds/loopback.xml\"\nTRIVELA_TAG=\"example-1\"\n"));
   EXPECT_THAT(robot, HasSubstr("TRIVELA_FLAGS_kicker_driver=\"--realtime 50\"\n"));
   const std::string base = text_in(team_files(team, nullptr, "/here", ""), "robot.env");
   EXPECT_THAT(base, HasSubstr("TRIVELA_NODES=\"recorder refbox\"\n"));
