@@ -3,6 +3,7 @@
 #include <dds/dds.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "bus/cyclone.hpp"
@@ -68,6 +69,8 @@ bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout
 }
 
 bool AnyWriter::other_writer_exists(std::chrono::nanoseconds timeout) const {
+  // Of a process that has just ended, what it said before can still come, and its farewell after it.
+  constexpr std::chrono::milliseconds kFarewell{200};
   const auto deadline = Clock::now() + timeout;
   dds_instance_handle_t self = 0;
   checked(dds_get_instance_handle(writer_.handle(), &self), "dds_get_instance_handle", topic_);
@@ -78,20 +81,26 @@ bool AnyWriter::other_writer_exists(std::chrono::nanoseconds timeout) const {
                                  "dds_create_readcondition", "DCPSPublication"));
   Waitset waitset(participant_);
   waitset.attach(condition.handle(), 0);
+  std::map<dds_instance_handle_t, Clock::time_point> others;  // since when they are known
   for (;;) {
     void* sample = nullptr;
     dds_sample_info_t info;
     while (checked(dds_take(publications.handle(), &sample, &info, 1, 1), "dds_take", "DCPSPublication") > 0) {
       const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
-      const bool other = info.valid_data && info.instance_state == DDS_ALIVE_INSTANCE_STATE &&
-                         info.instance_handle != self && topic_ == endpoint.topic_name &&
-                         owner_of(endpoint.qos) == owner_;
+      if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+        others.erase(info.instance_handle);
+      } else if (info.valid_data && info.instance_handle != self && topic_ == endpoint.topic_name &&
+                 owner_of(endpoint.qos) == owner_) {
+        others.try_emplace(info.instance_handle, Clock::now());
+      }
       checked(dds_return_loan(publications.handle(), &sample, 1), "dds_return_loan", "DCPSPublication");
-      if (other) return true;
     }
-    const auto left = deadline - Clock::now();
-    if (left <= left.zero()) return false;
-    waitset.wait(left);
+    using Other = decltype(others)::value_type;
+    const auto wake =
+        others.empty() ? deadline : std::ranges::min_element(others, {}, &Other::second)->second + kFarewell;
+    const auto now = Clock::now();
+    if (now >= wake) return !others.empty();
+    waitset.wait(wake - now);
   }
 }
 

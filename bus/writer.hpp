@@ -25,7 +25,8 @@ class AnyWriter {
   /// Waits until at least n readers are matched; false if the timeout came first.
   [[nodiscard]] bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const;
 
-  /// Whether another writer of this topic carries the same WriterOptions::owner, looking for up to the timeout.
+  /// Whether another writer of this topic carries the same WriterOptions::owner, looking for up to the timeout. One
+  /// that is heard of counts once it has stayed for 200 ms: a process that is leaving is none.
   bool other_writer_exists(std::chrono::nanoseconds timeout) const;
 
   const std::string& topic() const { return topic_; }

@@ -34,11 +34,11 @@ RemoteFiles files_of(const std::string& listing) {
   lines >> now_s;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
-    std::int64_t size_B = 0;
+    std::int64_t bytes = 0;
     double changed_s = 0.0;
     std::string path;
-    if (!(words >> size_B >> changed_s) || !std::getline(words >> std::ws, path)) continue;
-    files[path] = {size_B, now_s - static_cast<std::int64_t>(changed_s)};
+    if (!(words >> bytes >> changed_s) || !std::getline(words >> std::ws, path)) continue;
+    files[path] = {bytes, now_s - static_cast<std::int64_t>(changed_s)};
   }
   return files;
 }
@@ -58,10 +58,9 @@ bool is_log(const std::string& path) { return path.ends_with(".db"); }
 /// What is wrong with a fetched log; empty: nothing.
 std::string wrong_with(const fs::path& log, const RemoteFile& there) {
   std::error_code error;
-  const auto size_B = fs::file_size(log, error);
+  const auto bytes = fs::file_size(log, error);
   if (error) return "it did not come";
-  if (static_cast<std::int64_t>(size_B) != there.size_B)
-    return fmt::format("{} of {} bytes came", size_B, there.size_B);
+  if (static_cast<std::int64_t>(bytes) != there.size_B) return fmt::format("{} of {} bytes came", bytes, there.size_B);
   std::string why;
   try {
     const evaluator::log::Reader reader(log, evaluator::log::Check::kQuick);

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <future>
 #include <stdexcept>
 
 #include "bus/cyclone.hpp"
@@ -231,6 +232,16 @@ TEST(PubSub, ASecondWriterOfTheSameOwnerIsNoticed) {
   const Writer<msg::KickerStatus> second(there, {.owner = "kicker_driver/1"});
   EXPECT_TRUE(driver.other_writer_exists(seconds(10)));
   EXPECT_TRUE(second.other_writer_exists(seconds(10)));
+}
+
+TEST(PubSub, AWriterThatIsLeavingIsNoSecondOne) {
+  const auto wire = fresh_wire_pair();
+  const Participant here(wire.a), there(wire.b);
+  const Writer<msg::KickerStatus> driver(here, {.owner = "kicker_driver/1"});
+  auto found = std::async(std::launch::async, [&] { return driver.other_writer_exists(milliseconds(300)); });
+  while (found.wait_for(milliseconds(0)) != std::future_status::ready)
+    const Writer<msg::KickerStatus> leaving(there, {.owner = "kicker_driver/1"});
+  EXPECT_FALSE(found.get());
 }
 
 }  // namespace

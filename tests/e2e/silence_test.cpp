@@ -1,9 +1,11 @@
 // What a real-time match says of a node that stands still and of a recorder that is killed, against a witness outside:
 // another listener on the bus, who hears the streams and the coil for himself.
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <initializer_list>
 #include <map>
@@ -25,7 +27,6 @@ namespace trivela::e2e {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -152,6 +153,8 @@ std::pair<std::int64_t, std::int64_t> longest_gap(const std::vector<std::int64_t
   return {from, to};
 }
 
+std::int64_t length_ns(const std::pair<std::int64_t, std::int64_t>& gap) { return gap.second - gap.first; }
+
 /// The kicks that a driver accepted, by these logs.
 std::set<std::int64_t> accepted_in(std::initializer_list<const Reader*> logs) {
   std::set<std::int64_t> kicks;
@@ -165,13 +168,16 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   Match match;
   Witness& witness = match.witness;
   ASSERT_TRUE(witness.hears_until([&] { return witness.odometry_t_ns.size() > 50; }));
-  match.node("odometry").signal(SIGSTOP);
-  const std::int64_t stopped_t_ns = witness.referee_t_ns;
-  // The rest of the match goes on for 1.5 s of its own time.
-  ASSERT_TRUE(witness.hears_until([&] { return witness.referee_t_ns > stopped_t_ns + 1'500'000'000; }));
-  const std::size_t before = witness.odometry_t_ns.size();
-  match.node("odometry").signal(SIGCONT);
-  ASSERT_TRUE(witness.hears_until([&] { return witness.odometry_t_ns.size() > before + 50; }));
+  // Until the witness hears a gap of a second: who goes on may say some of what waited for it meanwhile.
+  for (int attempt = 0; attempt < 5 && length_ns(longest_gap(witness.odometry_t_ns)) <= 1'000'000'000; ++attempt) {
+    match.node("odometry").signal(SIGSTOP);
+    const std::int64_t stopped_t_ns = witness.referee_t_ns;
+    // The rest of the match goes on; not until 0.5 or 1.5 s, when readers that hear nothing are made anew.
+    ASSERT_TRUE(witness.hears_until([&] { return witness.referee_t_ns > stopped_t_ns + 1'250'000'000; }));
+    const std::size_t before = witness.odometry_t_ns.size();
+    match.node("odometry").signal(SIGCONT);
+    ASSERT_TRUE(witness.hears_until([&] { return witness.odometry_t_ns.size() > before + 50; }));
+  }
   match.stop_all();
 
   EXPECT_THAT(match.node("world_state").errors(), HasSubstr("no odometry for 0."));
@@ -179,15 +185,20 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   EXPECT_THAT(match.node("odometry").errors(), HasSubstr("this process stood still for "));
   EXPECT_THAT(match.node("recorder").errors(), HasSubstr("no odometry of robot 1 for 0."));
 
-  // The longest gap that the witness heard is a row with his own times.
-  const auto [from, to] = longest_gap(witness.odometry_t_ns);
-  ASSERT_GT(to - from, 1'000'000'000);
+  // The longest gap that the witness heard is a row with his own times, up to samples that the log says it missed.
+  const std::pair heard = longest_gap(witness.odometry_t_ns);
+  ASSERT_GT(length_ns(heard), 1'000'000'000);
   const Reader log{match.folder / "match.db"};
   const auto silence = rows_of(log,
                                "SELECT from_t_ns, to_t_ns FROM losses WHERE stream = 'odometry' AND robot_id = 1 "
                                "ORDER BY to_t_ns - from_t_ns DESC LIMIT 1");
   ASSERT_THAT(silence, SizeIs(1));
-  EXPECT_THAT(silence[0], ElementsAre(Value{from}, Value{to}));
+  const auto from = std::get<std::int64_t>(silence[0][0]), to = std::get<std::int64_t>(silence[0][1]);
+  EXPECT_LE(from, heard.first);
+  EXPECT_GE(to, heard.second);
+  const auto missed = std::ranges::count_if(witness.odometry_t_ns, [&](auto t_ns) { return from < t_ns && t_ns < to; });
+  EXPECT_LE(missed, number_of(log, "SELECT sum(lost + gaps) FROM losses WHERE stream = 'odometry' AND robot_id = 0"))
+      << fmt::format("{}", fmt::join(losses_of(log), "\n"));
   EXPECT_EQ(number_of(log,
                       "SELECT sum(received + missing) FROM (SELECT received, lost + gaps + overflow + nan_refused "
                       "+ rejected AS missing FROM losses WHERE robot_id > 0)"),

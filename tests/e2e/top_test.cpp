@@ -54,8 +54,9 @@ json last_picture(const Program& top) {
   const std::string text = top.output();
   const std::size_t end = text.rfind('\n');
   if (end == std::string::npos) return {};
-  const std::size_t begin = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
-  return json::parse(text.substr(begin == std::string::npos ? 0 : begin + 1, end));
+  const std::size_t before = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return json::parse(text.substr(begin, end - begin));
 }
 
 json topic_of(const json& picture, const std::string& name) {
