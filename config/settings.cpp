@@ -87,10 +87,17 @@ void check_group(const Refbox& refbox, const std::string& source) {
       fmt::format("{}: refbox.group = \"{}\": expected our multicast group, 224.16.32.N", source, refbox.group)};
 }
 
+void check_standby(const Settings& settings, const std::string& source) {
+  if (!settings.run.lockstep || !settings.kick_decision.standby) return;
+  throw Error{
+      fmt::format("{}: run.lockstep = true, but kick_decision.standby = true: in lockstep nobody takes over", source)};
+}
+
 /// What follows from several settings together.
 void settle(Settings& settings, const std::string& source) {
   check_policies(settings.kick_decision, source);
   check_lockstep(settings, source);
+  check_standby(settings, source);
   check_group(settings.refbox, source);
   if (settings.recorder.log.empty())
     throw Error{fmt::format("{}: recorder.log = \"\": expected a file, a folder or a pattern", source)};

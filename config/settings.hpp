@@ -80,6 +80,7 @@ struct KickDecision {
   bool shadows = true;             ///< judge with the other policies as well
   double order_validity_s = 0.05;  ///< an order older than this is refused
   DriveMode drive = DriveMode::kAlways;
+  bool standby = false;  ///< a second decision node stands by; in real time alone
 };
 
 /// What a kicker's board may be able to do beyond firing (hal::KickerCapabilities).

@@ -263,6 +263,7 @@ void fields(V& v, KickDecision& k) {
   v("shadows", k.shadows);
   v("order_validity_s", k.order_validity_s, Range{0.001, 1.0});
   v("drive", k.drive);
+  v("standby", k.standby);
 }
 
 template <class V>

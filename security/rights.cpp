@@ -41,6 +41,8 @@ std::vector<Rights> of_the_chain() {
        topics(nodes::OdometryInputs{}) + these<DeviceGyro>()},
       {"world_state", these<WorldState>(), topics(nodes::WorldStateInputs{})},
       {"kick_decision", these<KickDecision, KickOrder, DriveCommand, StepDone>(), topics(nodes::KickDecisionInputs{})},
+      {"kick_decision_second", these<KickDecision, KickOrder, DriveCommand, StepDone>(),
+       topics(nodes::KickDecisionInputs{}) + these<DriveCommand>()},
       {"kicker_driver", these<KickerStatus, KickReceipt, DeviceFire, DeviceCharge, DeviceEmulated, StepDone>(),
        topics(nodes::KickerDriverInputs{})},
       {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},

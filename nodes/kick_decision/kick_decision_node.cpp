@@ -29,15 +29,33 @@ void refuse_oracle(const robot::PolicyAssignment& assignment) {
   }
 }
 
+void refuse_second(const NodeContext& context, DecisionNode which) {
+  if (which == DecisionNode::kFirst || context.settings.kick_decision.standby) return;
+  throw std::runtime_error{
+      "kick_decision.standby = false: this robot has one decision node, and its driver would take the second's orders "
+      "for a stranger's"};
+}
+
+/// Of a robot with two, so that the second one's orders are heard when the first is silent for 60 ms.
+bus::WriterOptions order_options(const NodeContext& context, DecisionNode which) {
+  bus::WriterOptions options;
+  if (!context.settings.kick_decision.standby) return options;
+  options.lease = std::chrono::milliseconds{60};
+  options.strength = which == DecisionNode::kFirst ? 1 : 0;
+  return options;
+}
+
 }  // namespace
 
-KickDecisionNode::KickDecisionNode(NodeContext& context)
+KickDecisionNode::KickDecisionNode(NodeContext& context, DecisionNode which)
     : context_(context),
+      which_(which),
       decider_({context.settings.kick_decision, context.settings.policy, context.settings.goal}, context.robot.model,
                context.robot_id(), session_of_kicks(context.settings.run.session)),
-      node_(context.participant, "kick_decision", context.robot_id()),
+      node_(context.participant, which == DecisionNode::kFirst ? kDecisionNode : kSecondDecisionNode,
+            context.robot_id()),
       decision_out_(node_.writer<msg::KickDecision>()),
-      order_out_(node_.writer<msg::KickOrder>()),
+      order_out_(node_.writer<msg::KickOrder>(order_options(context, which))),
       drive_out_(node_.writer<msg::DriveCommand>()),
       step_done_(step_done_writer(context, node_)),
       kicker_(node_.stores<msg::KickerStatus>()),
@@ -45,7 +63,14 @@ KickDecisionNode::KickDecisionNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   refuse_oracle(decider_.assignment());
-  refuse_twin(context_, order_out_, "kick_decision");
+  refuse_second(context_, which_);
+  refuse_twin(context_, order_out_, node_.name());
+  if (which_ == DecisionNode::kSecond) {
+    node_.on<msg::DriveCommand>([this, first = bus::owner_of_robot(kDecisionNode, context_.robot_id())](
+                                    const msg::DriveCommand&, const bus::SampleInfo& info) {
+      if (info.owner == first) first_node_.heard(context_.steady_ns());
+    });
+  }
   node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); },
                             bus::writes<msg::KickDecision, msg::KickOrder, msg::DriveCommand, msg::StepDone>());
 }
@@ -64,16 +89,35 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
     if (const auto word = input_of_cycle(context_, *referee_, world.t_ns)) decider_.hear(*word);
   }
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
+  if (in_charge()) {
+    say(world, kicker, decision);
+  } else {
+    decider_.unsay();
+  }
+  step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+}
+
+/// The second node is where the first has fallen silent.
+bool KickDecisionNode::in_charge() {
+  if (which_ == DecisionNode::kFirst) return true;
+  const bool waits = !first_node_.in_charge(context_.steady_ns());
+  if (waits != std::exchange(waits_, waits)) {
+    context_.logger->warn(waits ? "the first decision node is back and decides"
+                                : "no first decision node is heard: this one decides");
+  }
+  return !waits;
+}
+
+void KickDecisionNode::say(const msg::WorldState& world, const msg::KickerStatus* kicker,
+                           const robot::CycleDecision& decision) {
   if (decision.order) order_out_.write(*decision.order);
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
   drive(world, decision.in_charge.judgement);
-  if (decision.order) {
-    say_unobserved();
-    context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
-                          kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
-                          decision.in_charge.judgement.distance_m);
-  }
-  step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+  if (!decision.order) return;
+  say_unobserved();
+  context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
+                        kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
+                        decision.in_charge.judgement.distance_m);
 }
 
 bus::ReaderOptions KickDecisionNode::count_observers() {
@@ -125,11 +169,21 @@ void KickDecisionNode::stay_alive() {
   asserted_ = now;
 }
 
-int kick_decision_main(int argc, char** argv) {
-  return node_main(argc, argv, "kick_decision", [](NodeContext& context) {
-    KickDecisionNode node{context};
+namespace {
+
+int decision_main(int argc, char** argv, const char* name, DecisionNode which) {
+  return node_main(argc, argv, name, [which](NodeContext& context) {
+    KickDecisionNode node{context, which};
     run(context, node.node());
   });
+}
+
+}  // namespace
+
+int kick_decision_main(int argc, char** argv) { return decision_main(argc, argv, kDecisionNode, DecisionNode::kFirst); }
+
+int kick_decision_second_main(int argc, char** argv) {
+  return decision_main(argc, argv, kSecondDecisionNode, DecisionNode::kSecond);
 }
 
 }  // namespace trivela::nodes

@@ -6,19 +6,26 @@
 
 #include "nodes/runtime/node_context.hpp"
 #include "robot/decision/decider.hpp"
+#include "robot/watch/standby_watch.hpp"
 
 namespace trivela::nodes {
 
+enum class DecisionNode { kFirst, kSecond };
+
 /// WorldState in, with the kicker's status and what was seen of the last kick; DriveCommand out every cycle,
-/// KickDecision every cycle with the ball, KickOrder on a fire. What it decides is the Decider's.
+/// KickDecision every cycle with the ball, KickOrder on a fire. What it decides is the Decider's. The second one of a
+/// robot decides alike and says nothing while it hears the first.
 class KickDecisionNode {
  public:
   /// Throws std::runtime_error where the settings put the oracle in charge, which needs the simulator's true state.
-  explicit KickDecisionNode(NodeContext& context);
+  /// `which`: the robot's only or first one, or the second, which needs kick_decision.standby: std::runtime_error too.
+  explicit KickDecisionNode(NodeContext& context, DecisionNode which = DecisionNode::kFirst);
   bus::Node& node() { return node_; }
 
  private:
   void on_world(const msg::WorldState& world);
+  bool in_charge();
+  void say(const msg::WorldState& world, const msg::KickerStatus* kicker, const robot::CycleDecision& decision);
   double age_s(const msg::WorldState& world) const;
   std::optional<msg::KickOutcome> outcome(const msg::WorldState& world, const msg::KickerStatus* kicker);
   void drive(const msg::WorldState& world, const kicking::Judgement& judgement);
@@ -27,6 +34,7 @@ class KickDecisionNode {
   void say_unobserved();
 
   NodeContext& context_;
+  DecisionNode which_;
   robot::Decider decider_;
   bus::Node node_;
   bus::Output<msg::KickDecision> decision_out_;
@@ -39,6 +47,8 @@ class KickDecisionNode {
   std::shared_ptr<bus::Mailbox<msg::KickOutcome>> outcome_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;  // looked up where the rules know set pieces
   FirstCycle first_;
+  robot::StandbyWatch first_node_;  // of the second node
+  bool waits_ = true;               // for the first one to fall silent
   std::uint64_t drives_ = 0;
   std::chrono::steady_clock::time_point asserted_{};
 };

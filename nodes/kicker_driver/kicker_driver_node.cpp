@@ -1,5 +1,6 @@
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal/open.hpp"
@@ -8,11 +9,23 @@
 #include "nodes/runtime/step_done.hpp"
 
 namespace trivela::nodes {
+namespace {
+
+/// A robot has one decision node, or the two that it is configured for.
+std::vector<std::string> decision_owners(const NodeContext& context) {
+  std::vector<std::string> owners{bus::owner_of_robot(kDecisionNode, context.robot_id())};
+  if (context.settings.kick_decision.standby)
+    owners.push_back(bus::owner_of_robot(kSecondDecisionNode, context.robot_id()));
+  return owners;
+}
+
+}  // namespace
+
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
       desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id()),
-      own_decision_(bus::owner_of_robot("kick_decision", context.robot_id())),
+      own_decisions_(decision_owners(context)),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
       receipt_out_(node_.writer<msg::KickReceipt>()),
@@ -33,7 +46,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
                   msg::StepDone>());
   node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) {
-    if (info.owner == own_decision_) decision_heard_ns_ = context_.steady_ns();
+    if (by_own_decision(info)) decision_heard_ns_ = context_.steady_ns();
   });
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
@@ -49,7 +62,9 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     };
   }
   node_.on<msg::KickOrder>(
-      [this](const msg::KickOrder& order, const bus::SampleInfo& info) { on_order(order, order_by(info)); },
+      [this](const msg::KickOrder& order, const bus::SampleInfo& info) {
+        on_order(order, by_own_decision(info) ? robot::OrderBy::kOwnDecision : robot::OrderBy::kStranger);
+      },
       bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::StepDone>(), orders);
 }
 
@@ -162,8 +177,8 @@ void KickerDriverNode::withdraw() {
   receipt_out_.write(*receipt);
 }
 
-robot::OrderBy KickerDriverNode::order_by(const bus::SampleInfo& info) const {
-  return info.owner == own_decision_ ? robot::OrderBy::kOwnDecision : robot::OrderBy::kStranger;
+bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) const {
+  return std::ranges::find(own_decisions_, info.owner) != own_decisions_.end();
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {

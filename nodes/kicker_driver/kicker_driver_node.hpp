@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/kicker.hpp"
 #include "nodes/runtime/emulation_word.hpp"
@@ -31,7 +32,7 @@ class KickerDriverNode {
  private:
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
-  robot::OrderBy order_by(const bus::SampleInfo& info) const;
+  bool by_own_decision(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word);
   void withdraw();
   std::int64_t now_t_ns() const;
@@ -53,7 +54,7 @@ class KickerDriverNode {
   std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
   std::string link_said_;
   robot::LoopWatch loop_;
-  std::string own_decision_;  // owner of the writer whose orders count
+  std::vector<std::string> own_decisions_;  // owners of the writers whose orders count
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;

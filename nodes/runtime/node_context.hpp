@@ -71,6 +71,10 @@ inline bus::WriterOptions referee_of(std::uint32_t robot_id) {
   return options;
 }
 
+/// The names of a robot's decision nodes on the bus: its only or first one, and the one that stands by.
+inline constexpr const char* kDecisionNode = "kick_decision";
+inline constexpr const char* kSecondDecisionNode = "kick_decision_second";
+
 /// How long a node waits in lockstep for the others before it gives up.
 inline constexpr std::chrono::seconds kLockstepPatience{20};
 

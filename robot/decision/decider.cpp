@@ -82,10 +82,23 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   }
   decision_.order.reset();
   const bool fire = decision_.in_charge.judgement.fire;
-  if (!world.possession && !fire) return decision_;  // the oracle alone may fire where the robot sees no ball
+  said_ = world.possession || fire;  // the oracle alone may fire where the robot sees no ball
+  if (!said_) return decision_;
   ++decisions_;
   if (fire) decision_.order = order(world, decision_.in_charge.judgement);
   return decision_;
+}
+
+void Decider::unsay() {
+  if (said_) --decisions_;
+  said_ = false;
+  if (!decision_.order) return;
+  decision_.order.reset();
+  --orders_;
+  last_order_ = order_before_;
+  last_order_possession_id_ = possession_before_id_;
+  std::visit([](kicking::PossessionMemory& any) { any.fired_t_ns.reset(); },
+             memory_[static_cast<std::size_t>(decision_.in_charge.policy)]);
 }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
@@ -123,8 +136,8 @@ msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judge
   out.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
   out.valid_until_t_ns = world.t_ns + validity_ns_;
   out.possession = world.possession;
-  last_order_ = out;
-  last_order_possession_id_ = world.possession_id;
+  order_before_ = std::exchange(last_order_, out);
+  possession_before_id_ = std::exchange(last_order_possession_id_, world.possession_id);
   return out;
 }
 

@@ -61,6 +61,9 @@ class Decider {
                               const std::optional<msg::KickOutcome>& outcome,
                               const kicking::PolicyInput* truth = nullptr, double world_age_s = 0.0);
 
+  /// Takes the last decide() back: nobody hears of it. Its order has no number, and none is pending for the policies.
+  void unsay();
+
   /// The record of the last decide(), which was given these. Its seq counts the cycles with the ball.
   msg::KickDecision record(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
 
@@ -91,10 +94,11 @@ class Decider {
   CycleDecision decision_;
   std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
   std::optional<std::uint8_t> half_;
-  msg::KickOrder last_order_{};
-  std::uint32_t last_order_possession_id_ = 0;
+  msg::KickOrder last_order_{}, order_before_{};
+  std::uint32_t last_order_possession_id_ = 0, possession_before_id_ = 0;
   std::uint32_t orders_ = 0;
   std::uint64_t decisions_ = 0;
+  bool said_ = false;  // the last cycle counts among them
 };
 
 }  // namespace trivela::robot

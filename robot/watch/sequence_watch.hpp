@@ -8,14 +8,15 @@
 
 namespace trivela::robot {
 
-/// Finds what a stream lost from its sequence numbers, robot by robot, and keeps them unique when a node is started
-/// anew. A writer that was not heard for long and is heard again goes on counting: what it wrote meanwhile is missing,
-/// unless it comes late. A number that no writer can have come to in the time that passed is not believed before its
-/// successor has confirmed it, nor is a robot 0.
+/// Finds what a stream lost from its sequence numbers, robot by robot and writer by writer, and keeps the numbers of
+/// the record unique where a node is started anew and where two writers of a robot speak in turn. A writer that was not
+/// heard for long and is heard again goes on counting: what it wrote meanwhile is missing, unless it comes late. A
+/// number that no writer can have come to in the time that passed is not believed before its successor has confirmed
+/// it, nor is a robot 0.
 class SequenceWatch {
  public:
   struct Finding {
-    std::int64_t seq = 0;       ///< for the record: goes on rising when the writer starts again at 1
+    std::int64_t seq = 0;       ///< for the record: goes on rising whoever writes
     std::int64_t gap = 0;       ///< numbers skipped right before this one
     bool out_of_order = false;  ///< not newer than its predecessor
     bool filled = false;        ///< of those that were counted as skipped before, and now it is there
@@ -24,86 +25,72 @@ class SequenceWatch {
   };
 
   /// `writer` tells the writers of a topic apart, also where one goes and comes back; a new one, of a node that was
-  /// started anew, starts a new count, which is no gap. `heard_s`: when this
-  /// one came, on any clock that rises; none: as in lockstep, where any time may have passed.
+  /// started anew or of a second node, starts a new count, which is no gap. `heard_s`: when this one came, on any clock
+  /// that rises; none: as in lockstep, where any time may have passed.
   Finding see(std::uint8_t robot_id, std::uint64_t seq, std::uint64_t writer, std::optional<double> heard_s = {}) {
     if (robot_id == 0 || seq > kHighest) return {.believed = false};
-    Stream& stream = streams_[robot_id];
-    if (stream.writer != writer) stream.begin_anew(writer);
-    Finding finding{.seq = static_cast<std::int64_t>(stream.offset + seq)};
-    const std::uint64_t most = stream.most_numbers(heard_s);
-    if (!stream.fresh && seq > stream.last && seq - stream.last > most) {
-      const bool confirmed = stream.doubted && seq > *stream.doubted && seq - *stream.doubted <= most;
+    Robot& robot = robots_[robot_id];
+    Count& count = robot.count_of(writer);
+    const std::uint64_t most = count.most_numbers(heard_s);
+    if (!count.fresh && seq > count.last && seq - count.last > most) {
+      const bool confirmed = count.doubted && seq > *count.doubted && seq - *count.doubted <= most;
       if (!confirmed) {
-        stream.doubted = seq;
-        finding.believed = false;
-        return finding;
+        count.doubted = seq;
+        return {.believed = false};
       }
-      stream.last = *stream.doubted;
+      count.last = *count.doubted;
     }
-    stream.doubted.reset();
-    if (heard_s) stream.heard_s = *heard_s;
-    if (!stream.fresh && seq <= stream.last) {
-      finding.out_of_order = true;
-      finding.filled = stream.skipped.take(seq);
-      finding.repeated = !finding.filled && seq >= stream.first;
-      return finding;
-    }
-    if (stream.fresh) stream.first = seq;
-    if (!stream.fresh) finding.gap = static_cast<std::int64_t>(seq - stream.last - 1);
-    if (finding.gap > 0) stream.skipped.add(stream.last + 1, seq - 1);
-    stream.last = seq;
-    stream.fresh = false;
-    return finding;
+    count.doubted.reset();
+    if (heard_s) count.heard_s = *heard_s;
+    if (!count.fresh && seq <= count.last) return late(count, seq);
+    return newer(robot, count, seq);
   }
 
  private:
   static constexpr std::uint64_t kHighest = std::uint64_t{1} << 40;  // a year at 10 kHz is a third of it
   static constexpr double kMostPerSecond = 10'000.0;
   static constexpr std::uint64_t kAlwaysPossible = 100;
+  static constexpr std::size_t kMostWriters = 16;  // of a robot; who was not heard for longest begins anew
 
   /// Numbers that were skipped, as ranges; of very many the latest.
   class Skipped {
    public:
-    void add(std::uint64_t from, std::uint64_t to) {
-      ranges_[from] = to;
+    void add(std::uint64_t from, std::uint64_t to, std::uint64_t offset) {
+      ranges_[from] = {to, offset};
       if (ranges_.size() > kMost) ranges_.erase(ranges_.begin());
     }
-    /// Whether the number is one of them, which it is no longer.
-    bool take(std::uint64_t number) {
-      auto range = ranges_.upper_bound(number);
-      if (range == ranges_.begin() || (--range)->second < number) return false;
-      const auto [from, to] = *range;
-      ranges_.erase(range);
-      if (from < number) ranges_[from] = number - 1;
-      if (number < to) ranges_[number + 1] = to;
-      return true;
+    /// The number in the record where it is one of them, which it is no longer.
+    std::optional<std::uint64_t> take(std::uint64_t number) {
+      auto place = ranges_.upper_bound(number);
+      if (place == ranges_.begin() || (--place)->second.to < number) return std::nullopt;
+      const std::uint64_t from = place->first;
+      const Range range = place->second;
+      ranges_.erase(place);
+      if (from < number) ranges_[from] = {number - 1, range.offset};
+      if (number < range.to) ranges_[number + 1] = range;
+      return range.offset + number;
     }
-    void clear() { ranges_.clear(); }
 
    private:
+    struct Range {
+      std::uint64_t to, offset;
+    };
     static constexpr std::size_t kMost = 256;
-    std::map<std::uint64_t, std::uint64_t> ranges_;  // from, to
+    std::map<std::uint64_t, Range> ranges_;  // by their first number
   };
 
-  struct Stream {
-    std::uint64_t writer = 0;
-    std::uint64_t offset = 0;
+  /// What one writer has come to.
+  struct Count {
+    std::uint64_t before = 0;  // the record's number below its first ones
+    std::uint64_t offset = 0;  // the record's number of its last one, minus that
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    Skipped skipped;
+    std::uint64_t turn = 0;  // when it was heard last, counted in samples of its robot
+    Skipped skipped{};
     bool fresh = true;
     double heard_s = 0.0;
-    std::optional<std::uint64_t> doubted;
+    std::optional<std::uint64_t> doubted{};
 
-    void begin_anew(std::uint64_t by) {
-      offset += last;
-      first = last = 0;
-      skipped.clear();
-      writer = by;
-      fresh = true;
-      doubted.reset();
-    }
     /// That may have been written since the last one that was believed.
     std::uint64_t most_numbers(std::optional<double> now_s) const {
       if (!now_s) return kHighest;
@@ -111,7 +98,50 @@ class SequenceWatch {
       return std::max(kAlwaysPossible, static_cast<std::uint64_t>(written));
     }
   };
-  std::map<std::uint8_t, Stream> streams_;
+
+  struct Robot {
+    std::uint64_t highest = 0;  // of the record
+    std::uint64_t turns = 0;
+    std::map<std::uint64_t, Count> counts;  // by writer
+
+    Count& count_of(std::uint64_t writer) {
+      const auto place = counts.find(writer);
+      if (place == counts.end() && counts.size() == kMostWriters) {
+        counts.erase(std::ranges::min_element(counts, {}, [](const auto& count) { return count.second.turn; }));
+      }
+      Count& count = place != counts.end() ? place->second : counts[writer];
+      count.turn = ++turns;
+      return count;
+    }
+  };
+
+  static Finding late(Count& count, std::uint64_t seq) {
+    const auto skipped = count.skipped.take(seq);
+    const std::uint64_t number = skipped.value_or((seq < count.first ? count.before : count.offset) + seq);
+    return {.seq = static_cast<std::int64_t>(number),
+            .out_of_order = true,
+            .filled = skipped.has_value(),
+            .repeated = !skipped && seq >= count.first};
+  }
+
+  static Finding newer(Robot& robot, Count& count, std::uint64_t seq) {
+    Finding finding;
+    if (count.fresh) {
+      count.first = seq;
+      count.before = count.offset = robot.highest;
+    } else {
+      count.offset = robot.highest - count.last;  // another one may have spoken meanwhile
+      finding.gap = static_cast<std::int64_t>(seq - count.last - 1);
+      if (finding.gap > 0) count.skipped.add(count.last + 1, seq - 1, count.offset);
+    }
+    count.last = seq;
+    count.fresh = false;
+    robot.highest = count.offset + seq;
+    finding.seq = static_cast<std::int64_t>(robot.highest);
+    return finding;
+  }
+
+  std::map<std::uint8_t, Robot> robots_;
 };
 
 }  // namespace trivela::robot

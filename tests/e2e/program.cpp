@@ -27,11 +27,15 @@ int left_ms(Clock::time_point deadline) {
   return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
 }
 
-// A name that no earlier program of the folder has.
+// A file of its own, also for two programs of one name that are started at once.
 fs::path fresh(const fs::path& folder, const std::string& name, const char* suffix) {
   for (int n = 0;; ++n) {
     const fs::path path = folder / fmt::format("{}.{}.{}", name, n, suffix);
-    if (!fs::exists(path)) return path;
+    const int made = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (made < 0 && errno == EEXIST) continue;
+    if (made < 0) throw std::runtime_error{fmt::format("cannot make {}: {}", path.string(), std::strerror(errno))};
+    close(made);
+    return path;
   }
 }
 

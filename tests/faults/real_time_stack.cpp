@@ -12,7 +12,7 @@
 namespace trivela::faults {
 namespace {
 
-config::Settings settings_for(const e2e::Folder& folder, double minutes) {
+config::Settings settings_for(const e2e::Folder& folder, double minutes, bool standby) {
   config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;
@@ -21,6 +21,7 @@ config::Settings settings_for(const e2e::Folder& folder, double minutes) {
   settings.simulator.halves = 1;
   settings.simulator.half_minutes = minutes;
   settings.recorder.log = folder / "match.db";
+  settings.kick_decision.standby = standby;
   return settings;
 }
 
@@ -30,10 +31,11 @@ std::string last_of(const std::string& text) {
 
 }  // namespace
 
-RealTimeStack::RealTimeStack(double minutes) : settings_(settings_for(folder_, minutes)) {
+RealTimeStack::RealTimeStack(double minutes, bool standby) : settings_(settings_for(folder_, minutes, standby)) {
   std::ofstream{folder_ / "nodes.toml"} << config::to_toml_text(settings_);
   for (const char* node : {"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"})
     start(node);
+  if (settings_.kick_decision.standby) start("kick_decision_second");
   for (const auto& [node, program] : programs_) {
     if (!e2e::wait_for_change(folder_.path(), program.watch(), [&] { return !program.errors().empty(); }))
       throw std::runtime_error{node + " says nothing"};
@@ -58,6 +60,18 @@ void RealTimeStack::start(const std::string& node) {
       std::piecewise_construct, std::forward_as_tuple(node),
       std::forward_as_tuple("trivela-" + node, std::vector<std::string>{"--config", "nodes.toml"}, folder_.path()));
 }
+
+const e2e::Program& RealTimeStack::program(const std::string& name) const {
+  for (const auto& [known, program] : programs_)
+    if (known == name) return program;
+  throw std::out_of_range{"no program " + name};
+}
+
+bool RealTimeStack::wait_for(const std::function<bool()>& condition) const {
+  return e2e::wait_for_change(folder_.path(), program("recorder").watch(), condition);
+}
+
+void RealTimeStack::signal(const std::string& name, int number) const { program(name).signal(number); }
 
 std::string RealTimeStack::casualties() {
   std::string found;
@@ -85,10 +99,16 @@ std::map<std::string, std::size_t> RealTimeStack::said() const {
   return bytes;
 }
 
-std::string RealTimeStack::errors_of(const std::string& node) const {
-  for (const auto& [name, program] : programs_)
-    if (name == node) return program.errors();
-  return {};
+std::string RealTimeStack::errors_of(const std::string& name) const { return program(name).errors(); }
+
+std::int64_t most_worlds_without_drive(const std::filesystem::path& log) {
+  return e2e::number_of(e2e::Reader{log}, R"(
+    WITH answered AS (
+      SELECT w.t_ns, d.t_ns IS NOT NULL AS by_drive
+      FROM world_states AS w LEFT JOIN (SELECT DISTINCT t_ns FROM drive_commands) AS d ON d.t_ns = w.t_ns
+      WHERE w.t_ns >= (SELECT min(t_ns) FROM drive_commands)),
+    runs AS (SELECT by_drive, sum(by_drive) OVER (ORDER BY t_ns) AS run FROM answered)
+    SELECT max(n) FROM (SELECT sum(1 - by_drive) AS n FROM runs GROUP BY run))");
 }
 
 }  // namespace trivela::faults

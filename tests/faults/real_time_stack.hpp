@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -16,12 +17,20 @@ class RealTimeStack {
  public:
   /// Starts them and waits until rows are recorded; the simulator plays for `minutes`. Throws std::runtime_error with
   /// what they said where that does not happen.
-  explicit RealTimeStack(double minutes);
+  /// `standby`: with kick_decision_second beside kick_decision.
+  explicit RealTimeStack(double minutes, bool standby = false);
   RealTimeStack(const RealTimeStack&) = delete;
   RealTimeStack& operator=(const RealTimeStack&) = delete;
 
   const config::Settings& settings() const { return settings_; }
   std::filesystem::path log() const { return folder_ / "match.db"; }
+
+  /// Waits until `condition` holds, asking again whenever something is written in the folder. False: it took longer
+  /// than e2e::kPatience, or the recorder ended.
+  [[nodiscard]] bool wait_for(const std::function<bool()>& condition) const;
+
+  /// Sends a program a signal.
+  void signal(const std::string& program, int number) const;
 
   /// Those that have ended, with how and what they said last.
   std::string casualties();
@@ -37,10 +46,14 @@ class RealTimeStack {
 
  private:
   void start(const std::string& node);
+  const e2e::Program& program(const std::string& name) const;
 
   e2e::Folder folder_;
   config::Settings settings_;
   std::deque<std::pair<std::string, e2e::Program>> programs_;
 };
+
+/// Of a log: the longest run of world states, from the first drive command on, that no drive command answers.
+std::int64_t most_worlds_without_drive(const std::filesystem::path& log);
 
 }  // namespace trivela::faults

@@ -320,5 +320,70 @@ TEST_F(KickDecisionNodeTest, AWorldThatIsNotFiniteIsNotActedUpon) {
   EXPECT_EQ(decision.nth(2).reason, msg::REASON_FIRE);
 }
 
+/// The second of two nodes beside a first one whose drive commands the test writes. Listeners run in the writer's
+/// thread: when a sample is said, the node has answered.
+class SecondDecisionNodeTest : public KickDecisionNodeTest {
+ protected:
+  void start_second() {
+    context.settings.kick_decision.standby = true;
+    node.emplace(context, DecisionNode::kSecond);
+    running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
+    world_says.expect_reader();
+    first.expect_reader(2);  // the node and the test's own
+  }
+  void step(bool first_speaks) {
+    clock_ns = t_ns;
+    msg::DriveCommand command{};
+    command.t_ns = t_ns;
+    if (first_speaks) first(command);
+    msg::KickerStatus status{};
+    status.t_ns = t_ns;
+    status.ready = true;
+    status.charge = 0.97;
+    kicker_says(status);
+    msg::WorldState state = world();
+    state.t_ns = t_ns;
+    world_says(state);
+    t_ns += kCycle_ns;
+  }
+
+  Says<msg::DriveCommand> first{participant, 1, "kick_decision/1"};
+};
+
+TEST_F(SecondDecisionNodeTest, SaysNothingWhileTheFirstSpeaksAndOrdersWhereItFallsSilent) {
+  start_second();
+  for (int i = 0; i < 50; ++i) step(true);
+  EXPECT_TRUE(order.now().empty() && decision.now().empty());
+  EXPECT_EQ(drive.now().size(), 50u) << "the first one's alone";
+  for (int i = 0; i < 5; ++i) step(false);
+  EXPECT_TRUE(order.now().empty());
+  const std::int64_t sixth_ns = t_ns;
+  step(false);
+  EXPECT_EQ(order.nth(1).t_ns, sixth_ns) << "what it judged before left no order pending";
+  EXPECT_EQ(order.nth(1).seq, 1u) << "nor took a number";
+  EXPECT_EQ(decision.nth(1).seq, 1u);
+  EXPECT_EQ(drive.nth(51).t_ns, sixth_ns);
+  EXPECT_TRUE(log_lines->wait_for("no first decision node is heard: this one decides"));
+}
+
+TEST_F(SecondDecisionNodeTest, SpeaksOnForTwoSecondsAfterTheFirstIsBack) {
+  start_second();
+  for (int i = 0; i < 50; ++i) step(true);
+  for (int i = 0; i < 20; ++i) step(false);
+  const std::size_t alone = drive.now().size();
+  for (int i = 0; i < 200; ++i) step(true);
+  EXPECT_EQ(drive.now().size(), alone + 200 + 100) << "both for 100 cycles";
+  EXPECT_TRUE(log_lines->wait_for("the first decision node is back and decides"));
+}
+
+TEST_F(SecondDecisionNodeTest, RefusesARobotThatHasOneDecisionNode) {
+  try {
+    KickDecisionNode second{context, DecisionNode::kSecond};
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("kick_decision.standby = false"));
+  }
+}
+
 }  // namespace
 }  // namespace trivela::nodes

@@ -302,6 +302,29 @@ TEST_F(KickerDriverNodeTest, AnotherRobotsOrdersAreNotItsOwn) {
   EXPECT_EQ(kicker->commanded(), 1u);
 }
 
+TEST_F(KickerDriverNodeTest, ASecondDecisionNodeIsAStrangerToARobotThatHasOne) {
+  Says<msg::KickOrder> second{participant, 1, "kick_decision_second/1"};
+  start();
+  second.expect_reader();
+  play();
+  sample();
+  second(wish(1));
+  EXPECT_EQ(receipt.nth(1).refusal, msg::REFUSAL_STRANGER);
+  EXPECT_EQ(kicker->commanded(), 0u);
+}
+
+TEST_F(KickerDriverNodeTest, ASecondDecisionNodeIsHeardByARobotThatIsConfiguredForTwo) {
+  context.settings.kick_decision.standby = true;
+  Says<msg::KickOrder> second{participant, 1, "kick_decision_second/1"};
+  start();
+  second.expect_reader();
+  play();
+  sample();
+  second(wish(1));
+  EXPECT_EQ(receipt.nth(1).refusal, msg::REFUSAL_NONE);
+  EXPECT_EQ(kicker->commanded(), 1u);
+}
+
 TEST_F(KickerDriverNodeTest, AfterTheLastSampleItStillAnswers) {
   start();
   play();

@@ -39,6 +39,7 @@ class Contents(unittest.TestCase):
     def test_each_has_what_it_is_for_and_nothing_stands_twice(self):
         self.assertEqual(set(self.debs), {"robot", "base", "dev"})
         nodes = {f"/usr/bin/trivela-{path.parent.name}" for path in (ROOT / "nodes").glob("*/*_node.cpp")}
+        nodes.add("/usr/bin/trivela-kick_decision_second")  # the same node in another role
         shipped = {f"/etc/trivela/{path.relative_to(ROOT / 'config')}" for ending in ("toml", "xml", "csv", "nft")
                    for path in (ROOT / "config").rglob(f"*.{ending}")}
         units = {"/usr/lib/systemd/system/trivela@.service", "/usr/lib/systemd/system/trivela.target", "/usr/lib/udev/rules.d/60-trivela.rules"}

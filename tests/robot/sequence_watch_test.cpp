@@ -162,5 +162,41 @@ TEST(SequenceWatch, NumbersStayUniqueHoweverOftenWritersRestart) {
   }
 }
 
+TEST(SequenceWatch, TwoWritersThatSpeakInTurnLoseNothingAndShareNoNumber) {
+  SequenceWatch watch;
+  std::set<std::int64_t> seen;
+  for (std::uint64_t seq = 1; seq <= 100; ++seq) {
+    for (const std::uint64_t writer : {7u, 8u}) {
+      const auto finding = watch.see(1, writer == 7 ? 5000 + seq : seq, writer);
+      EXPECT_EQ(finding.gap, 0);
+      EXPECT_FALSE(finding.out_of_order);
+      EXPECT_TRUE(seen.insert(finding.seq).second);
+    }
+  }
+  EXPECT_EQ(*seen.rbegin(), 5000 + 200) << "numbers rise by what was written";
+}
+
+TEST(SequenceWatch, WhatOneOfTwoWritersSkippedIsMissingAndMayComeLate) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7);
+  watch.see(1, 1, 8);
+  EXPECT_EQ(watch.see(1, 4, 7).gap, 2);
+  const auto other = watch.see(1, 2, 8);
+  const auto late = watch.see(1, 2, 7);
+  EXPECT_TRUE(late.filled);
+  EXPECT_NE(late.seq, other.seq);
+  EXPECT_TRUE(watch.see(1, 2, 7).repeated);
+  EXPECT_EQ(watch.see(1, 5, 7).gap, 0);
+}
+
+TEST(SequenceWatch, OfVeryManyWritersTheOneNotHeardForLongestIsForgotten) {
+  SequenceWatch watch;
+  watch.see(1, 1, 7);
+  for (std::uint64_t forged = 100; forged < 115; ++forged) watch.see(1, 1, forged);
+  EXPECT_EQ(watch.see(1, 3, 7).gap, 1) << "sixteen are known";
+  for (std::uint64_t forged = 200; forged < 216; ++forged) watch.see(1, 1, forged);
+  EXPECT_EQ(watch.see(1, 6, 7).gap, 0) << "it began anew";
+}
+
 }  // namespace
 }  // namespace trivela::robot

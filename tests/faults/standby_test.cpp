@@ -1,0 +1,79 @@
+// The second of two decision nodes in real time: the first one hangs or dies, and returns.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <optional>
+#include <stdexcept>
+
+#include "tests/e2e/log_rows.hpp"
+#include "tests/faults/real_time_stack.hpp"
+
+namespace trivela::faults {
+namespace {
+
+constexpr std::int64_t kMostWorlds = 25;  // half a second; measured are some six, but this machine is busy
+
+std::int64_t count(const RealTimeStack& stack, const std::string& sql) {
+  try {
+    return e2e::number_of(e2e::Reader{stack.log()}, sql);
+  } catch (const std::exception&) {
+    return 0;  // the log is being made
+  }
+}
+
+/// The session of the first decision node's kicks: that of the first order.
+std::int64_t first_session(const RealTimeStack& stack) {
+  return count(stack, "SELECT kick_id >> 48 FROM kick_orders ORDER BY t_ns LIMIT 1");
+}
+
+std::int64_t fired(const RealTimeStack& stack, const std::string& by, std::int64_t session) {
+  return count(
+      stack, fmt::format("SELECT count(*) FROM kick_receipts WHERE accepted = 1 AND kick_id >> 48 {} {}", by, session));
+}
+
+bool says(const RealTimeStack& stack, const std::string& text) {
+  return stack.errors_of("kick_decision_second").find(text) != std::string::npos;
+}
+
+/// Plays until the first has fired, is struck by `number`, and the second has fired.
+std::int64_t play_until_the_second_fires(const RealTimeStack& stack, int number) {
+  EXPECT_TRUE(
+      stack.wait_for([&] { return count(stack, "SELECT count(*) FROM kick_receipts WHERE accepted = 1") > 0; }));
+  const std::int64_t first = first_session(stack);
+  EXPECT_EQ(fired(stack, "!=", first), 0) << "who stands by says nothing";
+  stack.signal("kick_decision", number);
+  EXPECT_TRUE(stack.wait_for([&] { return fired(stack, "!=", first) > 1; })) << stack.errors_of("kick_decision_second");
+  return first;
+}
+
+void expect_each_possession_kicked_once(const RealTimeStack& stack) {
+  EXPECT_EQ(count(stack, R"(
+    SELECT count(*) FROM (SELECT count(DISTINCT kick_id) AS n FROM kicks WHERE accepted = 1 GROUP BY half, possession_id)
+    WHERE n > 1)"),
+            0);
+  EXPECT_LE(most_worlds_without_drive(stack.log()), kMostWorlds);
+}
+
+TEST(Standby, TakesOverFromOneThatHangsAndGivesBackWhenItReturns) {
+  RealTimeStack stack{4.0, true};
+  const std::int64_t first = play_until_the_second_fires(stack, SIGSTOP);
+  EXPECT_TRUE(says(stack, "this one decides"));
+  const std::int64_t before = fired(stack, "=", first);
+  stack.signal("kick_decision", SIGCONT);
+  EXPECT_TRUE(stack.wait_for([&] { return says(stack, "is back and decides"); }));
+  EXPECT_TRUE(stack.wait_for([&] { return fired(stack, "=", first) > before; })) << "the first one fires again";
+  EXPECT_EQ(stack.casualties(), "");
+  for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, 0) << node;
+  expect_each_possession_kicked_once(stack);
+}
+
+TEST(Standby, TakesOverFromOneThatIsKilled) {
+  RealTimeStack stack{4.0, true};
+  play_until_the_second_fires(stack, SIGKILL);
+  for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, node == "kick_decision" ? 128 + SIGKILL : 0) << node;
+  expect_each_possession_kicked_once(stack);
+}
+
+}  // namespace
+}  // namespace trivela::faults
