@@ -27,6 +27,10 @@ Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t
   return kicker;
 }
 
+double worn_ratio(const Kicker& kicker, std::uint32_t kicks) {
+  return kicks < kicker.drop_after_kicks ? 1.0 : 1.0 - kicker.drop_ratio;
+}
+
 Exit exit_at(const Kicker& kicker, double power) {
   const auto& powers = kicker.powers;
   const auto above = std::upper_bound(powers.begin(), powers.end(), power);

@@ -13,6 +13,10 @@ Kicker team_kicker(const Scenario& scenario, std::uint32_t robot);
 /// The same in the match of that seed: its speeds have drifted by one factor 1 + N(0, drift_sd_ratio).
 Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t seed);
 
+/// Of the speeds that this kicker began with, what it has after so many kicks: 1, or 1 - drop_ratio from
+/// drop_after_kicks on.
+double worn_ratio(const Kicker& kicker, std::uint32_t kicks);
+
 /// Speed and elevation with which a ball leaves the robot at rest.
 struct Exit {
   double speed_mps = 0.0;

@@ -60,6 +60,7 @@ struct Match::State {
     }
     for (std::uint32_t robot = 1; robot <= static_cast<std::uint32_t>(scenario.team.robots); ++robot)
       kickers.push_back(match_kicker(scenario, robot, seed));
+    kicked.resize(kickers.size());
     begin_possession();
   }
 
@@ -72,12 +73,19 @@ struct Match::State {
     ending.reset();
     const kicking::Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
-    world.place(opportunity, kickers[opportunity.robot - 1u].speed_scale_ratio, draws);
+    world.place(opportunity, kicker_now(opportunity.robot).speed_scale_ratio, draws);
     sensors.begin(draws);
     laser.begin(draws);
     sensors.remember(world);
     stop_until_t_ns = world.t_ns() + kicking::nanoseconds(scenario.possession.stop_s);
     if (scenario.possession.stop_s <= 0.0) start_play();
+  }
+
+  /// The kicker of a robot as its kicks have worn it.
+  Kicker kicker_now(std::uint32_t robot) const {
+    Kicker kicker = kickers.at(robot - 1);
+    kicker.speed_scale_ratio *= worn_ratio(kicker, kicked.at(robot - 1));
+    return kicker;
   }
 
   /// Number of the possession's situation: in the first half its own.
@@ -147,6 +155,7 @@ struct Match::State {
       const ShotResult& result = *shot->result();
       const bool counts = !scenario.rules.opponents_half_only || shot->released().position_m.y() > 0.0;
       if (result.outcome == kicking::Outcome::kOnTarget && !result.saved && counts) ++goals;
+      ++kicked[opportunity.robot - 1u];
       events.kicks.push_back({.t_ns = result.t_ns,
                               .kick_id = world.shot_kick_id(),
                               .half = half,
@@ -222,7 +231,8 @@ struct Match::State {
   World world;
   SensorSuite sensors;
   FieldLaser laser;
-  std::vector<Kicker> kickers;  // by robot
+  std::vector<Kicker> kickers;        // by robot, as the match began
+  std::vector<std::uint32_t> kicked;  // by robot: kicks whose ball left
 
   Phase phase = Phase::kStop;
   int half = 1;
@@ -261,7 +271,7 @@ Sensors Match::sense(const SensorChoice& choice) const {
           .scans = s.laser.scans()};
 }
 
-Kicker Match::true_kicker(std::uint32_t robot) const { return state_->kickers.at(robot - 1); }
+Kicker Match::true_kicker(std::uint32_t robot) const { return state_->kicker_now(robot); }
 
 TrueState Match::true_state() const {
   const State& s = *state_;

@@ -82,6 +82,7 @@ std::optional<Problem> first_problem(const Scenario& scenario) {
   if (auto problem = ordered("possession.speed_min_mps", p.speed_min_mps, p.speed_max_mps)) return problem;
   if (auto problem = ordered("opponent.closing_min_mps", o.closing_min_mps, o.closing_max_mps)) return problem;
   if (auto problem = whole("opponent.count", o.count)) return problem;
+  if (auto problem = whole("kicker.drop_after_kicks", scenario.kicker.drop_after_kicks)) return problem;
   if (auto problem = whole("defenders.count", scenario.defenders.count)) return problem;
   if (auto problem = team_problem(scenario.team)) return problem;
   const std::size_t wheels = scenario.robot.wheel_angles_rad.size();

@@ -56,6 +56,8 @@ struct Kicker {
   double speed_scale_ratio = 1.0;  ///< this robot's speed against the table; 1: as calibrated
   double drift_sd_ratio = 0.01;    ///< of the speed within the day: one factor a match and robot; assumption
                                    ///< ("differences within the same robot over time", paper, section 2)
+  double drop_ratio = 0.0;  ///< a part gives way in the match: of the speed, lost from one kick to the next; 0: none
+  double drop_after_kicks = 0.0;  ///< of each robot, whose ball left before that
   double delay_s =
       0.060;  ///< coil energised to ball released; assumption, CAMBADA release 1.0 says 50 ms mean, 80 ms max
   double delay_sd_s = 0.015;                       ///< assumption: the spread between those

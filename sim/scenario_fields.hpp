@@ -68,6 +68,8 @@ void fields(V& v, Kicker& k) {
   v("exit_elevations_rad", k.exit_elevations_rad, Range{0.0, 1.5});
   v("speed_scale_ratio", k.speed_scale_ratio, Range{0.1, 3.0});
   v("drift_sd_ratio", k.drift_sd_ratio, Range{0.0, 0.15});
+  v("drop_ratio", k.drop_ratio, Range{-0.3, 0.3});
+  v("drop_after_kicks", k.drop_after_kicks, Range{0.0, 1e6});
   v("delay_s", k.delay_s, Range{0.0, 1.0});
   v("delay_sd_s", k.delay_sd_s, Range{0.0, 0.5});
   v("speed_sd_ratio", k.speed_sd_ratio, Range{0.0, 0.3});

@@ -267,6 +267,27 @@ TEST(Match, AKickerDriftsOnceAMatchAndByItsSpread) {
   EXPECT_EQ(team_kicker(s, 2).speed_scale_ratio, 1.0);
 }
 
+TEST(Match, AKickerGivesWayAfterItsOwnKicksOnce) {
+  Scenario s = alone();
+  s.kicker.speed_sd_ratio = s.kicker.delay_sd_s = s.kicker.direction_sd_rad = s.kicker.drift_sd_ratio = 0.0;
+  s.kicker.drop_ratio = 0.03;
+  s.kicker.drop_after_kicks = 3;
+  s.team.robots = 2;
+  Match match{s, 7, 1, 1.0};
+  std::uint32_t kicked[3] = {};
+  while (!match.done()) {
+    const Sensors sensors = match.sense();
+    for (const auto& k : match.step(fire_at_once(25)(sensors)).kicks) {
+      const double ratio = ++kicked[sensors.carrier] <= 3 ? 1.0 : 0.97;
+      EXPECT_NEAR(k.release_velocity_mps.z(), ratio * 8.721521 * std::sin(0.62666896), 1e-9);
+    }
+  }
+  for (const std::uint32_t robot : {1U, 2U}) {
+    EXPECT_GT(kicked[robot], 5U);
+    EXPECT_NEAR(match.true_kicker(robot).speed_scale_ratio, 0.97, 1e-12);
+  }
+}
+
 TEST(Match, AFullCapacitorAwaitsEachPossession) {
   const Record record = play(alone(), 7, 1, 0.3, fire_at_once(50));
   std::uint32_t id = 0;
