@@ -19,7 +19,10 @@ void ask(SQLite::Statement& statement, std::initializer_list<std::int64_t> numbe
 }  // namespace
 
 StreamSearch::StreamSearch(SQLite::Database& database, std::string_view table, const std::vector<std::string>& columns)
-    : ends_(database, fmt::format("SELECT min(seq), max(seq) FROM {} WHERE session_id = ? AND robot_id = ?", table)),
+    // Each end by itself: asked for both at once, SQLite walks through all rows between them.
+    : ends_(database, fmt::format("SELECT (SELECT min(seq) FROM {0} WHERE session_id = ?1 AND robot_id = ?2), "
+                                  "(SELECT max(seq) FROM {0} WHERE session_id = ?1 AND robot_id = ?2)",
+                                  table)),
       instant_(database, fmt::format("SELECT seq, t_ns FROM {} WHERE session_id = ? AND robot_id = ? AND seq >= ? "
                                      "ORDER BY seq LIMIT 1",
                                      table)),
