@@ -142,14 +142,20 @@ void LogFile::check() const {
   if (said != "ok") throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind_.name, path_, said));
 }
 
-void LogFile::each_row(std::string_view sql, const RowFunction& fn) const {
+void LogFile::as_query(const std::function<void()>& work) const {
   try {
     allow_steps();
-    SQLite::Statement statement(*database_, std::string(sql));
-    each_row_of(statement, sql, fn);
+    work();
   } catch (const SQLite::Exception& error) {
     throw std::runtime_error(unreadable(error));
   }
+}
+
+void LogFile::each_row(std::string_view sql, const RowFunction& fn) const {
+  as_query([&] {
+    SQLite::Statement statement(*database_, std::string(sql));
+    each_row_of(statement, sql, fn);
+  });
 }
 
 void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, const RowFunction& fn) const {

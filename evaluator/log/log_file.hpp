@@ -46,6 +46,9 @@ class LogFile final : public Queries {
   void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
            const RowFunction& fn) const;
 
+  /// Calls `work`, which steps statements of the database, as one query: within its budget, its errors named.
+  void as_query(const std::function<void()>& work) const;
+
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
 

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/stream_search.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -31,8 +33,11 @@ struct Reader::Impl {
     file.query("COMMIT", [](auto) {});
   }
 
+  std::vector<Column> schema_with(std::string_view table, const std::vector<std::string>& columns) const;
+
   LogFile file;
   Verification verification;
+  std::map<std::string, StreamSearch, std::less<>> streams;  // by table and columns; before the file goes, they go
 };
 
 Reader::Reader(const std::filesystem::path& path, Check check) : impl_(std::make_unique<Impl>(path, check)) {}
@@ -82,17 +87,38 @@ void Reader::ask(const std::string& sql, const std::function<void(const std::vec
   impl_->file.ask(sql, head, fn);
 }
 
+std::vector<Column> Reader::Impl::schema_with(std::string_view table, const std::vector<std::string>& columns) const {
+  const auto schema = columns_of(file.database(), table);
+  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", file.path(), table));
+  for (const std::string& column : columns) {
+    if (std::ranges::find(*schema, column, &Column::name) != schema->end()) continue;
+    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, file.path(), column));
+  }
+  return *schema;
+}
+
+void Reader::for_each_row_between(std::string_view table, const std::vector<std::string>& columns,
+                                  const StreamSpan& span, const RowFunction& fn) const {
+  const std::string key = fmt::format("{}:{}", table, fmt::join(columns, ","));
+  auto stream = impl_->streams.find(key);
+  if (stream == impl_->streams.end()) {
+    impl_->schema_with(table, columns);
+    stream = impl_->streams.try_emplace(key, impl_->file.database(), table, columns).first;
+  }
+  try {
+    impl_->file.as_query([&] { stream->second.rows(span, fn); });
+  } catch (const WrongCell& wrong) {
+    throw std::runtime_error(fmt::format("cannot read the match log {}: column {} of {} is not {}", impl_->file.path(),
+                                         columns.at(wrong.column), table, wrong.wanted));
+  }
+}
+
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
                           const RowFunction& fn) const {
-  const auto schema = columns_of(impl_->file.database(), table);
-  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", impl_->file.path(), table));
+  const std::vector<Column> schema = impl_->schema_with(table, columns);
   const auto has = [&](const std::string& name) {
-    return std::ranges::find(*schema, name, &Column::name) != schema->end();
+    return std::ranges::find(schema, name, &Column::name) != schema.end();
   };
-  for (const std::string& column : columns) {
-    if (has(column)) continue;
-    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, impl_->file.path(), column));
-  }
   std::vector<std::string> order;
   for (const char* const key : {"session_id", "robot_id", "seq", "shadow_index"}) {
     if (has(key)) order.push_back(key);

@@ -56,6 +56,14 @@ struct RecordedKick {
   std::int64_t kick_id = 0;
 };
 
+/// Part of a robot's stream.
+struct StreamSpan {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::int64_t from_t_ns = 0;
+  std::int64_t to_t_ns = 0;
+};
+
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader final : public Queries {
  public:
@@ -96,6 +104,12 @@ class Reader final : public Queries {
   /// Calls `fn` for each row of a table, ordered by session, robot and seq as far as the table has them.
   /// Throws std::runtime_error naming a table or column that does not exist.
   void for_each_row(std::string_view table, const std::vector<std::string>& columns, const RowFunction& fn) const;
+
+  /// The rows of one robot's stream, a table with session_id, robot_id, seq and t_ns, from one instant to another, both
+  /// included, by seq. They are found by halving, since t_ns rises with seq: a long log is not walked through. Throws
+  /// as for_each_row().
+  void for_each_row_between(std::string_view table, const std::vector<std::string>& columns, const StreamSpan& span,
+                            const RowFunction& fn) const;
 
   /// Somebody's own question about tables, their views and counted_kicks: `head` is called once with the names of its
   /// columns, then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluator/log/reader.hpp"
+#include "kicking/alignment/alignment.hpp"
+#include "kicking/geometry/frames.hpp"
+#include "kicking/geometry/goal.hpp"
+
+namespace trivela::evaluator {
+
+/// A point of a path, so long after the decision (before it: negative).
+struct StoryPose {
+  std::int64_t t_ns = 0;
+  kicking::Pose pose{};
+};
+struct StoryPlace {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3d place_m = Eigen::Vector3d::Zero();  ///< in F; z is 0 of what is on the floor
+};
+
+/// Where and how a kick ended, as predicted, seen or true.
+struct StoryEnd {
+  std::string outcome;            ///< empty: of a prediction
+  std::optional<double> x_m;      ///< ball centre at the goal line, in F
+  std::optional<double> z_m;      ///< its height
+  std::optional<double> sd_m;     ///< of both
+  std::optional<double> after_s;  ///< after the decision
+};
+
+/// The two segments of the alignment at the decision, in F.
+struct StorySegments {
+  Eigen::Vector2d s1_from_m, s1_to_m, s2_left_m, s2_right_m;
+  bool aligned = false;
+};
+
+/// A kick with what a replay of it needs. What the log does not have is empty.
+struct KickStory {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::int64_t kick_id = 0;
+  std::int64_t number = 0;  ///< of the robot's orders in its own session, from 1
+  std::int64_t t_ns = 0;    ///< of the decision, by the session's clock
+  std::int64_t utc_ns = 0;  ///< the same instant
+  int half = 0;
+  std::optional<double> half_time_s;  ///< since the half's first start of play, by the referee
+  std::string policy;
+  double distance_m = 0.0;
+  std::optional<double> power;
+  kicking::Goal goal{};
+  double side_line_x_m = 6.0;
+  std::vector<StoryPose> path;       ///< of the robot
+  std::vector<StoryPlace> ball;      ///< as the robot believed
+  std::vector<StoryPlace> flight;    ///< as its flight camera saw the ball
+  std::vector<StoryPlace> opponent;  ///< the nearest one that it saw
+  StorySegments segments;
+  std::optional<double> fired_after_s;     ///< the coil was energised, after the decision
+  std::optional<double> released_after_s;  ///< the ball was expected to leave
+  std::optional<StoryEnd> predicted;
+  std::optional<StoryEnd> observed;
+  std::optional<StoryEnd> truth;  ///< of the simulator
+};
+
+/// How far a story goes, and how fine it is.
+struct StoryPlan {
+  double before_s = 1.5;   ///< the decision
+  double after_s = 0.3;    ///< what settled the kick
+  double unsettled_s = 2;  ///< after the decision, where nothing did
+  double longest_s = 6.0;  ///< after the decision
+  double step_s = 0.04;    ///< a sample in each
+};
+
+/// The stories of the log's kicks that count, in the order of their time; refused orders are none. Throws
+/// std::runtime_error where the log cannot be read.
+std::vector<KickStory> kick_stories(const log::Reader& reader, const StoryPlan& plan = {});
+
+/// For replay() of evaluator/report/replay/replay.js: whole centimetres, milliseconds after the decision and
+/// milliradians; kick_id and session_id as texts, since JavaScript's numbers do not hold them; nothing for what is
+/// empty. `json.dump()` is the same text for the same log.
+nlohmann::ordered_json json_of(const KickStory& story);
+
+}  // namespace trivela::evaluator
