@@ -15,8 +15,10 @@
 namespace trivela::nodes {
 namespace {
 
-std::uint32_t session_of_kicks(std::uint32_t given) {
-  return given != 0 ? given : kicking::kick_session(std::random_device{}());
+/// No two nodes of a robot share one: where it is given, the second node has the next.
+std::uint32_t session_of_kicks(std::uint32_t given, DecisionNode which) {
+  if (given == 0) return kicking::kick_session(std::random_device{}());
+  return which == DecisionNode::kFirst ? given : kicking::kick_session(given);
 }
 
 void refuse_oracle(const robot::PolicyAssignment& assignment) {
@@ -51,7 +53,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context, DecisionNode which)
     : context_(context),
       which_(which),
       decider_({context.settings.kick_decision, context.settings.policy, context.settings.goal}, context.robot.model,
-               context.robot_id(), session_of_kicks(context.settings.run.session)),
+               context.robot_id(), session_of_kicks(context.settings.run.session, which)),
       node_(context.participant, which == DecisionNode::kFirst ? kDecisionNode : kSecondDecisionNode,
             context.robot_id()),
       decision_out_(node_.writer<msg::KickDecision>()),

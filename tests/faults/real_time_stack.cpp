@@ -22,6 +22,7 @@ config::Settings settings_for(const e2e::Folder& folder, double minutes, bool st
   settings.simulator.half_minutes = minutes;
   settings.recorder.log = folder / "match.db";
   settings.kick_decision.standby = standby;
+  settings.run.session = kFirstSession;
   return settings;
 }
 

@@ -12,6 +12,9 @@
 
 namespace trivela::faults {
 
+/// The session in the kick_id of kick_decision's kicks; kick_decision_second has the next.
+inline constexpr std::uint32_t kFirstSession = 100;
+
 /// The simulator and all nodes of a robot as processes of their own in real time, in a folder of their own.
 class RealTimeStack {
  public:
