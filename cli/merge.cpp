@@ -9,6 +9,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/merge.hpp"
+#include "evaluator/log/shard_merge.hpp"
 #include "evaluator/report/merge_report.hpp"
 
 namespace trivela::cli {
@@ -20,12 +21,21 @@ struct MergeArguments {
   std::optional<int> reference_robot;
 };
 
+int merge_shards(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
+  if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
+  const auto merged = evaluator::log::merge_shards(shards, arguments.out);
+  say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,
+                  merged.matches, merged.shards));
+  return kDone;
+}
+
 int run_merge(const MergeArguments& arguments) {
   require_writable("OUT", arguments.out);
+  const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
+  if (evaluator::log::any_is_shard(logs)) return merge_shards(arguments, logs);
   evaluator::log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
-  const evaluator::log::Merged merged =
-      evaluator::log::merge({arguments.logs.begin(), arguments.logs.end()}, arguments.out, options);
+  const evaluator::log::Merged merged = evaluator::log::merge(logs, arguments.out, options);
   if (arguments.reference_robot && !merged.alignment.reference_robot)
     warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
   const evaluator::log::Reader reader(arguments.out, evaluator::log::Check::kQuick);
@@ -44,12 +54,15 @@ int run_merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("merge", "Make one match log of those that a team's robots recorded");
+  auto* const verb =
+      app.add_subcommand("merge", "Make one match log of those of a team's robots, or of an experiment's shards");
   verb->footer(
       "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
       "offsets\n"
       "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
-      "\"missing: nothing\", or with what is missing and exit code 3.");
+      "\"missing: nothing\", or with what is missing and exit code 3. Shards of an experiment (trivela simulate "
+      "--shard)\n"
+      "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
   const auto arguments = std::make_shared<MergeArguments>();
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
   verb->add_option("logs", arguments->logs, "Match logs of any version, merged ones, too")->required();

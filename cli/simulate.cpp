@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/number_checks.hpp"
+#include "cli/shard_option.hpp"
 #include "cli/study.hpp"
 #include "cli/verbs.hpp"
 #include "cli/world.hpp"
@@ -30,13 +32,14 @@ struct SimulateFlags {
   experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   bool shadows = false;
   bool every_cycle = false;
+  std::optional<evaluator::log::Shard> shard;
 };
 
 experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const SimulateFlags& flags,
                                SignalInbox& signals) {
   ProgressBar bar;
   const auto found = [&](std::int64_t matches) {
-    if (matches > 0) fmt::print("{} of {} matches are in {} already\n", matches, plan.matches, flags.out);
+    if (matches > 0) fmt::print("{} of {} matches are in {} already\n", matches, plan.range().size(), flags.out);
   };
   const auto progress = [&](double done, double total, const std::string& what) { bar.show(done, total, what); };
   return experiment::run_experiment(plan, flags.jobs, flags.out,
@@ -44,6 +47,7 @@ experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const Sim
 }
 
 int simulate(const SimulateFlags& flags) {
+  check_shard(flags.shard, flags.matches);
   experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();
   plan.scenario_name = flags.world.named(std::filesystem::path{flags.world.file}.stem().string());
@@ -51,6 +55,7 @@ int simulate(const SimulateFlags& flags) {
   plan.seed = flags.seed;
   plan.matches = flags.matches;
   plan.possessions = flags.possessions;
+  plan.shard = flags.shard;
   plan.options = {.shadows = flags.shadows, .every_cycle = flags.every_cycle};
   plan.evenings = draw_evenings(plan.scenario, flags.base, {flags.calibrations, flags.seed, flags.jobs}, flags.matches);
   if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
@@ -59,10 +64,13 @@ int simulate(const SimulateFlags& flags) {
   const experiment::ExperimentRun run = play(plan, flags, signals);
   if (run.complete) {
     fmt::print("{}", to_text(plan, run, flags.jobs, flags.out));
+    if (plan.shard)
+      fmt::print("shard {}: matches {} to {} of {}; trivela merge OUT SHARD... makes one log of all shards\n",
+                 plan.shard->text(), plan.range().begin, plan.range().end - 1, plan.matches);
     return kDone;
   }
   fmt::print(stderr, "trivela: interrupted; {} of {} matches are in {}: the same command goes on from there\n",
-             run.in_log, plan.matches, flags.out);
+             run.in_log, plan.range().size(), flags.out);
   return kFailed;
 }
 
@@ -90,6 +98,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
   verb->add_option("--out", flags->out, "match log, new or of the same command")->capture_default_str();
+  add_shard_option(*verb, flags->shard, "trivela merge makes one log of their logs");
   add_world_options(*verb, flags->world);
   add_calibrations_option(*verb, flags->calibrations);
   add_arm_options(*verb, flags->base);

@@ -16,7 +16,7 @@ namespace {
 using kicking::Pose;
 using Cells = std::span<const log::Value>;
 
-constexpr double kJump_m = 0.5, kFastest_mps = 10.0;  // what is farther apart was not driven
+constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
 /// What the decision says of its alignment.
 struct DecidedAlignment {
@@ -173,7 +173,7 @@ class KickStreams {
   void cut_at_jumps(const KickStory& story) {
     const auto jumps = [](const StoryPose& a, const StoryPose& b) {
       const double apart_m = std::hypot(b.pose.x_m - a.pose.x_m, b.pose.y_m - a.pose.y_m);
-      return apart_m > std::max(kJump_m, kFastest_mps * kicking::seconds(b.t_ns - a.t_ns));
+      return apart_m > std::max(kRobotJump_m, kFastestRobot_mps * kicking::seconds(b.t_ns - a.t_ns));
     };
     const auto decided = std::ranges::upper_bound(world_, std::int64_t{0}, {}, &StoryPose::t_ns);
     const auto end = std::adjacent_find(decided == world_.begin() ? decided : std::prev(decided), world_.end(), jumps);

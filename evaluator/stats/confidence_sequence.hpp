@@ -15,9 +15,9 @@ namespace trivela::evaluator::stats {
 /// which is where the binomial probability of k of n exceeds (1 - confidence) / (n + 1). No kick: [0, 1].
 Interval confidence_sequence(Counts counts, double confidence = kConfidence);
 
-/// Logarithm of the evidence against p_new - p_old = difference, in [-1, 1]: the least of M_old(p) M_new(p + difference)
-/// over p. It exceeds log(1 / a) at any time with a probability of a at most where the difference is true, however the
-/// next kick's group is chosen. Infinite: the difference cannot be.
+/// Logarithm of the evidence against p_new - p_old = difference, in [-1, 1]: the least of M_old(p) M_new(p +
+/// difference) over p. It exceeds log(1 / a) at any time with a probability of a at most where the difference is true,
+/// however the next kick's group is chosen. Infinite: the difference cannot be.
 double log_evidence_against(double difference, Counts older, Counts newer);
 
 /// Differences newer - older whose evidence stays below 1 / (1 - confidence). No kick in either group: [-1, 1].

@@ -155,13 +155,18 @@ class Workers {
 std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std::string& out) {
   std::map<std::string, ArmTally> arms;
   const EveningArms evenings{{}, plan.evenings};
+  const evaluator::log::MatchRange range = plan.range();
   for (const Arm& arm : plan.arms) {
-    for (std::uint32_t m = 0; m < plan.matches; ++m) arms[arm.name].push_back({.calibration = evenings.evening_of(m)});
+    ArmTally& tally = arms[arm.name];
+    tally.reserve(range.size());
+    for (std::uint32_t m = range.begin; m < range.end; ++m) tally.push_back({.calibration = evenings.evening_of(m)});
   }
   const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
   const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
     reader.query("SELECT arm, match_id, count(*) FROM sessions JOIN " + rows + " GROUP BY arm, match_id",
-                 [&](const std::string& arm, std::size_t match, std::int64_t n) { arms.at(arm).at(match).*field = n; });
+                 [&](const std::string& arm, std::size_t match, std::int64_t n) {
+                   arms.at(arm).at(match - range.begin).*field = n;
+                 });
   };
   count("possession_truths USING (session_id)", &MatchTally::opportunities);
   count("kick_receipts USING (session_id) WHERE accepted = 1", &MatchTally::kicks);
@@ -243,12 +248,15 @@ void check_playable(const ExperimentPlan& plan) {
 ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
                              const ExperimentWatch& watch) {
   const std::string arguments = plan.arguments();
-  ExperimentLog log{out, {arguments, plan.matches}};
+  const evaluator::log::MatchRange range = plan.range();
+  ExperimentLog log{out,
+                    {plan.shard ? evaluator::log::stamped_arguments({arguments, *plan.shard, plan.matches}) : arguments,
+                     range.size()}};
   MatchTables tables{log};
   const EveningArms evenings{plan.arms, plan.evenings};
   Sessions sessions{plan, evenings, arguments};
-  const auto first = static_cast<std::uint32_t>(log.matches_done());
-  watch.found(first);
+  const auto first = range.begin + static_cast<std::uint32_t>(log.matches_done());
+  watch.found(log.matches_done());
   ExperimentRun run{.processor_s = std::vector<double>(plan.arms.size())};
   const auto started = std::chrono::steady_clock::now();
   const auto write = [&](std::uint32_t match_id, const std::vector<Played>& played) {
@@ -261,23 +269,23 @@ ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const st
     log.end_match();
   };
   {
-    MatchQueue<std::vector<Played>> queue{first, plan.matches, 4 * jobs};
+    MatchQueue<std::vector<Played>> queue{first, range.end, 4 * jobs};
     const Workers workers{plan, evenings, queue, jobs, write};
     std::uint32_t done = first;
-    while (done < plan.matches && !watch.stop()) {
+    while (done < range.end && !watch.stop()) {
       done = queue.wait(std::chrono::milliseconds{100});
       const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
       const double opportunities =
           static_cast<double>(done - first) * plan.possessions * static_cast<double>(plan.arms.size());
-      watch.progress(static_cast<double>(done - first), plan.matches - first,
+      watch.progress(static_cast<double>(done - first), range.end - first,
                      fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
     }
-    run.complete = done == plan.matches;
+    run.complete = done == range.end;
   }
   log.commit();
   run.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
   run.in_log = log.matches_done();
-  run.matches = run.in_log - first;
+  run.matches = range.begin + run.in_log - first;
   if (run.complete) log.finish();
   return run;
 }

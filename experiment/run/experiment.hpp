@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluator/log/shard.hpp"
 #include "experiment/play/play_match.hpp"
 #include "experiment/run/evening_arms.hpp"
 
@@ -20,8 +22,12 @@ struct ExperimentPlan {
   std::uint32_t possessions = 60;
   PlayOptions options;
   std::vector<Team> evenings;  ///< of calibration; match m is played with evening m mod their number; empty: none
+  std::optional<evaluator::log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
 
-  /// Everything that the rows depend on, as text.
+  /// The matches that are played.
+  evaluator::log::MatchRange range() const { return evaluator::log::range_of(shard, matches); }
+
+  /// Everything that the rows of a match depend on, as text.
   std::string arguments() const;
 };
 
@@ -50,7 +56,7 @@ struct ExperimentRun {
 ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
                              const ExperimentWatch& watch);
 
-/// What each arm did in the complete experiment in the log `out`, and how fast the run was.
+/// What each arm did in the complete experiment, or shard, in the log `out`, and how fast the run was.
 std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsigned jobs, const std::string& out);
 
 }  // namespace trivela::experiment

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/e2e/folder.hpp"
+#include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
 
 namespace trivela::e2e {
@@ -34,6 +35,19 @@ inline std::vector<std::string> simulate(const std::string& out, int matches, st
 inline void run(const Folder& folder, const std::vector<std::string>& arguments) {
   Program program{"trivela", arguments, folder.path()};
   ASSERT_EQ(program.wait(), 0) << program.errors();
+}
+
+/// Tables of which a cell of one log is another in the other; not SQLite's own counts of rows, which it makes where it
+/// likes.
+inline std::vector<std::string> other_rows(const Folder& folder, const std::string& one, const std::string& other) {
+  const Reader a{folder / one};
+  const Reader b{folder / other};
+  std::vector<std::string> differing;
+  for (const Row& name : rows_of(a, "SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'sqlite_stat1'")) {
+    const std::string table = std::get<std::string>(name[0]);
+    if (rows_of(a, "SELECT * FROM " + table) != rows_of(b, "SELECT * FROM " + table)) differing.push_back(table);
+  }
+  return differing;
 }
 
 }  // namespace trivela::e2e

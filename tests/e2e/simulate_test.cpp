@@ -14,18 +14,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// Every cell of every table.
-std::vector<std::string> other_rows(const Folder& folder, const std::string& one, const std::string& other) {
-  const Reader a{folder / one};
-  const Reader b{folder / other};
-  std::vector<std::string> differing;
-  for (const Row& name : rows_of(a, "SELECT name FROM sqlite_schema WHERE type = 'table'")) {
-    const std::string table = std::get<std::string>(name[0]);
-    if (rows_of(a, "SELECT * FROM " + table) != rows_of(b, "SELECT * FROM " + table)) differing.push_back(table);
-  }
-  return differing;
-}
-
 TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
   const Folder folder;
   run(folder, simulate("one.db", 5));
