@@ -42,9 +42,13 @@ int run_merge(const MergeArguments& arguments) {
   const evaluator::MergeReport report = evaluator::report_merge(merged, reader);
   say(fmt::format("{}\n{}: {}\n", report.table, arguments.out, report.total));
   for (const std::string& note : report.notes) say(note + '\n');
+  if (!report.conflicts.empty()) {
+    say("conflicts, of which the more complete recording counts, of labels the latest:\n");
+    for (const std::string& line : report.conflicts) say("  " + line + '\n');
+  }
   if (report.missing.empty()) {
     say("missing: nothing\n");
-    return kDone;
+    return report.conflicts.empty() ? kDone : kDoneWithLoss;
   }
   say("missing:\n");
   for (const std::string& line : report.missing) say("  " + line + '\n');
@@ -60,7 +64,8 @@ void add_merge(CLI::App& app, int& exit_code) {
       "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
       "offsets\n"
       "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
-      "\"missing: nothing\", or with what is missing and exit code 3. Shards of an experiment (trivela simulate "
+      "\"missing: nothing\", or with what is missing and exit code 3, as where two files say different things of a "
+      "kick. Shards of an experiment (trivela simulate "
       "--shard)\n"
       "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
   const auto arguments = std::make_shared<MergeArguments>();

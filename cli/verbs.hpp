@@ -30,6 +30,8 @@ void add_report(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_collect(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
+void add_label(CLI::App& app, int& exit_code);
+void add_note(CLI::App& app, int& exit_code);
 void add_migrate(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);

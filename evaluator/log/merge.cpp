@@ -215,6 +215,10 @@ class Merging {
       if (!session.is_whole) session.missing_rows = missing_rows(database, session_id);
     }
     write_provenance(database);
+    copy_said(database);
+    KickSayings sayings;
+    for (const MergeSource& source : sources_) sayings.add(source);
+    merged_.conflicts = sayings.conflicts();
     merged_.alignment = write_clocks(database, merged_.sessions, options_.reference_robot);
   }
 
@@ -233,6 +237,25 @@ class Merging {
         if (inherited_.contains({&sources_[i], part.session_id})) continue;
         add(copy, std::vector<Value>{part.session_id, file.path.filename().string(), std::int64_t{file.version},
                                      part.rows, damage_of(file)});
+      }
+    }
+  }
+
+  /// What people say, of every file; tallies of the rows that a session has in the file that it is taken from.
+  void copy_said(SQLite::Database& database) {
+    for (const std::string_view table : kSaidAfterwards) {
+      if (table == "session_clocks" || table == "merged_sessions") continue;
+      const bool by_people = table == "labels" || table == "notes";
+      RowCopy copy(database, table);
+      const std::size_t id_place = copy.place("session_id");
+      for (std::size_t i = 0; i < sources_.size(); ++i) {
+        if (sources_[i].reader() == nullptr) continue;
+        sources_[i].for_each_row(table, copy.columns(), "session_id", [&](std::span<const Value> row) {
+          const auto* const id = std::get_if<std::int64_t>(&row[id_place]);
+          const auto choice = id != nullptr ? choices_.find(*id) : choices_.end();
+          if (choice == choices_.end() || unfit_.contains(*id)) return;
+          if (by_people || (choice->second.source == i && choice->second.copy == Copy::kWhole)) add(copy, row);
+        });
       }
     }
   }

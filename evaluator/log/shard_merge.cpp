@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -25,27 +26,30 @@ struct ShardFile {
   ShardStamp stamp;
   std::int64_t matches = 0;       // of this shard
   std::int64_t matches_done = 0;  // so far
+  bool is_shard = false;          // false: a whole experiment, as its one part
 };
 
 std::runtime_error refused(const fs::path& path, const std::string& why) {
   return std::runtime_error(fmt::format("{}: {}", path.string(), why));
 }
 
-/// None: a log, but no shard's.
-std::optional<ShardFile> shard_in(const fs::path& path, const Reader& reader) {
+/// A shard's log or that of a whole experiment; none: another log.
+std::optional<ShardFile> experiment_in(const fs::path& path, const Reader& reader) {
   std::optional<ShardFile> found;
   std::int64_t experiments = 0;
-  reader.query("SELECT arguments, matches, matches_done FROM experiments",
-               [&](const std::string& arguments, std::int64_t matches, std::int64_t done) {
-                 ++experiments;
-                 if (const auto stamp = stamp_of(arguments)) found = ShardFile{path, *stamp, matches, done};
-               });
+  reader.query("SELECT arguments, matches, matches_done FROM experiments", [&](const std::string& arguments,
+                                                                               std::int64_t matches,
+                                                                               std::int64_t done) {
+    ++experiments;
+    const auto stamp = stamp_of(arguments);
+    found = ShardFile{path, stamp.value_or(ShardStamp{arguments, Shard{}, matches}), matches, done, stamp.has_value()};
+  });
   return experiments == 1 ? found : std::nullopt;
 }
 
 ShardFile read_shard(const fs::path& path) {
   const Reader reader(path, Check::kWhole);
-  auto file = shard_in(path, reader);
+  auto file = experiment_in(path, reader);
   if (!file) throw refused(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
   if (reader.version() != kMatchLog.version)
     throw refused(path, fmt::format("is of version {} and not {}: shards are merged by the program that played them",
@@ -60,6 +64,49 @@ ShardFile read_shard(const fs::path& path) {
   return *file;
 }
 
+/// Rows of its sessions, by their digests.
+std::map<std::int64_t, std::string> digests_of(const fs::path& path) {
+  std::map<std::int64_t, std::string> digests;
+  Reader(path, Check::kSchema)
+      .query("SELECT session_id, sha256 FROM digests",
+             [&](std::int64_t session_id, const std::string& sha256) { digests[session_id] = sha256; });
+  return digests;
+}
+
+/// Throws where `part` has a session that `all` has not, or has with other rows.
+void check_part(const ShardFile& part, const ShardFile& all) {
+  const auto rows = digests_of(all.path);
+  for (const auto& [session_id, sha256] : digests_of(part.path)) {
+    const auto there = rows.find(session_id);
+    if (there != rows.end() && there->second == sha256) continue;
+    throw refused(part.path,
+                  fmt::format("of session {} it says something else than {}", session_id, all.path.string()));
+  }
+}
+
+/// Leaves out what says nothing new: a shard that is there already, and, where the whole experiment is, every shard.
+/// Throws where two files say different things of the same matches. Returns what was left out: of it comes along what
+/// people say.
+std::vector<ShardFile> leave_out_repeated(std::vector<ShardFile>& files) {
+  const auto whole = std::ranges::find(files, false, &ShardFile::is_shard);
+  std::vector<ShardFile> kept, repeated;
+  for (const ShardFile& file : files) {
+    const bool one = file.stamp.arguments == files.front().stamp.arguments;
+    const auto there = std::ranges::find(kept, file.stamp.shard, [](const ShardFile& f) { return f.stamp.shard; });
+    if (one && whole != files.end() && &file != &*whole) {
+      check_part(file, *whole);
+      repeated.push_back(file);
+    } else if (one && there != kept.end()) {
+      check_part(file, *there);
+      repeated.push_back(file);
+    } else {
+      kept.push_back(file);
+    }
+  }
+  files = std::move(kept);
+  return repeated;
+}
+
 /// Throws unless the files are all shards of one experiment, each once.
 void check_set(const std::vector<ShardFile>& files) {
   const ShardFile& first = files.front();
@@ -72,11 +119,6 @@ void check_set(const std::vector<ShardFile>& files) {
                                            file.stamp.shard.text(), file.stamp.matches, first.path.string(),
                                            first.stamp.shard.text(), first.stamp.matches));
   }
-  const auto twice =
-      std::ranges::adjacent_find(files, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
-  if (twice != files.end())
-    throw refused(twice->path,
-                  fmt::format("shard {} is in {}, too", twice->stamp.shard.text(), std::next(twice)->path.string()));
   std::vector<std::string> missing;
   std::size_t next = 0;
   for (std::uint32_t number = 1; number <= first.stamp.shard.count; ++number) {
@@ -91,16 +133,20 @@ void check_set(const std::vector<ShardFile>& files) {
                                        missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
-/// In the order of the keys, as one run writes them.
-void copy_rows(SQLite::Database& database, const ShardFile& file) {
+/// In the order of the keys, as one run writes them; or what is said of them alone.
+void copy_rows(SQLite::Database& database, const ShardFile& file, bool said_alone) {
   SQLite::Statement attach(database, "ATTACH ? AS shard");
   attach.bind(1, file.path.string());
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  database.exec("INSERT OR IGNORE INTO main.texts SELECT * FROM shard.texts");
-  database.exec("INSERT INTO main.digests SELECT * FROM shard.digests");
-  for (const DigestedTable& table : digested_tables())
-    database.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM shard.{0} ORDER BY {1}", table.name, table.key));
+  if (!said_alone) {
+    database.exec("INSERT OR IGNORE INTO main.texts SELECT * FROM shard.texts");
+    database.exec("INSERT INTO main.digests SELECT * FROM shard.digests");
+    for (const DigestedTable& table : digested_tables())
+      database.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM shard.{0} ORDER BY {1}", table.name, table.key));
+  }
+  for (const std::string_view table : kSaidAfterwards)
+    database.exec(fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM shard.{0}", table));
   transaction.commit();
   attach.reset();
   database.exec("DETACH shard");
@@ -120,7 +166,8 @@ void write_whole(SQLite::Database& database, const ShardStamp& stamp) {
 bool any_is_shard(const std::vector<fs::path>& files) {
   return std::ranges::any_of(files, [](const fs::path& path) {
     try {
-      return shard_in(path, Reader(path, Check::kSchema)).has_value();
+      const auto found = experiment_in(path, Reader(path, Check::kSchema));
+      return found && found->is_shard;
     } catch (const std::exception&) {
       return false;  // merging says what is wrong with it
     }
@@ -133,6 +180,7 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
   shards.reserve(files.size());
   for (const fs::path& path : files) shards.push_back(read_shard(path));
   std::ranges::stable_sort(shards, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
+  const std::vector<ShardFile> repeated = leave_out_repeated(shards);
   check_set(shards);
   MergedShards merged{
       .shards = static_cast<std::int64_t>(shards.size()), .sessions = 0, .matches = shards.front().stamp.matches};
@@ -140,9 +188,10 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
     made.exec("PRAGMA trusted_schema = OFF");
     create_tables(made);
     for (std::size_t i = 0; i < shards.size(); ++i) {
-      copy_rows(made, shards[i]);
+      copy_rows(made, shards[i], false);
       told(i + 1, shards.size());
     }
+    for (const ShardFile& file : repeated) copy_rows(made, file, true);
     write_whole(made, shards.front().stamp);
     merged.sessions = made.execAndGet("SELECT count(*) FROM sessions").getInt64();
   });

@@ -53,9 +53,10 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
                  sessions_[session->second].in_charge[half] += fmt::format("{}:{} ", robot_id, policy);
                });
   reader.query(kKickWordsSql, [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns,
-                                  std::int64_t utc_ns, int words, int half) {
+                                  std::int64_t utc_ns, int words, int half, std::int64_t labelled_utc_ns) {
     const auto session = fresh.find(session_id);
-    if (session != fresh.end()) kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half});
+    if (session != fresh.end())
+      kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half, labelled_utc_ns});
   });
   note_log(reader, name, again, open);
   return fresh;

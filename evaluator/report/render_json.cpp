@@ -128,6 +128,10 @@ Json quality_json(const Report& report) {
     quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
   quality["labels"] = labels_json(report.labels);
+  quality["hand_labels"] = {{"kicks", report.hand_labels.kicks},
+                            {"compared", report.hand_labels.compared},
+                            {"disagreed", report.hand_labels.disagreed},
+                            {"observer_knew_not", report.hand_labels.observer_knew_not}};
   quality["verification"] = {{"verified_rows", report.verified_rows},
                              {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
@@ -148,6 +152,9 @@ std::string to_json(const Report& report) {
   }
   json["sessions"] = Json::array();
   for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session, report.imports));
+  json["said"] = Json::array();
+  for (const SessionNote& note : report.notes)
+    json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
   json["data_quality"] = quality_json(report);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "

@@ -75,6 +75,7 @@ std::string heading(const Report& report) {
   }
   if (shown < report.sessions.size())
     text += fmt::format("and {} more sessions, in JSON each\n", report.sessions.size() - shown);
+  for (const SessionNote& note : report.notes) text += printable(line_of(note)) + "\n";
   for (const PlayedLength& length : report.lengths)
     text += fmt::format("Planned {:.0f} s, recorded {:.1f} s{}\n", length.planned_s, length.recorded_s,
                         length.cut_short() ? ": CUT SHORT" : "");
@@ -199,6 +200,7 @@ std::string quality(const Report& report) {
     }
     text += "\n";
   }
+  if (report.hand_labels.kicks > 0) text += fmt::format("  {}\n", report.hand_labels.line());
   if (report.compared_with_truth > 0) {
     text += fmt::format("  observed outcomes like the simulator's truth: {} of {}\n", report.alike_with_truth,
                         report.compared_with_truth);

@@ -186,6 +186,7 @@ Report make_report(const log::Reader& reader, bool blocked_apart) {
   refuse_arms_of_one_policy(sessions);
   forget_absent_robots(sessions, logged);
   Report report{.sessions = sessions,
+                .notes = notes_that_hold(session_notes(reader)),
                 .policies = policy_rows(reader, sessions, logged, blocked_apart),
                 .robots = robot_rows(reader, logged, blocked_apart),
                 .lengths = played_lengths(reader, logged.sessions),
@@ -197,6 +198,7 @@ Report make_report(const log::Reader& reader, bool blocked_apart) {
                 .silences = silences_of(reader),
                 .unrecorded_orders = unrecorded_orders_of(reader),
                 .labels = label_quality_of(reader),
+                .hand_labels = hand_labels_of(reader),
                 .warnings = reader.warnings(),
                 .doubt = reader.doubt(),
                 .verified_rows = reader.verification().compared ? reader.verification().rows : 0};

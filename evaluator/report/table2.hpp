@@ -8,10 +8,12 @@
 
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/bounces.hpp"
+#include "evaluator/report/hand_labels.hpp"
 #include "evaluator/report/import_notes.hpp"
 #include "evaluator/report/label_quality.hpp"
 #include "evaluator/report/played_length.hpp"
 #include "evaluator/report/recording_gaps.hpp"
+#include "evaluator/report/session_notes.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
 
@@ -77,8 +79,9 @@ struct RefusedOrders {
 /// Table 2 of a match log, its sessions pooled by policy, and how far it can be trusted.
 struct Report {
   std::vector<log::RecordedSession> sessions;
-  std::vector<PolicyRow> policies;  ///< stopped before moving
-  std::vector<RobotRow> robots;     ///< by robot and policy; empty: the log has one robot
+  std::vector<SessionNote> notes{};  ///< what people say of them, as far as it holds
+  std::vector<PolicyRow> policies;   ///< stopped before moving
+  std::vector<RobotRow> robots;      ///< by robot and policy; empty: the log has one robot
   std::vector<PlayedLength> lengths;
   ImportNotes imports{};                 ///< of sessions that no robot recorded
   std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
@@ -88,6 +91,7 @@ struct Report {
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
   LabelQuality labels;
+  HandLabels hand_labels;
   std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
   std::optional<std::string> doubt;      ///< a sentence on rows that nobody compared with their digest
   std::int64_t verified_rows = 0;        ///< that are as they were recorded
