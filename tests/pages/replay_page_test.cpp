@@ -3,8 +3,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "pages/lob/page_server.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
+#include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
 #include "tests/pages/viewer.hpp"
 
@@ -36,9 +37,9 @@ class ReplayPage : public testing::Test {
   json state() const { return json::parse(get(server_.port(), "/api/state")); }
   void to_the_end() const { command({{"position", 1'000'000}}); }
 
-  Broadcast broadcast_;
+  Broadcast broadcast_{lob_channels()};
   ReplayScene scene_{record().path(), {}, {.powers = {15, 20}, .trials = 2}, broadcast_};
-  PageServer server_{scene_, broadcast_, {}};
+  PageServer server_{lob_page(scene_), broadcast_, {}};
 };
 
 TEST_F(ReplayPage, ServesItselfWithoutOtherSites) {
@@ -99,7 +100,7 @@ TEST_F(ReplayPage, RejectingALobChangesTheTableAndIsKeptBesideTheRecord) {
   EXPECT_EQ(state()["lobs"][1]["why"], "rejected by the operator: touched a foot");
   EXPECT_EQ(bytes_of(record().path()), before) << "a finished record is never changed";
 
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   ReplayScene again(record().path(), {}, {}, broadcast);
   again.command("player", {{"position", 1'000'000}});
   EXPECT_EQ(again.state()["table"][0]["trials"], 1);
@@ -137,7 +138,7 @@ TEST_F(ReplayPage, CommandsThatMakeNoSenseAreAnsweredWithASentence) {
 
 TEST_F(ReplayPage, APortThatIsTakenIsNamed) {
   try {
-    const PageServer second(scene_, broadcast_, {.host = "127.0.0.1", .port = server_.port()});
+    const PageServer second(lob_page(scene_), broadcast_, {.host = "127.0.0.1", .port = server_.port()});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(error.what(),
@@ -188,9 +189,9 @@ class StalledViewer {
 };
 
 TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   ReplayScene scene(record().path(), {}, {}, broadcast);
-  auto server = std::make_unique<PageServer>(scene, broadcast, ListenAddress{});
+  auto server = std::make_unique<PageServer>(lob_page(scene), broadcast, ListenAddress{});
   std::vector<std::unique_ptr<StalledViewer>> stalled;
   for (int i = 0; i < 5; ++i) stalled.push_back(std::make_unique<StalledViewer>(server->port()));
   for (const auto& viewer : stalled) ASSERT_TRUE(viewer->connected());
@@ -206,7 +207,7 @@ TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
 TEST(ReplayPageServer, ARecordWithoutScansIsNamed) {
   const RecordedLobs empty({});
   evaluator::log::ScanWriter(empty.path("none.db"), empty.session()).finalise();
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   try {
     const ReplayScene scene(empty.path("none.db"), {}, {}, broadcast);
     FAIL();
