@@ -7,6 +7,7 @@
 #include "pages/lob/replay_scene.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
+#include "tests/pages/stalled_viewer.hpp"
 #include "tests/pages/viewer.hpp"
 
 namespace trivela::pages {
@@ -163,30 +164,6 @@ TEST_F(ReplayPage, ThirtyViewersDoNotSlowTheFirst) {
   EXPECT_GE(seen, kScans * 9 / 10) << "of the scans played";
   for (auto& other : others) ASSERT_TRUE(other->wait([&] { return other->frames.back() >= kScans; }));
 }
-
-/// Asks for the events and never reads them.
-class StalledViewer {
- public:
-  explicit StalledViewer(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    const std::string request = "GET /api/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
-    const int small = 4096;
-    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-    connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
-                 ::send(socket_, request.data(), request.size(), 0) == static_cast<ssize_t>(request.size());
-  }
-  StalledViewer(const StalledViewer&) = delete;
-  StalledViewer& operator=(const StalledViewer&) = delete;
-  ~StalledViewer() { ::close(socket_); }
-  bool connected() const { return connected_; }
-
- private:
-  int socket_;
-  bool connected_ = false;
-};
 
 TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
   Broadcast broadcast{lob_channels()};
