@@ -20,25 +20,28 @@ struct MonitorFlags {
   std::string config = config::shipped("default.toml").string();
   std::optional<std::uint32_t> domain;
   std::string tag;
+  std::string dds;
   std::string team;
   std::string keys;
   WatchFlags watch;
 };
 
-/// The team's robots by the names that their files give them.
-void name_robots(const std::string& file, pages::SceneSettings& scene) {
-  const config::Team team = sound_team(file);
+/// What the team's file says: names, and the domain of the bus between its machines, where that is looked at.
+void look_at_team(const MonitorFlags& flags, config::Settings& settings, pages::SceneSettings& scene) {
+  const config::Team team = sound_team(flags.team);
   scene.title = team.team.name;
   for (const config::TeamRobot& robot : team.robots)
     scene.names[static_cast<std::uint8_t>(robot.number)] = config::load_robot(robot.robot).name;
+  if (!flags.dds.empty()) settings.domain.domain_id = team.domains.team;
 }
 
 int serve_monitor(const MonitorFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
+  pages::SceneSettings scene = scene_settings(settings);
+  if (!flags.team.empty()) look_at_team(flags, settings, scene);
   if (flags.domain) settings.domain.domain_id = *flags.domain;
   if (!flags.tag.empty()) settings.domain.tag = flags.tag;
-  pages::SceneSettings scene = scene_settings(settings);
-  if (!flags.team.empty()) name_robots(flags.team, scene);
+  if (!flags.dds.empty()) settings.domain.dds_file = flags.dds;
   SignalInbox signals;  // before all threads, which must not take them
   const WatchPage page{flags.watch, settings, flags.keys, std::move(scene)};
   for (pollfd inbox{signals.file_descriptor(), POLLIN, 0}; !signals.stop_requested();) poll(&inbox, 1, -1);
@@ -58,7 +61,12 @@ void add_monitor(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
-  verb->add_option("--team", flags->team, "team.toml that names the robots")->check(readable_file());
+  verb->add_option(
+          "--dds", flags->dds,
+          "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus between "
+          "the machines, in the domain that --team says")
+      ->check(readable_file());
+  verb->add_option("--team", flags->team, "team.toml that names team and robots")->check(readable_file());
   verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")
       ->envname(nodes::kKeysVariable);
   add_watch_flags(*verb, flags->watch);

@@ -14,8 +14,8 @@
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/lob_page.hpp"
-#include "pages/serve/page_server.hpp"
 #include "pages/lob/replay_scene.hpp"
+#include "pages/serve/page_server.hpp"
 
 namespace trivela::cli {
 namespace {

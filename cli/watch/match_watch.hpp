@@ -11,8 +11,8 @@ namespace trivela::cli {
 /// The live page of a match that this process plays.
 class MatchWatch {
  public:
-  /// Serves it and prints its address; `flags` nullptr: nobody watches. `settings`: of the run, with its domain. Throws what
-  /// WatchPage does.
+  /// Serves it and prints its address; `flags` nullptr: nobody watches. `settings`: of the run, with its domain. Throws
+  /// what WatchPage does.
   MatchWatch(const WatchFlags* flags, const config::Settings& settings);
 
   /// A match that was played to its end stays to be looked at until somebody asks to stop.

@@ -12,9 +12,7 @@
 namespace trivela::cli {
 namespace {
 
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
+bool is_loopback(const std::string& host) { return host == "localhost" || host == "::1" || host.starts_with("127."); }
 
 std::string token_for(const WatchFlags& flags, const pages::ListenAddress& address) {
   if (!flags.token_file.empty()) return pages::token_of_file(flags.token_file);

@@ -23,12 +23,13 @@ std::vector<CLI::Option*> add_watch_flags(CLI::App& verb, WatchFlags& flags);
 /// What the page is told of the match: the team's name, the robot's, field and rules. Throws config::Error.
 pages::SceneSettings scene_settings(const config::Settings& settings);
 
-/// The live page of a domain, served while it lives. On this machine's own addresses alone without a token; on any other
-/// with that of a file, or with one that is drawn anew.
+/// The live page of a domain, served while it lives. On this machine's own addresses alone without a token; on any
+/// other with that of a file, or with one that is drawn anew.
 class WatchPage {
  public:
-  /// Joins the domain and prints the address. Throws config::BadArgument for flags that make no sense, std::runtime_error
-  /// where the address is refused, bus::Error where the domain is. `keys`: the folder of the team's, empty: in clear.
+  /// Joins the domain and prints the address. Throws config::BadArgument for flags that make no sense,
+  /// std::runtime_error where the address is refused, bus::Error where the domain is. `keys`: the folder of the team's,
+  /// empty: in clear.
   WatchPage(const WatchFlags& flags, const config::Settings& settings, const std::string& keys,
             pages::SceneSettings scene);
 

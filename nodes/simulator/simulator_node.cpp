@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -165,7 +166,7 @@ bool SimulatorNode::await_cycle(std::int64_t t_ns) {
   if (pace <= 0.0) return true;
   if (!wait_until(next_ns_)) return false;
   // What the nodes took longer for is not caught up with: nobody could follow.
-  next_ns_ = context_.steady_ns() + kicking::nanoseconds(context_.settings.run.cycle_s / pace);
+  next_ns_ = std::max(next_ns_ + kicking::nanoseconds(context_.settings.run.cycle_s / pace), context_.steady_ns());
   return true;
 }
 

@@ -16,11 +16,11 @@ namespace trivela::nodes {
 /// played in it.
 sim::Scenario scenario_of(const config::Settings& settings);
 
-/// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer or, where there is a
-/// pace, no faster than that, otherwise in real time. The world's time begins at 0. In lockstep it is every t_ns on the bus; in real time those are of the
-/// steady clock, so that a simulator that is started anew goes on where the nodes are. A fire that reaches the
-/// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
-/// the base stands.
+/// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer or, where there
+/// is a pace, no faster than that, otherwise in real time. The world's time begins at 0. In lockstep it is every t_ns
+/// on the bus; in real time those are of the steady clock, so that a simulator that is started anew goes on where the
+/// nodes are. A fire that reaches the simulated coil long after its instant energises nothing, and without a drive
+/// command for odometry.drive_timeout_s the base stands.
 ///
 /// With emulated devices the kicker's board, the base's drives and the referee box are in place of their topics, and
 /// the world begins when the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is

@@ -9,7 +9,7 @@ namespace {
 
 using Alarms = std::map<std::string, std::string>;
 
-constexpr std::int64_t kUnarmed_ns = 500'000'000;      // the driver arms a cycle after the referee's word
+constexpr std::int64_t kUnarmed_ns = 500'000'000;  // the driver arms a cycle after the referee's word
 constexpr std::size_t kLastKicks = 10;
 constexpr int kMostUnknown = 2;  // of them
 
@@ -22,9 +22,8 @@ void note_silences(const SceneState& state, Alarms& alarms) {
     }
     for (const std::string& topic : state.streams.silent(id)) {
       alarms[fmt::format("{}/silent/{}", id, topic)] =
-          topic == bus::meta<msg::Referee>::topic
-              ? fmt::format("robot {}: the referee is silent", id)
-              : fmt::format("robot {}: no {} is heard any more", id, topic);
+          topic == bus::meta<msg::Referee>::topic ? fmt::format("robot {}: the referee is silent", id)
+                                                  : fmt::format("robot {}: no {} is heard any more", id, topic);
     }
   }
   if (!state.robots.empty() && !state.streams.was_heard(std::string{bus::meta<msg::Referee>::topic}))
@@ -51,9 +50,8 @@ void note_kickers(const SceneState& state, std::int64_t now_ns, Alarms& alarms) 
     if (kicker != nullptr && (kicker->fault != msg::FAULT_NONE || kicker->state == msg::STATE_FAULT))
       alarms[fmt::format("{}/fault", id)] = fmt::format("robot {}: kicker: {}", id, words_of(kicker->fault));
     const auto* device = robot.device.within(kFresh_ns, now_ns);
-    const bool open = device != nullptr
-                          ? !device->armed
-                          : robot.unarmed_since_ns != 0 && now_ns - robot.unarmed_since_ns >= kUnarmed_ns;
+    const bool open = device != nullptr ? !device->armed
+                                        : robot.unarmed_since_ns != 0 && now_ns - robot.unarmed_since_ns >= kUnarmed_ns;
     if (open && !state.over) alarms[fmt::format("{}/switch", id)] = fmt::format("robot {}: the arm switch is open", id);
   }
 }
@@ -78,12 +76,13 @@ Alarms alarms_of(const SceneState& state, std::int64_t now_ns) {
   note_kicks(state, now_ns, alarms);
   for (const auto& [stream, messages] : state.streams.missed_lately(now_ns)) {
     const auto& [id, topic] = stream;
-    alarms[fmt::format("{}/missed/{}", id, topic)] = fmt::format("robot {}: {} of {} were missed by this page", id,
-                                                                 messages == 1 ? "a message" : fmt::format("{} messages", messages),
-                                                                 topic);
+    const std::string how_many = messages == 1 ? "a message" : fmt::format("{} messages", messages);
+    alarms[fmt::format("{}/missed/{}", id, topic)] =
+        fmt::format("robot {}: this page missed {} of {}", id, how_many, topic);
   }
   if (state.strangers > 0)
-    alarms["strangers"] = fmt::format("messages of more than {} robots, or of robot 0: not shown", MatchScene::kMostRobots);
+    alarms["strangers"] =
+        fmt::format("messages of more than {} robots, or of robot 0: not shown", MatchScene::kMostRobots);
   return alarms;
 }
 

@@ -11,8 +11,7 @@ namespace {
 bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
   if (now.over || now.heard_ns - kick.heard_ns > kSilencePatience_ns) return false;
   const auto robot = now.robots_t_ns.find(kick.robot_id);
-  return !kick.decided || robot == now.robots_t_ns.end() ||
-         robot->second - kick.decided->t_ns <= kOutcomePatience_ns;
+  return !kick.decided || robot == now.robots_t_ns.end() || robot->second - kick.decided->t_ns <= kOutcomePatience_ns;
 }
 
 // Whether this receipt says more than the last one: an order that came twice is refused as `double` after it was fired.
@@ -63,8 +62,7 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
                              .distance_m = decision.distance_m,
                              .power = msg::optional_of(decision.power),
                              .p_on_target = msg::optional_of(decision.p_on_target)};
-  decided.from_own_half =
-      ball_offset_m_ && decision.y_m + *ball_offset_m_ * std::cos(decision.heading_rad) <= 0.0;
+  decided.from_own_half = ball_offset_m_ && decision.y_m + *ball_offset_m_ * std::cos(decision.heading_rad) <= 0.0;
   kick->decided = decided;
 }
 

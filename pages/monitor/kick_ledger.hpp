@@ -54,8 +54,8 @@ struct LedgerNow {
 inline constexpr std::int64_t kOutcomePatience_ns = 10'000'000'000;
 inline constexpr std::int64_t kSilencePatience_ns = 60'000'000'000;
 
-/// A refused order is no kick; an outcome that never came is unknown; one on target from the own half is outside where the
-/// rules say so.
+/// A refused order is no kick; an outcome that never came is unknown; one on target from the own half is outside where
+/// the rules say so.
 KickFate fate_of(const KnownKick& kick, const LedgerNow& now);
 
 /// Kicks by fate; `refused` are none.
@@ -67,9 +67,9 @@ struct KickTally {
   std::int64_t refused = 0;
 };
 
-/// Joins decisions, receipts and outcomes by kick_id, each kick once however often and in whatever order its words come.
-/// As the log's view `kicks` has it: the first decision that fired, the last receipt (one that says `double` last of all),
-/// the last outcome.
+/// Joins decisions, receipts and outcomes by kick_id, each kick once however often and in whatever order its words
+/// come. As the log's view `kicks` has it: the first decision that fired, the last receipt (one that says `double` last
+/// of all), the last outcome.
 class KickLedger {
  public:
   static constexpr std::size_t kMostKicks = 10'000;  ///< a stranger may say any number of them

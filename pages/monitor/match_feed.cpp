@@ -41,18 +41,14 @@ std::set<std::string> simulated_by(const bus::Census& census) {
 }  // namespace
 
 MatchFeed::MatchFeed(const bus::DomainConfig& domain, bool lockstep, SceneSettings settings, Broadcast& broadcast)
-    : scene_(std::move(settings)),
-      broadcast_(broadcast),
-      participant_(join(domain, lockstep)),
-      census_(participant_) {
+    : scene_(std::move(settings)), broadcast_(broadcast), participant_(join(domain, lockstep)), census_(participant_) {
   bus::for_each_message([this]<class T>() {
     if constexpr (MatchScene::listens_to<T>()) {
       const auto hear = [this](const T& sample, const bus::SampleInfo& info) {
         const std::lock_guard lock{mutex_};
         scene_.hear(sample, info.writer, clock_ns());
       };
-      ears_.push_back(
-          std::make_unique<monitor::Ear<T>>(participant_, hear, std::is_same_v<T, msg::DeviceEmulated>));
+      ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, hear, std::is_same_v<T, msg::DeviceEmulated>));
     }
   });
   thread_ = std::thread([this] { publish(); });

@@ -20,7 +20,8 @@ namespace trivela::pages {
 enum MatchChannel : std::size_t { kPitch, kMatch };
 inline std::vector<std::string> match_channels() { return {"pitch", "match"}; }
 
-/// Listens to a domain and shows it. It has readers that nobody waits for and no writer: nothing of it can order anything.
+/// Listens to a domain and shows it. It has readers that nobody waits for and no writer: nothing of it can order
+/// anything.
 class MatchFeed {
  public:
   /// Joins. `lockstep`: t_ns are no clock's, and silence of the bus is no fault. The broadcast must outlive it. Throws

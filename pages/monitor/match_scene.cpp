@@ -8,7 +8,8 @@ namespace trivela::pages {
 MatchScene::MatchScene(SceneSettings settings) : state_(std::move(settings)) {
   bus::for_each_message([this]<class T>() {
     if constexpr (listens_to<T>()) {
-      const double period_s = bus::meta<T>::period_s > 0.0 ? std::max(bus::meta<T>::period_s, state_.settings.cycle_s) : 0.0;
+      const double period_s =
+          bus::meta<T>::period_s > 0.0 ? std::max(bus::meta<T>::period_s, state_.settings.cycle_s) : 0.0;
       const std::string topic{bus::meta<T>::topic};
       streams_[topic] = state_.streams.add(topic, period_s);
     }

@@ -19,12 +19,12 @@ namespace trivela::pages {
 
 /// What a scene is told before anything is heard.
 struct SceneSettings {
-  std::string title;                          ///< the team's name
-  std::map<std::uint8_t, std::string> names;  ///< of robots, where they are known
+  std::string title;                            ///< the team's name
+  std::map<std::uint8_t, std::string> names{};  ///< of robots, where they are known
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   double cycle_s = 0.02;
-  std::optional<double> own_half_ball_offset_m;  ///< where goals from the own half do not count: KickLedger
+  std::optional<double> own_half_ball_offset_m{};  ///< where goals from the own half do not count: KickLedger
 };
 
 /// All that the page knows.
@@ -43,8 +43,8 @@ struct SceneState {
   explicit SceneState(SceneSettings given) : settings(std::move(given)), kicks(settings.own_half_ball_offset_m) {}
 };
 
-/// A match as it looks from the topics. Pure: messages and the clock are handed in, instants are of the listener's clock.
-/// The simulator's truth is none of its inputs.
+/// A match as it looks from the topics. Pure: messages and the clock are handed in, instants are of the listener's
+/// clock. The simulator's truth is none of its inputs.
 class MatchScene {
  public:
   static constexpr std::size_t kMostRobots = 16;  // strangers may say any number

@@ -73,9 +73,9 @@ function showRobot(robot) {
   const meter = card.querySelector('meter');
   meter.hidden = !kicker || kicker.charge === null;
   if (!meter.hidden) meter.value = kicker.charge;
-  setText(part('numbers'), robot.policy === undefined ? '' : [words(robot.policy), fixed(robot.distance, 1, ' m'),
+  setText(part('numbers'), robot.policy === undefined ? '' : [words(robot.policy), robot.segments ? fixed(robot.distance, 1, ' m') : '',
     robot.power === null ? '' : `power ${fixed(robot.power, 1)}`, robot.p === null ? '' : `chance ${percent(robot.p)}`,
-    robot.segments.meet ? 'segments meet' : 'segments apart'].filter((text) => text).join(', '));
+    robot.segments ? robot.segments.meet ? 'segments meet' : 'segments apart' : ''].filter((text) => text).join(', '));
 }
 
 // --- the rest
@@ -126,7 +126,7 @@ function showTable() {
 
 function became(kick) {
   if (kick.fate === 'refused') return `refused: ${words(kick.refusal)}`;
-  return kick.outcome === undefined ? kick.fate : `${kick.fate}: ${words(kick.outcome)}`;
+  return kick.outcome === undefined || kick.outcome === kick.fate ? kick.fate : `${kick.fate}: ${words(kick.outcome)}`;
 }
 
 function showKicks() {

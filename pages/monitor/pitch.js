@@ -50,7 +50,7 @@ export class Pitch {
     this.layers = mark('g', {});
     this.flight = mark('circle', {class: 'flight', r: kBall_m, visibility: 'hidden'});
     this.robots.clear();
-    const stamp = mark('text', {class: 'stamp', x: -side + 0.2, y: y - 0.25}, 'SIMULATED');
+    const stamp = mark('text', {class: 'stamp', x: -side, y: y + 0.75}, 'SIMULATED');
     this.svg.replaceChildren(...lines(field), ...(simulated ? [stamp] : []), this.layers, this.flight);
   }
 
@@ -62,7 +62,7 @@ export class Pitch {
       ball: mark('circle', {class: 'ball', r: kBall_m}),
       robot: mark('g', {class: 'robot'}, mark('circle', {class: 'ring', r: 2 * kRobot_m}), mark('circle', {class: 'body', r: kRobot_m})),
       nose: mark('path', {class: 'nose', d: `M0 0V${-1.7 * kRobot_m}`}),
-      number: mark('text', {class: 'number', y: 0.13}, String(id))};
+      number: mark('text', {class: 'number', x: 0.66, y: 0.2}, String(id))};
     parts.robot.append(parts.nose, parts.number);
     this.layers.append(parts.s2, parts.s1, parts.robot, parts.ball);
     this.robots.set(id, parts);

@@ -46,8 +46,7 @@ const char* words_of(msg::DecisionReason reason) {
 
 Why why_of(const RobotView& robot, std::int64_t now_ns) {
   if (robot.fired.within(kFresh_ns, now_ns) != nullptr) return {true, words_of(msg::REASON_FIRE)};
-  if (const auto* decision = robot.decision.within(kDecisionAge_ns, now_ns))
-    return {false, words_of(decision->reason)};
+  if (const auto* decision = robot.decision.within(kDecisionAge_ns, now_ns)) return {false, words_of(decision->reason)};
   const msg::WorldState* const world = robot.world.within(kFresh_ns, now_ns);
   if (world == nullptr) return {false, "nothing is heard of what it believes"};
   if (!world->playing) return {false, words_of(msg::REASON_NOT_PLAYING)};

@@ -70,14 +70,17 @@ Json robot_json(std::uint8_t id, const RobotView& robot, std::int64_t now_ns) {
     shown["distance"] = number(decision->distance_m);
     shown["power"] = number(decision->power);
     shown["p"] = number(decision->p_on_target);
-    shown["segments"] = segments_json(*decision);
+    if (decision->distance_m > 0.0) shown["segments"] = segments_json(*decision);  // 0: nothing was aimed at
   }
   return shown;
 }
 
+/// The ball of the newest kick while it is under way: at any other time a goal camera sees one that nobody kicked.
 Json flight_json(const SceneState& state, std::int64_t now_ns) {
-  for (const auto& [id, robot] : state.robots) {
-    const auto* frame = robot.flight.within(kFlightAge_ns, now_ns);
+  for (const KnownKick& kick : state.kicks.latest(1)) {
+    const auto robot = state.robots.find(kick.robot_id);
+    if (robot == state.robots.end() || fate_of(kick, ledger_now(state, now_ns)) != KickFate::kUnderWay) continue;
+    const auto* frame = robot->second.flight.within(kFlightAge_ns, now_ns);
     if (frame != nullptr && frame->ball_seen)
       return Json::array({number(frame->ball_x_m), number(frame->ball_y_m), number(frame->ball_z_m)});
   }
@@ -137,9 +140,9 @@ Json table_json(const RunningTable& table) {
   Json shown{{"rows", rows}, {"difference", nullptr}};
   if (table.difference) {
     shown["difference"] = {{"older", table.difference->older},
-                          {"newer", table.difference->newer},
-                          {"value", number(table.difference->value)},
-                          {"interval", interval_json(table.difference->interval)}};
+                           {"newer", table.difference->newer},
+                           {"value", number(table.difference->value)},
+                           {"interval", interval_json(table.difference->interval)}};
   }
   return shown;
 }
@@ -147,9 +150,9 @@ Json table_json(const RunningTable& table) {
 Json referee_json(const SceneState& state) {
   const auto& word = state.referee.sample;
   if (!word) return nullptr;
-  Json shown{{"half", word->half},       {"stage", msg::label(word->stage)}, {"playing", word->playing},
-            {"own", word->goals_own},   {"other", word->goals_other},       {"restart", msg::label(word->restart)},
-            {"ours", word->ours}};
+  Json shown{{"half", word->half},     {"stage", msg::label(word->stage)}, {"playing", word->playing},
+             {"own", word->goals_own}, {"other", word->goals_other},       {"restart", msg::label(word->restart)},
+             {"ours", word->ours}};
   shown["clock_s"] = std::isfinite(word->half_time_s) ? Json(std::floor(word->half_time_s)) : Json(nullptr);
   return shown;
 }

@@ -13,8 +13,8 @@
 
 namespace trivela::pages {
 
-/// Which robots' streams are silent and what was missed of them, by the listener's clock alone, so that it holds in lockstep
-/// as well.
+/// Which robots' streams are silent and what was missed of them, by the listener's clock alone, so that it holds in
+/// lockstep as well.
 class StreamBoard {
  public:
   /// How often look() is meant to be called.
@@ -26,7 +26,8 @@ class StreamBoard {
   /// What was missed is news for so long.
   static constexpr std::int64_t kNews_ns = 10'000'000'000;
 
-  /// One more stream, silent after three periods, but no less than kShortestSilence_s; 0: it has none. Returns its place.
+  /// One more stream, silent after three periods, but no less than kShortestSilence_s; 0: it has none. Returns its
+  /// place.
   std::size_t add(const std::string& topic, double period_s);
 
   /// `seq`: none where the message has no number.

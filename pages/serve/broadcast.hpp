@@ -12,8 +12,8 @@
 
 namespace trivela::pages {
 
-/// The newest message of each of a page's channels, encoded once and shared by all viewers: who is slow skips messages and
-/// never sees an old one. Any thread.
+/// The newest message of each of a page's channels, encoded once and shared by all viewers: who is slow skips messages
+/// and never sees an old one. Any thread.
 class Broadcast {
  public:
   using Message = std::shared_ptr<const std::string>;

@@ -37,8 +37,8 @@ struct Page {
   std::vector<Asset> assets;
   std::vector<Resource> resources;
 
-  /// POST /api/NAME with arguments: throws CommandError, or nlohmann::json::exception for arguments of a wrong type. None:
-  /// the page orders nothing, and the server refuses every method but GET.
+  /// POST /api/NAME with arguments: throws CommandError, or nlohmann::json::exception for arguments of a wrong type.
+  /// None: the page orders nothing, and the server refuses every method but GET.
   std::function<void(const std::string& name, const nlohmann::json& arguments)> command{};
 
   /// Without it nothing is served; empty: to everybody.

@@ -20,8 +20,8 @@ using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
 
-constexpr std::size_t kOtherThreads = 32;           // answer what is no stream of events
-constexpr int kSendBuffer_bytes = 32 * 1024;        // some messages: a slow viewer skips some instead of seeing old ones
+constexpr std::size_t kOtherThreads = 32;     // answer what is no stream of events
+constexpr int kSendBuffer_bytes = 32 * 1024;  // some messages: a slow viewer skips some instead of seeing old ones
 constexpr std::chrono::milliseconds kStalled{700};  // a viewer that takes nothing for so long is hung up; it comes back
 constexpr std::chrono::seconds kStillHere{1};
 

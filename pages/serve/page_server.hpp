@@ -9,11 +9,11 @@
 
 namespace trivela::pages {
 
-/// Serves a page: its assets and resources, /api/events (server-sent events of the broadcast), and where it has commands
-/// POST /api/COMMAND with JSON. A request that names another host than this one, or comes from another site's page, is
-/// refused: somebody else's page must not read or work ours through a browser that can reach it. Where there is a token it
-/// is asked of every request, as ?token=, as a bearer's, or as the cookie that the first answer sets. Threads of its own;
-/// every viewer keeps one.
+/// Serves a page: its assets and resources, /api/events (server-sent events of the broadcast), and where it has
+/// commands POST /api/COMMAND with JSON. A request that names another host than this one, or comes from another site's
+/// page, is refused: somebody else's page must not read or work ours through a browser that can reach it. Where there
+/// is a token it is asked of every request, as ?token=, as a bearer's, or as the cookie that the first answer sets.
+/// Threads of its own; every viewer keeps one.
 class PageServer {
  public:
   /// Listens. Throws std::runtime_error naming the address where that is refused. What the page refers to and the

@@ -37,12 +37,13 @@ std::string token_of_file(const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::ifstream in(file);
   std::string token;
-  if (!std::getline(in, token)) throw config::BadArgument{fmt::format("{}: no token can be read from it", file.string())};
+  if (!std::getline(in, token))
+    throw config::BadArgument{fmt::format("{}: no token can be read from it", file.string())};
   if ((fs::status(file).permissions() & (fs::perms::group_all | fs::perms::others_all)) != fs::perms::none)
     throw config::BadArgument{fmt::format("{}: somebody else than its owner may read it: chmod 600", file.string())};
   if (token.size() < kShortestToken || token.size() > kLongestToken || !std::ranges::all_of(token, may_be_in_a_token))
-    throw config::BadArgument{fmt::format("{}: a token is a line of {} to {} letters, digits, '-' and '_'", file.string(),
-                                          kShortestToken, kLongestToken)};
+    throw config::BadArgument{fmt::format("{}: a token is a line of {} to {} letters, digits, '-' and '_'",
+                                          file.string(), kShortestToken, kLongestToken)};
   return token;
 }
 

@@ -8,8 +8,8 @@ namespace trivela::pages {
 /// 32 hexadecimal digits that nobody can guess. Throws std::runtime_error where the kernel gives none.
 std::string draw_token();
 
-/// The first line of a file that its owner alone may read. Throws config::BadArgument naming the file where it cannot be
-/// read, others may read it, or the line is not of 16 to 128 letters, digits, '-' and '_'.
+/// The first line of a file that its owner alone may read. Throws config::BadArgument naming the file where it cannot
+/// be read, others may read it, or the line is not of 16 to 128 letters, digits, '-' and '_'.
 std::string token_of_file(const std::filesystem::path& file);
 
 /// Compares in a time that does not tell how much of it is right.

@@ -10,8 +10,8 @@ namespace trivela::pages {
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Messages as a robot's nodes write them, with what a test cares for.
-inline msg::KickDecision decision(std::uint8_t robot_id, std::int64_t kick_id, msg::Policy policy, std::uint64_t seq = 1,
-                                  std::int64_t t_ns = kSecond_ns) {
+inline msg::KickDecision decision(std::uint8_t robot_id, std::int64_t kick_id, msg::Policy policy,
+                                  std::uint64_t seq = 1, std::int64_t t_ns = kSecond_ns) {
   msg::KickDecision decision{};
   decision.robot_id = robot_id;
   decision.seq = seq;

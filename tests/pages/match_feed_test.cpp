@@ -3,91 +3,45 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
 #include <memory>
 
-#include "bus/executor.hpp"
 #include "bus/writer.hpp"
 #include "pages/monitor/monitor_page.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/bus/test_domain.hpp"
-#include "tests/pages/kicks_of_a_match.hpp"
 #include "tests/pages/stalled_viewer.hpp"
 #include "tests/pages/viewer.hpp"
+#include "tests/pages/written_team.hpp"
 
 namespace trivela::pages {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
-constexpr std::uint8_t kRobots = 5;
-constexpr std::int64_t kKicks = 12;  // of each robot
-
-/// A process with five robots' nodes, as far as the page knows them: each writes what it believes, decides and has, at 50
-/// Hz; a kick every tenth cycle, whose words come twice and out of order.
-class Team {
- public:
-  explicit Team(const bus::DomainConfig& domain)
-      : participant_(domain),
-        node_(participant_, "team"),
-        world_(node_.writer<msg::WorldState>()),
-        kicker_(node_.writer<msg::KickerStatus>()),
-        referee_(node_.writer<msg::Referee>()),
-        decision_(node_.writer<msg::KickDecision>()),
-        receipt_(node_.writer<msg::KickReceipt>()),
-        outcome_(node_.writer<msg::KickOutcome>()) {
-    node_.every(milliseconds(20), "cycle", [this] { cycle(); },
-                bus::writes<msg::WorldState, msg::KickerStatus, msg::Referee, msg::KickDecision, msg::KickReceipt,
-                            msg::KickOutcome>());
-    thread_ = std::thread([this] { bus::Executor{bus::Executor::kWaitset, stop_, {&node_}}.run(); });
-  }
-  ~Team() {
-    stop_.request();
-    thread_.join();
-  }
-  const bus::Participant& participant() const { return participant_; }
-
- private:
-  void cycle() {
-    ++seq_;
-    for (std::uint8_t robot = 1; robot <= kRobots; ++robot) {
-      world_.write(world(robot, seq_, true, robot == 1));
-      kicker_.write(kicker(robot, seq_));
-      referee_.write(referee(robot, seq_));
-      const auto kick = static_cast<std::int64_t>(seq_ / 10);
-      const bool kicks = seq_ % 10 == 0 && kick <= kKicks;
-      decision_.write(decision(robot, kicks ? kick : 0, robot < 4 ? msg::POLICY_STOPPED : msg::POLICY_MOVING, seq_));
-      for (int again = 0; kicks && again < 2; ++again) {
-        const bool inside = kick % 3 != 0;
-        outcome_.write(outcome(robot, kick, inside ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_OVER, ++words_));
-        receipt_.write(receipt(robot, kick, true, ++words_));
-      }
-    }
-  }
-
-  bus::Participant participant_;
-  bus::Node node_;
-  bus::Output<msg::WorldState> world_;
-  bus::Output<msg::KickerStatus> kicker_;
-  bus::Output<msg::Referee> referee_;
-  bus::Output<msg::KickDecision> decision_;
-  bus::Output<msg::KickReceipt> receipt_;
-  bus::Output<msg::KickOutcome> outcome_;
-  std::uint64_t seq_ = 0, words_ = 0;
-  bus::Stop stop_;
-  std::thread thread_;
-};
-
 /// The page of a domain.
 struct Served {
   explicit Served(const bus::DomainConfig& domain) : feed(domain, false, scene(), broadcast) {}
-  static SceneSettings scene() { return {.title = "five", .own_half_ball_offset_m = {}}; }
+  static SceneSettings scene() { return {.title = "five"}; }
 
   Broadcast broadcast{match_channels()};
   MatchFeed feed;
   PageServer server{monitor_page(), broadcast, {}};
 };
+
+constexpr std::int64_t kOutside = kKicks / 3;
+constexpr std::int64_t kInside = kKicks - kOutside;
+
+std::int64_t kicks_of(const nlohmann::json& rows) {
+  std::int64_t kicks = 0;
+  for (const auto& row : rows) kicks += row["inside"].get<std::int64_t>() + row["outside"].get<std::int64_t>();
+  return kicks;
+}
+
+void expect_counts(const nlohmann::json& row, const char* policy, int robots) {
+  EXPECT_EQ(row["policy"], policy);
+  EXPECT_EQ(row["inside"], robots * kInside) << row;
+  EXPECT_EQ(row["outside"], robots * kOutside) << row;
+  EXPECT_EQ(row["unknown"], 0) << row;
+  EXPECT_EQ(row["under_way"], 0) << row;
+}
 
 TEST(LivePageOfAMatch, ShowsFiveRobotsToThirtyViewersAndCountsEachKickOnce) {
   const bus::WirePair wire = bus::fresh_wire_pair();
@@ -97,24 +51,20 @@ TEST(LivePageOfAMatch, ShowsFiveRobotsToThirtyViewersAndCountsEachKickOnce) {
   std::vector<std::unique_ptr<Viewer>> viewers;
   for (int i = 0; i < 30; ++i) viewers.push_back(std::make_unique<Viewer>(page.server.port()));
   for (const auto& viewer : viewers) ASSERT_TRUE(viewer->wait([&] { return viewer->events["match"] > 0; }));
-  const Team team(wire.a);
+  const WrittenTeam team(wire.a);
   for (const auto& viewer : viewers) {
     ASSERT_TRUE(viewer->wait([&] {
       const auto& rows = viewer->newest["match"]["table"]["rows"];
-      return viewer->newest["pitch"]["robots"].size() == kRobots && rows.size() == 2 && rows[0]["inside"] == 24 &&
-             rows[1]["inside"] == 16;
-    })) << viewer->newest["match"];
-    viewer->wait([&] {
-      const auto& rows = viewer->newest["match"]["table"]["rows"];
-      EXPECT_EQ(rows[0]["policy"], "stopped");
-      EXPECT_EQ(rows[0]["outside"], 12);
-      EXPECT_EQ(rows[1]["outside"], 8);
-      EXPECT_EQ(rows[1]["unknown"].get<int>() + rows[1]["under_way"].get<int>(), 0);
-      return true;
-    });
+      return viewer->newest["pitch"]["robots"].size() == kRobots && rows.size() == 2 &&
+             kicks_of(rows) == kRobots * kKicks;
+    })) << viewer->newest_of("match");
   }
-  const int before = viewers.front()->events["pitch"];
+  int before = 0;
+  viewers.front()->wait([&] { return (before = viewers.front()->events["pitch"]) >= 0; });
   ASSERT_TRUE(viewers.front()->wait([&] { return viewers.front()->events["pitch"] > before + 25; }));
+  const auto rows = viewers.front()->newest_of("match")["table"]["rows"];
+  expect_counts(rows[0], "stopped", 3);
+  expect_counts(rows[1], "moving", 2);
 }
 
 TEST(LivePageOfAMatch, HasNoWriterAndNoReaderThatAnybodyWaitsFor) {
@@ -130,7 +80,7 @@ TEST(LivePageOfAMatch, HasNoWriterAndNoReaderThatAnybodyWaitsFor) {
     return census.readers.size() == topics;
   };
   while (!listens_to_all() && std::chrono::steady_clock::now() < end)
-    if (taker.wait(seconds(1))) census = taker.take();
+    if (taker.wait(std::chrono::seconds(1))) census = taker.take();
   ASSERT_TRUE(listens_to_all()) << census.readers.size();
   EXPECT_TRUE(census.writers.empty()) << census.writers.front().topic;
   for (const bus::End& reader : census.readers) {

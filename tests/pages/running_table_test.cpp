@@ -41,8 +41,8 @@ TEST(RunningTable, OfOnePolicyThereIsNoDifference) {
   EXPECT_TRUE(running_table({}).rows.empty());
 }
 
-/// A match that somebody watches: kicks of two policies, drawn for each, come in one after the other, some with outcomes
-/// that are unknown for now or for good.
+/// A match that somebody watches: kicks of two policies, drawn for each, come in one after the other, some with
+/// outcomes that are unknown for now or for good.
 class WatchedMatch {
  public:
   WatchedMatch(std::uint64_t seed, double p_stopped, double p_moving)
@@ -55,8 +55,8 @@ class WatchedMatch {
     ledger_.hear(decision(1, id, policy, static_cast<std::uint64_t>(id)), id);
     ledger_.hear(receipt(1, id, true, static_cast<std::uint64_t>(id)), id);
     if (random_.happens(0.05)) return;  // whatever became of it
-    ledger_.hear(outcome(1, id, inside ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_WIDE_LEFT, static_cast<std::uint64_t>(id)),
-                 id);
+    ledger_.hear(
+        outcome(1, id, inside ? msg::OUTCOME_ON_TARGET : msg::OUTCOME_WIDE_LEFT, static_cast<std::uint64_t>(id)), id);
   }
   std::map<std::optional<msg::Policy>, KickTally> tallies() const { return ledger_.tallies({.heard_ns = kicks_}); }
 
@@ -87,8 +87,8 @@ bool holds(const evaluator::stats::Interval& interval, double truth) {
   return interval.lo <= truth && truth <= interval.hi;
 }
 
-/// How many of 1,000 matches of 40 kicks ever show an interval without the truth to who looks after each kick: of the two
-/// policies' parts and of the difference.
+/// How many of 1,000 matches of 40 kicks ever show an interval without the truth to who looks after each kick: of the
+/// two policies' parts and of the difference.
 std::pair<int, int> wrong_matches(double p_stopped, double p_moving, std::uint64_t seed) {
   KnownTables tables;
   int wrong_part = 0, wrong_difference = 0;

@@ -38,6 +38,12 @@ class Viewer {
     return changed_.wait_for(lock, kPatience, condition);
   }
 
+  /// Its newest event of a name; null: there was none.
+  nlohmann::json newest_of(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    return newest.contains(name) ? newest[name] : nlohmann::json();
+  }
+
   // For conditions, or after the last wait.
   std::vector<std::size_t> frames;
   nlohmann::json lobs;
@@ -46,7 +52,7 @@ class Viewer {
   std::map<std::string, nlohmann::json> newest;  ///< of every event
   std::map<std::string, int> events;             ///< how many there were; "": comments
   int status_code = 0;                           ///< of the answer, where the server hung up
-  bool ended = false;  ///< the server hung up
+  bool ended = false;                            ///< the server hung up
 
  private:
   void follow() {
