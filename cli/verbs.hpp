@@ -21,6 +21,7 @@ void add_refbox(CLI::App& app, int& exit_code);
 void add_scan(CLI::App& app, int& exit_code);
 void add_emulate(CLI::App& app, int& exit_code);
 void add_top(CLI::App& app, int& exit_code);
+void add_monitor(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_hardware(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);

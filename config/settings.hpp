@@ -121,6 +121,7 @@ struct Simulator {
   double half_minutes = 5.0;
   std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
   bool paired_halves = false;         ///< every half has the possessions of the first
+  double pace = 0.0;  ///< simulated seconds a second, at most, in lockstep; 0: as fast as the nodes answer
   SimulatedDevices devices = SimulatedDevices::kBus;
 };
 

@@ -18,46 +18,6 @@ using Cells = std::span<const log::Value>;
 
 constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
-/// What the decision says of its alignment.
-struct DecidedAlignment {
-  Pose robot{};
-  double alpha_rad = 0.0;
-  Eigen::Vector2d target_m{};
-  double distance_m = 0.0;
-  bool aligned = false;
-  std::optional<double> offset_right_m;
-  double left_m = 0.0;
-  double right_m = 0.0;
-};
-
-/// Where S1 begins. By law paper_line that is the robot's centre; by law physical the ball's place at the release,
-/// which the row has not, but of which distance, direction of S1 and offset leave one place alone.
-Eigen::Vector2d start_of_s1(const DecidedAlignment& a) {
-  const Eigen::Vector2d centre(a.robot.x_m, a.robot.y_m);
-  if (!a.offset_right_m || !(a.distance_m > 0.0)) return centre;
-  const auto from_centre = kicking::align(a.robot, a.alpha_rad, 0.0, 0.0, a.target_m).offset_right_m;
-  if (from_centre && std::abs(*from_centre - *a.offset_right_m) < 1e-6) return centre;
-  const double turn_rad = std::atan2(*a.offset_right_m, a.distance_m);
-  return a.target_m - a.distance_m * kicking::direction(a.robot.heading_rad - a.alpha_rad + turn_rad);
-}
-
-StorySegments segments_of(const DecidedAlignment& a) {
-  StorySegments segments;
-  segments.aligned = a.aligned;
-  segments.s1_from_m = start_of_s1(a);
-  const Eigen::Vector2d line = a.target_m - segments.s1_from_m;
-  const double length_m = line.norm();
-  const Eigen::Vector2d along = length_m > 1e-9 ? Eigen::Vector2d(line / length_m) : Eigen::Vector2d(0.0, 1.0);
-  const Eigen::Vector2d right(along.y(), -along.x());
-  segments.s1_to_m =
-      a.offset_right_m
-          ? Eigen::Vector2d(a.target_m + *a.offset_right_m * right)
-          : Eigen::Vector2d(segments.s1_from_m + length_m * kicking::direction(a.robot.heading_rad - a.alpha_rad));
-  segments.s2_left_m = a.target_m - a.left_m * right;
-  segments.s2_right_m = a.target_m + a.right_m * right;
-  return segments;
-}
-
 std::optional<double> seconds_after(std::int64_t t_ns, std::optional<std::int64_t> then_ns) {
   if (!then_ns || *then_ns <= 0) return std::nullopt;  // 0: never
   return kicking::seconds(*then_ns - t_ns);
@@ -88,14 +48,14 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
         story.policy = std::move(policy);
         story.distance_m = distance_m;
         story.power = power;
-        story.segments = segments_of({{x_m, y_m, heading_rad},
-                                      alpha_rad,
-                                      {target_x_m, target_y_m},
-                                      distance_m,
-                                      aligned,
-                                      offset_right_m,
-                                      left_m,
-                                      right_m});
+        story.segments = decided_segments({{x_m, y_m, heading_rad},
+                                           alpha_rad,
+                                           {target_x_m, target_y_m},
+                                           distance_m,
+                                           aligned,
+                                           offset_right_m,
+                                           left_m,
+                                           right_m});
         story.fired_after_s = seconds_after(t_ns, fired_t_ns);
         story.released_after_s = seconds_after(t_ns, release_t_ns);
         if (predicted_x_m || predicted_z_m) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
-#include "kicking/alignment/alignment.hpp"
+#include "evaluator/report/decided_segments.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
 
@@ -32,12 +32,6 @@ struct StoryEnd {
   std::optional<double> after_s;  ///< after the decision
 };
 
-/// The two segments of the alignment at the decision, in F.
-struct StorySegments {
-  Eigen::Vector2d s1_from_m, s1_to_m, s2_left_m, s2_right_m;
-  bool aligned = false;
-};
-
 /// A kick with what a replay of it needs. What the log does not have is empty.
 struct KickStory {
   std::int64_t session_id = 0;
@@ -57,7 +51,7 @@ struct KickStory {
   std::vector<StoryPlace> ball;      ///< as the robot believed
   std::vector<StoryPlace> flight;    ///< as its flight camera saw the ball
   std::vector<StoryPlace> opponent;  ///< the nearest one that it saw
-  StorySegments segments;
+  DecidedSegments segments;
   std::optional<double> fired_after_s;     ///< the coil was energised, after the decision
   std::optional<double> released_after_s;  ///< the ball was expected to leave
   std::optional<StoryEnd> predicted;

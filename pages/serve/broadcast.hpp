@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace trivela::pages {
 
-/// What a page follows. A frame may be skipped; the others are snapshots of a whole, so that the newest says all.
-enum class Channel { kSetup, kLobs, kStatus, kFrame };
-
-/// The newest message of each channel, encoded once and shared by all viewers. Any thread.
+/// The newest message of each of a page's channels, encoded once and shared by all viewers: who is slow skips messages
+/// and never sees an old one. Any thread.
 class Broadcast {
  public:
-  static constexpr std::size_t kChannels = 4;
   using Message = std::shared_ptr<const std::string>;
-  using Seen = std::array<std::uint64_t, kChannels>;  ///< a viewer's last version of each channel; begins with zeros
+  using Seen = std::vector<std::uint64_t>;  ///< a viewer's last version of each channel; begins empty
 
-  /// `json` becomes the channel's newest server-sent event.
-  void publish(Channel channel, const std::string& json);
+  /// `channels`: their names as events, in the order in which a viewer is given them.
+  explicit Broadcast(std::vector<std::string> channels);
+
+  /// `json` becomes the newest server-sent event of the channel of that place in the list.
+  void publish(std::size_t channel, const std::string& json);
 
   /// The newest message of each channel that `seen` does not have, in the order of the channels; waits for one up to
   /// `timeout`. Empty: none came, or closed().
@@ -34,10 +34,11 @@ class Broadcast {
   bool closed() const;
 
  private:
+  const std::vector<std::string> names_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::array<Message, kChannels> newest_{};
-  Seen versions_{};
+  std::vector<Message> newest_;
+  Seen versions_;
   bool closed_ = false;
 };
 

@@ -1,30 +1,29 @@
-#include "pages/lob/broadcast.hpp"
+#include "pages/serve/broadcast.hpp"
+
+#include <utility>
 
 namespace trivela::pages {
-namespace {
 
-constexpr std::array<const char*, Broadcast::kChannels> kNames{"setup", "lobs", "status", "frame"};
+Broadcast::Broadcast(std::vector<std::string> channels)
+    : names_(std::move(channels)), newest_(names_.size()), versions_(names_.size()) {}
 
-}  // namespace
-
-void Broadcast::publish(Channel channel, const std::string& json) {
-  const auto place = static_cast<std::size_t>(channel);
-  auto message =
-      std::make_shared<const std::string>(std::string("event: ") + kNames[place] + "\ndata: " + json + "\n\n");
+void Broadcast::publish(std::size_t channel, const std::string& json) {
+  auto message = std::make_shared<const std::string>("event: " + names_[channel] + "\ndata: " + json + "\n\n");
   {
     const std::lock_guard lock(mutex_);
-    newest_[place] = std::move(message);
-    ++versions_[place];
+    newest_[channel] = std::move(message);
+    ++versions_[channel];
   }
   changed_.notify_all();
 }
 
 std::vector<Broadcast::Message> Broadcast::wait(Seen& seen, std::chrono::nanoseconds timeout) {
   std::unique_lock lock(mutex_);
+  seen.resize(names_.size());
   changed_.wait_for(lock, timeout, [&] { return closed_ || seen != versions_; });
   std::vector<Message> messages;
   if (closed_) return messages;
-  for (std::size_t i = 0; i < kChannels; ++i) {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
     if (seen[i] != versions_[i]) messages.push_back(newest_[i]);
   }
   seen = versions_;

@@ -1,4 +1,4 @@
-#include "pages/lob/page_server.hpp"
+#include "pages/serve/page_server.hpp"
 
 #include <fmt/core.h>
 #include <httplib.h>
@@ -8,14 +8,10 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 #include <thread>
+#include <utility>
 
-#include "config/parse_number.hpp"
-#include "pages/lob/page.css.hpp"
-#include "pages/lob/page.html.hpp"
-#include "pages/lob/page.js.hpp"
-#include "pages/lob/site.hpp"
+#include "pages/serve/token.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -24,9 +20,8 @@ using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
 
-constexpr std::size_t kThreads = 128;
-constexpr int kMostViewers = 96;                    // the other threads answer requests
-constexpr int kSendBuffer_bytes = 32 * 1024;        // some scans: a slow viewer skips scans instead of seeing old ones
+constexpr std::size_t kOtherThreads = 32;     // answer what is no stream of events
+constexpr int kSendBuffer_bytes = 32 * 1024;  // some messages: a slow viewer skips some instead of seeing old ones
 constexpr std::chrono::milliseconds kStalled{700};  // a viewer that takes nothing for so long is hung up; it comes back
 constexpr std::chrono::seconds kStillHere{1};
 
@@ -51,38 +46,38 @@ void refuse(Response& response, int status, const std::string& sentence) {
 // Counts a viewer while it lives.
 class Seat {
  public:
-  explicit Seat(std::atomic<int>& viewers) : viewers_(viewers), taken_(++viewers <= kMostViewers) {}
+  Seat(std::atomic<std::size_t>& viewers, std::size_t most) : viewers_(viewers), taken_(++viewers <= most) {}
   Seat(const Seat&) = delete;
   Seat& operator=(const Seat&) = delete;
   ~Seat() { --viewers_; }
   bool taken() const { return taken_; }
 
  private:
-  std::atomic<int>& viewers_;
+  std::atomic<std::size_t>& viewers_;
   const bool taken_;
 };
 
 }  // namespace
 
 struct PageServer::Impl {
-  Scene& scene;
+  Page page;
   Broadcast& broadcast;
   std::string host;
   int port = 0;
   std::string name = own_name();
-  std::atomic<int> viewers = 0;
+  std::atomic<std::size_t> viewers = 0;
   httplib::Server server{};
   std::atomic<bool> ended = false;
   std::thread thread{};
 
   void follow(Response& response) {
-    auto seat = std::make_shared<Seat>(viewers);
-    if (!seat->taken()) return refuse(response, 503, fmt::format("{} viewers are here already", kMostViewers));
+    auto seat = std::make_shared<Seat>(viewers, page.most_viewers);
+    if (!seat->taken()) return refuse(response, 503, fmt::format("{} viewers are here already", page.most_viewers));
     auto seen = std::make_shared<Broadcast::Seen>();
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
         "text/event-stream", [this, seat, seen](std::size_t, httplib::DataSink& sink) {
-          std::string text = *seen == Broadcast::Seen{} ? "retry: 500\n\n" : "";  // ms, where the line broke
+          std::string text = seen->empty() ? "retry: 500\n\n" : "";  // ms, where the line broke
           const auto messages = broadcast.wait(*seen, kStillHere);
           if (broadcast.closed()) return false;
           if (messages.empty()) text += ":\n\n";
@@ -92,14 +87,11 @@ struct PageServer::Impl {
   }
 
   void post(const Request& request, Response& response) {
-    if (!same_origin(request.get_header_value("Origin"), request.get_header_value("Host"))) {
-      return refuse(response, 403, "a page of another site may not work this one");
-    }
     if (!request.get_header_value("Content-Type").starts_with("application/json")) {
       return refuse(response, 415, "commands are JSON: Content-Type must be application/json");
     }
     try {
-      scene.command(request.matches[1], json::parse(request.body));
+      page.command(request.matches[1], json::parse(request.body));
       response.set_content(json{{"ok", true}}.dump(), "application/json");
     } catch (const CommandError& error) {
       refuse(response, error.status, error.what());
@@ -108,40 +100,62 @@ struct PageServer::Impl {
     }
   }
 
-  void frame(const Request& request, Response& response) {
-    const auto i = config::parse_integer(request.get_param_value("i"));
-    if (!i) return refuse(response, 400, "i must be a number");
+  void answer(const Resource& resource, const Request& request, Response& response) {
     try {
-      response.set_content(scene.frame(static_cast<std::size_t>(*i)), "application/json");
+      const std::string text = resource.make([&](const char* parameter) { return request.get_param_value(parameter); });
+      if (!resource.file_name.empty())
+        response.set_header("Content-Disposition", "attachment; filename=\"" + resource.file_name + "\"");
+      response.set_content(text, resource.type);
     } catch (const CommandError& error) {
       refuse(response, error.status, error.what());
     }
   }
 
-  void route() {
-    const auto page = [&](const char* path, std::string_view text, const char* type) {
-      server.Get(path, [text, type](const Request&, Response& response) {
-        response.set_content(text.data(), text.size(), type);
-      });
-    };
-    page("/", kPageHtml, "text/html; charset=utf-8");
-    page("/page.js", kPageJs, "text/javascript; charset=utf-8");
-    page("/page.css", kPageCss, "text/css; charset=utf-8");
-    server.Get("/api/state", [this](const Request&, Response& response) {
-      response.set_content(scene.state().dump(), "application/json");
-    });
-    server.Get("/api/table.csv", [this](const Request&, Response& response) {
-      response.set_header("Content-Disposition", "attachment; filename=\"lobs.csv\"");
-      response.set_content(scene.table_csv(), "text/csv; charset=utf-8");
-    });
-    server.Get("/api/frame", [this](const Request& request, Response& response) { frame(request, response); });
-    server.Get("/api/events", [this](const Request&, Response& response) { follow(response); });
-    server.Post(R"(/api/([a-z-]+))", [this](const Request& request, Response& response) { post(request, response); });
-    server.set_pre_routing_handler([this](const Request& request, Response& response) {
-      if (names_this_machine(request.get_header_value("Host"), name))
-        return httplib::Server::HandlerResponse::Unhandled;
+  std::string cookie() const { return fmt::format("trivela_{}", port); }  // a browser gives one to all ports of a host
+
+  // Whoever shows the token is given the cookie, by which the page's own requests show it.
+  bool has_token(const Request& request, Response& response) const {
+    if (page.token.empty()) return true;
+    const bool shown = same_token(request.get_param_value("token"), page.token);
+    if (shown)
+      response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Lax", cookie(), page.token));
+    return shown || same_token(request.get_header_value("Authorization"), "Bearer " + page.token) ||
+           same_token(cookie_of(request.get_header_value("Cookie"), cookie()), page.token);
+  }
+
+  // What nobody is answered who does not belong here.
+  bool refused(const Request& request, Response& response) const {
+    if (!names_this_machine(request.get_header_value("Host"), name)) {
       refuse(response, 403, "the page is asked for by a name that is not this machine's");
-      return httplib::Server::HandlerResponse::Handled;
+    } else if (!same_origin(request.get_header_value("Origin"), request.get_header_value("Host"))) {
+      refuse(response, 403, "a page of another site may not work this one");
+    } else if (!has_token(request, response)) {
+      refuse(response, 401, "the page needs its token: open the address that it was announced with");
+    } else if (!page.command && request.method != "GET" && request.method != "HEAD") {
+      response.set_header("Allow", "GET");
+      refuse(response, 405, "this page orders nothing");
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void route() {
+    for (const Asset& asset : page.assets) {
+      server.Get(asset.path, [&asset](const Request&, Response& response) {
+        response.set_content(asset.text.data(), asset.text.size(), asset.type);
+      });
+    }
+    for (const Resource& resource : page.resources) {
+      server.Get(resource.path,
+                 [&, this](const Request& request, Response& response) { answer(resource, request, response); });
+    }
+    server.Get("/api/events", [this](const Request&, Response& response) { follow(response); });
+    if (page.command)
+      server.Post(R"(/api/([a-z-]+))", [this](const Request& request, Response& response) { post(request, response); });
+    server.set_pre_routing_handler([this](const Request& request, Response& response) {
+      return refused(request, response) ? httplib::Server::HandlerResponse::Handled
+                                        : httplib::Server::HandlerResponse::Unhandled;
     });
     server.set_exception_handler([](const Request&, Response& response, std::exception_ptr failure) {
       try {
@@ -153,7 +167,7 @@ struct PageServer::Impl {
   }
 
   void listen(int wanted_port) {
-    server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server.new_task_queue = [this] { return new httplib::ThreadPool(page.most_viewers + kOtherThreads); };
     server.set_socket_options(set_options);
     server.set_tcp_nodelay(true);
     server.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
@@ -163,7 +177,8 @@ struct PageServer::Impl {
     server.set_payload_max_length(64 * 1024);
     server.set_default_headers(
         {{"Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"},
-         {"X-Content-Type-Options", "nosniff"}});
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"}});
     errno = 0;
     port =
         wanted_port == 0 ? server.bind_to_any_port(host) : (server.bind_to_port(host, wanted_port) ? wanted_port : -1);
@@ -179,8 +194,8 @@ struct PageServer::Impl {
   }
 };
 
-PageServer::PageServer(Scene& scene, Broadcast& broadcast, const ListenAddress& address)
-    : impl_(new Impl{.scene = scene, .broadcast = broadcast, .host = address.host}) {
+PageServer::PageServer(Page page, Broadcast& broadcast, const ListenAddress& address)
+    : impl_(new Impl{.page = std::move(page), .broadcast = broadcast, .host = address.host}) {
   impl_->route();
   impl_->listen(address.port);
 }
@@ -198,7 +213,9 @@ int PageServer::port() const { return impl_->port; }
 std::string PageServer::url() const {
   const bool everywhere = impl_->host == "0.0.0.0" || impl_->host == "::";
   const std::string host = everywhere ? impl_->name : impl_->host;
-  return fmt::format("http://{}:{}/", host.find(':') == std::string::npos ? host : "[" + host + "]", impl_->port);
+  const std::string& token = impl_->page.token;
+  return fmt::format("http://{}:{}/{}", host.find(':') == std::string::npos ? host : "[" + host + "]", impl_->port,
+                     token.empty() ? "" : "?token=" + token);
 }
 
 }  // namespace trivela::pages
