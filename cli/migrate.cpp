@@ -31,7 +31,7 @@ void add_migrate(CLI::App& app, int& exit_code) {
     const auto migrated = [&] {
       ProgressBar bar;
       return evaluator::log::migrate(arguments->log, arguments->out, [&](std::int64_t rows, std::int64_t total) {
-        bar.show(static_cast<double>(rows), static_cast<double>(total), fmt::format("{} of {} rows", rows, total));
+        bar.show(static_cast<double>(rows), static_cast<double>(total), "rows", "");
       });
     }();
     say(fmt::format("{}: {} rows of version {}, {} new digest{}\n", arguments->out, migrated.rows,

@@ -1,7 +1,6 @@
 #include "evaluator/log/shard_merge.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -13,82 +12,45 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
-#include "evaluator/log/shard.hpp"
+#include "evaluator/log/shard_set.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ShardFile {
-  fs::path path;
-  ShardStamp stamp;
-  std::int64_t matches = 0;       // of this shard
-  std::int64_t matches_done = 0;  // so far
+/// With the matches that it shall have, and has.
+struct FoundShard : ShardFile {
+  std::int64_t matches = 0;
+  std::int64_t done = 0;
 };
 
-std::runtime_error refused(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
-}
-
 /// None: a log, but no shard's.
-std::optional<ShardFile> shard_in(const fs::path& path, const Reader& reader) {
-  std::optional<ShardFile> found;
+std::optional<FoundShard> shard_in(const fs::path& path, const Reader& reader) {
+  std::optional<FoundShard> found;
   std::int64_t experiments = 0;
   reader.query("SELECT arguments, matches, matches_done FROM experiments",
                [&](const std::string& arguments, std::int64_t matches, std::int64_t done) {
                  ++experiments;
-                 if (const auto stamp = stamp_of(arguments)) found = ShardFile{path, *stamp, matches, done};
+                 if (const auto stamp = stamp_of(arguments)) found = FoundShard{{path, *stamp}, matches, done};
                });
   return experiments == 1 ? found : std::nullopt;
 }
 
 ShardFile read_shard(const fs::path& path) {
   const Reader reader(path, Check::kWhole);
-  auto file = shard_in(path, reader);
-  if (!file) throw refused(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
+  const auto file = shard_in(path, reader);
+  if (!file) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
   if (reader.version() != kMatchLog.version)
-    throw refused(path, fmt::format("is of version {} and not {}: shards are merged by the program that played them",
+    throw refused_shard(path,
+                        fmt::format("is of version {} and not {}: shards are merged by the program that played them",
                                     reader.version(), kMatchLog.version));
-  const std::string name = "shard " + file->stamp.shard.text();
-  if (file->matches_done != file->matches)
-    throw refused(path, fmt::format("{} has {} of its {} matches: the command that began it goes on from there", name,
-                                    file->matches_done, file->matches));
-  if (const auto range = range_of(file->stamp.shard, static_cast<std::uint32_t>(file->stamp.matches));
-      range.size() != file->matches)
-    throw refused(path, fmt::format("{} should have {} matches and not {}", name, range.size(), file->matches));
+  if (file->done != file->matches)
+    throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
+                                          "there",
+                                          file->stamp.shard.text(), file->done, file->matches));
+  check_share(*file, file->matches);
   return *file;
-}
-
-/// Throws unless the files are all shards of one experiment, each once.
-void check_set(const std::vector<ShardFile>& files) {
-  const ShardFile& first = files.front();
-  for (const ShardFile& file : files) {
-    const bool same = file.stamp.arguments == first.stamp.arguments && file.stamp.matches == first.stamp.matches &&
-                      file.stamp.shard.count == first.stamp.shard.count;
-    if (!same)
-      throw refused(file.path, fmt::format("shard {} of {} matches is of another experiment, or cut otherwise, than {}"
-                                           " (shard {} of {})",
-                                           file.stamp.shard.text(), file.stamp.matches, first.path.string(),
-                                           first.stamp.shard.text(), first.stamp.matches));
-  }
-  const auto twice =
-      std::ranges::adjacent_find(files, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
-  if (twice != files.end())
-    throw refused(twice->path,
-                  fmt::format("shard {} is in {}, too", twice->stamp.shard.text(), std::next(twice)->path.string()));
-  std::vector<std::string> missing;
-  std::size_t next = 0;
-  for (std::uint32_t number = 1; number <= first.stamp.shard.count; ++number) {
-    if (next < files.size() && files[next].stamp.shard.number == number) {
-      ++next;
-    } else {
-      missing.push_back(Shard{number, first.stamp.shard.count}.text());
-    }
-  }
-  if (missing.empty()) return;
-  throw std::runtime_error(fmt::format("of {} shards {} {} missing: {}", first.stamp.shard.count, missing.size(),
-                                       missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
 /// In the order of the keys, as one run writes them.
@@ -132,7 +94,6 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
   std::vector<ShardFile> shards;
   shards.reserve(files.size());
   for (const fs::path& path : files) shards.push_back(read_shard(path));
-  std::ranges::stable_sort(shards, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
   check_set(shards);
   MergedShards merged{
       .shards = static_cast<std::int64_t>(shards.size()), .sessions = 0, .matches = shards.front().stamp.matches};
