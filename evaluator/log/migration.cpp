@@ -71,8 +71,8 @@ Migrated migrate(const std::filesystem::path& from, const std::filesystem::path&
     const auto copied = [&] {
       if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
     };
-    for (const char* const beside : {"experiments", "session_clocks", "merged_sessions"})
-      copy_rows(reader, made, beside, names, [] {});
+    copy_rows(reader, made, "experiments", names, [] {});
+    for (const std::string_view table : kSaidAfterwards) copy_rows(reader, made, table, names, [] {});
     for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
     RowDigests digests(made);
     for (const RecordedSession& session : reader.sessions()) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <map>
@@ -16,12 +17,13 @@ std::vector<DigestedTable> tables_of_schema(int version) {
   empty.exec(std::string(schema_of(kMatchLog, version)));
   SQLite::Statement keys(empty, R"(
     SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
-    WHERE t.type = 'table' AND t.name NOT IN ('digests', 'session_clocks', 'merged_sessions') AND k.pk > 0
+    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
       AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
     ORDER BY t.rowid, k.pk)");
   std::vector<DigestedTable> tables;
   while (keys.executeStep()) {
     const std::string name = keys.getColumn(0).getString(), column = keys.getColumn(1).getString();
+    if (std::ranges::find(kSaidAfterwards, name) != kSaidAfterwards.end()) continue;
     if (tables.empty() || tables.back().name != name) {
       tables.push_back({name, column});
     } else {

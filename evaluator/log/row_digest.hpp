@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,11 +21,15 @@ struct DigestedTable {
   std::string key;
 };
 
+/// Tables of what is said of a session afterwards, which no digest covers: by merging, by people, by who counts its
+/// rows. Copies of a log have them, too.
+inline constexpr std::array<std::string_view, 7> kSaidAfterwards = {
+    "session_clocks", "merged_sessions", "labels", "notes", "session_tallies", "possession_tallies", "order_tallies"};
+
 /// What is recorded of a session, in the order of the digest: the tables of the version's schema that have a
-/// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and nothing
-/// that is said of a session afterwards, as merging does in `session_clocks` and `merged_sessions`. `texts` are covered
-/// by the hashes that sessions name them by. A change of these tables, or of their order, is another version of the
-/// log.
+/// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and not
+/// kSaidAfterwards. `texts` are covered by the hashes that sessions name them by. A change of these tables, or of their
+/// order, is another version of the log.
 const std::vector<DigestedTable>& digested_tables(int version = kMatchLog.version);
 
 /// Version of a match log.

@@ -10,6 +10,7 @@
 #include "evaluator/log/before_version_5.sql.hpp"
 #include "evaluator/log/before_version_6.sql.hpp"
 #include "evaluator/log/before_version_7.sql.hpp"
+#include "evaluator/log/before_version_8.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
@@ -21,6 +22,7 @@
 #include "evaluator/log/schema_version_4.sql.hpp"
 #include "evaluator/log/schema_version_5.sql.hpp"
 #include "evaluator/log/schema_version_6.sql.hpp"
+#include "evaluator/log/schema_version_7.sql.hpp"
 #include "evaluator/log/tally_schema.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
@@ -101,6 +103,8 @@ std::string_view schema_of(const LogKind& kind, int version) {
       return kSchemaVersion5Sql;
     case 6:
       return kSchemaVersion6Sql;
+    case 7:
+      return kSchemaVersion7Sql;
     default:
       return match_schema();
   }
@@ -132,6 +136,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version < 5) database.exec(kBeforeVersion5Sql);
   if (version < 6) database.exec(kBeforeVersion6Sql);
   if (version < 7) database.exec(kBeforeVersion7Sql);
+  if (version < 8) database.exec(kBeforeVersion8Sql);
   database.exec(kReadingViewsSql);
 }
 

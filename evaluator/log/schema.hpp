@@ -19,7 +19,7 @@ struct LogKind {
   int application_id = 0;    ///< shown by file(1)
   int version = 1;           ///< PRAGMA user_version
 };
-inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 7};                ///< "KICK"
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 8};                ///< "KICK"
 inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 2};             ///< "SCAN"
 inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 1};  ///< "TALY"
 
