@@ -26,7 +26,7 @@ int run_migrate(const MigrateArguments& arguments) {
   const auto migrated = [&] {
     ProgressBar bar;
     const auto progress = [&](std::int64_t rows, std::int64_t total) {
-      bar.show(static_cast<double>(rows), static_cast<double>(total), fmt::format("{} of {} rows", rows, total));
+      bar.show(static_cast<double>(rows), static_cast<double>(total), "rows", "");
     };
     return arguments.in_place ? evaluator::log::migrate_in_place(arguments.log, backup, progress)
                               : evaluator::log::migrate(arguments.log, arguments.out, progress);

@@ -41,7 +41,7 @@ experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const Sim
   const auto found = [&](std::int64_t matches) {
     if (matches > 0) fmt::print("{} of {} matches are in {} already\n", matches, plan.range().size(), flags.out);
   };
-  const auto progress = [&](double done, double total, const std::string& what) { bar.show(done, total, what); };
+  const auto progress = [&](double done, double total, const std::string& what) { bar.show(done, total, "", what); };
   return experiment::run_experiment(plan, flags.jobs, flags.out,
                                     {found, progress, [&] { return signals.stop_requested(); }});
 }

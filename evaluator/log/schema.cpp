@@ -23,6 +23,7 @@
 #include "evaluator/log/schema_version_5.sql.hpp"
 #include "evaluator/log/schema_version_6.sql.hpp"
 #include "evaluator/log/schema_version_7.sql.hpp"
+#include "evaluator/log/tally_schema.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
@@ -88,6 +89,7 @@ std::string kicks_with_nulls() {
 
 std::string_view schema_of(const LogKind& kind, int version) {
   if (kind.application_id == kScanRecord.application_id) return version == 1 ? kScanSchemaVersion1Sql : kScanSchemaSql;
+  if (kind.application_id == kTallyBook.application_id) return kTallySchemaSql;
   switch (version) {
     case 1:
       return kSchemaVersion1Sql;
@@ -142,6 +144,18 @@ void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
   database.exec(match_schema());
+}
+
+void create_book(SQLite::Database& database, const StudyRow& study) {
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kTallyBook.application_id,
+                            kTallyBook.version));
+  database.exec(kTallySchemaSql);
+  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, ?)");
+  insert.bind(1, sha256(study.arguments));
+  insert.bind(2, study.arguments);
+  insert.bind(3, study.matches);
+  insert.bind(4, study.finished ? 1 : 0);
+  insert.exec();
 }
 
 namespace {

@@ -1,7 +1,6 @@
 #include "evaluator/log/shard_merge.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -14,53 +13,47 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
-#include "evaluator/log/shard.hpp"
+#include "evaluator/log/shard_set.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ShardFile {
-  fs::path path;
-  ShardStamp stamp;
-  std::int64_t matches = 0;       // of this shard
-  std::int64_t matches_done = 0;  // so far
-  bool is_shard = false;          // false: a whole experiment, as its one part
+/// With the matches that it shall have, and has.
+struct ExperimentFile : ShardFile {
+  std::int64_t matches = 0;
+  std::int64_t done = 0;
+  bool is_shard = false;  // false: a whole experiment, as its one part
 };
 
-std::runtime_error refused(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
-}
-
 /// A shard's log or that of a whole experiment; none: another log.
-std::optional<ShardFile> experiment_in(const fs::path& path, const Reader& reader) {
-  std::optional<ShardFile> found;
+std::optional<ExperimentFile> experiment_in(const fs::path& path, const Reader& reader) {
+  std::optional<ExperimentFile> found;
   std::int64_t experiments = 0;
-  reader.query("SELECT arguments, matches, matches_done FROM experiments", [&](const std::string& arguments,
-                                                                               std::int64_t matches,
-                                                                               std::int64_t done) {
-    ++experiments;
-    const auto stamp = stamp_of(arguments);
-    found = ShardFile{path, stamp.value_or(ShardStamp{arguments, Shard{}, matches}), matches, done, stamp.has_value()};
-  });
+  reader.query("SELECT arguments, matches, matches_done FROM experiments",
+               [&](const std::string& arguments, std::int64_t matches, std::int64_t done) {
+                 ++experiments;
+                 const auto stamp = stamp_of(arguments);
+                 found = ExperimentFile{
+                     {path, stamp.value_or(ShardStamp{arguments, Shard{}, matches})}, matches, done, stamp.has_value()};
+               });
   return experiments == 1 ? found : std::nullopt;
 }
 
-ShardFile read_shard(const fs::path& path) {
+ExperimentFile read_shard(const fs::path& path) {
   const Reader reader(path, Check::kWhole);
-  auto file = experiment_in(path, reader);
-  if (!file) throw refused(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
+  const auto file = experiment_in(path, reader);
+  if (!file) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
   if (reader.version() != kMatchLog.version)
-    throw refused(path, fmt::format("is of version {} and not {}: shards are merged by the program that played them",
+    throw refused_shard(path,
+                        fmt::format("is of version {} and not {}: shards are merged by the program that played them",
                                     reader.version(), kMatchLog.version));
-  const std::string name = "shard " + file->stamp.shard.text();
-  if (file->matches_done != file->matches)
-    throw refused(path, fmt::format("{} has {} of its {} matches: the command that began it goes on from there", name,
-                                    file->matches_done, file->matches));
-  if (const auto range = range_of(file->stamp.shard, static_cast<std::uint32_t>(file->stamp.matches));
-      range.size() != file->matches)
-    throw refused(path, fmt::format("{} should have {} matches and not {}", name, range.size(), file->matches));
+  if (file->done != file->matches)
+    throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
+                                          "there",
+                                          file->stamp.shard.text(), file->done, file->matches));
+  check_share(*file, file->matches);
   return *file;
 }
 
@@ -74,25 +67,25 @@ std::map<std::int64_t, std::string> digests_of(const fs::path& path) {
 }
 
 /// Throws where `part` has a session that `all` has not, or has with other rows.
-void check_part(const ShardFile& part, const ShardFile& all) {
+void check_part(const ExperimentFile& part, const ExperimentFile& all) {
   const auto rows = digests_of(all.path);
   for (const auto& [session_id, sha256] : digests_of(part.path)) {
     const auto there = rows.find(session_id);
     if (there != rows.end() && there->second == sha256) continue;
-    throw refused(part.path,
-                  fmt::format("of session {} it says something else than {}", session_id, all.path.string()));
+    throw refused_shard(part.path,
+                        fmt::format("of session {} it says something else than {}", session_id, all.path.string()));
   }
 }
 
 /// Leaves out what says nothing new: a shard that is there already, and, where the whole experiment is, every shard.
 /// Throws where two files say different things of the same matches. Returns what was left out: of it comes along what
 /// people say.
-std::vector<ShardFile> leave_out_repeated(std::vector<ShardFile>& files) {
-  const auto whole = std::ranges::find(files, false, &ShardFile::is_shard);
-  std::vector<ShardFile> kept, repeated;
-  for (const ShardFile& file : files) {
+std::vector<ExperimentFile> leave_out_repeated(std::vector<ExperimentFile>& files) {
+  const auto whole = std::ranges::find(files, false, &ExperimentFile::is_shard);
+  std::vector<ExperimentFile> kept, repeated;
+  for (const ExperimentFile& file : files) {
     const bool one = file.stamp.arguments == files.front().stamp.arguments;
-    const auto there = std::ranges::find(kept, file.stamp.shard, [](const ShardFile& f) { return f.stamp.shard; });
+    const auto there = std::ranges::find(kept, file.stamp.shard, [](const ExperimentFile& f) { return f.stamp.shard; });
     if (one && whole != files.end() && &file != &*whole) {
       check_part(file, *whole);
       repeated.push_back(file);
@@ -105,32 +98,6 @@ std::vector<ShardFile> leave_out_repeated(std::vector<ShardFile>& files) {
   }
   files = std::move(kept);
   return repeated;
-}
-
-/// Throws unless the files are all shards of one experiment, each once.
-void check_set(const std::vector<ShardFile>& files) {
-  const ShardFile& first = files.front();
-  for (const ShardFile& file : files) {
-    const bool same = file.stamp.arguments == first.stamp.arguments && file.stamp.matches == first.stamp.matches &&
-                      file.stamp.shard.count == first.stamp.shard.count;
-    if (!same)
-      throw refused(file.path, fmt::format("shard {} of {} matches is of another experiment, or cut otherwise, than {}"
-                                           " (shard {} of {})",
-                                           file.stamp.shard.text(), file.stamp.matches, first.path.string(),
-                                           first.stamp.shard.text(), first.stamp.matches));
-  }
-  std::vector<std::string> missing;
-  std::size_t next = 0;
-  for (std::uint32_t number = 1; number <= first.stamp.shard.count; ++number) {
-    if (next < files.size() && files[next].stamp.shard.number == number) {
-      ++next;
-    } else {
-      missing.push_back(Shard{number, first.stamp.shard.count}.text());
-    }
-  }
-  if (missing.empty()) return;
-  throw std::runtime_error(fmt::format("of {} shards {} {} missing: {}", first.stamp.shard.count, missing.size(),
-                                       missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
 }
 
 /// In the order of the keys, as one run writes them; or what is said of them alone.
@@ -176,11 +143,11 @@ bool any_is_shard(const std::vector<fs::path>& files) {
 
 MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to,
                           const std::function<void(std::size_t, std::size_t)>& told) {
-  std::vector<ShardFile> shards;
-  shards.reserve(files.size());
-  for (const fs::path& path : files) shards.push_back(read_shard(path));
-  std::ranges::stable_sort(shards, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
-  const std::vector<ShardFile> repeated = leave_out_repeated(shards);
+  std::vector<ExperimentFile> found;
+  found.reserve(files.size());
+  for (const fs::path& path : files) found.push_back(read_shard(path));
+  const std::vector<ExperimentFile> repeated = leave_out_repeated(found);
+  std::vector<ShardFile> shards(found.begin(), found.end());
   check_set(shards);
   MergedShards merged{
       .shards = static_cast<std::int64_t>(shards.size()), .sessions = 0, .matches = shards.front().stamp.matches};
