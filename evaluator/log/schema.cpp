@@ -123,6 +123,18 @@ std::optional<std::string> table_of_message(std::string_view type) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The view policy_order: policies with their place in every list.
+std::string policy_order() {
+  std::string rows;
+  for (std::size_t place = 0; place < kicking::kPolicyCount; ++place)
+    rows += fmt::format("{}('{}', {})", place == 0 ? "" : ", ", kicking::kPolicyFacts[place].name, place);
+  return fmt::format("CREATE TEMP VIEW policy_order (policy, place) AS VALUES {};", rows);
+}
+
+}  // namespace
+
 void create_reading_views(SQLite::Database& database, int version) {
   const char* const kicks = version == 1 ? "kicks_of_version_1" : version < 4 ? "kicks_of_version_3" : "kicks";
   database.exec(own_kicks(schema_of(kMatchLog, version), kicks));
@@ -137,6 +149,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version < 6) database.exec(kBeforeVersion6Sql);
   if (version < 7) database.exec(kBeforeVersion7Sql);
   if (version < 8) database.exec(kBeforeVersion8Sql);
+  database.exec(policy_order());
   database.exec(kReadingViewsSql);
 }
 

@@ -1,8 +1,9 @@
 -- Kicks by policy, label and sightings behind it. p_on_target: of the label's own probabilities, NULL in old logs and of a
 -- label by hand.
--- Columns: policy, outcome ('unknown' where none came), observations, p_on_target, p_of_label (NULL: not said),
--- p_of_any (sum of the outcomes' probabilities, NULL: not said).
-SELECT k.policy, coalesce(k.label, 'unknown') AS outcome, coalesce(k.observations, 0) AS observations,
+-- Columns: session_id, robot_id, policy, outcome ('unknown' where none came), observations, p_on_target, p_of_label
+-- (NULL: not said), p_of_any (sum of the outcomes' probabilities, NULL: not said).
+SELECT k.session_id, k.robot_id, k.policy, coalesce(k.label, 'unknown') AS outcome,
+  coalesce(k.observations, 0) AS observations,
   c.p_on_target,
   CASE k.outcome
     WHEN 'on_target' THEN c.p_on_target WHEN 'wide_left' THEN c.p_wide_left WHEN 'wide_right' THEN c.p_wide_right

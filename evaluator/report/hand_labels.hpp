@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 
 #include "evaluator/log/reader.hpp"
@@ -16,12 +17,14 @@ struct HandLabels {
 
   /// "hand labels: 12 kicks; they disagreed with the observer in 2 of 9, who did not know 3"; empty: there are none.
   std::string line() const;
+
+  void add(const HandLabels& other);
 };
 
 /// Whether a label and an observed outcome contradict each other: "outside" is every miss.
 bool disagree(const std::string& by_hand, const std::string& observed);
 
-/// Throws std::runtime_error where the log cannot be read.
-HandLabels hand_labels_of(const log::Reader& reader);
+/// Of kicks in these sessions. Throws std::runtime_error where the log cannot be read.
+HandLabels hand_labels_of(const log::Reader& reader, const std::set<std::int64_t>& sessions);
 
 }  // namespace trivela::evaluator

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "evaluator/metrics/kicked_tracks.sql.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
@@ -26,8 +28,10 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
 
 void read_labels(const log::Reader& reader, LabelQuality& quality) {
   for (const auto& [most, name] : kRows) quality.rows.push_back({.sightings = name});
-  const auto add = [&](const std::string& policy, const std::string& label, std::int64_t sightings,
-                       std::optional<double> p_inside, std::optional<double> p_label, std::optional<double> p_any) {
+  std::map<std::tuple<std::int64_t, int, std::string>, stats::LabelDoubt> doubts;
+  const auto add = [&](std::int64_t session_id, int robot_id, const std::string& policy, const std::string& label,
+                       std::int64_t sightings, std::optional<double> p_inside, std::optional<double> p_label,
+                       std::optional<double> p_any) {
     const auto place = std::ranges::find_if(kRows, [&](const auto& r) { return sightings <= r.first; });
     SightingsRow& of = quality.rows[static_cast<std::size_t>(place - kRows.begin())];
     const bool unknown = label == "unknown";
@@ -40,7 +44,7 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
       return;
     }
     of.expected_wrong += 1.0 - p_label.value_or(1.0);
-    stats::LabelDoubt& doubt = quality.doubts[policy];
+    stats::LabelDoubt& doubt = doubts[{session_id, robot_id, policy}];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
     } else if (label != kOwnHalf) {  // however sure it is that it was inside
@@ -48,6 +52,8 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     }
   };
   reader.query(kLabelDoubtSql, add);
+  for (const auto& [key, doubt] : doubts)
+    quality.doubts.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), doubt});
 }
 
 /// Follows the ball after each release and notes how far forward it came where it came back.
@@ -121,6 +127,20 @@ std::optional<TurnCluster> densest(std::vector<double> turns_y_m) {
     if (n >= kManyTurns && (!best || n > best->turns)) best = TurnCluster{turns_y_m[first + (last - first) / 2], n};
   }
   return best;
+}
+
+void LabelQuality::add(const LabelQuality& other) {
+  if (rows.empty()) rows.resize(other.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].sightings = other.rows[i].sightings;
+    rows[i].kicks += other.rows[i].kicks;
+    rows[i].unknown += other.rows[i].unknown;
+    rows[i].expected_wrong += other.rows[i].expected_wrong;
+  }
+  doubts.insert(doubts.end(), other.doubts.begin(), other.doubts.end());
+  has_probabilities = has_probabilities || other.has_probabilities;
+  stopped_free += other.stopped_free;
+  kicks += other.kicks;
 }
 
 double LabelQuality::expected_wrong() const {

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "evaluator/report/log_design.hpp"
-#include "kicking/policy/policy.hpp"
+#include "evaluator/report/policy_order.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -36,16 +36,6 @@ std::optional<Name> name_by(const LoggedOpportunities& logged, const std::string
   return std::nullopt;
 }
 
-// Policies of play and tables, older and simpler ones first; others behind by their name.
-std::size_t rank_of(const std::string& name) {
-  static const std::vector<std::string> order = [] {
-    auto names = kicking::policies_where([](const auto& policy) { return policy.plays(); });
-    names.insert(names.end(), {"old", "new"});
-    return names;
-  }();
-  return static_cast<std::size_t>(std::ranges::find(order, name) - order.begin());
-}
-
 std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std::string& by, const Name& name) {
   std::vector<std::string> groups;
   std::set<std::string> seen;
@@ -53,7 +43,7 @@ std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std:
     const std::string group = name(o);
     if (!group.empty() && seen.insert(group).second) groups.push_back(group);
   }
-  if (by != "arm") std::ranges::sort(groups, {}, [](const auto& group) { return std::pair(rank_of(group), group); });
+  if (by != "arm") std::ranges::sort(groups, PolicyOrder{});
   return groups;
 }
 

@@ -35,6 +35,7 @@ struct ComparedSession {
   std::optional<std::int64_t> calibration_id;
   std::string config_sha256;
   SessionSetup setup;
+  std::uint32_t log = 0;    ///< place of the log that it is read from
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
   std::uint32_t play = 0;   ///< recordings of one play have the same number: what they have alike is one thing
   bool counts = true;       ///< false: a replay, or a match that another session has, played again

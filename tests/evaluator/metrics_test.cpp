@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "kicking/policy/policy.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -184,6 +185,12 @@ TEST_F(Question, IsAnsweredFromTablesAndViews) {
                    "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 3) "
                    "SELECT i FROM n -- three of them"),
             "i\n1\n2\n3\n");
+}
+
+TEST_F(Question, HasThePoliciesInTheOrderOfTheRegistry) {
+  std::string order = "policy\n";
+  for (const std::string& policy : kicking::policies_where([](const auto&) { return true; })) order += policy + "\n";
+  EXPECT_EQ(answer(log::Reader(path()), "SELECT policy FROM policy_order ORDER BY place"), order);
 }
 
 TEST_F(Question, ThatWouldChangeSomethingIsRefused) {

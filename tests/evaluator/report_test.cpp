@@ -202,21 +202,6 @@ TEST_F(ReportOfALog, UnknownOutcomesBoundTheEfficiency) {
   EXPECT_THAT(to_text(report), HasSubstr("efficiency of moving: 60.0 % to 80.0 %, whatever the unknown kicks were\n"));
 }
 
-TEST_F(ReportOfALog, ArmsOfOnePolicyAreNotAddedUp) {
-  auto arm = session();
-  arm.policies = {{1, "moving"}};
-  arm.match_id = 1;
-  arm.arm = "moving paper";
-  MatchLog(path(), arm, options()).close();
-  arm.uuid = "44444444-4444-4444-8444-444444444444";
-  arm.arm = "moving";
-  MatchLog(path("moving.db"), arm, options()).close();
-  merge(path("moving.db"), path());
-  EXPECT_THAT([&] { make_report(log::Reader(path())); },
-              ThrowsMessage<std::runtime_error>(
-                  AllOf(HasSubstr("'moving' is the policy of several arms"), HasSubstr("compare --by arm"))));
-}
-
 TEST_F(ReportOfALog, KicksThatMissAPartAreListed) {
   MatchLog match(path(), session(), options());
   match.kick(1, "over");
