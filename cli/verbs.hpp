@@ -32,6 +32,7 @@ void add_collect(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_migrate(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
+void add_export(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_evaluate_policy(CLI::App& app, int& exit_code);
 void add_learn(CLI::App& app, int& exit_code);

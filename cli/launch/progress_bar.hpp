@@ -17,6 +17,9 @@ class ProgressBar {
     if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
   }
 
+  /// Somebody sees it: what is shown may be worth some work.
+  bool is_seen() const { return terminal_; }
+
   /// `done` of `total` in whatever unit; `what` stands behind the bar.
   void show(double done, double total, const std::string& what) {
     if (!terminal_ || total <= 0.0) return;
