@@ -174,7 +174,9 @@ std::string to_json(const Report& report) {
   json["arms"] = Json::array();
   for (const Arm& arm : report.arms) json["arms"].push_back(arm_json(arm));
   json["said"] = Json::array();
-  for (const SessionNote& note : report.notes) json["data_quality"] = quality_json(report);
+  for (const SessionNote& note : report.notes)
+    json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
+  json["data_quality"] = quality_json(report);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "
