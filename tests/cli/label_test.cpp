@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
@@ -113,6 +114,12 @@ TEST_F(AfterTheMatch, TheDoctorsExitCodeIsTheWorstThatHeFound) {
   std::ofstream(path("none.db")) << "none";
   EXPECT_THAT(said({"doctor", "--json", path("none.db"), log_}), HasSubstr("\"verdict\": \"bad\""));
   EXPECT_EQ(exit_code_, kFailed);
+}
+
+TEST_F(AfterTheMatch, WhileAMatchIsOnNoPageIsServed) {
+  std::ofstream(path("match.toml")) << "[run]\nmatch_mode = true\n";
+  EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "--serve", "--config", path("match.toml").string()}),
+              HasSubstr("run.match_mode = true: a match is on, and trivela label --serve waits"));
 }
 
 TEST_F(AfterTheMatch, AnOlderLogIsMigratedInItsPlaceAndThenLabelled) {
