@@ -1,6 +1,7 @@
 // Steps through kicks, plays each, and says to the log what somebody saw. Texts of the log are only ever set as text.
 'use strict';
 
+const kEnded = 'trivela label --serve does not answer: it has ended.';
 const kBeforeKick_s = 3;  // the video is set so long before the kick
 const token = location.hash.slice(1);
 const by = (id) => document.getElementById(id);
@@ -52,8 +53,9 @@ async function show(place) {
   by('empty').textContent = kicks.length === 0 ? 'The log has no kicks.' : 'There are none of these kicks.';
   describe();
   if (place === null) return;
-  const answer = await fetch(`/api/story?i=${place}`);
+  const answer = await fetch(`/api/story?i=${place}`).catch(() => null);
   if (shown !== place) return;
+  if (!answer) return tell(kEnded, true);
   if (!answer.ok) return tell((await answer.json()).error, true);
   const story = await answer.json();
   if (shown !== place) return;
@@ -97,7 +99,7 @@ async function say(outcome) {
     headers: {'Content-Type': 'application/json', 'X-Trivela-Token': token},
     body: JSON.stringify({session_id: kick.session_id, kick_id: kick.kick_id, robot: kick.robot, outcome,
       who: by('who').value, note})}).catch(() => null);
-  if (!answer) return tell('trivela label --serve does not answer: it has ended. Nothing was written.', true);
+  if (!answer) return tell(`${kEnded} Nothing was written.`, true);
   const said = await answer.json();
   if (!answer.ok) return tell(`${said.error}. Nothing was written.`, true);
   take(said);
