@@ -1,17 +1,25 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <poll.h>
 
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/match_mode.hpp"
+#include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "config/installation.hpp"
+#include "config/settings.hpp"
 #include "evaluator/log/additions.hpp"
 #include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/named_kicks.hpp"
 #include "evaluator/report/text_table.hpp"
+#include "pages/labels/label_server.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -26,6 +34,9 @@ struct LabelArguments {
   std::string note;
   std::string session;
   bool withdraw = false;
+  bool serve = false;
+  int port = 0;
+  std::string config = config::shipped("default.toml").string();
 };
 
 std::int64_t now_utc_ns() {
@@ -82,7 +93,22 @@ int add_one(const LabelArguments& arguments) {
   return kDone;
 }
 
+int serve(const LabelArguments& arguments) {
+  if (!arguments.kick.empty() || arguments.withdraw || !arguments.who.empty() || !arguments.session.empty())
+    throw UsageError{"--serve: the page asks for kicks, outcomes and names itself"};
+  refuse_in_a_match(config::load_settings(arguments.config), "trivela label --serve");
+  SignalInbox signals;  // before all threads, which must not take them
+  pages::LabelDesk desk(arguments.log);
+  const pages::LabelServer server(desk, arguments.port);
+  say(server.url() + '\n');
+  std::fflush(stdout);
+  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+  while (!signals.stop_requested()) poll(&inbox, 1, -1);
+  return kDone;
+}
+
 int run_label(const LabelArguments& arguments) {
+  if (arguments.serve) return serve(arguments);
   if (arguments.kick.empty()) {
     if (arguments.withdraw || !arguments.who.empty())
       throw UsageError{"say which kick: trivela label LOG KICK OUTCOME"};
@@ -106,7 +132,11 @@ void add_label(CLI::App& app, int& exit_code) {
       "beside it. The latest label of a kick counts before the observer, in report, compare and every metric, which\n"
       "also say how often the two disagreed. \"outside\" is a miss that is not said how; --withdraw is a row, too, "
       "after\n"
-      "which the observer's class counts again. Without KICK: the kicks that nobody knows, and those labelled.");
+      "which the observer's class counts again. Without KICK: the kicks that nobody knows, and those labelled. "
+      "--serve\n"
+      "is a page that steps through them with their replay and a video's time; it prints an address that holds the "
+      "right\n"
+      "to label, for this machine alone.");
   const auto arguments = std::make_shared<LabelArguments>();
   verb->add_option("log", arguments->log, "Match log of this version (trivela migrate)")->required();
   verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
@@ -116,6 +146,15 @@ void add_label(CLI::App& app, int& exit_code) {
   verb->add_option("--note", arguments->note, "Why, such as the video's time");
   verb->add_option("--session", arguments->session, "How the uuid of the kick's session begins");
   verb->add_flag("--withdraw", arguments->withdraw, "The kick's label no longer holds");
+  auto* const serve = verb->add_flag("--serve", arguments->serve, "A page for this machine's browser, until Ctrl-C");
+  verb->add_option("--port", arguments->port, "of the page, 0: any free one")
+      ->check(CLI::Range(0, 65535))
+      ->needs(serve)
+      ->capture_default_str();
+  verb->add_option("--config", arguments->config, "Settings whose run.match_mode refuses --serve")
+      ->check(readable_file())
+      ->needs(serve)
+      ->capture_default_str();
   verb->callback([arguments, &exit_code] { exit_code = run_label(*arguments); });
 }
 

@@ -19,6 +19,7 @@ struct Run {
   std::uint32_t robot_id = 1;
   double cycle_s = 0.02;           ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
   std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
+  bool match_mode = false;         ///< a match is on: what changes a log or a robot by hand is refused
   bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it

@@ -20,25 +20,24 @@ constexpr std::size_t kLongestText_B = 10'000;
 
 void check_text(const char* what, std::string_view text, std::size_t longest_B) {
   if (text.size() > longest_B)
-    throw std::runtime_error(fmt::format("{} has {} bytes, the most are {}", what, text.size(), longest_B));
+    throw BadAddition(fmt::format("{} has {} bytes, the most are {}", what, text.size(), longest_B));
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t length = kicking::utf8_length(rest);
-    if (length == 0 || rest.front() == '\0') throw std::runtime_error(fmt::format("{} is no text in UTF-8", what));
+    if (length == 0 || rest.front() == '\0') throw BadAddition(fmt::format("{} is no text in UTF-8", what));
     rest.remove_prefix(length);
   }
 }
 
 void check_who(std::string_view who) {
   if (who.find_first_not_of(" \t\n") == std::string_view::npos)
-    throw std::runtime_error("somebody must say so: the name is empty");
+    throw BadAddition("somebody must say so: the name is empty");
   check_text("the name", who, kLongestName_B);
 }
 
 template <std::size_t n>
 void check_word(const char* what, const std::array<std::string_view, n>& words, std::string_view word) {
   if (std::ranges::find(words, word) == words.end())
-    throw std::runtime_error(
-        fmt::format("{} '{}' is none of {}", what, kicking::printable(word), fmt::join(words, ", ")));
+    throw BadAddition(fmt::format("{} '{}' is none of {}", what, kicking::printable(word), fmt::join(words, ", ")));
 }
 
 void check_version(const LogFile& file) {

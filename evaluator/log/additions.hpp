@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,11 @@ inline constexpr std::array<std::string_view, 10> kLabels = {
 
 /// What notes are about.
 inline constexpr std::array<std::string_view, 4> kNoteKinds = {"match", "opponent", "venue", "note"};
+
+/// What was to be added is none: the sentence says why.
+struct BadAddition : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// What somebody says of a kick: a row of table `labels`.
 struct Label {
@@ -47,8 +53,9 @@ class Additions {
   /// than kMatchLog, or cannot be written.
   explicit Additions(const std::filesystem::path& path);
 
-  /// `now_utc_ns`: UTC since 1970. Throws std::runtime_error where a label is none of kLabels, a kind none of
-  /// kNoteKinds, nobody says so, a text is too long or no UTF-8, and where the file refuses it: nothing is added then.
+  /// `now_utc_ns`: UTC since 1970. Throws BadAddition where a label is none of kLabels, a kind none of kNoteKinds,
+  /// nobody says so, a text is too long or no UTF-8, std::runtime_error where the file refuses it: nothing is added
+  /// then.
   void add(const Label& label, std::int64_t now_utc_ns);
   void add(const Note& note, std::int64_t now_utc_ns);
 

@@ -84,12 +84,14 @@ std::vector<ExperimentFile> leave_out_repeated(std::vector<ExperimentFile>& file
   const auto whole = std::ranges::find(files, false, &ExperimentFile::is_shard);
   std::vector<ExperimentFile> kept, repeated;
   for (const ExperimentFile& file : files) {
-    const bool one = file.stamp.arguments == files.front().stamp.arguments;
-    const auto there = std::ranges::find(kept, file.stamp.shard, [](const ExperimentFile& f) { return f.stamp.shard; });
-    if (one && whole != files.end() && &file != &*whole) {
+    const auto there = std::ranges::find_if(kept, [&](const ExperimentFile& other) {
+      return other.stamp.arguments == file.stamp.arguments && other.stamp.shard == file.stamp.shard;
+    });
+    const bool has_whole = whole != files.end() && whole->stamp.arguments == file.stamp.arguments;
+    if (has_whole && &file != &*whole) {
       check_part(file, *whole);
       repeated.push_back(file);
-    } else if (one && there != kept.end()) {
+    } else if (there != kept.end()) {
       check_part(file, *there);
       repeated.push_back(file);
     } else {

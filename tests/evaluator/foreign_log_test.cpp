@@ -126,10 +126,11 @@ TEST_F(ForeignLog, AnIndexThatDoesNotSayWhatItsTableSaysIsRefused) {
 }
 
 TEST_F(ForeignLog, OtherTablesViewsAndTriggersPlayNoPart) {
-  exec(std::string("CREATE TABLE jottings (text); CREATE INDEX jottings_text ON jottings (text); CREATE VIEW mine AS ") +
-       kEndless +
-       "; CREATE TABLE pragma_table_info (arg, name, \"notnull\"); CREATE TABLE words (a); CREATE TABLE heard (a);"
-       "CREATE TRIGGER t AFTER INSERT ON referee BEGIN INSERT INTO jottings VALUES ('x'); END;");
+  exec(
+      std::string("CREATE TABLE jottings (text); CREATE INDEX jottings_text ON jottings (text); CREATE VIEW mine AS ") +
+      kEndless +
+      "; CREATE TABLE pragma_table_info (arg, name, \"notnull\"); CREATE TABLE words (a); CREATE TABLE heard (a);"
+      "CREATE TRIGGER t AFTER INSERT ON referee BEGIN INSERT INTO jottings VALUES ('x'); END;");
   EXPECT_EQ(said(), report_);
   int rows = 0;
   Reader(path()).for_each_row("kick_orders", {"seq"}, [&](auto) { ++rows; });

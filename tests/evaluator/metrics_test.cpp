@@ -1,5 +1,6 @@
 #include "evaluator/metrics/metrics.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "evaluator/log/additions.hpp"
 #include "kicking/policy/policy.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
@@ -79,6 +81,18 @@ void write_surroundings(MatchLog& match) {
   writer.silence({"odometry", 1, 12 * kSecond_ns, 13 * kSecond_ns});
 }
 
+/// A label of the first kick, and a tally that is not what the rows say.
+void say_afterwards(const std::filesystem::path& path) {
+  Int session_id = 0, t_ns = 0;
+  log::Reader(path).query("SELECT session_id, t_ns FROM kicks WHERE kick_id = 1", [&](Int of, Int at) {
+    session_id = of;
+    t_ns = at;
+  });
+  log::Additions(path).add(log::Label{session_id, 1, 1, t_ns, "on_target", "Ada", "video 12:34"}, kSecond_ns);
+  SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
+      .exec("INSERT INTO session_tallies VALUES (" + std::to_string(session_id) + ", 1, 'stopped', 1, 4, 5, 0, 0, 5)");
+}
+
 /// A match in which every metric finds something.
 void write_known_match(const std::filesystem::path& path, log::Session session, log::WriterOptions options) {
   session.uuid = "00000000-0000-4000-8000-000000000001";
@@ -101,7 +115,15 @@ void write_known_match(const std::filesystem::path& path, log::Session session, 
   write_surroundings(match);
   match.status(12, 1);
   match.referee(60.0, 2, false);
+  const auto statuses = match.writer().table(
+      "kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id", "last_accepted",
+                        "orders_handled", "orders_refused", "state", "charge_modelled"});
+  for (const Int seq : {2000, 2001}) {  // the second a second before the first
+    match.writer().push(statuses, {Int{1}, seq, (2070 - seq) * kSecond_ns, 1.0, Int{1}, Int{1}, "none", Int{0}, Int{0},
+                                   Int{12}, Int{1}, "ready", Int{0}});
+  }
   match.close();
+  say_afterwards(path);
 }
 
 std::string cell_text(const log::Value& cell) {

@@ -134,7 +134,7 @@ TEST(House, EveryOuterLibraryHasOneDoor) {
       {"sqlite3.h", {"evaluator/log/"}},
       {"toml++/", {"config/"}},
       {"CLI/", {"cli/", "nodes/runtime/"}},
-      {"httplib.h", {"pages/serve/"}},
+      {"httplib.h", {"pages/serve/", "pages/labels/"}},
       {"zlib.h", {"evaluator/imports/"}},
       {"openssl/", {"security/", "evaluator/log/"}},
   };
