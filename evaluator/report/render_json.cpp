@@ -170,6 +170,7 @@ std::string to_json(const Report& report) {
   json["arms"] = Json::array();
   for (const Arm& arm : report.arms) json["arms"].push_back(arm_json(arm));
   json["data_quality"] = quality_json(report);
+  if (!report.gates.empty()) json["gates"] = gates_json(report.gates);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "
