@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "cli/gate_option.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::cli {
@@ -16,8 +18,12 @@ struct ReportArguments {
   std::vector<std::string> logs;
   bool json = false;
   bool csv = false;
+  bool markdown = false;
+  bool latex = false;
   bool verify = false;
   std::string blocked = "outside";
+  std::string out;
+  std::vector<std::string> gates;
 };
 
 // All logs are open at once, each with up to three files; the usual limit is 1024.
@@ -30,6 +36,8 @@ void allow_many_files() {
 
 evaluator::Report report_of(const ReportArguments& arguments) {
   using evaluator::log::Check;
+  const auto gates = parse_gates(arguments.gates, evaluator::report_gate_metrics());
+  require_writable("--out", arguments.out);
   allow_many_files();
   std::vector<std::unique_ptr<evaluator::log::Reader>> readers;
   std::vector<evaluator::OpenLog> logs;
@@ -38,7 +46,23 @@ evaluator::Report report_of(const ReportArguments& arguments) {
         std::make_unique<evaluator::log::Reader>(log, arguments.verify ? Check::kWhole : Check::kIfShort));
     logs.push_back({readers.back().get(), log});
   }
-  return evaluator::make_report(logs, arguments.blocked == "apart");
+  evaluator::Report report = evaluator::make_report(logs, arguments.blocked == "apart");
+  report.gates = evaluator::judge_gates(report, gates);
+  return report;
+}
+
+std::string written(const evaluator::Report& report, const ReportArguments& arguments) {
+  if (arguments.json) return evaluator::to_json(report);
+  if (arguments.csv) return evaluator::to_csv(report);
+  if (arguments.markdown) return evaluator::to_markdown(report);
+  if (arguments.latex) return evaluator::to_latex(report);
+  return evaluator::to_text(report);
+}
+
+// What a reader of the text finds in it stands on standard error beside the other forms.
+void warn_of(const evaluator::Report& report) {
+  for (const std::string& warning : report.warnings) warn(warning);
+  if (report.doubt) warn(*report.doubt);
 }
 
 }  // namespace
@@ -49,27 +73,28 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; each of their kicks counts once")
       ->type_name("DB")
       ->required();
-  auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
-  verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
+  auto* const form = verb->add_option_group("form", "One of these in place of text");
+  form->add_flag("--json", arguments->json, "JSON");
+  form->add_flag("--csv", arguments->csv, "CSV, a line for each policy, robot and number of the data quality");
+  form->add_flag("--markdown", arguments->markdown, "Markdown");
+  form->add_flag("--latex", arguments->latex, "LaTeX, for \\input");
+  form->require_option(0, 1);
+  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   verb->add_option("--blocked", arguments->blocked,
                    "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
       ->check(CLI::IsMember({"outside", "apart"}));
+  add_gates(*verb, arguments->gates, "'efficiency(moving)>=0.7', 'missing_rows==0'");
   verb->add_flag(
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
     const evaluator::Report report = report_of(*arguments);
-    const bool plain = !arguments->json && !arguments->csv;
-    if (arguments->json) {
-      fmt::print("{}", evaluator::to_json(report));
-    } else {
-      say(arguments->csv ? evaluator::to_csv(report) : evaluator::to_text(report));
-    }
-    if (!plain) {  // the text has them
-      for (const std::string& warning : report.warnings) warn(warning);
-      if (report.doubt) warn(*report.doubt);
-    }
-    exit_code = report.data_lost() ? kDoneWithLoss : kDone;
+    const std::string text = written(report, *arguments);
+    arguments->out.empty() ? say(text) : write_file(arguments->out, text);
+    const bool plain = !arguments->json && !arguments->csv && !arguments->markdown && !arguments->latex;
+    if (!plain || !arguments->out.empty()) warn_of(report);
+    const bool met = warn_of_gates(report.gates);
+    exit_code = report.data_lost() || !met ? kDoneWithLoss : kDone;
   });
 }
 

@@ -12,13 +12,13 @@ namespace trivela::evaluator {
 
 /// An arm of an experiment: all its sessions together.
 struct Arm {
-  std::string name;      ///< "moving"; "moving (2)" where another arm of that name was played otherwise
-  std::string log;       ///< that its first session stands in
-  std::string scenario;  ///< of the first session, and so are those below
-  std::string table;     ///< empty: not known
-  std::vector<log::HalfPolicy> policies;  ///< none: drawn at random
-  std::string software_version;
-  std::string config_sha256;
+  std::string name;        ///< "moving"; "moving (2)" where another arm of that name was played otherwise
+  std::string log{};       ///< that its first session stands in
+  std::string scenario{};  ///< of the first session, and so are those below
+  std::string table{};     ///< empty: not known
+  std::vector<log::HalfPolicy> policies{};  ///< none: drawn at random
+  std::string software_version{};
+  std::string config_sha256{};
   std::int64_t configurations = 0;  ///< how many different ones
   std::int64_t sessions = 0;        ///< that count
   std::int64_t matches = 0;         ///< among them

@@ -17,10 +17,11 @@ struct BadOption : std::runtime_error {
 
 /// How to read logs for a comparison.
 struct LogKicks {
-  std::string by{};  ///< "policy", "table", "robot" or "arm"; empty: arm where the logs have several, else policy
-  std::string
-      stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
-  bool truth = false;  ///< outcomes by the simulator's truth; otherwise as observed
+  std::string by{};  ///< "policy", "table", "robot", "arm" or "log"; empty: arm where there are several, else policy,
+                     ///< or log where there is one policy
+  std::string stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm",
+                               ///< "log" or none
+  bool truth = false;          ///< outcomes by the simulator's truth; otherwise as observed
   bool blocked_apart = false;  ///< blocked kicks stand apart; otherwise they are outside
 };
 

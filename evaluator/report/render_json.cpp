@@ -177,6 +177,7 @@ std::string to_json(const Report& report) {
   for (const SessionNote& note : report.notes)
     json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
   json["data_quality"] = quality_json(report);
+  if (!report.gates.empty()) json["gates"] = gates_json(report.gates);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "

@@ -14,9 +14,9 @@
 namespace trivela::evaluator {
 namespace {
 
-std::string number(std::int64_t n) { return std::to_string(n); }
+std::string shown(std::int64_t n) { return std::to_string(n); }
 
-std::string number(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
+std::string shown(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
 
 // Lines that are indented for a terminal, as sentences.
 void add_lines(std::vector<std::string>& notes, const std::string& lines) {
@@ -25,14 +25,14 @@ void add_lines(std::vector<std::string>& notes, const std::string& lines) {
 }
 
 // The first cells of a row: who kicked.
-std::vector<std::string> who(const Report& report, const PolicyRow& row) {
+std::vector<std::string> who_of(const Report& report, const PolicyRow& row) {
   std::vector<std::string> cells;
   if (!report.arms.empty()) cells.push_back(row.arm.empty() ? "-" : row.arm);
   cells.push_back(row.policy.empty() ? "-" : row.policy);
   return cells;
 }
 
-std::vector<std::string> head(const Report& report, const std::vector<std::string>& rest) {
+std::vector<std::string> head_of(const Report& report, const std::vector<std::string>& rest) {
   std::vector<std::string> cells =
       report.arms.empty() ? std::vector<std::string>{"policy"} : std::vector<std::string>{"arm", "policy"};
   cells.insert(cells.end(), rest.begin(), rest.end());
@@ -44,23 +44,23 @@ const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown"
 
 void add_counts(std::vector<std::string>& cells, const PolicyRow& row) {
   const auto efficiency = stats::efficiency(row.counts());
-  for (const std::int64_t n : {row.inside(), row.outside(), row.unknown()}) cells.push_back(number(n));
+  for (const std::int64_t n : {row.inside(), row.outside(), row.unknown()}) cells.push_back(shown(n));
   cells.push_back(efficiency ? percent(*efficiency) : "-");
   cells.push_back(efficiency ? percent(row.efficiency_ci()) : "-");
-  cells.push_back(number(row.played_min));
-  cells.push_back(number(row.kicks_per_min()));
+  cells.push_back(shown(row.played_min));
+  cells.push_back(shown(row.kicks_per_min()));
 }
 
-ReportPart table2(const Report& report) {
+ReportPart table2_part(const Report& report) {
   ReportPart part{report.arms.empty() ? "Table 2: kicks by policy" : "Table 2: kicks by arm",
-                  {head(report, kCountHead)},
+                  {head_of(report, kCountHead)},
                   {"inside: between the posts and below the bar, saves included; it is not goals scored"}};
   std::vector<NamedBounces> bounces;
   bool blocked_apart = false;
   for (const PolicyRow& row : report.policies) {
     bounces.push_back({name_of(row), row.bounces});
     blocked_apart = blocked_apart || row.blocked_apart;
-    part.table.push_back(who(report, row));
+    part.table.push_back(who_of(report, row));
     add_counts(part.table.back(), row);
   }
   add_lines(part.notes, bounce_lines(bounces));
@@ -77,19 +77,19 @@ ReportPart table2(const Report& report) {
   return part;
 }
 
-ReportPart by_robot(const Report& report) {
-  ReportPart part{"By robot", {head(report, kCountHead)}, {}};
+ReportPart by_robot_part(const Report& report) {
+  ReportPart part{"By robot", {head_of(report, kCountHead)}, {}};
   part.table[0].insert(part.table[0].begin(), "robot");
   for (const RobotRow& row : report.robots) {
-    part.table.push_back(who(report, row));
-    part.table.back().insert(part.table.back().begin(), number(row.robot_id));
+    part.table.push_back(who_of(report, row));
+    part.table.back().insert(part.table.back().begin(), shown(row.robot_id));
     add_counts(part.table.back(), row);
   }
   part.notes.emplace_back("minutes: of play, in the possessions in which the robot had the ball");
   return part;
 }
 
-ReportPart misses(const Report& report) {
+ReportPart misses_part(const Report& report) {
   std::vector<std::string> names;
   for (const std::string& miss : kMisses) names.push_back(words(miss));
   const bool unsaid = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of("outside") > 0; });
@@ -97,23 +97,23 @@ ReportPart misses(const Report& report) {
   const bool own_half = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of(kOwnHalf) > 0; });
   if (own_half) names.push_back(words(kOwnHalf));
   names.emplace_back("unknown");
-  ReportPart part{"Why the misses missed", {head(report, names)}, {}};
+  ReportPart part{"Why the misses missed", {head_of(report, names)}, {}};
   for (const PolicyRow& row : report.policies) {
-    std::vector<std::string>& cells = part.table.emplace_back(who(report, row));
-    for (const std::string& miss : kMisses) cells.push_back(number(row.of(miss)));
-    if (unsaid) cells.push_back(number(row.of("outside")));
-    if (own_half) cells.push_back(number(row.of(kOwnHalf)));
-    cells.push_back(number(row.unknown()));
+    std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
+    for (const std::string& miss : kMisses) cells.push_back(shown(row.of(miss)));
+    if (unsaid) cells.push_back(shown(row.of("outside")));
+    if (own_half) cells.push_back(shown(row.of(kOwnHalf)));
+    cells.push_back(shown(row.unknown()));
   }
   return part;
 }
 
-ReportPart label_quality(const LabelQuality& labels) {
+ReportPart label_quality_part(const LabelQuality& labels) {
   ReportPart part{
       "Outcomes by sightings of the flight", {{"sightings", "kicks", "unknown", "labels expected wrong"}}, {}};
   for (const SightingsRow& row : labels.rows) {
     if (row.kicks == 0) continue;
-    part.table.push_back({row.sightings, number(row.kicks), number(row.unknown),
+    part.table.push_back({row.sightings, shown(row.kicks), shown(row.unknown),
                           labels.has_probabilities ? fmt::format("{:.2f}", row.expected_wrong) : "-"});
   }
   if (!labels.has_probabilities) part.notes.emplace_back("an older log: its labels came without their probabilities");
@@ -128,9 +128,8 @@ void add_lost_rows(ReportPart& part, const Report& report) {
   part.table = {{"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
   for (const log::Loss& loss : report.losses) {
     if (loss.missing() == 0) continue;
-    part.table.push_back({loss.stream, number(loss.received), number(loss.lost), number(loss.gaps),
-                          number(loss.overflow), number(loss.nan_refused), number(loss.rejected),
-                          number(loss.out_of_order)});
+    part.table.push_back({loss.stream, shown(loss.received), shown(loss.lost), shown(loss.gaps), shown(loss.overflow),
+                          shown(loss.nan_refused), shown(loss.rejected), shown(loss.out_of_order)});
   }
 }
 
@@ -145,7 +144,7 @@ void add_bounds(std::vector<std::string>& notes, const PolicyRow& row) {
   notes.push_back(text);
 }
 
-ReportPart quality(const Report& report) {
+ReportPart quality_part(const Report& report) {
   ReportPart part{"Data quality"};
   add_lost_rows(part, report);
   std::vector<std::string>& notes = part.notes;
@@ -182,15 +181,19 @@ std::string name_of(const PolicyRow& row) {
 }
 
 ReportParts parts_of(const Report& report) {
-  ReportParts result{heading_of(report), {table2(report)}, next_comparison(report)};
+  ReportParts result{heading_of(report), {table2_part(report)}, next_comparison(report)};
   if (std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.kicks() > 0; })) {
-    if (!report.robots.empty()) result.parts.push_back(by_robot(report));
-    result.parts.push_back(misses(report));
-    if (!imported_alone(report)) result.parts.push_back(label_quality(report.labels));
+    if (!report.robots.empty()) result.parts.push_back(by_robot_part(report));
+    result.parts.push_back(misses_part(report));
+    if (!imported_alone(report)) result.parts.push_back(label_quality_part(report.labels));
   } else {
     result.parts.back().notes.emplace_back("there are no kicks");
   }
-  result.parts.push_back(quality(report));
+  result.parts.push_back(quality_part(report));
+  if (!report.gates.empty()) {
+    ReportPart& gates = result.parts.emplace_back(ReportPart{"Gates"});
+    for (const GateResult& gate : report.gates) gates.notes.push_back(gate.sentence());
+  }
   return result;
 }
 

@@ -116,8 +116,9 @@ void add_kicks(Rows& rows, const log::Reader& reader) {
 
 // Situations of paired halves are one thing each, however many halves had them.
 void allow_for_paired_halves(Rows& rows, const LoggedOpportunities& logged) {
-  using Situation = std::tuple<std::uint32_t, std::uint32_t, int, int, std::int64_t>;  // match, play, robot, half, id
-  std::map<RowKey, std::map<Situation, stats::Counts>> situations;
+  using PlayedSituation =
+      std::tuple<std::uint32_t, std::uint32_t, int, int, std::int64_t>;  // match, play, robot, half, id
+  std::map<RowKey, std::map<PlayedSituation, stats::Counts>> situations;
   for (const LoggedOpportunity& o : logged.rows) {
     if (o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
     const ComparedSession& session = logged.sessions[o.session];

@@ -10,6 +10,7 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/arms.hpp"
 #include "evaluator/report/bounces.hpp"
+#include "evaluator/report/gate.hpp"
 #include "evaluator/report/hand_labels.hpp"
 #include "evaluator/report/import_notes.hpp"
 #include "evaluator/report/label_quality.hpp"
@@ -105,6 +106,8 @@ struct Report {
   std::int64_t compared_with_truth = 0;    ///< kicks whose outcome and truth are both known
   std::int64_t alike_with_truth = 0;
 
+  std::vector<GateResult> gates;  ///< of whoever asked (judge_gates())
+
   std::int64_t rows_missing() const;
   std::int64_t unclosed_sessions() const;
   std::int64_t simulated_sessions() const;
@@ -124,7 +127,12 @@ Report make_report(const log::Reader& reader, bool blocked_apart = false);
 /// Aligned tables for a terminal: Table 2, why the misses missed, data quality.
 std::string to_text(const Report& report);
 
-/// One line a policy with a header. A cell is empty where there is no such number.
+/// The same tables in Markdown (GitHub's), and in LaTeX for \input; names are harmless in either.
+std::string to_markdown(const Report& report);
+std::string to_latex(const Report& report);
+
+/// A line for each policy, robot, and number of the data quality, told apart by the column `row`; a number that belongs
+/// to no policy has its `name` and `value`. A cell is empty where there is no such number.
 std::string to_csv(const Report& report);
 
 /// `policies: [{policy, inside, outside, efficiency, wilson95, ...}]`, `sessions`, `data_quality` and notes.
