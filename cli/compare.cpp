@@ -9,8 +9,11 @@
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -94,11 +97,35 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   }
 }
 
+/// Arms of a book of tallies, which has the sums of each match and nothing to compare within.
+experiment::Summary compared_book(const CompareArguments& arguments) {
+  const auto refuse = [](const std::string& flag) {
+    throw UsageError(fmt::format("{}: a book of tallies has the sums of each arm's matches alone", flag));
+  };
+  if (!arguments.by.empty() && arguments.by != "arm") refuse("--by " + arguments.by);
+  if (!arguments.stratify.empty()) refuse("--stratify " + arguments.stratify);
+  if (!arguments.design.empty()) refuse("--design " + arguments.design);
+  if (arguments.outcome == "truth") refuse("--outcome truth");
+  auto summary =
+      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
+  if (!arguments.baseline.empty() && !experiment::put_first(summary, arguments.baseline))
+    throw UsageError(fmt::format("--baseline '{}': there is no such arm", arguments.baseline));
+  return summary;
+}
+
+std::string json_of(const experiment::Summary& summary) { return evaluator::json_text(to_json(summary)); }
+template <class Comparison>
+std::string json_of(const Comparison& comparison) {
+  return to_json(comparison);
+}
+
 void print_comparison(const CompareArguments& arguments) {
   const auto print = [&](const auto& comparison) {
-    arguments.json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
+    arguments.json ? fmt::print("{}", json_of(comparison)) : say(to_text(comparison));
   };
   check(arguments);
+  if (arguments.logs.size() == 1 && evaluator::log::any_is_tally_book({arguments.logs.front()}))
+    return print(compared_book(arguments));
   if (arguments.counts.empty()) return print(compared(arguments));
   const auto [older, newer] = parse_two_counts(arguments.counts);
   print(evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points));

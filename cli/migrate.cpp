@@ -28,6 +28,7 @@ void add_migrate(CLI::App& app, int& exit_code) {
   verb->add_option("log", arguments->log, "Match log of any version")->required();
   verb->add_option("--out", arguments->out, "The new log, must not exist")->required();
   verb->callback([arguments, &exit_code] {
+    require_new("--out", arguments->out);
     const auto migrated = [&] {
       ProgressBar bar;
       return evaluator::log::migrate(arguments->log, arguments->out, [&](std::int64_t rows, std::int64_t total) {

@@ -5,7 +5,10 @@
 
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/table2.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -17,6 +20,17 @@ struct ReportArguments {
   bool verify = false;
   std::string blocked = "outside";
 };
+
+/// Of a book of tallies, what it says.
+int report_book(const ReportArguments& arguments) {
+  const auto summary = experiment::summary_of(evaluator::log::read_book(arguments.log), arguments.blocked == "apart");
+  if (arguments.json) {
+    fmt::print("{}", evaluator::json_text(to_json(summary)));
+  } else {
+    say(arguments.csv ? to_csv(summary) : to_text(summary));
+  }
+  return kDone;
+}
 
 }  // namespace
 
@@ -34,6 +48,10 @@ void add_report(CLI::App& app, int& exit_code) {
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
     using evaluator::log::Check;
+    if (evaluator::log::any_is_tally_book({arguments->log})) {
+      exit_code = report_book(*arguments);
+      return;
+    }
     const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
     const evaluator::Report report = evaluator::make_report(reader, arguments->blocked == "apart");
     const bool plain = !arguments->json && !arguments->csv;

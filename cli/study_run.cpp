@@ -84,6 +84,11 @@ ExitCode StudyRun::run(const std::function<void()>& play_all, const std::functio
     return kDone;
   }
   const auto range = evaluator::log::range_of(study_.shard, study_.plan.matches);
+  if (verb_ == "simulate") {
+    fmt::print("shard {}: matches {} to {} of {}; trivela merge OUT SHARD... makes one book of all shards\n",
+               study_.shard->text(), range.begin, range.end - 1, study_.plan.matches);
+    return kDone;
+  }
   fmt::print(
       "shard {}: matches {} to {} of {} are in {}; trivela merge OUT SHARD... makes one book of all shards, and "
       "this command with --tallies OUT in place of --shard and its own --tallies the report\n",

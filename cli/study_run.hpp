@@ -8,6 +8,7 @@
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/study.hpp"
+#include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
 
 namespace trivela::cli {
@@ -38,6 +39,9 @@ class StudyRun {
   void keep();
 
   evaluator::log::TallyBook& book() { return book_; }
+
+  /// All that the book has.
+  evaluator::log::Book read_again() const { return book_.all(); }
 
   /// Somebody asked to stop.
   struct Interrupted {};

@@ -14,6 +14,7 @@
 #include "evaluator/log/row_copy.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -43,6 +44,7 @@ class Merging {
       file.damage = source.damage();
       file.readable = source.reader() != nullptr;
       if (file.readable) file.version = source.reader()->version();
+      if (file.readable) rows_ += source.reader()->verification().rows;
       for (const auto& [session_id, copy] : source.sessions()) file.parts.push_back({session_id, 0, 0});
     }
     choose();
@@ -194,7 +196,7 @@ class Merging {
   }
 
   void tell() {
-    if (++read_ % kToldEvery == 0 && options_.progress) options_.progress(read_);
+    if (++read_ % kToldEvery == 0 && options_.progress) options_.progress(read_, rows_);
   }
 
   void finish_sessions(SQLite::Database& database) {
@@ -206,6 +208,7 @@ class Merging {
       session.is_whole = choice.copy == Copy::kWhole && !without_text_.contains(session_id);
       if (session.is_whole) {
         digests.write(session_id);
+        write_tallies(database, session_id);
       } else {
         reopen.bind(1, session_id);
         reopen.exec();
@@ -254,6 +257,7 @@ class Merging {
   std::set<std::int64_t> unfit_;                                     // sessions whose own row is against the schema
   std::set<std::pair<const MergeSource*, std::int64_t>> inherited_;  // sessions of which a merged file says more
   std::int64_t read_ = 0;
+  std::int64_t rows_ = 0;  // that digests of the files cover
   Merged merged_;
 };
 

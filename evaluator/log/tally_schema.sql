@@ -10,6 +10,7 @@ CREATE TABLE studies (                     -- what the verb was asked for: one r
 CREATE TABLE arms (
   arm_id INTEGER NOT NULL PRIMARY KEY,     -- first 63 bits of sha256
   sha256 TEXT NOT NULL,                    -- of all that its matches depend on but their number
+  place INTEGER NOT NULL,                  -- from 0, in the order in which they were asked for
   name TEXT NOT NULL                       -- for people
 ) STRICT, WITHOUT ROWID;
 

@@ -32,6 +32,7 @@ std::vector<ComparedSession> sessions_of(const log::Reader& reader) {
 }  // namespace
 
 SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& name) {
+  reader.hold_kicks();
   SessionPlaces fresh;
   std::int64_t again = 0, open = 0;
   const auto setups = setups_of(reader, setups_);

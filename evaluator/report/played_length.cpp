@@ -33,9 +33,9 @@ std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::v
   std::vector<PlayedLength> lengths;
   std::vector<std::vector<Stretch>> heard;
   reader.query(
-      "SELECT s.session_id, planned_s, min(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
-      "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END FROM sessions AS s "
-      "LEFT JOIN referee AS r ON r.session_id = s.session_id WHERE planned_s IS NOT NULL GROUP BY s.session_id "
+      "SELECT s.session_id, planned_s, min(first_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
+      "max(last_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END FROM sessions AS s "
+      "LEFT JOIN heard_halves AS r ON r.session_id = s.session_id WHERE planned_s IS NOT NULL GROUP BY s.session_id "
       "ORDER BY s.started_t_ns, s.session_id",
       [&](std::int64_t session_id, double planned_s, std::optional<std::int64_t> from_ns,
           std::optional<std::int64_t> to_ns) {
@@ -53,10 +53,10 @@ std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::v
   // were.
   std::map<std::pair<std::size_t, int>, std::vector<Stretch>> halves;  // by place of the length
   reader.query(
-      "SELECT p.session_id, p.half, min(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
-      "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END "
+      "SELECT p.session_id, p.half, min(first_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
+      "max(last_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END "
       "FROM (SELECT DISTINCT session_id, half FROM session_policies) AS p JOIN sessions AS s USING (session_id) "
-      "LEFT JOIN referee AS r ON r.session_id = p.session_id AND r.half = p.half "
+      "LEFT JOIN heard_halves AS r ON r.session_id = p.session_id AND r.half = p.half "
       "WHERE planned_s IS NOT NULL AND replays_uuid IS NULL GROUP BY p.session_id, p.half",
       [&](std::int64_t session_id, int half, std::optional<std::int64_t> from_ns, std::optional<std::int64_t> to_ns) {
         std::vector<Stretch>& stretches = halves[{places.at(play_of.at(session_id)), half}];
