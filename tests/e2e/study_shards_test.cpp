@@ -155,6 +155,48 @@ Ran stopped(const Folder& folder, const Words& study, const std::string& book_fi
   return result;
 }
 
+/// The counts of a match log's arms that a book of tallies keeps.
+TEST(StudyShards, SummariesOfASimulationHaveTheCountsOfItsLog) {
+  const Folder folder;
+  const Words simulation{"simulate", "--arms", "stopped,moving@old", "--matches", "6", "--possessions", "8"};
+  ASSERT_EQ(ran(folder, simulation, {"--out", "log.db"}).exit_code, 0);
+  ASSERT_EQ(ran(folder, simulation, {"--out", "book.db", "--summaries"}).exit_code, 0);
+  SQLite::Database log((folder / "log.db").string()), kept((folder / "book.db").string());
+  const auto in_log = [&](const std::string& arm, const std::string& rows) {
+    return log.execAndGet("SELECT count(*) FROM sessions JOIN " + rows + " AND arm = '" + arm + "'").getInt64();
+  };
+  for (const std::string arm : {"stopped", "moving@old"}) {
+    const auto in_book = [&](const std::string& column) {
+      return kept
+          .execAndGet("SELECT sum(" + column + ") FROM tallies JOIN arms USING (arm_id) WHERE name = '" + arm + "'")
+          .getInt64();
+    };
+    EXPECT_EQ(in_book("opportunities"), in_log(arm, "possession_truths USING (session_id) WHERE 1"));
+    EXPECT_EQ(in_book("kicks"), in_log(arm, "kick_receipts USING (session_id) WHERE accepted = 1"));
+    EXPECT_EQ(in_book("on_target"), in_log(arm, "kick_outcomes USING (session_id) WHERE on_target = 1"));
+    EXPECT_GT(in_book("kicks"), 0);
+  }
+  const Ran report = ran(folder, {"report", "book.db"}, {});
+  EXPECT_EQ(report.exit_code, 0);
+  EXPECT_THAT(report.output, AllOf(HasSubstr("moving@old"), HasSubstr("SIMULATED"), HasSubstr("Not there")));
+  const Ran compared = ran(folder, {"compare", "book.db", "--baseline", "moving@old"}, {});
+  EXPECT_THAT(compared.output, HasSubstr("minus moving@old"));
+  const Ran by_distance = ran(folder, {"compare", "book.db", "--stratify", "distance"}, {});
+  EXPECT_EQ(by_distance.exit_code, 2);
+  EXPECT_THAT(by_distance.errors, HasSubstr("sums of each arm's matches alone"));
+  EXPECT_EQ(ran(folder, simulation, {"--out", "no.db", "--summaries", "--shadows"}).exit_code, 2);
+}
+
+TEST(StudyShards, OfSummariesMergeToTheRowsOfOneRun) {
+  const Folder folder;
+  const Words simulation{"simulate", "--arms", "stopped,moving", "--matches", "5", "--possessions", "6", "--summaries"};
+  ASSERT_EQ(ran(folder, simulation, {"--out", "whole.db"}).exit_code, 0);
+  for (const std::string shard : {"1", "2"})
+    ASSERT_EQ(ran(folder, simulation, {"--out", shard + ".db", "--shard", shard + "/2"}).exit_code, 0);
+  ASSERT_EQ(ran(folder, {"merge", "merged.db", "1.db", "2.db"}, {}).exit_code, 0);
+  EXPECT_EQ(book(folder, "merged.db"), book(folder, "whole.db"));
+}
+
 TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
   const Folder folder;
   const Words study{"factorial", "--matches", "300", "--possessions", "6", "--no-sweep", "--jobs", "1"};
