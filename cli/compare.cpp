@@ -12,9 +12,12 @@
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
 #include "evaluator/report/comparison_gates.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -105,18 +108,42 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
   }
 }
 
+void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
+
 // Writes it, then says whether its gates are met.
 bool write_comparison(const CompareArguments& arguments, auto comparison, std::span<const evaluator::Gate> gates) {
   comparison.gates = evaluator::judge_gates(comparison, gates);
   const std::string text = arguments.json  ? evaluator::to_json(comparison)
                            : arguments.all ? evaluator::to_text(comparison)
                                            : evaluator::to_short_text(comparison);
-  arguments.out.empty() ? say(text) : write_file(arguments.out, text);
+  write_out(arguments.out, text);
   return warn_of_gates(comparison.gates);
+}
+
+/// Arms of a book of tallies, which has the sums of each match and nothing to compare within.
+experiment::Summary compared_book(const CompareArguments& arguments) {
+  const auto refuse = [](const std::string& flag) {
+    throw UsageError(fmt::format("{}: a book of tallies has the sums of each arm's matches alone", flag));
+  };
+  if (!arguments.by.empty() && arguments.by != "arm") refuse("--by " + arguments.by);
+  if (!arguments.stratify.empty()) refuse("--stratify " + arguments.stratify);
+  if (!arguments.gates.empty()) refuse("--gate");
+  if (!arguments.design.empty()) refuse("--design " + arguments.design);
+  if (arguments.outcome == "truth") refuse("--outcome truth");
+  auto summary =
+      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
+  if (!arguments.baseline.empty() && !experiment::put_first(summary, arguments.baseline))
+    throw UsageError(fmt::format("--baseline '{}': there is no such arm", arguments.baseline));
+  return summary;
 }
 
 bool run_comparison(const CompareArguments& arguments) {
   check(arguments);
+  if (arguments.logs.size() == 1 && evaluator::log::any_is_tally_book({arguments.logs.front()})) {
+    const experiment::Summary summary = compared_book(arguments);
+    write_out(arguments.out, arguments.json ? evaluator::json_text(to_json(summary)) : to_text(summary));
+    return true;
+  }
   const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
   require_writable("--out", arguments.out);
   if (arguments.counts.empty()) return write_comparison(arguments, compared(arguments), gates);
@@ -156,7 +183,8 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("--smallest-effect", arguments->smallest_effect_points,
                    "Smallest difference of interest, in percentage points (5)");
   verb->add_flag("--json", arguments->json, "JSON instead of text");
-  verb->add_flag("--all", arguments->all, "Every table, test and reservation, after the one line; JSON has them anyway");
+  verb->add_flag("--all", arguments->all,
+                 "Every table, test and reservation, after the one line; JSON has them anyway");
   verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   add_gates(*verb, arguments->gates, "'difference_lo(moving)>=0', 'kicks>=50'");
   verb->footer(

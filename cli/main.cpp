@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "cli/finite_numbers.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/manual/manual_flags.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "config/installation.hpp"
+#include "evaluator/log/log_check.hpp"
 #include "kicking/text/nearest_word.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
@@ -126,6 +128,11 @@ bool is_written() {
 
 int main(int argc, char** argv) {
   trivela::nodes::secure_standard_streams();
+  cli::ProgressBar bar;
+  trivela::evaluator::log::watch_verification([&](const std::string& file, std::int64_t rows, std::int64_t all) {
+    bar.show(static_cast<double>(rows), static_cast<double>(all), "rows", "verified of " + file);
+    if (rows >= all) bar.end();
+  });
   const int exit_code = run_or_say_why_not(argc, argv);
   return is_written() ? exit_code : cli::kFailed;
 }

@@ -53,13 +53,19 @@ int merge_shards(const MergeArguments& arguments, const std::vector<std::filesys
 }
 
 int run_merge(const MergeArguments& arguments) {
-  require_writable("OUT", arguments.out);
+  require_new("OUT", arguments.out);
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
   if (evaluator::log::any_is_tally_book(logs)) return merge_books(arguments, logs);
   if (evaluator::log::any_is_shard(logs)) return merge_shards(arguments, logs);
   evaluator::log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
-  const evaluator::log::Merged merged = evaluator::log::merge(logs, arguments.out, options);
+  const evaluator::log::Merged merged = [&] {
+    ProgressBar bar;
+    options.progress = [&](std::int64_t read, std::int64_t all) {
+      bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
+    };
+    return evaluator::log::merge(logs, arguments.out, options);
+  }();
   if (arguments.reference_robot && !merged.alignment.reference_robot)
     warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
   const evaluator::log::Reader reader(arguments.out, evaluator::log::Check::kQuick);

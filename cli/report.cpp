@@ -8,8 +8,11 @@
 #include "cli/gate_option.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -65,6 +68,20 @@ void warn_of(const evaluator::Report& report) {
   if (report.doubt) warn(*report.doubt);
 }
 
+/// Of a book of tallies, what it says.
+void report_book(const ReportArguments& arguments) {
+  if (arguments.logs.size() > 1) throw UsageError("a book of tallies is reported alone: its matches are no log's");
+  if (arguments.markdown || arguments.latex || !arguments.gates.empty())
+    throw UsageError("of a book of tallies there are text, --json and --csv, and no gates");
+  require_writable("--out", arguments.out);
+  const auto summary =
+      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
+  const std::string text = arguments.json  ? evaluator::json_text(to_json(summary))
+                           : arguments.csv ? to_csv(summary)
+                                           : to_text(summary);
+  arguments.out.empty() ? say(text) : write_file(arguments.out, text);
+}
+
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
@@ -88,6 +105,11 @@ void add_report(CLI::App& app, int& exit_code) {
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
   verb->callback([arguments, &exit_code] {
+    if (evaluator::log::any_is_tally_book({arguments->logs.begin(), arguments->logs.end()})) {
+      report_book(*arguments);
+      exit_code = kDone;
+      return;
+    }
     const evaluator::Report report = report_of(*arguments);
     const std::string text = written(report, *arguments);
     arguments->out.empty() ? say(text) : write_file(arguments->out, text);

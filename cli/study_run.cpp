@@ -34,6 +34,7 @@ StudyRun::StudyRun(const Study& study, const std::string& verb, const std::strin
     : study_(study),
       verb_(verb),
       book_(study.tallies, plan_of(study, verb, arguments)),
+      knows_all_(arms > 0),
       expected_(static_cast<double>(arms) * evaluator::log::range_of(study.shard, study.plan.matches).size()) {
   if (const auto there = book_.size(); there > 0 && !study.json)
     fmt::print(stderr, "trivela: {} matches are in {} already\n", there, study.tallies);
@@ -42,18 +43,16 @@ StudyRun::StudyRun(const Study& study, const std::string& verb, const std::strin
 experiment::KeptPlay StudyRun::play_known(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
                                           const experiment::PlayPlan& plan, const std::string& what) {
   const auto range = evaluator::log::range_of(study_.shard, plan.matches);
-  const double before = played_;
-  const auto kept =
-      experiment::play_kept(scenario, arms, plan, what, range, book_, [&](std::size_t done, std::size_t all) {
-        if (done == 0) {  // what is known already takes no time
-          expected_ -= static_cast<double>(arms.size()) * range.size() - static_cast<double>(all);
-          to_play_ = before + static_cast<double>(all);
-        }
-        played_ = before + static_cast<double>(done);
-        bar_.show(played_, std::max(expected_, to_play_), "matches", what);
-        if (signals_.stop_requested()) throw Interrupted{};
-      });
-  return kept;
+  if (!knows_all_) bar_.restart();
+  const double before = knows_all_ ? played_ : 0.0;
+  return experiment::play_kept(scenario, arms, plan, what, range, book_, [&](std::size_t done, std::size_t all) {
+    const auto to_play = static_cast<double>(all);
+    if (done == 0)  // what is known already takes no time
+      expected_ = knows_all_ ? expected_ - static_cast<double>(arms.size()) * range.size() + to_play : to_play;
+    played_ = before + static_cast<double>(done);
+    if (all > 0) bar_.show(played_, expected_, "matches", what);
+    if (signals_.stop_requested()) throw Interrupted{};
+  });
 }
 
 void StudyRun::keep() {
@@ -84,6 +83,11 @@ ExitCode StudyRun::run(const std::function<void()>& play_all, const std::functio
     return kDone;
   }
   const auto range = evaluator::log::range_of(study_.shard, study_.plan.matches);
+  if (verb_ == "simulate") {
+    fmt::print("shard {}: matches {} to {} of {}; trivela merge OUT SHARD... makes one book of all shards\n",
+               study_.shard->text(), range.begin, range.end - 1, study_.plan.matches);
+    return kDone;
+  }
   fmt::print(
       "shard {}: matches {} to {} of {} are in {}; trivela merge OUT SHARD... makes one book of all shards, and "
       "this command with --tallies OUT in place of --shard and its own --tallies the report\n",

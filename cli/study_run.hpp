@@ -8,6 +8,7 @@
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/study.hpp"
+#include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
 
 namespace trivela::cli {
@@ -39,6 +40,9 @@ class StudyRun {
 
   evaluator::log::TallyBook& book() { return book_; }
 
+  /// All that the book has.
+  evaluator::log::Book read_again() const { return book_.all(); }
+
   /// Somebody asked to stop.
   struct Interrupted {};
 
@@ -48,9 +52,9 @@ class StudyRun {
   evaluator::log::TallyBook book_;
   SignalInbox signals_;  // before the threads, which must not be interrupted
   ProgressBar bar_;
-  double expected_ = 0.0;  // matches of arms; 0: not known
+  bool knows_all_;         // how many matches of arms it will play
+  double expected_ = 0.0;  // of those that are not in the book; where nobody knows: of this step
   double played_ = 0.0;
-  double to_play_ = 0.0;
 };
 
 }  // namespace trivela::cli

@@ -57,6 +57,12 @@ class ProgressBar {
     drawn_ = now;
   }
 
+  /// The same where `what` says all that can be said.
+  void show(double done, double total, const std::string& what) { show(done, total, "", what); }
+
+  /// Time counts from now, on the same line.
+  void restart() { started_.reset(); }
+
   /// The line stays as it is; the next one begins anew.
   void end() {
     if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone

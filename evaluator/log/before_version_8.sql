@@ -22,3 +22,19 @@ CREATE TEMP VIEW order_tallies AS
 SELECT NULL AS session_id, NULL AS robot_id, NULL AS first_t_ns, NULL AS first_handled, NULL AS first_refused,
   NULL AS handled_within, NULL AS refused_within
 WHERE 0;
+
+CREATE TEMP VIEW referee_tallies AS
+SELECT NULL AS session_id, NULL AS robot_id, NULL AS half, NULL AS words, NULL AS first_t_ns, NULL AS last_t_ns
+WHERE 0;
+
+CREATE TEMP VIEW ball_turns AS
+SELECT NULL AS session_id, NULL AS turn, NULL AS y_m
+WHERE 0;
+
+CREATE TEMP VIEW tallied_sessions AS
+SELECT NULL AS session_id, NULL AS sha256
+WHERE 0;
+
+CREATE TEMP VIEW counted_sessions AS
+SELECT NULL AS session_id
+WHERE 0;

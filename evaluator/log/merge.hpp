@@ -13,8 +13,9 @@
 namespace trivela::evaluator::log {
 
 struct MergeOptions {
-  std::optional<int> reference_robot{};          ///< by whose clock times are aligned, 0: the base's; none: chosen
-  std::function<void(std::int64_t)> progress{};  ///< told the rows read so far; none: nobody asks
+  std::optional<int> reference_robot{};  ///< by whose clock times are aligned, 0: the base's; none: chosen
+  /// Told the rows read so far, and how many the files say that they have; none: nobody asks.
+  std::function<void(std::int64_t read, std::int64_t all)> progress{};
 };
 
 /// A session as one file had it.

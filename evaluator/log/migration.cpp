@@ -12,6 +12,7 @@
 #include "evaluator/log/row_copy.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -101,6 +102,7 @@ Migrated migrate(const std::filesystem::path& from, const std::filesystem::path&
     for (const RecordedSession& session : reader.sessions()) {
       if (!session.closed_t_ns) continue;
       digests.write(session.session_id);
+      write_tallies(made, session.session_id);
       ++migrated.sessions;
     }
     transaction.commit();

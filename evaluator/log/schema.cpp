@@ -23,6 +23,7 @@
 #include "evaluator/log/schema_version_5.sql.hpp"
 #include "evaluator/log/schema_version_6.sql.hpp"
 #include "evaluator/log/schema_version_7.sql.hpp"
+#include "evaluator/log/session_tallies.hpp"
 #include "evaluator/log/tally_schema.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
@@ -151,6 +152,7 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version < 8) database.exec(kBeforeVersion8Sql);
   database.exec(policy_order());
   database.exec(kReadingViewsSql);
+  create_tally_views(database, version);
 }
 
 void create_tables(SQLite::Database& database) {

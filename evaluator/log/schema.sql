@@ -478,7 +478,7 @@ CREATE TABLE notes (                       -- what people say of a session; ever
   PRIMARY KEY (session_id, kind, utc_ns, who)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE session_tallies (             -- decisions counted when a session ends; no row of a session: nobody counted
+CREATE TABLE session_tallies (             -- decisions counted when a session ends; tallied_sessions says of which
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot
   policy TEXT NOT NULL,                    -- that decided
@@ -491,7 +491,7 @@ CREATE TABLE session_tallies (             -- decisions counted when a session e
   PRIMARY KEY (session_id, robot_id, policy, in_charge)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE possession_tallies (          -- possessions counted when a session ends; no row of a session: nobody counted
+CREATE TABLE possession_tallies (          -- possessions counted when a session ends
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot; of the referee's count the one that heard him
   half INTEGER NOT NULL,                   -- 1, 2
@@ -506,7 +506,7 @@ CREATE TABLE possession_tallies (          -- possessions counted when a session
   PRIMARY KEY (session_id, robot_id, half, possession_id, counted_by)
 ) STRICT, WITHOUT ROWID;
 
-CREATE TABLE order_tallies (               -- kicker_status counted when a session ends; no row of a session: nobody counted
+CREATE TABLE order_tallies (               -- kicker_status counted when a session ends
   session_id INTEGER NOT NULL,             -- sessions.session_id
   robot_id INTEGER NOT NULL,               -- robot
   first_t_ns INTEGER NOT NULL,             -- of the first status
@@ -515,6 +515,28 @@ CREATE TABLE order_tallies (               -- kicker_status counted when a sessi
   handled_within INTEGER NOT NULL,         -- orders from there to the last status, a driver that starts anew counting from 0
   refused_within INTEGER NOT NULL,         -- of them refused
   PRIMARY KEY (session_id, robot_id)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE referee_tallies (             -- the referee's words counted when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot that heard them
+  half INTEGER NOT NULL,                   -- 1, 2; 3, 4 in overtime
+  words INTEGER NOT NULL,                  -- rows of referee
+  first_t_ns INTEGER NOT NULL,             -- of the first one
+  last_t_ns INTEGER NOT NULL,              -- of the last one
+  PRIMARY KEY (session_id, robot_id, half)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE ball_turns (                  -- balls that came back after a kick (evaluator/log/ball_turns.hpp), when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  turn INTEGER NOT NULL,                   -- from 0, in the order of time
+  y_m REAL NOT NULL,                       -- how far forward it came, in F, m
+  PRIMARY KEY (session_id, turn)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE tallied_sessions (            -- sessions that were counted when they ended, after all of their tallies
+  session_id INTEGER NOT NULL PRIMARY KEY, -- sessions.session_id
+  sha256 TEXT NOT NULL                     -- digests.sha256 of the rows that were counted: of others the tallies say nothing
 ) STRICT, WITHOUT ROWID;
 
 -- A kick is a decision that fired; an order may be sent twice, so the latest receipt that is no answer to a repetition

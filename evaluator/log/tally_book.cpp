@@ -10,6 +10,7 @@
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
+#include "evaluator/log/own_rows.hpp"
 #include "evaluator/log/schema_check.hpp"
 
 namespace trivela::evaluator::log {
@@ -17,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds kGroup{500};  // of matches in one transaction
+constexpr std::chrono::milliseconds kBookGroup{500};  // of matches in one transaction
 
-std::runtime_error against(const fs::path& path, const std::string& why) {
+std::runtime_error against_book(const fs::path& path, const std::string& why) {
   return std::runtime_error(fmt::format("{}: {}", path.string(), why));
 }
 
@@ -27,47 +28,75 @@ std::string arguments_of(const StudyPlan& plan) {
   return plan.shard ? stamped_arguments({plan.arguments, *plan.shard, plan.matches}) : plan.arguments;
 }
 
-void create(SQLite::Database& database, const StudyPlan& plan) {
+void new_book(SQLite::Database& database, const StudyPlan& plan) {
   SQLite::Transaction transaction(database);
   create_book(database, {arguments_of(plan), plan.range().size(), false});
   transaction.commit();
 }
 
 /// The book of a run that was stopped, or has just begun.
-std::unique_ptr<SQLite::Database> resume(const fs::path& path, const StudyPlan& plan) {
+std::unique_ptr<SQLite::Database> resume_book(const fs::path& path, const StudyPlan& plan) {
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE);
     sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);  // it may be somebody else's
     database->exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE; PRAGMA synchronous = NORMAL;");
     if (database->execAndGet("PRAGMA application_id").getInt() != kTallyBook.application_id ||
         database->execAndGet("PRAGMA user_version").getInt() != kTallyBook.version)
-      throw against(path, "is there already and is no book of tallies of this version; choose another file");
+      throw against_book(path, "is there already and is no book of tallies of this version; choose another file");
     check_schema(*database, kTallyBook, kTallyBook.version, path.string());
     SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM studies");
     if (!known.executeStep() || known.getColumn(0).getString() != sha256(arguments_of(plan)) ||
         known.getColumn(1).getInt64() != plan.range().size())
-      throw against(path,
-                    "was begun with other arguments (table studies says which); a study goes on with its own alone, "
-                    "choose another file");
+      throw against_book(
+          path,
+          "was begun with other arguments (table studies says which); a study goes on with its own alone, "
+          "choose another file");
     return database;
   } catch (const SQLite::Exception& error) {
-    if (is_busy(error)) throw against(path, "another run writes to it");
-    throw against(path, fmt::format("is there already and is no book of tallies: {}", error.what()));
+    if (is_busy(error)) throw against_book(path, "another run writes to it");
+    throw against_book(path, fmt::format("is there already and is no book of tallies: {}", error.what()));
   }
 }
 
-std::unique_ptr<SQLite::Database> open(const fs::path& path, const StudyPlan& plan) {
+std::unique_ptr<SQLite::Database> open_book(const fs::path& path, const StudyPlan& plan) {
   if (path.empty()) {
     auto database = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    create(*database, plan);
+    new_book(*database, plan);
     return database;
   }
   const bool there = fs::exists(path) && (!fs::is_regular_file(path) || fs::file_size(path) > 0);
-  if (!there) fold(*new_file(path, kTallyBook, [&](SQLite::Database& database) { create(database, plan); }));
-  return resume(path, plan);
+  if (!there) fold(*new_file(path, kTallyBook, [&](SQLite::Database& database) { new_book(database, plan); }));
+  return resume_book(path, plan);
 }
 
-constexpr const char* kColumns = "match_id, calibration_id, opportunities, kicks, on_target, blocked, bounced, goals";
+constexpr const char* kCountColumns =
+    "match_id, calibration_id, opportunities, kicks, on_target, blocked, bounced, goals";
+
+Book book_in(const Queries& rows) {
+  Book book;
+  rows.query("SELECT arguments, matches, finished FROM main.studies",
+             [&](const std::string& arguments, std::int64_t matches, bool finished) {
+               book.arguments = arguments;
+               book.matches = matches;
+               book.finished = finished;
+             });
+  std::map<std::int64_t, std::size_t> places;
+  rows.query("SELECT arm_id, name FROM main.arms ORDER BY place, arm_id",
+             [&](std::int64_t arm_id, const std::string& name) {
+               places[arm_id] = book.arms.size();
+               book.arms.push_back({name, {}});
+             });
+  rows.query(
+      fmt::format("SELECT arm_id, {} FROM main.tallies ORDER BY arm_id, match_id", kCountColumns),
+      [&](std::int64_t arm_id, std::uint32_t match_id, std::int64_t calibration_id, std::int64_t opportunities,
+          std::int64_t kicks, std::int64_t on_target, std::int64_t blocked, std::int64_t bounced, std::int64_t goals) {
+        const auto place = places.find(arm_id);
+        if (place == places.end()) return;
+        book.arms[place->second].matches[match_id] = {calibration_id, opportunities, kicks, on_target,
+                                                      blocked,        bounced,       goals};
+      });
+  return book;
+}
 
 }  // namespace
 
@@ -75,9 +104,10 @@ struct TallyBook::Impl {
   Impl(const fs::path& file, const StudyPlan& asked)
       : path(file),
         plan(asked),
-        database(open(file, asked)),
+        database(open_book(file, asked)),
         insert(*database,
-               fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", kColumns)) {}
+               fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", kCountColumns)) {
+  }
 
   void begin() {
     if (transaction) return;
@@ -90,7 +120,7 @@ struct TallyBook::Impl {
     try {
       work();
     } catch (const SQLite::Exception& error) {
-      throw against(path, fmt::format("tallies could not be written: {}", error.what()));
+      throw against_book(path, fmt::format("tallies could not be written: {}", error.what()));
     }
   }
 
@@ -109,7 +139,7 @@ TallyBook::~TallyBook() = default;
 void TallyBook::know(const fs::path& merged) {
   LogFile(merged, kTallyBook, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& arguments) {
     if (arguments != impl_->plan.arguments)
-      throw against(merged, "is no merged book of this study: it was begun with other arguments, or is a shard");
+      throw against_book(merged, "is no merged book of this study: it was begun with other arguments, or is a shard");
   });
   SQLite::Statement attach(*impl_->database, "ATTACH ? AS known");
   attach.bind(1, merged.string());
@@ -125,7 +155,7 @@ std::int64_t TallyBook::arm(const std::string& text, const std::string& name) {
     known.bind(1, arm_id);
     if (known.executeStep()) return;
     impl_->begin();
-    SQLite::Statement insert(*impl_->database, "INSERT INTO main.arms VALUES (?, ?, ?)");
+    SQLite::Statement insert(*impl_->database, "INSERT INTO main.arms SELECT ?, ?, count(*), ? FROM main.arms");
     insert.bind(1, arm_id);
     insert.bind(2, digest);
     insert.bind(3, name);
@@ -139,7 +169,7 @@ std::map<std::uint32_t, MatchCounts> TallyBook::matches_of(std::int64_t arm_id) 
   for (const char* const book : {"main", "known"}) {
     if (book == std::string_view{"known"} && !impl_->knows) continue;
     SQLite::Statement select(*impl_->database,
-                             fmt::format("SELECT {} FROM {}.tallies WHERE arm_id = ?", kColumns, book));
+                             fmt::format("SELECT {} FROM {}.tallies WHERE arm_id = ?", kCountColumns, book));
     select.bind(1, arm_id);
     while (select.executeStep()) {
       const auto cell = [&](int i) { return select.getColumn(i).getInt64(); };
@@ -148,6 +178,10 @@ std::map<std::uint32_t, MatchCounts> TallyBook::matches_of(std::int64_t arm_id) 
   }
   return matches;
 }
+
+Book TallyBook::all() const { return book_in(OwnRows(*impl_->database)); }
+
+Book read_book(const fs::path& path) { return book_in(LogFile(path, kTallyBook, Check::kWhole)); }
 
 void TallyBook::add(std::int64_t arm_id, std::uint32_t match_id, const MatchCounts& counts) {
   impl_->written([&] {
@@ -160,7 +194,7 @@ void TallyBook::add(std::int64_t arm_id, std::uint32_t match_id, const MatchCoun
     impl_->insert.exec();
     impl_->insert.reset();
   });
-  if (std::chrono::steady_clock::now() - impl_->begun >= kGroup) commit();
+  if (std::chrono::steady_clock::now() - impl_->begun >= kBookGroup) commit();
 }
 
 std::int64_t TallyBook::size() const {

@@ -34,6 +34,18 @@ struct MatchCounts {
   std::int64_t goals = 0;
 };
 
+/// A book as it is read.
+struct BookArm {
+  std::string name;
+  std::map<std::uint32_t, MatchCounts> matches;  ///< by number
+};
+struct Book {
+  std::string arguments;
+  std::int64_t matches = 0;  ///< of each arm, when it is finished
+  bool finished = false;
+  std::vector<BookArm> arms;  ///< in the order in which they were asked for
+};
+
 /// A book of tallies: what a study has played so far, match by match, so that nothing is played twice, however often
 /// the run is stopped. The same arms and matches make the same rows, in whatever order they come. For one thread at a
 /// time, and one process: the file is locked.
@@ -60,6 +72,9 @@ class TallyBook {
   /// A match that was played; in the file some tenths of a second later.
   void add(std::int64_t arm_id, std::uint32_t match_id, const MatchCounts& counts);
 
+  /// All of it but what know() added.
+  Book all() const;
+
   /// Matches of arms that are in the book.
   std::int64_t size() const;
 
@@ -76,6 +91,9 @@ class TallyBook {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Throws std::runtime_error naming the file where it is no book, or damaged.
+Book read_book(const std::filesystem::path& path);
 
 /// Is any of the files a book of tallies?
 bool any_is_tally_book(const std::vector<std::filesystem::path>& files);

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ShardFile read_shard(const fs::path& path) {
+ShardFile read_book_shard(const fs::path& path) {
   const LogFile file(path, kTallyBook, Check::kWhole);
   std::optional<ShardFile> shard;
   file.query("SELECT arguments, matches, finished FROM studies",
@@ -32,7 +32,7 @@ ShardFile read_shard(const fs::path& path) {
   return *shard;
 }
 
-void copy_rows(SQLite::Database& database, const fs::path& path) {
+void copy_book_rows(SQLite::Database& database, const fs::path& path) {
   SQLite::Statement attach(database, "ATTACH ? AS shard");
   attach.bind(1, path.string());
   attach.exec();
@@ -45,7 +45,7 @@ void copy_rows(SQLite::Database& database, const fs::path& path) {
 }
 
 /// Throws where an arm of the others has not all matches of this shard.
-void check_arms(SQLite::Database& database, const ShardFile& file) {
+void check_arms_of(SQLite::Database& database, const ShardFile& file) {
   const MatchRange range = range_of(file.stamp.shard, static_cast<std::uint32_t>(file.stamp.matches));
   SQLite::Statement behind(database,
                            "SELECT name FROM arms AS a WHERE (SELECT count(*) FROM tallies AS t WHERE t.arm_id = "
@@ -75,7 +75,7 @@ MergedBooks merge_books(const std::vector<fs::path>& files, const fs::path& to,
                         const std::function<void(std::size_t, std::size_t)>& told) {
   std::vector<ShardFile> shards;
   shards.reserve(files.size());
-  for (const fs::path& path : files) shards.push_back(read_shard(path));
+  for (const fs::path& path : files) shards.push_back(read_book_shard(path));
   check_set(shards);
   const ShardStamp& whole = shards.front().stamp;
   MergedBooks merged{.shards = static_cast<std::int64_t>(shards.size()), .arms = 0, .matches = whole.matches};
@@ -83,10 +83,10 @@ MergedBooks merge_books(const std::vector<fs::path>& files, const fs::path& to,
     made.exec("PRAGMA trusted_schema = OFF");
     create_book(made, {whole.arguments, whole.matches, true});
     for (std::size_t i = 0; i < shards.size(); ++i) {
-      copy_rows(made, shards[i].path);
+      copy_book_rows(made, shards[i].path);
       told(i + 1, shards.size());
     }
-    for (const ShardFile& shard : shards) check_arms(made, shard);
+    for (const ShardFile& shard : shards) check_arms_of(made, shard);
     merged.arms = made.execAndGet("SELECT count(*) FROM arms").getInt64();
   });
   fold(*database);

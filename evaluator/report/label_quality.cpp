@@ -8,10 +8,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "evaluator/metrics/kicked_tracks.sql.hpp"
+#include "evaluator/log/ball_turns.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
 #include "evaluator/report/own_half.hpp"
-#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -19,9 +18,6 @@ namespace {
 constexpr std::int64_t kManyTurns = 4;
 constexpr std::int64_t kManySightings = 10;  // by which a block would have been seen
 constexpr double kNearGoal_m = 0.3;
-constexpr double kFlight_s = 3.0;
-constexpr double kCameBack_m = 0.4;
-constexpr double kJump_m = 1.3, kFastest_mps = 15.0;  // farther apart: another ball than the one kicked
 
 constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
     {{0, "none"}, {4, "1 to 4"}, {9, "5 to 9"}, {19, "10 to 19"}, {INT64_MAX, "20 or more"}}};
@@ -56,61 +52,11 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     quality.doubts.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), doubt});
 }
 
-/// Follows the ball after each release and notes how far forward it came where it came back.
-class Turns {
- public:
-  void release(std::int64_t session_id, std::int64_t t_ns) {
-    end();
-    session_id_ = session_id;
-    release_t_ns_ = last_t_ns_ = t_ns;
-    followed_ = true;
-  }
-  void seen(std::int64_t session_id, std::int64_t t_ns, double x_m, double y_m) {
-    if (!followed_) return;
-    const double apart_s = kicking::seconds(t_ns - last_t_ns_);
-    const bool other_ball =
-        sightings_ > 0 && std::hypot(x_m - last_x_m_, y_m - last_y_m_) > std::max(kJump_m, kFastest_mps * apart_s);
-    if (session_id != session_id_ || other_ball || kicking::seconds(t_ns - release_t_ns_) > kFlight_s) return end();
-    if (sightings_++ == 0) first_y_m_ = y_m;
-    farthest_y_m_ = std::max(farthest_y_m_, y_m);
-    last_t_ns_ = t_ns;
-    last_x_m_ = x_m;
-    last_y_m_ = y_m;
-  }
-  std::vector<double> all() {
-    end();
-    return std::move(turns_y_m_);
-  }
-
- private:
-  void end() {
-    const bool went = farthest_y_m_ - first_y_m_ > kCameBack_m, came_back = farthest_y_m_ - last_y_m_ > kCameBack_m;
-    if (followed_ && sightings_ > 0 && went && came_back) turns_y_m_.push_back(farthest_y_m_);
-    followed_ = false;
-    sightings_ = 0;
-    farthest_y_m_ = -HUGE_VAL;
-  }
-
-  std::vector<double> turns_y_m_;
-  bool followed_ = false;
-  std::int64_t session_id_ = 0, release_t_ns_ = 0, last_t_ns_ = 0, sightings_ = 0;
-  double first_y_m_ = 0.0, last_x_m_ = 0.0, last_y_m_ = 0.0, farthest_y_m_ = -HUGE_VAL;
-};
-
 void read_turns(const log::Reader& reader, LabelQuality& quality) {
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
                [&](std::optional<double> goal_y_m) { quality.goal_y_m = goal_y_m; });
   if (!quality.goal_y_m) return;
-  Turns turns;
-  reader.query(kKickedTracksSql, [&](std::int64_t session_id, std::int64_t t_ns, std::optional<double> x_m,
-                                     std::optional<double> y_m, std::optional<double> /*z_m*/) {
-    if (!x_m || !y_m) {
-      turns.release(session_id, t_ns);
-    } else {
-      turns.seen(session_id, t_ns, *x_m, *y_m);
-    }
-  });
-  auto away = turns.all();
+  std::vector<double> away = log::ball_turns_of(reader);
   const auto at_goal = std::erase_if(away, [&](double y_m) { return std::abs(y_m - *quality.goal_y_m) < kNearGoal_m; });
   quality.turns_at_goal = static_cast<std::int64_t>(at_goal);
   quality.elsewhere = densest(std::move(away));

@@ -32,6 +32,7 @@ std::vector<ComparedSession> sessions_of(const log::Reader& reader) {
 }  // namespace
 
 SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& name) {
+  reader.hold_kicks();
   const auto log = static_cast<std::uint32_t>(logs_.size());
   logs_.push_back(name);
   SessionPlaces fresh;

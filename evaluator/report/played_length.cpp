@@ -30,15 +30,15 @@ double covered_s(std::vector<Stretch> stretches) {
 // half that it says who was in charge of, but for replays.
 void each_stretch(const log::Reader& reader, bool halves, const auto& fn) {
   const std::string columns =
-      ", planned_s, min(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
-      "max(t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END ";
+      ", planned_s, min(first_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END, "
+      "max(last_t_ns) + CASE clock WHEN 'steady' THEN realtime_offset_ns ELSE 0 END ";
   reader.query(halves ? "SELECT p.session_id, p.half" + columns +
                             "FROM (SELECT DISTINCT session_id, half FROM session_policies) AS p JOIN sessions AS s "
-                            "USING (session_id) LEFT JOIN referee AS r ON r.session_id = p.session_id "
+                            "USING (session_id) LEFT JOIN heard_halves AS r ON r.session_id = p.session_id "
                             "AND r.half = p.half WHERE planned_s IS NOT NULL AND replays_uuid IS NULL "
                             "GROUP BY p.session_id, p.half"
                       : "SELECT s.session_id, 0" + columns +
-                            "FROM sessions AS s LEFT JOIN referee AS r ON r.session_id = s.session_id "
+                            "FROM sessions AS s LEFT JOIN heard_halves AS r ON r.session_id = s.session_id "
                             "WHERE planned_s IS NOT NULL GROUP BY s.session_id ORDER BY s.started_t_ns, s.session_id",
                [&](std::int64_t session_id, int half, double planned_s, std::optional<std::int64_t> from_ns,
                    std::optional<std::int64_t> to_ns) {

@@ -6,6 +6,7 @@
 
 #include "config/robot.hpp"
 #include "config/scenario.hpp"
+#include "experiment/effects/summary.hpp"
 #include "experiment/run/arms.hpp"
 
 namespace trivela::experiment {
@@ -16,16 +17,6 @@ using evaluator::log::MatchCounts;
 MatchCounts counts_of(const MatchTally& tally) {
   return {tally.calibration, tally.opportunities, tally.kicks, tally.on_target,
           tally.blocked,     tally.bounced,       tally.goals};
-}
-
-MatchTally tally_of(const MatchCounts& counts) {
-  return {.opportunities = counts.opportunities,
-          .kicks = counts.kicks,
-          .on_target = counts.on_target,
-          .blocked = counts.blocked,
-          .bounced = counts.bounced,
-          .goals = counts.goals,
-          .calibration = static_cast<std::uint32_t>(counts.calibration_id)};
 }
 
 }  // namespace
@@ -48,7 +39,8 @@ KeptPlay play_kept(const sim::Scenario& scenario, const std::vector<Arm>& arms, 
   std::map<std::int64_t, std::map<std::uint32_t, MatchCounts>> known;
   std::map<std::int64_t, std::size_t> first;  // arm of each id
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    ids.push_back(book.arm(arm_text(scenario, arms[i], plan), what + ": " + arms[i].name));
+    ids.push_back(
+        book.arm(arm_text(scenario, arms[i], plan), what.empty() ? arms[i].name : what + ": " + arms[i].name));
     if (first.try_emplace(ids.back(), i).second) known[ids.back()] = book.matches_of(ids.back());
   }
   std::vector<ArmMatch> missing;  // match by match, so that slow arms are spread over the threads

@@ -11,6 +11,7 @@
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace {
 
@@ -51,6 +52,7 @@ void copy_session(SQLite::Database& database, std::int64_t session_id, int copy)
                   "session_id = {}",
                   other_columns(database, "sessions"), other_id, values, session_id));
   RowDigests(database).write(other_id);
+  write_tallies(database, other_id);
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST_F(DigestOfRows, CoversEveryTableOfSessionsButItself) {
   for (const std::string& table : log::tables_of(database)) {
     if (table == "digests" || table.starts_with("sqlite_")) continue;
     if (std::ranges::find(log::kSaidAfterwards, table) != log::kSaidAfterwards.end()) continue;
+    if (std::ranges::find(log::kTallies, table) != log::kTallies.end()) continue;
     const auto columns = *log::columns_of(database, table);
     if (std::ranges::find(columns, "session_id", &log::Column::name) == columns.end()) continue;
     EXPECT_TRUE(covered.contains(table)) << table;
