@@ -44,8 +44,15 @@ const char* words_of(msg::DecisionReason reason) {
   return "for a reason that this page does not know";
 }
 
+const msg::KickDecision* recent_fire(const RobotView& robot, std::int64_t now_ns) {
+  const auto* fired = robot.fired.within(kFresh_ns, now_ns);
+  if (fired == nullptr || !robot.decision.sample) return nullptr;
+  const auto& last = *robot.decision.sample;
+  return last.half == fired->half && last.possession_id == fired->possession_id ? fired : nullptr;
+}
+
 Why why_of(const RobotView& robot, std::int64_t now_ns) {
-  if (robot.fired.within(kFresh_ns, now_ns) != nullptr) return {true, words_of(msg::REASON_FIRE)};
+  if (recent_fire(robot, now_ns) != nullptr) return {true, words_of(msg::REASON_FIRE)};
   if (const auto* decision = robot.decision.within(kDecisionAge_ns, now_ns)) return {false, words_of(decision->reason)};
   const msg::WorldState* const world = robot.world.within(kFresh_ns, now_ns);
   if (world == nullptr) return {false, "nothing is heard of what it believes"};

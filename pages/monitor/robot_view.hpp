@@ -44,7 +44,10 @@ struct Why {
 /// Older words say nothing of now.
 inline constexpr std::int64_t kFresh_ns = 1'000'000'000;
 
-/// Of its last decision, or where it decides nothing of what it believes. One that fired is shown for a second.
+/// The decision that fired, for a second, since an eye misses a cycle, or until it decides in another possession.
+const msg::KickDecision* recent_fire(const RobotView& robot, std::int64_t now_ns);
+
+/// Of its recent fire, else of its last decision, or where it decides nothing of what it believes.
 Why why_of(const RobotView& robot, std::int64_t now_ns);
 
 /// A reason as a part of a sentence: "the two segments do not meet".

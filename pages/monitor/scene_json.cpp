@@ -46,9 +46,9 @@ Json kicker_json(const msg::KickerStatus* kicker) {
           {"ready", kicker->ready}};
 }
 
-/// The decision that is shown: one that fired for a second, else the last one.
+/// The decision that is shown.
 const msg::KickDecision* shown_decision(const RobotView& robot, std::int64_t now_ns) {
-  const auto* fired = robot.fired.within(kFresh_ns, now_ns);
+  const auto* fired = recent_fire(robot, now_ns);
   return fired != nullptr ? fired : robot.decision.within(kFresh_ns, now_ns);
 }
 

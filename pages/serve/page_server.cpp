@@ -157,7 +157,7 @@ struct PageServer::Impl {
       return refused(request, response) ? httplib::Server::HandlerResponse::Handled
                                         : httplib::Server::HandlerResponse::Unhandled;
     });
-    server.set_exception_handler([](const Request&, Response& response, std::exception_ptr failure) {
+    server.set_exception_handler([](const Request&, Response& response, const std::exception_ptr& failure) {
       try {
         std::rethrow_exception(failure);
       } catch (const std::exception& error) {
@@ -174,7 +174,7 @@ struct PageServer::Impl {
     server.set_keep_alive_timeout(1);    // and so would one that never says anything
     server.set_read_timeout(kStalled);
     server.set_write_timeout(kStalled);
-    server.set_payload_max_length(64 * 1024);
+    server.set_payload_max_length(std::size_t{64} * 1024);
     server.set_default_headers(
         {{"Content-Security-Policy", "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"},
          {"X-Content-Type-Options", "nosniff"},

@@ -11,13 +11,16 @@ const match = new Trivela(folder, 'match', '--random', 'stopped,moving,predictiv
   '--out', 'picture.db');
 const browser = await chromium.launch({executablePath: process.env.CHROMIUM, args: ['--no-sandbox']});
 try {
-  const page = await browser.newPage({viewport: {width: 1280, height: 860}});
+  const page = await browser.newPage({viewport: {width: 1280, height: 900}});
   await page.goto(await match.firstLine);
-  await page.waitForFunction(() => /(\d+)/.test(document.querySelector('#table tbody')?.textContent) &&
-    [...document.querySelectorAll('#table tbody tr')].reduce((n, row) => n + Number(row.cells[1].textContent), 0) >= 60 &&
-    document.querySelector('#pitch line.s1[visibility="visible"]') && document.querySelector('#robots .why').textContent.includes('segments'),
-    null, {timeout: 300000, polling: 'raf'});
-  await page.screenshot({path: file});
+  await page.waitForFunction(() => {
+    const inside = [...document.querySelectorAll('#table tbody tr')].reduce((n, row) => n + Number(row.cells[1].textContent), 0);
+    const holds = /segments do not meet/.test(document.querySelector('#robots .why')?.textContent);
+    const found = inside >= 40 && holds && document.querySelector('#pitch line.s1[visibility="visible"]') !== null;
+    if (found) document.querySelector('#pause').click();  // or it would be over before the picture is taken
+    return found;
+  }, null, {timeout: 300000, polling: 'raf'});
+  await page.screenshot({path: file, fullPage: true});
 } finally {
   await browser.close();
   match.stop();

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
-import {writeFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import test from 'node:test';
 import {findings} from './axe.mjs';
 import {Folder, Trivela} from './processes.mjs';
@@ -74,8 +74,8 @@ test('a match is watched from the first kick to after its end', async () => {
   assert.match(await page.textContent('#nodes'), /kicker_driver/);
   await page.waitForSelector('#pitch line.s1[visibility="visible"]', {...patience, state: 'attached'});
   await page.waitForSelector('#pitch line.s2[visibility="visible"]', {...patience, state: 'attached'});
-  assert.deepEqual(await findings(page), []);
   await photograph(page, 'monitor-light-1280');
+  assert.deepEqual(await findings(page), []);
 
   // Everything is there again at once.
   const before = await page.$$eval('#kicks tbody tr', (rows) => rows.length);
@@ -143,30 +143,48 @@ test('a match is watched from the first kick to after its end', async () => {
   await page.close();
 });
 
-test('names that mean no good stay text, with a token, beside a match of another process', async () => {
+test('names that mean no good stay text, and a token is asked for', async () => {
   const bad = '<img src=x onerror=alert(1)>';
+  const worse = '</script><script>alert(2)</script>';
   const token = 'a-token-of-a-test-0123456789';
   writeFileSync(folder.file('token'), `${token}\n`, {mode: 0o600});
-  writeFileSync(folder.file('bad_robot.toml'), `name = "</script><script>alert(2)</script>"\n`);
+  const robot = readFileSync(new URL('../../config/robots/cambada_1.toml', import.meta.url), 'utf8');
+  writeFileSync(folder.file('bad_robot.toml'), robot.replace('name = "cambada_1"', `name = "${worse}"`));
   writeFileSync(folder.file('bad.toml'), `[run]\nteam = "${bad}"\nrobot = "bad_robot.toml"\n`);
-  const domain = String(1 + process.pid % 100);
-  const monitor = trivela('monitor', '--config', 'bad.toml', '--domain', domain, '--tag', `browser-${process.pid}`,
-    '--token-file', 'token');
-  const url = await monitor.firstLine;
+  const match = trivela('match', '--config', 'bad.toml', '--half', 'moving', '--minutes', '0.3', '--watch', '--token-file', 'token',
+    '--out', '<b>bad.db');
+  const url = await match.firstLine;
   assert.match(url, new RegExp(`/\\?token=${token}$`));
   const page = await open(url);
   await live(page);
+  await kicked(page, 1);
   assert.equal(new URL(page.url()).search, '', 'the token is not left in the address');
-  await page.waitForFunction((text) => document.querySelector('#title').textContent.includes(text), bad, patience);
-  assert.equal(await page.$$eval('img', (images) => images.length), 0);
-  await page.waitForSelector('#nobody:not([hidden])', patience);
-  assert.ok(!await page.isVisible('#simulated'), 'nobody has said so');
+  assert.match(await page.textContent('#title'), new RegExp(bad.replace(/[()]/g, '\\$&')));
+  assert.equal(await page.textContent('#kicks tbody th'), `1 ${worse}`);
+  assert.equal(await page.textContent('#robots .name'), `1 ${worse}`);
+  assert.equal(await page.$$eval('img, script:not([src])', (strangers) => strangers.length), 0);
   await page.reload();
   await live(page);
   assert.deepEqual(await findings(page), []);
+  await photograph(page, 'monitor-hostile-names');
   assert.equal((await (await browser.newContext()).request.get(`${new URL(url).origin}/`)).status(), 401);
   assert.deepEqual(page.complaints, []);
-  monitor.kill('SIGINT');
+  match.kill('SIGINT');
+  await match.end();
+  await page.close();
+});
+
+test('where nobody plays the page says so and claims nothing', async () => {
+  const monitor = trivela('monitor', '--domain', String(1 + process.pid % 100), '--tag', `browser-${process.pid}`);
+  const page = await open(await monitor.firstLine, {viewport: phone});
+  await live(page);
+  await page.waitForSelector('#nobody:not([hidden])', patience);
+  assert.ok(!await page.isVisible('#simulated'), 'nobody has said that it is simulated');
+  assert.equal(await page.textContent('#game'), 'no referee heard yet');
+  assert.deepEqual(await findings(page), []);
+  await photograph(page, 'monitor-nobody-390');
+  assert.deepEqual(page.complaints, []);
+  monitor.kill('SIGTERM');
   assert.equal(await monitor.end(), 0, monitor.errors);
   await page.close();
 });

@@ -199,6 +199,10 @@ TEST_F(Scene, SaysWhyARobotHoldsOrFires) {
   scene.hear(decision(1, 9, msg::POLICY_MOVING, 2), 5, now);
   scene.hear(decision(1, 0, msg::POLICY_MOVING, 3), 5, now + 20 * kMs);
   EXPECT_EQ(robot()["fires"], true) << "long enough for an eye";
+  msg::KickDecision next = decision(1, 0, msg::POLICY_MOVING, 4);
+  next.possession_id = 1;
+  scene.hear(next, 5, now + 40 * kMs);
+  EXPECT_EQ(robot()["fires"], false) << "it has the ball anew";
   playing = possession = false;
   play(1200);
   EXPECT_EQ(robot()["fires"], false);
