@@ -5,6 +5,7 @@
 
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::cli {
@@ -12,6 +13,7 @@ namespace {
 
 struct ReportArguments {
   std::string log;
+  std::string html;
   bool json = false;
   bool csv = false;
   bool verify = false;
@@ -32,10 +34,17 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_flag(
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
+  verb->add_option("--html", arguments->html,
+                   "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
+                   "needs nothing else");
   verb->callback([arguments, &exit_code] {
     using evaluator::log::Check;
+    require_writable("--html", arguments->html);
     const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
     const evaluator::Report report = evaluator::make_report(reader, arguments->blocked == "apart");
+    if (!arguments->html.empty()) {
+      evaluator::replace_file(arguments->html, evaluator::page::report_page(report, {arguments->log}), "--html");
+    }
     const bool plain = !arguments->json && !arguments->csv;
     if (arguments->json) {
       fmt::print("{}", evaluator::to_json(report));

@@ -202,7 +202,10 @@ std::vector<std::size_t> enter_opportunities(KickBook& book, const LoggedOpportu
 }  // namespace
 
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
-  const LoggedOpportunities logged = read_opportunities(logs, options.truth);
+  return kick_book_of(read_opportunities(logs, options.truth), options, by);
+}
+
+KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by) {
   std::set<std::string> arms;
   for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
   by = !options.by.empty() ? options.by : arms.size() > 1 ? "arm" : "policy";

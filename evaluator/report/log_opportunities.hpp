@@ -74,6 +74,15 @@ struct LoggedOpportunities {
 /// find_plays() says. Throws std::runtime_error where a log cannot be read, or the logs hold replays alone.
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth);
 
+/// An open log and what it is called.
+struct NamedReader {
+  const log::Reader* reader = nullptr;
+  std::string name;
+};
+
+/// The same of open logs, replays alone too; each reader's counted_kicks has from then on what counts.
+LoggedOpportunities read_opportunities(const std::vector<NamedReader>& logs, bool truth);
+
 /// The same of one log, a replay alone too; the reader's counted_kicks has from then on what counts.
 LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth);
 
