@@ -51,9 +51,9 @@ struct KickStory {
   std::string policy;
   double distance_m = 0.0;
   std::optional<double> power;
-  kicking::Pose robot{};                                 ///< at the decision
+  kicking::Pose robot{};                               ///< at the decision
   Eigen::Vector2d target_m = Eigen::Vector2d::Zero();  ///< aim point
-  std::optional<bool> bounced;                           ///< it touched the floor before the line, as observed
+  std::optional<bool> bounced;                         ///< it touched the floor before the line, as observed
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   std::vector<StoryPose> path;       ///< of the robot

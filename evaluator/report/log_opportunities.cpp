@@ -287,23 +287,24 @@ LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>&
   return std::move(reading).finish();
 }
 
-LoggedOpportunities read_opportunities(const std::vector<NamedReader>& logs, bool truth) {
+LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth) {
   OpportunityReading reading(truth);
   std::vector<SessionPlaces> places;
-  for (const NamedReader& log : logs) places.push_back(reading.add(*log.reader, log.name));
+  for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
   reading.settle();
   for (std::size_t i = 0; i < logs.size(); ++i) {
     std::vector<std::int64_t> left_out = reading.book().sessions_left_out(places[i]);
-    for (const log::RecordedSession& session : logs[i].reader->sessions()) {
-      if (!places[i].contains(session.session_id)) left_out.push_back(session.session_id);  // a log before has it
-    }
+    logs[i].reader->query("SELECT session_id FROM sessions", [&](std::int64_t session_id) {
+      if (!places[i].contains(session_id)) left_out.push_back(session_id);
+    });
     logs[i].reader->leave_out(left_out, reading.book().kicks_left_out(places[i]));
   }
   return std::move(reading).finish();
 }
 
 LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth) {
-  return read_opportunities(std::vector<NamedReader>{{&reader, name}}, truth);
+  const OpenLog log{&reader, name};
+  return read_opportunities(std::span(&log, 1), truth);
 }
 
 }  // namespace trivela::evaluator

@@ -51,7 +51,7 @@ std::string colour(std::size_t number);
 struct IntervalRow {
   std::string label;
   bool heading = false;
-  bool known = true;      ///< false: there is nothing to draw
+  bool known = true;  ///< false: there is nothing to draw
   double value = 0.0, lo = 0.0, hi = 0.0;
   std::string numbers{};  ///< beside it
   std::size_t colour = 0;

@@ -41,20 +41,23 @@ std::map<std::pair<std::uint32_t, std::string>, stats::Counts> by_distance(const
 }  // namespace
 
 std::string forest_section(const PageView& view) {
-  IntervalPlot plot{.head = {.id = "forest-figure", .says = "Efficiency of policies, robots and distances", .simulated = view.simulated},
+  IntervalPlot plot{.head = {.id = "forest-figure",
+                             .says = "Efficiency of policies, robots and distances",
+                             .simulated = view.simulated},
                     .axis_label = "efficiency [%]",
                     .from = 0.0,
                     .to = 1.0,
                     .unit = 0.01,
-                    .note = "A dot is the share of kicks on target, its line the 95 % interval: the fewer kicks, the "
-                            "longer. Lines that overlap widely cannot be told apart."};
+                    .note =
+                        "A dot is the share of kicks on target, its line the 95 % interval: the fewer kicks, the "
+                        "longer. Lines that overlap widely cannot be told apart."};
   plot.rows.push_back(heading("policies"));
   for (const PolicyRow& row : view.report.policies)
-    plot.rows.push_back(row_of(row.policy, row.counts(), row.efficiency_ci(), colour_of(view, row.policy)));
+    plot.rows.push_back(row_of(name_of(row), row.counts(), row.efficiency_ci(), colour_of(view, row.policy)));
   if (plot.rows.size() == 1) return section("forest", "How often on target", paragraphs({"There are no kicks."}));
   if (!view.report.robots.empty()) plot.rows.push_back(heading("robots"));
   for (const RobotRow& row : view.report.robots) {
-    plot.rows.push_back(row_of(fmt::format("robot {}, {}", row.robot_id, row.policy), row.counts(),
+    plot.rows.push_back(row_of(fmt::format("robot {}, {}", row.robot_id, name_of(row)), row.counts(),
                                stats::wilson(row.counts()), colour_of(view, row.policy)));
   }
   const auto bands = by_distance(view);

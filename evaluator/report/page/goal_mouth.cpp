@@ -50,8 +50,7 @@ std::string metres(const Mouth& mouth) {
     svg += svg_line("axis", mouth.x.px(x_m), mouth.floor_px, mouth.x.px(x_m), mouth.floor_px + 5.0);
     svg += svg_text(mouth.x.px(x_m), mouth.floor_px + 19.0, "middle", fmt::format("{}", x_m));
   }
-  return svg + svg_text(0.5 * kFigureWidth, mouth.floor_px + 37.0, "middle",
-                        "to the right of the goal's middle [m]");
+  return svg + svg_text(0.5 * kFigureWidth, mouth.floor_px + 37.0, "middle", "to the right of the goal's middle [m]");
 }
 
 std::string crossing(const Mouth& mouth, std::size_t number, const KickStory& story) {
@@ -100,11 +99,13 @@ std::string goal_mouth_section(const PageView& view) {
   const std::string says = fmt::format("The goal from in front with {} observed crossings", drawn);
   std::string note = fmt::format(
       "Where the ball's centre crossed the goal line as the robots saw it, from in front of the goal. {}",
-      view.data.binned() ? fmt::format("Squares of 10 cm: the darker, the more kicks; the fullest has {}.", cells.fullest())
-                         : "The pale disc around a mark is one standard deviation of the observation.");
+      view.data.binned()
+          ? fmt::format("Squares of 10 cm: the darker, the more kicks; the fullest has {}.", cells.fullest())
+          : "The pale disc around a mark is one standard deviation of the observation.");
   if (at_edge > 0) note += fmt::format(" {} beyond the picture lie at its edge.", at_edge);
   if (other_goals > 0) note += fmt::format(" {} were at a goal of another width.", other_goals);
-  if (drawn < kicks.size()) note += fmt::format(" {} of {} kicks have no crossing that was seen.", kicks.size() - drawn, kicks.size());
+  if (drawn < kicks.size())
+    note += fmt::format(" {} of {} kicks have no crossing that was seen.", kicks.size() - drawn, kicks.size());
   return section("mouth", "The goal mouth",
                  figure({"mouth-figure", says, mouth.floor_px + 96.0, view.simulated},
                         frame(mouth) + marks + metres(mouth) + outcome_legend(counts, mouth.floor_px + 64.0), note));

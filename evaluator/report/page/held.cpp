@@ -29,8 +29,10 @@ std::string bars(const PageView& view, const std::vector<HeldReason>& rows) {
       y += kRow;
     }
     svg += svg_text(16.0, y + 5.0, "start", words(row.reason));
-    svg += svg_rect("bar " + colour(colour_of(view, policy)), {kLeft, y - 7.0}, std::max(1.0, x.length_px(static_cast<double>(row.cycles))), 14.0);
-    svg += svg_text(kRight + 8.0, y + 5.0, "start", fmt::format("{} in {}", row.cycles, counted(row.chances, "chance", "chances")));
+    svg += svg_rect("bar " + colour(colour_of(view, policy)), {kLeft, y - 7.0},
+                    std::max(1.0, x.length_px(static_cast<double>(row.cycles))), 14.0);
+    svg += svg_text(kRight + 8.0, y + 5.0, "start",
+                    fmt::format("{} in {}", row.cycles, counted(row.chances, "chance", "chances")));
     y += kRow;
   }
   return figure({"held-figure", "Cycles in which each policy held, by reason", y, view.simulated}, svg,
@@ -46,9 +48,11 @@ std::string shadow_table(const std::vector<HeldReason>& rows, const std::vector<
                                                              std::to_string(row.chances)});
     for (const std::string& shadow : shadows) {
       const auto would = row.would.find(shadow);
-      line.push_back(shadow == row.policy       ? "\u2013"
-                     : would == row.would.end() ? "never"
-                                                : fmt::format("in {} of {}", counted(would->second.chances, "chance", "chances"), row.chances));
+      line.push_back(
+          shadow == row.policy ? "\u2013"
+          : would == row.would.end()
+              ? "never"
+              : fmt::format("in {} of {}", counted(would->second.chances, "chance", "chances"), row.chances));
     }
   }
   return table("Why it held, and what the policies that rode along would have done", cells);
@@ -60,7 +64,8 @@ std::string idle_sentence(const std::vector<HeldReason>& held) {
     if (is_idle(row)) idle[row.reason] += row.cycles;
   }
   if (idle.empty()) return "";
-  return fmt::format("Left out: {} cycles in which the game stood, {} with a kick under way.", idle["not_playing"], idle["order_pending"]);
+  return fmt::format("Left out: {} cycles in which the game stood, {} with a kick under way.", idle["not_playing"],
+                     idle["order_pending"]);
 }
 
 }  // namespace
@@ -70,15 +75,18 @@ std::string held_section(const PageView& view) {
   std::vector<HeldReason> rows;
   std::ranges::copy_if(view.data.held, std::back_inserter(rows), [](const HeldReason& row) { return !is_idle(row); });
   if (rows.empty()) {
-    return section("held", title, paragraphs({"The log has no decision that held: it keeps the kicks alone, or they were imported."}));
+    return section("held", title,
+                   paragraphs({"The log has no decision that held: it keeps the kicks alone, or they were imported."}));
   }
   std::string body = bars(view, rows);
   body += shadow_table(rows, view.data.shadows);
   if (const std::string idle = idle_sentence(view.data.held); !idle.empty()) body += paragraphs({idle});
-  body += paragraphs({view.data.shadows.empty()
-                          ? "No other policy rode along."
-                          : "A policy that rides along judges the same cycle and orders nothing. It would have kicked once and held no more: "
-                            "where it would have kicked is counted by possession. What its kick would have become nobody knows."});
+  body += paragraphs(
+      {view.data.shadows.empty()
+           ? "No other policy rode along."
+           : "A policy that rides along judges the same cycle and orders nothing. It would have kicked once and held "
+             "no more: "
+             "where it would have kicked is counted by possession. What its kick would have become nobody knows."});
   return section("held", title, body);
 }
 

@@ -48,8 +48,9 @@ std::string script_json(const Json& json) {
 }
 
 std::string section(const std::string& id, const std::string& title, const std::string& body) {
-  return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n{2}</section>\n",
-                     id, html(title), body);
+  return fmt::format(
+      "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n{2}</section>\n", id,
+      html(title), body);
 }
 
 std::string paragraphs(const std::vector<std::string>& sentences) {

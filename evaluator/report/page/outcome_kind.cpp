@@ -25,8 +25,9 @@ std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
     case OutcomeKind::kFrame:
       return svg_rect("mark " + name, {at.x - 0.9 * size, at.y - 0.9 * size}, 1.8 * size, 1.8 * size);
     case OutcomeKind::kBeside:
-      return fmt::format("<path class=\"mark {0}\" d=\"M{1:.1f} {2:.1f}l{3:.1f} {3:.1f}l-{3:.1f} {3:.1f}l-{3:.1f} -{3:.1f}z\"/>\n",
-                         name, at.x, at.y - 1.2 * size, 1.2 * size);
+      return fmt::format(
+          "<path class=\"mark {0}\" d=\"M{1:.1f} {2:.1f}l{3:.1f} {3:.1f}l-{3:.1f} {3:.1f}l-{3:.1f} -{3:.1f}z\"/>\n",
+          name, at.x, at.y - 1.2 * size, 1.2 * size);
     case OutcomeKind::kBlocked:
       return fmt::format(
           "<path class=\"mark {0}\" d=\"M{1:.1f} {2:.1f}l{3:.1f} {3:.1f}m0 -{3:.1f}l-{3:.1f} {3:.1f}\"/>\n", name,

@@ -46,7 +46,7 @@ struct ChanceCycles {
   double x_m = 0.0, y_m = 0.0;
   std::string policy;
   bool kicked = false;
-  std::map<std::pair<std::string, std::string>, std::int64_t> held;  // by policy and reason
+  std::map<std::pair<std::string, std::string>, std::int64_t> held;                 // by policy and reason
   std::map<std::tuple<std::string, std::string, std::string>, std::int64_t> would;  // and the shadow's policy
 };
 
@@ -135,8 +135,9 @@ void attempt(PageData& data, const std::string& what, Read&& read) {
 
 void compare(const LoggedOpportunities& logged, PageData& data) {
   try {
-    std::string by = "policy";
-    data.comparison = compare_policies(kick_book_of(logged, {.by = by}, by), by);
+    std::string by;  // arms where there are several, else policies
+    KickBook book = kick_book_of(logged, {}, by);
+    data.comparison = compare_policies(std::move(book), by);
   } catch (const std::runtime_error& error) {
     data.no_comparison = error.what();
   }
@@ -147,11 +148,13 @@ void read_kicks(const log::Reader& reader, std::size_t log, PageData& data) {
 }
 
 void read_predictions(const log::Reader& reader, PageData& data) {
-  reader.query(kPredictedKicksSql,
-               [&](const std::string& /*policy*/, std::int64_t /*session_id*/, int /*robot_id*/, double p_on_target,
-                   double /*distance_m*/, double /*vx_mps*/, double /*vy_mps*/, double /*omega_radps*/,
-                   double /*power*/, std::optional<double> /*opponent_distance_m*/, bool on_target,
-                   std::int64_t /*kick_id*/) { data.predictions.push_back({p_on_target, on_target}); });
+  reader.query(
+      kPredictedKicksSql,
+      [&](const std::string& /*policy*/, std::int64_t /*session_id*/, int /*robot_id*/, double p_on_target,
+          double /*distance_m*/, double /*vx_mps*/, double /*vy_mps*/, double /*omega_radps*/, double /*power*/,
+          std::optional<double> /*opponent_distance_m*/, bool on_target, std::int64_t /*kick_id*/) {
+        data.predictions.push_back({p_on_target, on_target});
+      });
 }
 
 void read_clocks(const log::Reader& reader, PageData& data) {
@@ -178,7 +181,7 @@ void read_clocks(const log::Reader& reader, PageData& data) {
 }
 
 /// The paths of robots and balls, of so many kicks that they fit a page.
-void read_tracks(const std::vector<NamedReader>& readers, PageData& data) {
+void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.kicks.size() > kMostReplays) return;
   for (PageKick& kick : data.kicks) add_tracks(*readers[kick.log].reader, kick.story);
 }
@@ -188,7 +191,7 @@ void read_tracks(const std::vector<NamedReader>& readers, PageData& data) {
 PageData read_page_data(const std::vector<fs::path>& logs) {
   PageData data;
   std::vector<std::unique_ptr<log::Reader>> open;
-  std::vector<NamedReader> readers;
+  std::vector<OpenLog> readers;
   for (const fs::path& path : logs) {
     open.push_back(std::make_unique<log::Reader>(path, log::Check::kSchema));  // the report has looked closer
     readers.push_back({open.back().get(), path.filename().string()});

@@ -78,7 +78,7 @@ struct AlignedClock {
 /// Everything that a page shows besides its report. What could not be read is empty, and `failures` says why.
 struct PageData {
   std::vector<PageLog> logs;
-  std::vector<PageKick> kicks;  ///< by UTC
+  std::vector<PageKick> kicks;                        ///< by UTC
   std::map<std::string, std::int64_t> opportunities;  ///< by policy; empty: nobody counted them
   std::optional<PolicyComparison> comparison;         ///< none: `no_comparison` says why
   std::string no_comparison;

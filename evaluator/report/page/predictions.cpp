@@ -17,7 +17,7 @@ namespace trivela::evaluator::page {
 namespace {
 
 constexpr double kLeft = 62.0, kRight = 506.0, kTop = 10.0, kBottom = 290.0, kFigureHeight = 336.0;
-constexpr std::size_t kBands = 6;        // of set-points
+constexpr std::size_t kBands = 6;         // of set-points
 constexpr std::size_t kFewestInBand = 3;  // for a mean with an interval
 
 /// Observed minus predicted height of a kick that did not bounce.
@@ -68,7 +68,8 @@ std::map<int, std::vector<MeanError>> drift_of(std::vector<HeightError> errors) 
     for (std::size_t i = 0; i < bands; ++i) {
       const auto from = of.begin() + static_cast<std::ptrdiff_t>(i * of.size() / bands);
       const auto to = of.begin() + static_cast<std::ptrdiff_t>((i + 1) * of.size() / bands);
-      if (std::distance(from, to) >= static_cast<std::ptrdiff_t>(kFewestInBand)) means[robot_id].push_back(mean_of({from, to}));
+      if (std::distance(from, to) >= static_cast<std::ptrdiff_t>(kFewestInBand))
+        means[robot_id].push_back(mean_of({from, to}));
     }
   }
   return means;
@@ -87,21 +88,26 @@ std::string drift_figure(const PageView& view, const std::vector<HeightError>& e
   const auto y_px = [&](double m) { return std::clamp(y.scale.px(100.0 * m), kTop, kBottom); };
   if (!view.data.binned()) {
     for (const HeightError& e : errors)
-      svg += svg_circle("faint " + colour(static_cast<std::size_t>(e.robot_id)), {x.scale.px(e.power), y_px(e.error_m)}, 3.0);
+      svg += svg_circle("faint " + colour(static_cast<std::size_t>(e.robot_id)), {x.scale.px(e.power), y_px(e.error_m)},
+                        3.0);
   }
-  std::string note = "A pale dot is a kick that did not touch the floor. Full dots are means over set-points with about as many "
-                     "kicks each, with their 95 % interval: one that lies off the line at 0 says that the height table has drifted there.";
+  std::string note =
+      "A pale dot is a kick that did not touch the floor. Full dots are means over set-points with about as many "
+      "kicks each, with their 95 % interval: one that lies off the line at 0 says that the height table has drifted "
+      "there.";
   for (const auto& [robot_id, means] : drift_of(errors)) {
     const std::string kind = colour(static_cast<std::size_t>(robot_id));
     for (const MeanError& mean : means) {
       const double px = x.scale.px(mean.power);
-      svg += titled(fmt::format("robot {}, about {:.1f}: {:+.1f} cm ± {:.1f} ({} kicks)", robot_id, mean.power,
-                                100.0 * mean.mean_m, 100.0 * mean.reach_m, mean.n),
-                    svg_line(kind + " interval", px, y_px(mean.mean_m - mean.reach_m), px, y_px(mean.mean_m + mean.reach_m)) +
-                        svg_circle(kind, {px, y_px(mean.mean_m)}, 5.5));
+      svg += titled(
+          fmt::format("robot {}, about {:.1f}: {:+.1f} cm ± {:.1f} ({} kicks)", robot_id, mean.power,
+                      100.0 * mean.mean_m, 100.0 * mean.reach_m, mean.n),
+          svg_line(kind + " interval", px, y_px(mean.mean_m - mean.reach_m), px, y_px(mean.mean_m + mean.reach_m)) +
+              svg_circle(kind, {px, y_px(mean.mean_m)}, 5.5));
     }
   }
-  return figure({"drift-figure", "Observed minus predicted height by set-point", kFigureHeight, view.simulated}, svg, note);
+  return figure({"drift-figure", "Observed minus predicted height by set-point", kFigureHeight, view.simulated}, svg,
+                note);
 }
 
 std::string drift_table(const std::vector<HeightError>& errors) {
@@ -110,7 +116,8 @@ std::string drift_table(const std::vector<HeightError>& errors) {
     for (const MeanError& mean : means) {
       rows.push_back({std::to_string(robot_id), fmt::format("{:.1f}", mean.power), std::to_string(mean.n),
                       fmt::format("{:+.1f} cm", 100.0 * mean.mean_m),
-                      fmt::format("{:+.1f} to {:+.1f} cm", 100.0 * (mean.mean_m - mean.reach_m), 100.0 * (mean.mean_m + mean.reach_m))});
+                      fmt::format("{:+.1f} to {:+.1f} cm", 100.0 * (mean.mean_m - mean.reach_m),
+                                  100.0 * (mean.mean_m + mean.reach_m))});
     }
   }
   return rows.size() > 1 ? details("The same in numbers", table("Height, observed minus predicted", rows)) : "";
@@ -141,15 +148,19 @@ std::string reliability_figure(const PageView& view) {
     const auto ci = stats::wilson(band.counts);
     const double px = x.scale.px(100.0 * band.p_sum / n);
     const double share = static_cast<double>(band.counts.inside) / n;
-    svg += titled(fmt::format("predicted {}: {} of {} on target", percent(band.p_sum / n), band.counts.inside, band.counts.n),
-                  svg_line("c0 interval", px, y.scale.px(100.0 * ci.lo), px, y.scale.px(100.0 * ci.hi)) +
-                      svg_circle("c0", {px, y.scale.px(100.0 * share)}, 5.5));
+    svg += titled(
+        fmt::format("predicted {}: {} of {} on target", percent(band.p_sum / n), band.counts.inside, band.counts.n),
+        svg_line("c0 interval", px, y.scale.px(100.0 * ci.lo), px, y.scale.px(100.0 * ci.hi)) +
+            svg_circle("c0", {px, y.scale.px(100.0 * share)}, 5.5));
   }
   const std::string note = fmt::format(
-      "Kicks in ten bands of the probability that the physical model gave them beforehand. On the diagonal, kicks come as often as predicted; "
+      "Kicks in ten bands of the probability that the physical model gave them beforehand. On the diagonal, kicks come "
+      "as often as predicted; "
       "below it the model promised too much. Over all: {:.1f} of {} predicted, {} came.",
       expected, view.data.predictions.size(), inside);
-  return figure({"reliability-figure", "Predicted probability against the share on target", kFigureHeight, view.simulated}, svg, note);
+  return figure(
+      {"reliability-figure", "Predicted probability against the share on target", kFigureHeight, view.simulated}, svg,
+      note);
 }
 
 }  // namespace

@@ -48,8 +48,10 @@ std::string simulated_banner(const Report& report) {
   if (report.simulated_sessions() == 0) return "";
   std::string words = kSimulated;
   if (report.simulated_sessions() < std::ssize(report.sessions))
-    words += fmt::format(" Only {} of {} sessions are simulated; they are pooled all the same.", report.simulated_sessions(), report.sessions.size());
-  return "<p class=\"banner\">" + html(words.substr(0, words.find('\n'))) + html(words.substr(words.find('\n') + 1)) + "</p>\n";
+    words += fmt::format(" Only {} of {} sessions are simulated; they are pooled all the same.",
+                         report.simulated_sessions(), report.sessions.size());
+  return "<p class=\"banner\">" + html(words.substr(0, words.find('\n'))) + html(words.substr(words.find('\n') + 1)) +
+         "</p>\n";
 }
 
 std::string contents() {

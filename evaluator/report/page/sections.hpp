@@ -37,6 +37,9 @@ std::string kick_list_section(const PageView& view);
 /// What is missing, doubtful or unknown, clocks, versions and hashes.
 std::string quality_section(const PageView& view);
 
+/// What a row of Table 2 is called everywhere on the page.
+std::string name_of(const PolicyRow& row);
+
 /// Place of a policy in Table 2: the number of its colour.
 std::size_t colour_of(const PageView& view, const std::string& policy);
 

@@ -43,7 +43,7 @@ std::string misses_table(const Report& report) {
   std::vector<Cells> rows{{"policy"}};
   for (const std::string& kind : kinds) rows[0].push_back(kind == "outside" ? "not said" : words(kind));
   for (const PolicyRow& row : report.policies) {
-    Cells& cells = rows.emplace_back(Cells{row.policy});
+    Cells& cells = rows.emplace_back(Cells{name_of(row)});
     for (const std::string& kind : kinds) cells.push_back(std::to_string(row.of(kind)));
   }
   return table("Why the misses missed", rows);
@@ -56,10 +56,10 @@ std::string table2_section(const PageView& view) {
   std::vector<Cells> rows{joined({"policy"}, kHead)};
   std::vector<std::string> notes;
   for (const PolicyRow& row : report.policies) {
-    rows.push_back(joined({row.policy}, counts_of(row, row.efficiency_ci())));
+    rows.push_back(joined({name_of(row)}, counts_of(row, row.efficiency_ci())));
     if (row.repeated > 0) {
       notes.push_back(fmt::format("{} of the kicks of {} are in situations that it had in an earlier half, too.",
-                                  row.repeated, row.policy));
+                                  row.repeated, name_of(row)));
     }
   }
   if (std::ranges::any_of(report.policies, &PolicyRow::blocked_apart))
@@ -70,11 +70,14 @@ std::string table2_section(const PageView& view) {
   if (!report.robots.empty()) {
     std::vector<Cells> by_robot{joined({"robot", "policy"}, kHead)};
     for (const RobotRow& row : report.robots)
-      by_robot.push_back(joined({std::to_string(row.robot_id), row.policy}, counts_of(row, stats::wilson(row.counts()))));
+      by_robot.push_back(
+          joined({std::to_string(row.robot_id), row.policy}, counts_of(row, stats::wilson(row.counts()))));
     body += table("By robot", by_robot);
   }
   return section("table2", "Table 2", body);
 }
+
+std::string name_of(const PolicyRow& row) { return row.policy; }
 
 std::size_t colour_of(const PageView& view, const std::string& policy) {
   const auto found = std::ranges::find(view.report.policies, policy, &PolicyRow::policy);

@@ -10,8 +10,8 @@ namespace {
 // Of a policy alone.
 std::string one_policy(const PolicyRow& row) {
   const auto share = stats::efficiency(row.counts());
-  if (!share) return fmt::format("{}: no kick whose outcome is known.", row.policy);
-  return fmt::format("{}: {} of {} kicks on target, {} (95 % {}).", row.policy, row.inside(), row.counts().n,
+  if (!share) return fmt::format("{}: no kick whose outcome is known.", name_of(row));
+  return fmt::format("{}: {} of {} kicks on target, {} (95 % {}).", name_of(row), row.inside(), row.counts().n,
                      percent(*share), percent(row.efficiency_ci()));
 }
 
@@ -32,7 +32,8 @@ std::string verdict_section(const PageView& view) {
     notes.push_back("Nothing is compared: " + view.data.no_comparison + ".");
   }
   notes.emplace_back(
-      "On target means between the posts and below the bar, saves included: it is not goals scored. An interval of 95 % "
+      "On target means between the posts and below the bar, saves included: it is not goals scored. An interval of 95 "
+      "% "
       "is where the true value lies in 95 of 100 such reports, if kicks are alike and nothing else changed.");
   std::string body = "<div class=\"verdict\">\n" + paragraphs(verdicts) + "</div>\n";
   body += "<div class=\"caveat\">\n" + paragraphs(notes) + "</div>\n";
