@@ -10,6 +10,7 @@
 #include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
 #include "experiment/effects/summary.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 struct ReportArguments {
   std::vector<std::string> logs;
+  std::string html;
   bool json = false;
   bool csv = false;
   bool markdown = false;
@@ -41,6 +43,7 @@ evaluator::Report report_of(const ReportArguments& arguments) {
   using evaluator::log::Check;
   const auto gates = parse_gates(arguments.gates, evaluator::report_gate_metrics());
   require_writable("--out", arguments.out);
+  require_writable("--html", arguments.html);
   allow_many_files();
   std::vector<std::unique_ptr<evaluator::log::Reader>> readers;
   std::vector<evaluator::OpenLog> logs;
@@ -71,7 +74,7 @@ void warn_of(const evaluator::Report& report) {
 /// Of a book of tallies, what it says.
 void report_book(const ReportArguments& arguments) {
   if (arguments.logs.size() > 1) throw UsageError("a book of tallies is reported alone: its matches are no log's");
-  if (arguments.markdown || arguments.latex || !arguments.gates.empty())
+  if (arguments.markdown || arguments.latex || !arguments.html.empty() || !arguments.gates.empty())
     throw UsageError("of a book of tallies there are text, --json and --csv, and no gates");
   require_writable("--out", arguments.out);
   const auto summary =
@@ -104,6 +107,9 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_flag(
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
+  verb->add_option("--html", arguments->html,
+                   "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
+                   "needs nothing else");
   verb->callback([arguments, &exit_code] {
     if (evaluator::log::any_is_tally_book({arguments->logs.begin(), arguments->logs.end()})) {
       report_book(*arguments);
@@ -111,6 +117,10 @@ void add_report(CLI::App& app, int& exit_code) {
       return;
     }
     const evaluator::Report report = report_of(*arguments);
+    if (!arguments->html.empty()) {
+      const auto page = evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()});
+      evaluator::replace_file(arguments->html, page, "--html");
+    }
     const std::string text = written(report, *arguments);
     arguments->out.empty() ? say(text) : write_file(arguments->out, text);
     const bool plain = !arguments->json && !arguments->csv && !arguments->markdown && !arguments->latex;

@@ -36,7 +36,7 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
           std::optional<std::int64_t> release_t_ns, std::optional<std::string> outcome,
           std::optional<std::int64_t> settled_t_ns, std::optional<double> x_cross_m, std::optional<double> z_cross_m,
           std::optional<double> sd_cross_m, std::optional<std::string> truth_outcome, std::optional<double> truth_x_m,
-          std::optional<double> truth_z_m) {
+          std::optional<double> truth_z_m, std::optional<bool> bounced) {
         KickStory& story = stories.emplace_back();
         story.session_id = session_id;
         story.robot_id = robot_id;
@@ -48,6 +48,9 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
         story.policy = std::move(policy);
         story.distance_m = distance_m;
         story.power = power;
+        story.robot = {x_m, y_m, heading_rad};
+        story.target_m = {target_x_m, target_y_m};
+        story.bounced = bounced;
         story.segments = decided_segments({{x_m, y_m, heading_rad},
                                            alpha_rad,
                                            {target_x_m, target_y_m},
@@ -201,17 +204,25 @@ class KickStreams {
 
 }  // namespace
 
-std::vector<KickStory> kick_stories(const log::Reader& reader, const StoryPlan& plan) {
+std::vector<KickStory> kicks_without_tracks(const log::Reader& reader) {
   std::map<std::int64_t, LoggedPitch> pitches;
   for (const log::RecordedSession& session : reader.sessions())
     pitches[session.session_id] = pitch_of(reader.whole(session).config_toml);
   std::vector<KickStory> stories = listed_kicks(reader);
-  KickStreams streams(reader, plan);
   for (KickStory& story : stories) {
     story.goal = pitches[story.session_id].goal;
     story.side_line_x_m = pitches[story.session_id].side_line_x_m;
-    streams.fill(story);
   }
+  return stories;
+}
+
+void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan) {
+  KickStreams(reader, plan).fill(story);
+}
+
+std::vector<KickStory> kick_stories(const log::Reader& reader, const StoryPlan& plan) {
+  std::vector<KickStory> stories = kicks_without_tracks(reader);
+  for (KickStory& story : stories) add_tracks(reader, story, plan);
   return stories;
 }
 

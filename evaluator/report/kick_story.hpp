@@ -45,6 +45,9 @@ struct KickStory {
   std::string policy;
   double distance_m = 0.0;
   std::optional<double> power;
+  kicking::Pose robot{};                               ///< at the decision
+  Eigen::Vector2d target_m = Eigen::Vector2d::Zero();  ///< aim point
+  std::optional<bool> bounced;                         ///< it touched the floor before the line, as observed
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   std::vector<StoryPose> path;       ///< of the robot
@@ -67,6 +70,13 @@ struct StoryPlan {
   double longest_s = 6.0;  ///< after the decision
   double step_s = 0.04;    ///< a sample in each
 };
+
+/// The log's kicks that count, with their pitch and without their tracks, as kick_stories() orders them. Throws
+/// std::runtime_error where the log cannot be read.
+std::vector<KickStory> kicks_without_tracks(const log::Reader& reader);
+
+/// Adds the tracks, and the time of the half. Throws std::runtime_error where the log cannot be read.
+void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan = {});
 
 /// The stories of the log's kicks that count, in the order of their time; refused orders are none. Throws
 /// std::runtime_error where the log cannot be read.

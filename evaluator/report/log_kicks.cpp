@@ -205,7 +205,10 @@ std::string what_differs(const LoggedOpportunities& logged) {
 }  // namespace
 
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
-  const LoggedOpportunities logged = read_opportunities(logs, options.truth);
+  return kick_book_of(read_opportunities(logs, options.truth), options, by);
+}
+
+KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by) {
   by = options.by.empty() ? what_differs(logged) : options.by;
   check(options, by, name_by(logged, options.stratify).has_value());
   KickBook book = book_of(logged, options, by);

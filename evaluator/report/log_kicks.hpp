@@ -29,4 +29,7 @@ struct LogKicks {
 /// where a log cannot be read, BadOption where the logs have not what is asked for.
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
 
+/// The same of what was read of them, with the outcomes that it was read for: `options.truth` says which.
+KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
+
 }  // namespace trivela::evaluator

@@ -52,6 +52,7 @@ void write_predicted_kick(MatchLog& match) {
   const auto shadows = writer.table("shadow_decisions", {"robot_id", "seq", "shadow_index", "policy", "fire", "reason",
                                                          "aligned", "p_on_target", "fire_after_s"});
   writer.push(shadows, {Int{1}, Int{1000}, Int{0}, "predictive", Int{0}, "waiting", Int{1}, 0.625, 0.0});
+  writer.push(shadows, {Int{1}, Int{999}, Int{0}, "stopped", Int{1}, "fire", Int{0}, log::Value{}, 0.0});
   writer.push(decisions, {Int{1},   Int{999}, 49 * kSecond_ns,
                           Int{0},   Int{2},   Int{99},
                           "moving", Int{0},   "not_aligned",
