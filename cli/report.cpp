@@ -13,6 +13,7 @@
 #include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
+#include "evaluator/report/write_file.hpp"
 #include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
