@@ -7,7 +7,6 @@
 #include <iostream>
 #include <limits>
 #include <memory>
-#include <thread>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
@@ -32,8 +31,6 @@ namespace {
 using namespace eprosima::fastdds::dds;
 namespace ros = trivela_msgs::msg;
 namespace own = trivela::msg;
-
-volatile std::sig_atomic_t g_ended = 0;
 
 struct Decisions : DataReaderListener {
   void on_data_available(DataReader* reader) override {
@@ -116,7 +113,10 @@ own::WorldState world(std::uint64_t seq) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGTERM, [](int) { g_ended = 1; });
+  sigset_t end;
+  sigemptyset(&end);
+  sigaddset(&end, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &end, nullptr);  // of all threads: it is waited for
   DomainParticipant* const bus = join(argc > 1 ? static_cast<unsigned>(std::stoul(argv[1])) : 0);
   if (bus == nullptr) return 1;
   Decisions decisions;
@@ -124,10 +124,10 @@ int main(int argc, char** argv) {
   read(bus, topic(bus, "rt/trivela/kick_decision", new ros::KickDecisionPubSubType), decisions);
   read(bus, topic(bus, "kick_decision", new own::KickDecisionPubSubType), refusals);
   DataWriter* const worlds = write_state(bus, topic(bus, "world_state", new own::WorldStatePubSubType));
-  for (std::uint64_t seq = 1; !g_ended; ++seq) {
+  constexpr timespec kCycle{.tv_sec = 0, .tv_nsec = 20'000'000};
+  for (std::uint64_t seq = 1; sigtimedwait(&end, nullptr, &kCycle) != SIGTERM; ++seq) {
     own::WorldState state = world(seq);
     worlds->write(&state);
-    std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
   bus->delete_contained_entities();
   DomainParticipantFactory::get_instance()->delete_participant(bus);

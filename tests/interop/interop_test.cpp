@@ -7,11 +7,13 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
-#include "bus/reader.hpp"
+#include "bus/stop.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "tests/interop/value_text.hpp"
@@ -59,6 +61,23 @@ struct Different {
   }
 };
 
+/// Says it every 10 ms in a thread of its own while it lives.
+class Repeated {
+ public:
+  explicit Repeated(std::function<void()> say)
+      : thread_{[this, say = std::move(say)] {
+          do say();
+          while (!stop_.wait_until(std::chrono::steady_clock::now() + std::chrono::milliseconds{10}));
+        }} {}
+  Repeated(const Repeated&) = delete;
+  Repeated& operator=(const Repeated&) = delete;
+  ~Repeated() { stop_.request(); }
+
+ private:
+  bus::Stop stop_;
+  std::jthread thread_;
+};
+
 /// A domain without a tag, which another vendor would not know, with our bridge and the other's peer in it.
 class Interop : public testing::Test {
  protected:
@@ -95,15 +114,8 @@ TEST_F(Interop, EachFieldOfADecisionIsReadAsItWasWritten) {
   Different different;
   bus::visit_fields(decision, different);
   decision.offset_right_m = std::nan("");
-  std::atomic<bool> read = false;
-  std::jthread repeats{[&] {
-    while (!read) {
-      decisions.write(decision);
-      std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    }
-  }};
+  const Repeated repeated{[&] { decisions.write(decision); }};
   const bool heard = peer->says("\nend\n");
-  read = true;
   ASSERT_TRUE(heard) << peer->said() << bridge->said();
   EXPECT_THAT(peer->said(), HasSubstr(text_of(decision)));
 }
@@ -126,20 +138,16 @@ TEST_F(Interop, TheNodeDecidesOnAWorldOfAnotherVendorAndIsReadByIt) {
   bus::Writer<msg::KickerStatus> statuses{participant};
   Spawned node{TRIVELA_BINARY_DIR "/trivela-kick_decision", {"--config", (folder / "node.toml").string()}};
   ASSERT_TRUE(statuses.wait_for_readers(1, kPlenty)) << node.said();
-  std::atomic<bool> read = false;
-  std::jthread kicker{[&] {
-    for (msg::KickerStatus status{}; !read; std::this_thread::sleep_for(std::chrono::milliseconds{10})) {
-      status.robot_id = 1;
-      ++status.seq;
-      status.t_ns = std::chrono::nanoseconds{std::chrono::steady_clock::now().time_since_epoch()}.count();
-      status.ready = true;
-      status.charge = 0.97;
-      statuses.write(status);
-    }
+  const Repeated kicker{[&, status = msg::KickerStatus{}]() mutable {
+    status.robot_id = 1;
+    ++status.seq;
+    status.t_ns = std::chrono::nanoseconds{std::chrono::steady_clock::now().time_since_epoch()}.count();
+    status.ready = true;
+    status.charge = 0.97;
+    statuses.write(status);
   }};
   // The robot stands before the goal, its kicker is ready: it fires, and goes on deciding.
   const bool fired = peer->says("\nfire 1\n") && peer->says("\nend\n");
-  read = true;
   ASSERT_TRUE(fired) << node.said() << peer->said();
   EXPECT_EQ(peer_read("possession_id"), "7");
   EXPECT_EQ(peer_read("x_m"), "0x1p-2");

@@ -179,7 +179,11 @@ std::vector<Row> run(const Plan& plan) {
 std::vector<Row> run_tries(const Plan& plan) {
   std::vector<Row> rows;
   // Asked in a child: contenders are made before their parent knows the bus.
-  waitpid(fork_child([] { fmt::print("{}\n", about_loans()); }), nullptr, 0);
+  waitpid(fork_child([] {
+            fmt::print("{}\n", about_loans());
+            std::fflush(stdout);
+          }),
+          nullptr, 0);
   print_heading();
   std::deque<Contender> contenders = started(tries(), 0);
   for (const int rate_hz : plan.rates_hz) run_condition(contenders, {.rate_hz = rate_hz}, plan.samples, rows);
