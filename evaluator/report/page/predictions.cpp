@@ -96,10 +96,10 @@ std::string drift_figure(const PageView& view, const std::vector<HeightError>& e
                         3.0);
   }
   const std::string note = fmt::format(
-      "A pale dot is a kick that was predicted to cross at {:.1f} m or higher and did not touch the floor: {} of {}. "
-      "Full dots are means over set-points with about as many kicks each, with their 95 % interval: one that lies off "
-      "the line at 0 says that the height table has drifted there.",
-      kFree_m, errors.size(), view.data.kicks.size());
+      "Kicks that were predicted to cross at {:.1f} m or higher and did not touch the floor, {} of {}{}. Full dots are "
+      "means over set-points with about as many kicks each, with their 95 % interval: one that lies off the line at 0 "
+      "says that the height table has drifted there.",
+      kFree_m, errors.size(), view.data.kicks.size(), view.data.binned() ? "" : ": pale dots");
   for (const auto& [robot_id, means] : drift_of(errors)) {
     const std::string kind = colour(static_cast<std::size_t>(robot_id));
     for (const MeanError& mean : means) {
