@@ -43,7 +43,7 @@ void add_report(CLI::App& app, int& exit_code) {
     const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
     const evaluator::Report report = evaluator::make_report(reader, arguments->blocked == "apart");
     if (!arguments->html.empty()) {
-      evaluator::replace_file(arguments->html, evaluator::page::report_page(report, {arguments->log}), "--html");
+      write_file(arguments->html, evaluator::page::report_page(report, {arguments->log}));
     }
     const bool plain = !arguments->json && !arguments->csv;
     if (arguments->json) {
