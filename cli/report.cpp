@@ -13,7 +13,6 @@
 #include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
-#include "evaluator/report/write_file.hpp"
 #include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
@@ -119,8 +118,8 @@ void add_report(CLI::App& app, int& exit_code) {
     }
     const evaluator::Report report = report_of(*arguments);
     if (!arguments->html.empty()) {
-      const auto page = evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()});
-      evaluator::replace_file(arguments->html, page, "--html");
+      write_file(arguments->html,
+                 evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()}));
     }
     const std::string text = written(report, *arguments);
     arguments->out.empty() ? say(text) : write_file(arguments->out, text);

@@ -47,7 +47,7 @@ std::string axes(const Axis& x, const Axis& y) {
   for (std::size_t i = 0; i < x.ticks.size(); ++i) {
     const double px = x.scale.px(x.ticks[i]);
     svg += svg_line("grid", px, bottom, px, top);
-    if (i % every == 0) svg += svg_text(px, bottom + 18.0, "middle", tick_text(x.ticks[i]));
+    if (i % every == 0) svg += svg_text(px, bottom + 22.0, "middle", tick_text(x.ticks[i]));
   }
   for (const double tick : y.ticks) {
     svg += svg_line("grid", left, y.scale.px(tick), right, y.scale.px(tick));
@@ -55,7 +55,7 @@ std::string axes(const Axis& x, const Axis& y) {
   }
   svg += svg_line("axis", left, bottom, right, bottom) + svg_line("axis", left, bottom, left, top);
   const double middle = 0.5 * (bottom + top);
-  svg += svg_text(0.5 * (left + right), bottom + 38.0, "middle", x.label);
+  svg += svg_text(0.5 * (left + right), bottom + 41.0, "middle", x.label);
   svg += svg_text(14.0, middle, "middle", y.label, fmt::format(" transform=\"rotate(-90 14 {:.1f})\"", middle));
   return svg;
 }
@@ -63,7 +63,7 @@ std::string axes(const Axis& x, const Axis& y) {
 std::string colour(std::size_t number) { return fmt::format("c{}", number % kPageColours); }
 
 std::string interval_plot(IntervalPlot plot) {
-  constexpr double kLeft = 168.0, kRight = 366.0, kRow = 24.0, kTop = 8.0;
+  constexpr double kLeft = 190.0, kRight = 372.0, kRow = 24.0, kTop = 8.0;
   const double bottom = kTop + kRow * static_cast<double>(plot.rows.size());
   const Axis x = axis(plot.from / plot.unit, plot.to / plot.unit, kLeft, kRight, plot.axis_label);
   std::string svg;
@@ -85,7 +85,7 @@ std::string interval_plot(IntervalPlot plot) {
                     svg_line(colour(row.colour) + " interval", px_of(row.lo), y, px_of(row.hi), y) +
                         svg_circle(colour(row.colour), {px_of(row.value), y}, 5.0));
     }
-    if (!row.heading) svg += svg_text(kRight + 10.0, y + 5.0, "start", row.numbers);
+    if (!row.heading) svg += svg_text(kRight + 9.0, y + 5.0, "start", row.numbers);
     y += kRow;
   }
   plot.head.height = bottom + 48.0;

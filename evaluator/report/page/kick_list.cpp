@@ -115,7 +115,7 @@ std::string kick_list_section(const PageView& view) {
     return section("list", "Kicks",
                    paragraphs({fmt::format("{} kicks are too many for a list: a page lists up to {}. trivela query LOG "
                                            "--metric listed_kicks --csv has them all, "
-                                           "and a report of a log alone has its replays.",
+                                           "and a report of one match has its replays.",
                                            kicks.size(), kMostKicks)}));
   }
   const bool replays = kicks.size() <= kMostReplays;
@@ -125,7 +125,7 @@ std::string kick_list_section(const PageView& view) {
       "stands where a simulated clock knows no UTC."};
   if (!replays)
     notes.push_back(
-        fmt::format("Above {} kicks the list has no replays: a report of a log alone has them.", kMostReplays));
+        fmt::format("Above {} kicks the list has no replays: a report of one match has them.", kMostReplays));
   std::string body = filter_form(kicks);
   if (replays)
     body += fmt::format(

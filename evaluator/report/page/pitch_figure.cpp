@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "evaluator/report/page/figure.hpp"
@@ -39,6 +40,18 @@ std::string box(const Field& field, double depth_m) {
                       {p(-half_m, line), p(-half_m, line - depth_m), p(half_m, line - depth_m), p(half_m, line)});
 }
 
+/// As much of it as the picture has.
+std::string centre_circle(const Field& field) {
+  constexpr int kCorners = 120;
+  std::vector<ChartPoint> arc;
+  for (int i = 0; i <= kCorners; ++i) {  // from below, so that what is cut off lies at its ends
+    const double angle_rad = 2.0 * std::numbers::pi * (static_cast<double>(i) / kCorners - 0.25);
+    const double y_m = kCircle_m * std::sin(angle_rad);
+    if (y_m >= field.low_m) arc.push_back({field.x.px(kCircle_m * std::cos(angle_rad)), field.y.px(y_m)});
+  }
+  return svg_polyline("field", arc);
+}
+
 std::string lines(const Field& field) {
   const auto& [goal, side, low, bottom, x, y] = field;
   const double top = y.px(goal.y_m), floor = std::min(y.px(std::max(low, -goal.y_m)), bottom);
@@ -47,7 +60,7 @@ std::string lines(const Field& field) {
   svg += box(field, kAreaDepth_m) + box(field, kPenaltyDepth_m);
   if (low < 0.0) {
     svg += svg_line("field", x.px(-side), y.px(0.0), x.px(side), y.px(0.0));
-    svg += svg_circle("field", {x.px(0.0), y.px(0.0)}, x.length_px(kCircle_m));
+    svg += centre_circle(field);
   }
   const double post = goal.half_width_m;
   return svg + svg_polyline("goal-line", {{x.px(-post), top},

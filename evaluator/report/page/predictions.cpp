@@ -20,7 +20,11 @@ constexpr double kLeft = 62.0, kRight = 506.0, kTop = 10.0, kBottom = 290.0, kFi
 constexpr std::size_t kBands = 6;         // of set-points
 constexpr std::size_t kFewestInBand = 3;  // for a mean with an interval
 
-/// Observed minus predicted height of a kick that did not bounce.
+/// Predicted to cross lower, a ball may touch the floor before the line: those that did not are the higher ones, and
+/// their mean would say nothing of the table.
+constexpr double kFree_m = 0.3;
+
+/// Observed minus predicted height of a kick that flew freely to the line.
 struct HeightError {
   int robot_id = 0;
   double power = 0.0;
@@ -32,7 +36,7 @@ std::vector<HeightError> height_errors(const PageView& view) {
   for (const PageKick& kick : view.data.kicks) {
     const KickStory& story = kick.story;
     const bool seen = story.predicted && story.predicted->z_m && story.observed && story.observed->z_m;
-    if (!seen || !story.power || story.bounced.value_or(false)) continue;
+    if (!seen || !story.power || *story.predicted->z_m < kFree_m || story.bounced.value_or(false)) continue;
     errors.push_back({story.robot_id, *story.power, *story.observed->z_m - *story.predicted->z_m});
   }
   return errors;
@@ -91,10 +95,11 @@ std::string drift_figure(const PageView& view, const std::vector<HeightError>& e
       svg += svg_circle("faint " + colour(static_cast<std::size_t>(e.robot_id)), {x.scale.px(e.power), y_px(e.error_m)},
                         3.0);
   }
-  std::string note =
-      "A pale dot is a kick that did not touch the floor. Full dots are means over set-points with about as many "
-      "kicks each, with their 95 % interval: one that lies off the line at 0 says that the height table has drifted "
-      "there.";
+  const std::string note = fmt::format(
+      "Kicks that were predicted to cross at {:.1f} m or higher and did not touch the floor, {} of {}{}. Full dots are "
+      "means over set-points with about as many kicks each, with their 95 % interval: one that lies off the line at 0 "
+      "says that the height table has drifted there.",
+      kFree_m, errors.size(), view.data.kicks.size(), view.data.binned() ? "" : ": pale dots");
   for (const auto& [robot_id, means] : drift_of(errors)) {
     const std::string kind = colour(static_cast<std::size_t>(robot_id));
     for (const MeanError& mean : means) {
@@ -168,8 +173,10 @@ std::string reliability_figure(const PageView& view) {
 std::string prediction_section(const PageView& view) {
   const auto errors = height_errors(view);
   std::string body = "<h3>Height by set-point</h3>\n";
-  body += errors.empty() ? paragraphs({"No kick has both a predicted and an observed height without a bounce."})
-                         : drift_figure(view, errors) + drift_table(errors);
+  body +=
+      errors.empty()
+          ? paragraphs({"No kick has both a predicted height of 0.3 m or more and an observed one without a bounce."})
+          : drift_figure(view, errors) + drift_table(errors);
   body += "<h3>Probability of a shot on target</h3>\n";
   body += view.data.predictions.empty()
               ? paragraphs({"No kick was given a probability: the predictive policy neither played nor rode along."})
