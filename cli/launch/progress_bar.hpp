@@ -45,6 +45,9 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  /// Somebody sees it: what is shown may be worth some work.
+  bool is_seen() const { return terminal_; }
+
   /// `done` of `total` since the first call; `what` stands behind it.
   void show(double done, double total, const std::string& unit, const std::string& what) {
     if (!terminal_) return;

@@ -70,9 +70,7 @@ void Reader::hold_kicks() const {
   if (std::exchange(impl_->holds_kicks, true)) return;
   SQLite::Database& database = impl_->file.database();
   impl_->file.as_query([&] {
-    SQLite::Statement fired(database, "SELECT count(*) FROM kick_decisions WHERE fire = 1");
-    fired.executeStep();
-    if (fired.getColumn(0).getInt64() > kMostHeldKicks) return;
+    if (database.execAndGet("SELECT count(*) FROM kick_decisions WHERE fire = 1").getInt64() > kMostHeldKicks) return;
     // By the view's own name, which the others go by.
     database.exec(
         "CREATE TEMP TABLE put_together AS SELECT * FROM temp.kicks; DROP VIEW temp.kicks; "

@@ -130,7 +130,7 @@ struct TallyBook::Impl {
   SQLite::Statement insert;
   std::optional<SQLite::Transaction> transaction;
   std::chrono::steady_clock::time_point begun;
-  bool knows = false;
+  std::unique_ptr<SQLite::Database> known;  // the merged book
 };
 
 TallyBook::TallyBook(const fs::path& path, const StudyPlan& plan) : impl_(std::make_unique<Impl>(path, plan)) {}
@@ -141,10 +141,7 @@ void TallyBook::know(const fs::path& merged) {
     if (arguments != impl_->plan.arguments)
       throw against_book(merged, "is no merged book of this study: it was begun with other arguments, or is a shard");
   });
-  SQLite::Statement attach(*impl_->database, "ATTACH ? AS known");
-  attach.bind(1, merged.string());
-  attach.exec();
-  impl_->knows = true;
+  impl_->known = std::make_unique<SQLite::Database>(merged.string(), SQLite::OPEN_READONLY);  // many shards read it
 }
 
 std::int64_t TallyBook::arm(const std::string& text, const std::string& name) {
@@ -166,10 +163,9 @@ std::int64_t TallyBook::arm(const std::string& text, const std::string& name) {
 
 std::map<std::uint32_t, MatchCounts> TallyBook::matches_of(std::int64_t arm_id) const {
   std::map<std::uint32_t, MatchCounts> matches;
-  for (const char* const book : {"main", "known"}) {
-    if (book == std::string_view{"known"} && !impl_->knows) continue;
-    SQLite::Statement select(*impl_->database,
-                             fmt::format("SELECT {} FROM {}.tallies WHERE arm_id = ?", kCountColumns, book));
+  for (SQLite::Database* const book : {impl_->database.get(), impl_->known.get()}) {
+    if (book == nullptr) continue;
+    SQLite::Statement select(*book, fmt::format("SELECT {} FROM main.tallies WHERE arm_id = ?", kCountColumns));
     select.bind(1, arm_id);
     while (select.executeStep()) {
       const auto cell = [&](int i) { return select.getColumn(i).getInt64(); };
