@@ -115,9 +115,9 @@ std::string head_text(const PolicyComparison& c, std::size_t most_differences) {
 std::string to_short_text(const PolicyComparison& c) {
   std::string text = head_text(c, kMostDifferences);
   for (const PairResult& pair : c.pairs) text += short_line_of(pair, c);
-  std::string design = label(c.pairs.front().design);
-  std::ranges::replace(design, '_', ' ');
-  text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n", design,
+  const Design design = c.pairs.front().design;
+  text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n",
+                      design == Design::kBeforeAfter ? "before and after" : label(design),
                       c.book.outcome == "truth"      ? "by the simulator's truth"
                       : c.book.outcome == "labelled" ? "as labelled"
                                                      : "as observed");
