@@ -156,7 +156,8 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("--smallest-effect", arguments->smallest_effect_points,
                    "Smallest difference of interest, in percentage points (5)");
   verb->add_flag("--json", arguments->json, "JSON instead of text");
-  verb->add_flag("--all", arguments->all, "Every table, test and reservation, after the one line; JSON has them anyway");
+  verb->add_flag("--all", arguments->all,
+                 "Every table, test and reservation, after the one line; JSON has them anyway");
   verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   add_gates(*verb, arguments->gates, "'difference_lo(moving)>=0', 'kicks>=50'");
   verb->footer(
