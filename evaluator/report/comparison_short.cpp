@@ -70,19 +70,20 @@ std::string short_line_of(const PairResult& pair, const PolicyComparison& c) {
   if (!pair.headline) return fmt::format("{} against {}: {}\n", pair.newer, pair.older, pair.why_none);
   const Headline& h = *pair.headline;
   const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
-  return short_line({.older = pair.older,
-                     .newer = pair.newer,
-                     .causal = pair.design != Design::kBeforeAfter,
-                     .verdict = h.verdict,
-                     .measure = std::string(h.of_opportunities ? "of on target an opportunity" : "of efficiency") +
-                                (h.adjusted ? " on the same mix of " + c.book.stratified_by : ""),
-                     .difference = h.difference,
-                     .ci = h.ci,
-                     .p = h.p_holm,
-                     .comparisons = c.pairs.size(),
-                     .smallest_effect = c.smallest_effect,
-                     .unit = h.of_opportunities ? "opportunities" : "kicks",
-                     .more = missing(h.needed_for_smallest, effect.older, effect.newer)});
+  return short_line(
+      {.older = pair.older,
+       .newer = pair.newer,
+       .causal = pair.design != Design::kBeforeAfter,
+       .verdict = h.verdict,
+       .measure = std::string(h.of_opportunities ? "in shots on target an opportunity" : "in efficiency") +
+                  (h.adjusted ? " on the same mix of " + c.book.stratified_by : ""),
+       .difference = h.difference,
+       .ci = h.ci,
+       .p = h.p_holm,
+       .comparisons = c.pairs.size(),
+       .smallest_effect = c.smallest_effect,
+       .unit = h.of_opportunities ? "opportunities" : "kicks",
+       .more = missing(h.needed_for_smallest, effect.older, effect.newer)});
 }
 
 std::string remarks_of(const PolicyComparison& c) {
@@ -115,9 +116,9 @@ std::string head_text(const PolicyComparison& c, std::size_t most_differences) {
 std::string to_short_text(const PolicyComparison& c) {
   std::string text = head_text(c, kMostDifferences);
   for (const PairResult& pair : c.pairs) text += short_line_of(pair, c);
-  std::string design = label(c.pairs.front().design);
-  std::ranges::replace(design, '_', ' ');
-  text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n", design,
+  const Design design = c.pairs.front().design;
+  text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n",
+                      design == Design::kBeforeAfter ? "before and after" : label(design),
                       c.book.outcome == "truth"      ? "by the simulator's truth"
                       : c.book.outcome == "labelled" ? "as labelled"
                                                      : "as observed");
@@ -129,7 +130,7 @@ std::string to_short_text(const Comparison& c) {
   return short_line({.older = c.older.name,
                      .newer = c.newer.name,
                      .verdict = c.verdict,
-                     .measure = "of efficiency",
+                     .measure = "in efficiency",
                      .difference = c.difference,
                      .ci = c.newcombe95,
                      .p = p,

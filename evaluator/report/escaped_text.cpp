@@ -46,7 +46,7 @@ std::string_view replaced(const auto& pairs, char c) {
 bool begins_something(std::string_view text, std::size_t i) {
   const char c = text[i];
   const bool blank_follows = i + 1 == text.size() || text[i + 1] == ' ' || text[i + 1] == '\t';
-  if (c == '-' || c == '+') return i == 0 && blank_follows;
+  if (c == '-' || c == '+') return i == 0 && text.size() > 1 && blank_follows;
   const bool numbered = i > 0 && text.substr(0, i).find_first_not_of("0123456789") == std::string_view::npos;
   if (c == ')') return numbered && blank_follows;
   return c == '.' && ((numbered && blank_follows) || text.substr(0, i).ends_with("www"));

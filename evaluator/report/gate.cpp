@@ -138,7 +138,7 @@ class GateText {
     if (error != std::errc{} || !std::isfinite(gate_.bound)) fail(at_, "a number is missing, such as 0.7 or 70%");
     if (end != number.data() + number.size())
       fail(static_cast<std::size_t>(end - text_.data()), "nothing may follow the number");
-    if (percent) gate_.bound *= 0.01;
+    if (percent) gate_.bound /= 100.0;
   }
 
   const std::string& text_;

@@ -16,7 +16,6 @@ void markdown_table(std::string& text, const std::vector<std::vector<std::string
   for (std::size_t i = 0; i < table.front().size(); ++i) text += i == 0 ? "|:---" : "|---:";
   text += "|\n";
   for (std::size_t i = 1; i < table.size(); ++i) markdown_row(text, table[i]);
-  text += "\n";
 }
 
 }  // namespace
@@ -30,6 +29,7 @@ std::string to_markdown(const Report& report) {
   for (const ReportPart& part : parts.parts) {
     text += fmt::format("\n## {}\n\n", markdown_text(part.title));
     if (!part.table.empty()) markdown_table(text, part.table);
+    if (!part.table.empty() && !part.notes.empty()) text += "\n";
     for (const std::string& note : part.notes) text += fmt::format("- {}\n", markdown_text(note));
   }
   return parts.last.empty() ? text : fmt::format("{}\n{}\n", text, markdown_text(parts.last));

@@ -78,8 +78,7 @@ std::vector<PolicyRow> rows_of(const Report& report, std::optional<int> robot_id
   std::vector<PolicyRow> rows;
   for (const RobotRow& row : report.robots)
     if (row.robot_id == *robot_id) rows.push_back(row);
-  const bool only = report.robots.empty() && !report.sessions.empty() &&
-                    std::ranges::all_of(report.sessions, [&](const auto& s) { return s.robot_id == robot_id; });
+  const bool only = report.robot_ids.size() == 1 && report.robot_ids.front() == *robot_id;
   return only ? report.policies : rows;
 }
 

@@ -10,6 +10,7 @@
 #include "evaluator/report/report_heading.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -58,7 +59,7 @@ ReportPart table2_part(const Report& report) {
   std::vector<NamedBounces> bounces;
   bool blocked_apart = false;
   for (const PolicyRow& row : report.policies) {
-    bounces.push_back({name_of(row), row.bounces});
+    bounces.push_back({kicking::printable(name_of(row)), row.bounces});  // its lines are taken apart
     blocked_apart = blocked_apart || row.blocked_apart;
     part.table.push_back(who_of(report, row));
     add_counts(part.table.back(), row);

@@ -55,6 +55,7 @@ class Rows {
       row.blocked_apart = blocked_apart;
       if (key.robot_id != kAllRobots) robots.insert(key.robot_id);
     }
+    result.robot_ids.assign(robots.begin(), robots.end());
     for (auto& [key, row] : rows_) {
       if (key.robot_id == kAllRobots) {
         result.policies.push_back(std::move(row));

@@ -20,6 +20,7 @@ struct CountedLogs {
 struct ReportRows {
   std::vector<PolicyRow> policies;
   std::vector<RobotRow> robots;  ///< empty: there is one robot
+  std::vector<int> robot_ids;    ///< of all that kicked or had the ball
 };
 
 ReportRows report_rows(const CountedLogs& logs, bool blocked_apart);

@@ -198,6 +198,7 @@ Report make_report(std::span<const OpenLog> logs, bool blocked_apart) {
   ReportRows rows = report_rows({readers, logged, report.sessions, arms, report.labels.doubts}, blocked_apart);
   report.policies = std::move(rows.policies);
   report.robots = std::move(rows.robots);
+  report.robot_ids = std::move(rows.robot_ids);
   report.not_counted.insert(report.not_counted.end(), arms.apart.begin(), arms.apart.end());
   if (const std::string mix = mixture_of(logged, report.sessions); !mix.empty()) report.not_counted.push_back(mix);
   report.arms = std::move(arms.all);

@@ -89,6 +89,7 @@ struct Report {
   std::vector<Arm> arms;            ///< of experiments, whose sessions are not named one by one
   std::vector<PolicyRow> policies;  ///< by arm, and in the order of PolicyOrder
   std::vector<RobotRow> robots;     ///< by robot, arm and policy; empty: there is one robot
+  std::vector<int> robot_ids;       ///< of all that kicked or had the ball; 0: one that an import does not know
   std::vector<PlayedLength> lengths;
   ImportNotes imports{};                 ///< of sessions that no robot recorded
   std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice, or stands apart

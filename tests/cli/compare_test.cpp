@@ -126,7 +126,7 @@ int count_of_lines(const std::string& text) { return static_cast<int>(std::range
 TEST(CompareInShort, SaysOfCountsWhoIsBetterByHowMuchHowSureAndHowManyMoreAreNeeded) {
   const std::string text = run_verbs({add_compare}, "compare --counts old=34/65 new=100/132").out;
   EXPECT_THAT(text,
-              testing::StartsWith("new differs from old: +23.4 points of efficiency, 95 % +9.3 to +37.0, p 0.00112; no "
+              testing::StartsWith("new differs from old: +23.4 points in efficiency, 95 % +9.3 to +37.0, p 0.00112; no "
                                   "more kicks needed\n"));
   EXPECT_EQ(count_of_lines(text), 2);
   EXPECT_THAT(run_verbs({add_compare}, "compare --counts old=34/65 new=36/65").out,
@@ -176,7 +176,7 @@ TEST_F(CompareLogs, BeginWithWhatDiffersBetweenThem) {
   EXPECT_THAT(text, HasSubstr(line("robot 2 kicker.delay_s", "0.05", "0.06")));
   EXPECT_THAT(text, HasSubstr(line("sessions seed", "1", "2")));
   EXPECT_THAT(text, Not(HasSubstr("policy.same")));
-  EXPECT_LT(text.find("keep_off_m"), text.find("moving differs from stopped: +60.0 points of efficiency"))
+  EXPECT_LT(text.find("keep_off_m"), text.find("moving differs from stopped: +60.0 points in efficiency"))
       << "differences, then the effect";
   const auto json = nlohmann::json::parse(compared("--json").out);
   EXPECT_THAT(json["differences"].dump(), HasSubstr("keep_off_m"));

@@ -110,7 +110,7 @@ TEST_F(ReportVerb, WritesTheReportAndThenExitsByItsGates) {
   for (const char* const form : {"", "--json ", "--csv ", "--markdown ", "--latex "}) {
     const Result missed = run(std::string(form) + "--gate 'efficiency(stopped)>=0.7' --gate missing_rows==0");
     EXPECT_EQ(missed.exit_code, kDoneWithLoss) << form;
-    EXPECT_THAT(missed.out, HasSubstr("132")) << form;
+    EXPECT_THAT(missed.out, HasSubstr("34")) << form;
     EXPECT_THAT(missed.err, HasSubstr("gate MISSED: efficiency(stopped)>=0.7: 0.523077")) << form;
   }
   EXPECT_EQ(run("--gate 'kicks_per_min(moving)<=99'").exit_code, kDoneWithLoss) << "no minutes, no rate";

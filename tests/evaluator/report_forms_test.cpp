@@ -336,7 +336,7 @@ TEST(ReportForms, AHostileNameStaysAName) {
   EXPECT_EQ(CsvReport(to_csv(report)).of(2, "arm"), "'" + kicking::printable(kHostile))
       << "no formula, and one cell of one line";
   const std::string markdown = to_markdown(report);
-  for (const char* const markup : {"<b>", "](", "http://", "\n=1", "@e", "\\|`"})
+  for (const char* const markup : {"<b>", "[a](", "http://", "\n=1", "@e", "\\|`"})
     EXPECT_THAT(markdown, Not(HasSubstr(markup)));
   EXPECT_THAT(markdown, HasSubstr("\\`x\\`\\_\\*\\$\\\\&amp;\\#%\\{\\}"));
   EXPECT_THAT(to_latex(report), HasSubstr("\\textbackslash{}\\&\\#\\%\\{\\}\\textasciicircum{}"));

@@ -128,9 +128,10 @@ TEST_F(ReportOfALog, CsvHasALineForEachPolicy) {
   write_table2(match);
   match.close();
   const std::string csv = to_csv(make_report(log::Reader(path())));
-  EXPECT_THAT(csv, testing::StartsWith("policy,inside,outside,unknown,efficiency,wilson95_lo,wilson95_hi,"));
-  EXPECT_THAT(csv, HasSubstr("\nstopped,34,31,0,0.52307692"));
-  EXPECT_THAT(csv, HasSubstr(",,,11,0,20,0,0,0,0,1,0\nmoving,100,32,0,")) << "no exposure, no rate";
+  EXPECT_THAT(csv, testing::StartsWith("row,arm,policy,robot_id,inside,outside,unknown,efficiency,wilson95_lo,"));
+  EXPECT_THAT(csv, HasSubstr("\npolicy,,stopped,,34,31,0,0.52307692"));
+  EXPECT_THAT(csv, HasSubstr(",,,11,0,20,0,0,0,0,")) << "no exposure, no rate";
+  EXPECT_THAT(csv, HasSubstr("\npolicy,,moving,,100,32,0,"));
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   std::istringstream lines(csv);
   std::string head;
