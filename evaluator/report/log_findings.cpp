@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 using Findings = std::vector<LogFinding>;
 
 /// One finding a sentence, or that there is none.
-void add_findings(Findings& findings, const char* check, const std::vector<std::string>& sentences,
-                  const std::string& advice, const std::string& well) {
+void add_finding(Findings& findings, const char* check, const std::vector<std::string>& sentences,
+                 const std::string& advice, const std::string& well) {
   for (const std::string& sentence : sentences) findings.push_back({check, Health::kDoubtful, sentence, advice});
   if (sentences.empty()) findings.push_back({check, Health::kOk, well, ""});
 }
@@ -45,7 +45,7 @@ void look_at_sessions(const log::Reader& reader, Findings& findings) {
       open.push_back(fmt::format("session {} of {} was never closed: its last rows may be missing", session.uuid,
                                  session.robot_id ? fmt::format("robot {}", *session.robot_id) : "the base"));
   }
-  add_findings(
+  add_finding(
       findings, "sessions", open,
       "look for the rest: the folder where the recorder went on, /var/tmp, /dev/shm, other robots' logs; then trivela "
       "merge",
@@ -59,19 +59,19 @@ void look_for_gaps(const log::Reader& reader, Findings& findings) {
     rows += loss.received;
     if (loss.missing() > 0) lost.push_back(fmt::format("{}: {} rows are missing", loss.stream, loss.missing()));
   }
-  add_findings(
+  add_finding(
       findings, "rows", lost,
       "another recorder may have them: trivela merge; where they went: the columns of table losses, trivela report",
       fmt::format("{} were received and none is missing", rows));
   std::vector<RecordedSilence> silences = silences_of(reader);
   std::erase_if(silences, [](const RecordedSilence& silence) { return !silence.counts; });
-  add_findings(findings, "silences", silence_lines(silences),
-               "a node or its network was away: its own log, trivela doctor --network, trivela top while it runs",
-               "no stream fell silent");
+  add_finding(findings, "silences", silence_lines(silences),
+              "a node or its network was away: its own log, trivela doctor --network, trivela top while it runs",
+              "no stream fell silent");
   std::vector<UnrecordedOrders> orders = unrecorded_orders_of(reader);
   std::erase_if(orders, [](const UnrecordedOrders& of) { return !of.counts(); });
-  add_findings(findings, "orders", order_lines(orders), "the kicks count in no table: merge the log that has them",
-               "every order that a driver counted is there");
+  add_finding(findings, "orders", order_lines(orders), "the kicks count in no table: merge the log that has them",
+              "every order that a driver counted is there");
 }
 
 void look_at_lengths(const log::Reader& reader, Findings& findings) {
@@ -79,14 +79,14 @@ void look_at_lengths(const log::Reader& reader, Findings& findings) {
   book.add(reader, "this log");
   book.settle();
   const auto lengths = played_lengths(reader, book.sessions());
-  add_findings(findings, "length", cut_short_lines(lengths),
-               "compare counts what was played; play it again, or merge the rest",
-               lengths.empty() ? "nobody planned one" : "as planned");
+  add_finding(findings, "length", cut_short_lines(lengths),
+              "compare counts what was played; play it again, or merge the rest",
+              lengths.empty() ? "nobody planned one" : "as planned");
 }
 
 void look_at_goal(const log::Reader& reader, Findings& findings) {
   const LabelQuality quality = label_quality_of(reader);
-  add_findings(
+  add_finding(
       findings, "goal line", quality.goal_warnings(),
       "measure from the centre spot to the goal line, set goal.y_m; label the kicks by hand until then (trivela label)",
       quality.turns_at_goal > 0 ? fmt::format("{} balls came back from it", quality.turns_at_goal)
@@ -155,7 +155,7 @@ std::vector<LogFinding> compare_logs(const std::vector<fs::path>& paths) {
   std::vector<std::string> conflicts;
   for (const log::KickConflict& conflict : sayings.conflicts()) conflicts.push_back(conflict.line());
   Findings findings;
-  add_findings(
+  add_finding(
       findings, "conflicts", conflicts,
       "look at the kick (trivela label) and say what became of it: a label by hand counts before all recordings",
       "the logs say the same of every kick that several have");
