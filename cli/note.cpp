@@ -15,8 +15,6 @@
 namespace trivela::cli {
 namespace {
 
-namespace log = evaluator::log;
-
 struct NoteArguments {
   std::string log;
   std::string match, opponent, venue, text;
@@ -26,8 +24,8 @@ struct NoteArguments {
 };
 
 /// What was said, each kind once.
-std::vector<log::Note> said(const NoteArguments& arguments) {
-  std::vector<log::Note> notes;
+std::vector<evaluator::log::Note> said(const NoteArguments& arguments) {
+  std::vector<evaluator::log::Note> notes;
   const auto say_of = [&](const char* kind, const std::string& text) {
     if (!text.empty()) notes.push_back({.session_id = 0, .kind = kind, .text = text, .who = arguments.who});
   };
@@ -41,7 +39,7 @@ std::vector<log::Note> said(const NoteArguments& arguments) {
 }
 
 int list_notes(const NoteArguments& arguments) {
-  const log::Reader reader(arguments.log);
+  const evaluator::log::Reader reader(arguments.log);
   const auto notes = evaluator::session_notes(reader);
   for (const evaluator::SessionNote& note : notes) {
     if (!note.uuid.starts_with(arguments.session)) continue;
@@ -52,15 +50,15 @@ int list_notes(const NoteArguments& arguments) {
   return kDone;
 }
 
-int add_notes(const NoteArguments& arguments, std::vector<log::Note> notes) {
+int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> notes) {
   std::vector<std::int64_t> sessions;
-  for (const log::RecordedSession& session : log::Reader(arguments.log).sessions())
+  for (const evaluator::log::RecordedSession& session : evaluator::log::Reader(arguments.log).sessions())
     if (session.uuid.starts_with(arguments.session)) sessions.push_back(session.session_id);
   if (sessions.empty())
     throw std::runtime_error{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
-  log::Additions additions(arguments.log);
+  evaluator::log::Additions additions(arguments.log);
   const auto now_utc_ns = std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
-  for (log::Note& note : notes) {
+  for (evaluator::log::Note& note : notes) {
     for (const std::int64_t session_id : sessions) {
       note.session_id = session_id;
       additions.add(note, now_utc_ns);
@@ -87,7 +85,8 @@ void add_note(CLI::App& app, int& exit_code) {
   verb->add_option("--venue", arguments->venue, "Where");
   verb->add_option("--withdraw", arguments->withdraw,
                    "What was said of this no longer holds: match, opponent, venue, note")
-      ->check(CLI::IsMember(std::vector<std::string>(log::kNoteKinds.begin(), log::kNoteKinds.end())));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(evaluator::log::kNoteKinds.begin(), evaluator::log::kNoteKinds.end())));
   verb->add_option("--by", arguments->who, "Who says so");
   verb->add_option("--session", arguments->session, "How the uuid of the session begins; default: all of the log");
   verb->callback([arguments, &exit_code] {

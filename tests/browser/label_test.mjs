@@ -48,7 +48,7 @@ test.before(async () => {
   browser = await chromium.launch({executablePath: process.env.CHROMIUM, args: ['--no-sandbox']});
   await done('simulate', '--arms', 'moving', '--matches', '1', '--possessions', '12', '--out', 'sim.db');
   // As a recorder that saw little would have left it.
-  ask('UPDATE kick_outcomes SET outcome = \'unknown\', on_target = 0 WHERE seq IN (SELECT seq FROM kick_outcomes ORDER BY seq LIMIT 4);' +
+  ask('UPDATE kick_outcomes SET outcome = \'unknown\', on_target = 0 WHERE kick_id IN (SELECT kick_id FROM kick_outcomes ORDER BY t_ns LIMIT 4);' +
     'DELETE FROM digests; UPDATE sessions SET closed_t_ns = NULL');
 });
 
@@ -116,8 +116,8 @@ test('unknown kicks are labelled with the keyboard alone, and each label is a ro
 });
 
 test('texts of the log stay texts, nothing sticks out, and axe finds nothing', async () => {
-  const number = ask('SELECT kick_id & 0xffffffffff FROM kicks WHERE outcome = \'unknown\' ORDER BY t_ns LIMIT 1');
-  await done('label', 'sim.db', number, 'wide_left', '--by', hostile, '--note', hostile);
+  const kick = ask('SELECT robot_id || \':\' || (kick_id & 0xffffffffff) FROM kicks WHERE outcome = \'unknown\' ORDER BY t_ns LIMIT 1');
+  await done('label', 'sim.db', kick, 'wide_left', '--by', hostile, '--note', hostile);
   const server = trivela('label', 'sim.db', '--serve');
   const url = await server.firstLine;
   for (const colorScheme of ['light', 'dark']) {

@@ -51,7 +51,7 @@ TEST_F(AfterTheMatch, AKickIsLabelledAndTheLabelWithdrawn) {
   EXPECT_THAT(said({"label", log_}),
               AllOf(HasSubstr("1:3"), Not(HasSubstr("1:2")), HasSubstr("1 of 3 kicks are unknown")));
   EXPECT_EQ(said({"label", log_, "1:3", "wide_left", "--by", "Ada", "--note", "video 3:21"}),
-            "kick 1:3 at 0.22 s (stopped): wide left, says Ada; the observer says unknown\n");
+            "kick 1:3 at 0.18 s (stopped): wide left, says Ada; the observer says unknown\n");
   EXPECT_EQ(exit_code_, kDone);
   EXPECT_THAT(said({"label", log_}), AllOf(HasSubstr("wide left  Ada"), HasSubstr("0 of 3 kicks are unknown")));
   EXPECT_THAT(said({"report", log_}),
