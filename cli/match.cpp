@@ -168,15 +168,19 @@ void add_match(CLI::App& app, int& exit_code) {
           ->expected(0, 1);
   auto* watch = verb->add_flag("--watch", flags->watch,
                                "serve a live page of the match, which stays until Ctrl-C, and print its address");
-  verb->add_option("--pace", flags->pace,
-                   "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
-                   "same at every pace")
-      ->check(between(0.0, 1000.0))
-      ->needs(watch)
-      ->capture_default_str();
+  auto* pace =
+      verb->add_option(
+              "--pace", flags->pace,
+              "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
+              "same at every pace")
+          ->check(between(0.0, 1000.0))
+          ->needs(watch)
+          ->capture_default_str();
   for (CLI::Option* option : add_watch_flags(*verb, flags->page)) option->needs(watch);
-  verb->callback([flags, secure, &exit_code] {
+  verb->callback([flags, secure, pace, &exit_code] {
     if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
+    if (flags->devices == kEmulated && pace->count() > 0)
+      throw UsageError{"--pace: against emulated devices a match is played in real time"};
     config::Settings settings = settings_of(*flags);
     const auto keys = secure->count() == 0 ? nullptr : secure_children(flags->keys, settings.run.robot_id);
     const WatchFlags* const page = flags->watch ? &flags->page : nullptr;

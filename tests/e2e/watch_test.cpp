@@ -142,6 +142,7 @@ TEST(Watch, SaysWhatIsWrongWithItsFlags) {
   };
   refused(match_of("no.db", {"--pace", "2"}), 2, "--watch");
   refused(match_of("no.db", {"--listen", "127.0.0.1"}), 2, "--watch");
+  refused(match_of("no.db", {"--watch", "--pace", "2", "--devices", "emulated"}), 2, "played in real time");
   refused(match_of("no.db", {"--watch", "--pace", "nan"}), 2, "--pace");
   refused(match_of("no.db", {"--watch", "--set", "simulator.pace=2"}), 2, "--pace says it");
   refused({"monitor", "--listen", "127.0.0.1:x"}, 2, "'x' is no port");
