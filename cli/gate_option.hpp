@@ -13,7 +13,7 @@ namespace trivela::cli {
 /// Adds --gate, which may stand several times.
 inline void add_gates(CLI::App& verb, std::vector<std::string>& gates, const std::string& examples) {
   verb.add_option("--gate", gates, "Exit with 3 where this does not hold, once the report is written: " + examples)
-      ->type_name("METRIC(SUBJECT)>=NUMBER")
+      ->type_name("GATE")
       ->allow_extra_args(false);
 }
 
