@@ -73,9 +73,6 @@ class ProgressBar {
     started_.reset();
   }
 
-  /// Somebody sees it: what is shown may be worth some work.
-  bool is_seen() const { return terminal_; }
-
  private:
   using Instant = std::chrono::steady_clock::time_point;
   bool terminal_ = isatty(STDERR_FILENO) != 0;
