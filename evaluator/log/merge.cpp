@@ -238,7 +238,7 @@ class Merging {
       session.is_whole = choice.copy == Copy::kWhole && !without_text_.contains(session_id);
       if (session.is_whole) {
         if (!rows_of_whole(database, session_id)) digests.write(session_id);
-        write_tallies(database, session_id);
+        if (!has_tallies(database, session_id)) write_tallies(database, session_id);
       } else {
         reopen.bind(1, session_id);
         reopen.exec();

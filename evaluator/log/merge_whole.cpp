@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evaluator/log/row_digest.hpp"
@@ -28,7 +29,14 @@ std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path&
   }
   // A row that was left out is found by the number alone: what is copied is copied as it is.
   const std::int64_t recorded = database.execAndGet("SELECT coalesce(sum(row_count), 0) FROM whole.digests").getInt64();
-  if (rows == recorded) database.exec("INSERT OR IGNORE INTO main.digests SELECT * FROM whole.digests");
+  if (rows == recorded) {
+    database.exec("INSERT OR IGNORE INTO main.digests SELECT * FROM whole.digests");
+    for (const std::string_view table : kTallies)
+      database.exec(
+          fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM whole.{0} WHERE session_id IN (SELECT "
+                      "session_id FROM whole.tallied_sessions JOIN whole.digests USING (session_id, sha256))",
+                      table));
+  }
   transaction.commit();
   attach.reset();
   database.exec("DETACH whole");
@@ -40,6 +48,12 @@ std::optional<std::int64_t> rows_of_whole(SQLite::Database& database, std::int64
   digest.bind(1, session_id);
   if (!digest.executeStep()) return std::nullopt;
   return digest.getColumn(0).getInt64();
+}
+
+bool has_tallies(SQLite::Database& database, std::int64_t session_id) {
+  SQLite::Statement tallied(database, "SELECT 1 FROM main.tallied_sessions WHERE session_id = ?");
+  tallied.bind(1, session_id);
+  return tallied.executeStep();
 }
 
 std::int64_t counted_rows(SQLite::Database& database, std::int64_t session_id) {
