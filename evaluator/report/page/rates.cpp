@@ -41,7 +41,9 @@ std::string rates_section(const PageView& view) {
   if (!chances.empty()) {
     rows_of("chances", [&](const PolicyRow& row) -> std::optional<std::int64_t> {
       const auto found = chances.find(row.policy);
-      return found == chances.end() ? std::nullopt : std::optional(found->second);
+      const bool shared =
+          std::ranges::count(policies, row.policy, &PolicyRow::policy) > 1;  // whose they were is not said
+      return shared || found == chances.end() ? std::nullopt : std::optional(found->second);
     });
   }
   rows_of("kicks", [](const PolicyRow& row) { return std::optional(row.kicks()); });

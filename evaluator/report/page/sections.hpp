@@ -3,6 +3,7 @@
 #include <string>
 
 #include "evaluator/report/page/page_data.hpp"
+#include "evaluator/report/report_parts.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator::page {
@@ -36,9 +37,6 @@ std::string held_section(const PageView& view);
 std::string kick_list_section(const PageView& view);
 /// What is missing, doubtful or unknown, clocks, versions and hashes.
 std::string quality_section(const PageView& view);
-
-/// What a row of Table 2 is called everywhere on the page.
-std::string name_of(const PolicyRow& row);
 
 /// Place of a policy in Table 2: the number of its colour.
 std::size_t colour_of(const PageView& view, const std::string& policy);

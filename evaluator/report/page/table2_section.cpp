@@ -71,13 +71,11 @@ std::string table2_section(const PageView& view) {
     std::vector<Cells> by_robot{joined({"robot", "policy"}, kHead)};
     for (const RobotRow& row : report.robots)
       by_robot.push_back(
-          joined({std::to_string(row.robot_id), row.policy}, counts_of(row, stats::wilson(row.counts()))));
+          joined({std::to_string(row.robot_id), name_of(row)}, counts_of(row, stats::wilson(row.counts()))));
     body += table("By robot", by_robot);
   }
   return section("table2", "Table 2", body);
 }
-
-std::string name_of(const PolicyRow& row) { return row.policy; }
 
 std::size_t colour_of(const PageView& view, const std::string& policy) {
   const auto found = std::ranges::find(view.report.policies, policy, &PolicyRow::policy);
