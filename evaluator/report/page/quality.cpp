@@ -41,6 +41,7 @@ std::string bounds(const Report& report) {
   std::string body = "<h3>Unknown outcomes</h3>\n" + table("What unknown outcomes could make of the efficiency", rows);
   body += paragraphs(
       {"The bounds allow for labels that may be wrong, too, as far as the observer gave them a probability."});
+  if (report.hand_labels.kicks > 0) body += paragraphs({report.hand_labels.line()});
   if (report.compared_with_truth > 0) {
     body += paragraphs({fmt::format(
         "Observed outcomes like the simulator's truth: {} of {}. Nothing else on this page knows the truth.",

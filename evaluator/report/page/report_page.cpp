@@ -44,6 +44,13 @@ std::string title_of(const PageData& data) {
   return fmt::format("Match report: {} logs", data.logs.size());
 }
 
+/// Match, opponent, venue and notes.
+std::string said(const Report& report) {
+  std::vector<std::string> lines;
+  for (const SessionNote& note : report.notes) lines.push_back(line_of(note));
+  return list_of(lines);
+}
+
 std::string simulated_banner(const Report& report) {
   if (report.simulated_sessions() == 0) return "";
   std::string words = kSimulated;
@@ -82,7 +89,8 @@ std::string to_html(const Report& report, const PageData& data) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
       csp_hash(script), csp_hash(style), title, style);
-  page += "<header>\n<h1>" + title + "</h1>\n" + simulated_banner(report) + contents() + "</header>\n<main>\n";
+  page += "<header>\n<h1>" + title + "</h1>\n" + simulated_banner(report) + said(report) + contents() +
+          "</header>\n<main>\n";
   for (const PagePart& part : kParts) page += guarded(part, view);
   page += "</main>\n<script type=\"application/json\" id=\"stories\">" + stories(data) + "</script>\n";
   return page + "<script>" + script + "</script>\n</body>\n</html>\n";
