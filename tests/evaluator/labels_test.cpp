@@ -27,14 +27,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Int = std::int64_t;
 
-constexpr const char* kUuid = "00000000-0000-4000-8000-00000000000";
+constexpr const char* kAfterFirst = "0000000-0000-4000-8000-000000000001";
 
 class Labels : public LogTest {
  protected:
   /// Kicks 1 and 2 on target, 3 over, 4 unknown, 5 without a word of the observer; standing.
   std::filesystem::path match(const std::string& name = "match.db", char last = '1') {
     log::Session of = session();
-    of.uuid = kUuid + std::string(1, last);
+    of.uuid = last + std::string(kAfterFirst);
     MatchLog match(path(name), of, options());
     match.kicks(1, "on_target", 2);
     match.kick(1, "over");
@@ -130,9 +130,9 @@ TEST_F(Labels, AreCertain) {
   match();
   SQLite::Database(path().string(), SQLite::OPEN_READWRITE)
       .exec("UPDATE kick_outcomes SET p_on_target = 0.6; DELETE FROM digests; UPDATE sessions SET closed_t_ns = NULL");
-  EXPECT_NEAR(make_report(Reader(path())).labels.doubts["stopped"].inside, 0.8, 1e-9);
+  EXPECT_NEAR(make_report(Reader(path())).labels.doubts.at(0).doubt.inside, 0.8, 1e-9);
   say(1, "on_target");
-  EXPECT_NEAR(make_report(Reader(path())).labels.doubts["stopped"].inside, 0.4, 1e-9);
+  EXPECT_NEAR(make_report(Reader(path())).labels.doubts.at(0).doubt.inside, 0.4, 1e-9);
 }
 
 TEST_F(Labels, LeaveTheDigestOfTheRowsAsItIs) {
