@@ -18,18 +18,6 @@ using Cells = std::span<const log::Value>;
 
 constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
-/// What the decision says of its alignment.
-struct DecidedAlignment {
-  Pose robot{};
-  double alpha_rad = 0.0;
-  Eigen::Vector2d target_m{};
-  double distance_m = 0.0;
-  bool aligned = false;
-  std::optional<double> offset_right_m;
-  double left_m = 0.0;
-  double right_m = 0.0;
-};
-
 /// Where S1 begins. By law paper_line that is the robot's centre; by law physical the ball's place at the release,
 /// which the row has not, but of which distance, direction of S1 and offset leave one place alone.
 Eigen::Vector2d start_of_s1(const DecidedAlignment& a) {
@@ -40,6 +28,8 @@ Eigen::Vector2d start_of_s1(const DecidedAlignment& a) {
   const double turn_rad = std::atan2(*a.offset_right_m, a.distance_m);
   return a.target_m - a.distance_m * kicking::direction(a.robot.heading_rad - a.alpha_rad + turn_rad);
 }
+
+}  // namespace
 
 StorySegments segments_of(const DecidedAlignment& a) {
   StorySegments segments;
@@ -57,6 +47,8 @@ StorySegments segments_of(const DecidedAlignment& a) {
   segments.s2_right_m = a.target_m + a.right_m * right;
   return segments;
 }
+
+namespace {
 
 std::optional<double> seconds_after(std::int64_t t_ns, std::optional<std::int64_t> then_ns) {
   if (!then_ns || *then_ns <= 0) return std::nullopt;  // 0: never

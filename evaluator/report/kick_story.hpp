@@ -38,6 +38,20 @@ struct StorySegments {
   bool aligned = false;
 };
 
+/// What a decision says of its alignment.
+struct DecidedAlignment {
+  kicking::Pose robot{};
+  double alpha_rad = 0.0;
+  Eigen::Vector2d target_m{};
+  double distance_m = 0.0;
+  bool aligned = false;
+  std::optional<double> offset_right_m;
+  double left_m = 0.0;
+  double right_m = 0.0;
+};
+
+StorySegments segments_of(const DecidedAlignment& decided);
+
 /// A kick with what a replay of it needs. What the log does not have is empty.
 struct KickStory {
   std::int64_t session_id = 0;
