@@ -8,7 +8,9 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "config/installation.hpp"
 #include "evaluator/export/csv_export.hpp"
+#include "evaluator/export/mcap_export.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -69,6 +71,9 @@ int run_export(const ExportFlags& flags) {
       bar.show(static_cast<double>(rows), static_cast<double>(total), "rows", "");
       return !signals.stop_requested();
     };
+    if (!flags.mcap.empty())
+      say(told(flags.mcap, export_mcap(reader, flags.plan, flags.mcap, fmt::format("trivela {}", config::software_version()),
+                                       progress)));
     if (!flags.csv.empty()) say(told(flags.csv, export_csv(reader, flags.plan, flags.csv, progress)));
   } catch (const evaluator::BadExport& bad) {
     throw UsageError{bad.what()};
@@ -91,6 +96,7 @@ void add_export(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<ExportFlags>();
   verb->add_option("log", flags->log, "Match log of any version")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
+  verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")->type_name("FILE");
   verb->add_option("--stream", flags->plan.streams, "Only these, such as kick_decisions,kick_outcomes")->delimiter(',');
   verb->add_option("--session", flags->plan.sessions, "Only sessions whose uuid begins so")->delimiter(',');
   verb->add_flag("--force", flags->force, "Overwrite what is there");

@@ -36,6 +36,7 @@ void add_note(CLI::App& app, int& exit_code);
 void add_migrate(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
+void add_drift(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_evaluate_policy(CLI::App& app, int& exit_code);
 void add_learn(CLI::App& app, int& exit_code);

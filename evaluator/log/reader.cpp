@@ -130,6 +130,27 @@ void Reader::for_each_row_between(std::string_view table, const std::vector<std:
   }
 }
 
+void Reader::for_each_row_in_time(const std::vector<TimedPart>& parts, const PartInstant& instant,
+                                  const PartRow& fn) const {
+  try {
+    impl_->file.as_query([&] { rows_in_time(impl_->file.database(), parts, instant, fn); });
+  } catch (const WrongCell& wrong) {
+    throw std::runtime_error(fmt::format("cannot read the match log {}: column {} of a table is not {}",
+                                         impl_->file.path(), wrong.column + 1, wrong.wanted));
+  }
+}
+
+std::vector<int> Reader::robots_in(std::string_view table, std::int64_t session_id) const {
+  std::vector<int> robots;
+  query(fmt::format("WITH RECURSIVE robots (id) AS ("
+                    "SELECT (SELECT min(robot_id) FROM {0} WHERE session_id = {1}) UNION ALL "
+                    "SELECT (SELECT min(robot_id) FROM {0} WHERE session_id = {1} AND robot_id > id) FROM robots "
+                    "WHERE id IS NOT NULL) SELECT id FROM robots WHERE id IS NOT NULL",
+                    table, session_id),
+        [&](int robot_id) { robots.push_back(robot_id); });
+  return robots;
+}
+
 void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
                           const RowFunction& fn) const {
   const std::vector<Column> schema = impl_->schema_with(table, columns);

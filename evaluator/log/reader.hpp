@@ -13,6 +13,7 @@
 #include "evaluator/log/loss.hpp"
 #include "evaluator/log/queries.hpp"
 #include "evaluator/log/session.hpp"
+#include "evaluator/log/timed_rows.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -110,6 +111,13 @@ class Reader final : public Queries {
   /// as for_each_row().
   void for_each_row_between(std::string_view table, const std::vector<std::string>& columns, const StreamSpan& span,
                             const RowFunction& fn) const;
+
+  /// The rows of several parts of tables as one sequence in time: rows_in_time(). Throws std::runtime_error naming the
+  /// file.
+  void for_each_row_in_time(const std::vector<TimedPart>& parts, const PartInstant& instant, const PartRow& fn) const;
+
+  /// The robots that a session has rows of in a table of robots' streams, without walking through it.
+  std::vector<int> robots_in(std::string_view table, std::int64_t session_id) const;
 
   /// Somebody's own question about tables, their views and counted_kicks: `head` is called once with the names of its
   /// columns, then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.

@@ -1,0 +1,60 @@
+#include "evaluator/drift/factor_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trivela::evaluator {
+namespace {
+
+constexpr double kFar = -8.0;  // standard deviations, from where on Phi is taken by its tail
+
+double log_below(double c) {
+  if (c < kFar) return -0.5 * c * c - std::log(-c * std::sqrt(2.0 * std::numbers::pi));
+  return std::log(0.5 * std::erfc(-c / std::numbers::sqrt2));
+}
+
+}  // namespace
+
+double mean_below(double c) {
+  if (c < kFar) return c;
+  return -std::exp(-0.5 * c * c) / std::sqrt(2.0 * std::numbers::pi) / (0.5 * std::erfc(-c / std::numbers::sqrt2));
+}
+
+double FactorChart::sd() const {
+  const double known = std::max(0.0, static_cast<double>(count_) - 1.0);
+  return std::sqrt((rule_.expected_weight * rule_.expected_sd * rule_.expected_sd + squares_) /
+                   (rule_.expected_weight + known));
+}
+
+void FactorChart::judge(double x, bool at_most) {
+  const double sd = this->sd() * std::sqrt(1.0 + 1.0 / static_cast<double>(count_));  // the mean is not known, either
+  const double c = (x - mean_) / sd, d = rule_.shift / sd;
+  if (at_most) {
+    const double as_before = log_below(c);
+    up_ = std::max(0.0, up_ + log_below(c - d) - as_before);
+    down_ = std::max(0.0, down_ + log_below(c + d) - as_before);
+  } else {
+    const double z = std::clamp(c, -rule_.clip, rule_.clip);
+    up_ = std::max(0.0, up_ + d * (z - 0.5 * d));
+    down_ = std::max(0.0, down_ + d * (-z - 0.5 * d));
+  }
+}
+
+bool FactorChart::add(double x, bool at_most) {
+  if (at_most && count_ == 0) return false;  // says nothing of a mean that nobody knows
+  if (count_ >= static_cast<std::size_t>(rule_.quiet)) judge(x, at_most);
+  const double sd = this->sd();
+  if (at_most) {
+    const double c = (x - mean_) / sd, m = mean_below(c);
+    x = mean_ + sd * m;
+    squares_ += std::max(0.0, 1.0 + c * m - m * m) * sd * sd;
+  }
+  ++count_;
+  const double off = x - mean_;
+  mean_ += off / static_cast<double>(count_);
+  squares_ += off * (x - mean_);
+  return up_ > rule_.limit || down_ > rule_.limit;
+}
+
+}  // namespace trivela::evaluator

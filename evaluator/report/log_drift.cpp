@@ -1,0 +1,104 @@
+#include "evaluator/report/log_drift.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "evaluator/log/reader.hpp"
+#include "evaluator/report/log_sessions.hpp"
+#include "kicking/geometry/time.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+constexpr const char* kWatchedKicksSql = R"(
+SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns, k.release_t_ns,
+  k.outcome, k.bounced, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
+  d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
+FROM counted_kicks AS k
+JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq
+JOIN sessions AS s ON s.session_id = k.session_id
+JOIN utc_offsets AS u ON u.session_id = k.session_id
+WHERE k.accepted = 1)";
+
+/// A kick with where it stands.
+struct Row {
+  std::uint32_t session = 0;
+  int robot_id = 0;
+  bool simulated = false;
+  DriftKick at;
+  WatchedKick kick;
+};
+
+std::vector<Row> rows_of(const log::Reader& reader, const SessionPlaces& fresh) {
+  std::vector<Row> rows;
+  reader.query(
+      kWatchedKicksSql,
+      [&](std::int64_t session_id, const std::string& uuid, bool simulated, int robot_id, std::int64_t kick_id,
+          std::int64_t t_ns, std::int64_t utc_ns, std::optional<std::int64_t> release_t_ns,
+          const std::optional<std::string>& outcome, std::optional<bool> bounced, std::optional<double> z_cross_m,
+          std::optional<double> exit_speed_mps, double x_m, double y_m, double heading_rad, double vx_mps,
+          double vy_mps, double omega_radps, double target_y_m, std::optional<double> predicted_x_m,
+          std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
+        const auto session = fresh.find(session_id);
+        if (session == fresh.end()) return;
+        Row& row = rows.emplace_back(Row{session->second, robot_id, simulated, {uuid, kick_id, utc_ns}, {}});
+        row.kick = {.kick_id = kick_id,
+                    .t_ns = t_ns,
+                    .robot = {x_m, y_m, heading_rad},
+                    .twist = {vx_mps, vy_mps, omega_radps},
+                    .goal_y_m = target_y_m};
+        if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
+        row.kick.x_m = *predicted_x_m;
+        row.kick.z_m = *predicted_z_m;
+        row.kick.t_flight_s = *t_flight_s;
+        row.kick.lead_s = release_t_ns ? kicking::seconds(*release_t_ns - t_ns) : 0.0;
+        row.kick.seen_to_the_line = outcome && *outcome != "blocked" && *outcome != "unknown";
+        row.kick.bounced = bounced.value_or(false);
+        row.kick.z_cross_m = z_cross_m;
+        row.kick.exit_speed_mps = exit_speed_mps;
+      });
+  return rows;
+}
+
+}  // namespace
+
+bool DriftReport::found() const {
+  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.story.drifts.empty(); });
+}
+
+DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
+  std::vector<Row> rows;
+  SessionBook book;
+  for (const std::filesystem::path& path : logs) {
+    const log::Reader reader{path};
+    for (Row& row : rows_of(reader, book.add(reader, path.string()))) rows.push_back(std::move(row));
+  }
+  book.settle();
+  DriftReport report{.robots = {}, .remarks = book.remarks()};
+  report.remarks.insert(report.remarks.end(), book.not_counted().begin(), book.not_counted().end());
+  std::erase_if(rows, [&](const Row& row) { return !book.counts(row.session, row.robot_id, row.at.kick_id); });
+  std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::pair(row.at.utc_ns, row.at.kick_id); });
+  using Series = std::pair<int, std::string>;  // robot; session where it is one by itself
+  std::map<Series, std::vector<const Row*>> series;
+  for (const Row& row : rows) series[{row.robot_id, row.simulated ? row.at.session : ""}].push_back(&row);
+  for (const auto& [of, kicks] : series) {
+    RobotDrift& robot = report.robots.emplace_back();
+    robot.robot_id = of.first;
+    robot.simulated = !of.second.empty();
+    std::vector<KickResidual> residuals;
+    for (const Row* const row : kicks) {
+      if (robot.kicks.empty() || robot.kicks.back().session != row->at.session) ++robot.sessions;
+      robot.kicks.push_back(row->at);
+      residuals.push_back(residual_of(row->kick));
+    }
+    robot.story = drifts_of(residuals);
+  }
+  std::ranges::stable_sort(report.robots, {}, [](const RobotDrift& robot) {
+    return std::pair(robot.robot_id, robot.kicks.front().utc_ns);
+  });
+  return report;
+}
+
+}  // namespace trivela::evaluator
