@@ -302,6 +302,7 @@ void fields(V& v, Simulator& s) {
   v("max_possessions", s.max_possessions, Range{0, 1000000});
   v("paired_halves", s.paired_halves);
   v("devices", s.devices);
+  v("referee", s.referee);
 }
 
 template <class V>
@@ -343,6 +344,15 @@ void fields(V& v, Refbox& r) {
 }
 
 template <class V>
+void fields(V& v, TeamLink& t) {
+  v("domain_id", t.domain_id, Range{0, 100});
+  v("dds_file", t.dds_file);
+  v("interface", t.interface);
+  v("base", t.base);
+  v("referee", t.referee);
+}
+
+template <class V>
 void fields(V& v, Settings& s) {
   v("run", s.run);
   v("domain", s.domain);
@@ -360,6 +370,7 @@ void fields(V& v, Settings& s) {
   v("recorder", s.recorder);
   v("scan_recorder", s.scan_recorder);
   v("refbox", s.refbox);
+  v("team_link", s.team_link);
 }
 
 }  // namespace trivela::config

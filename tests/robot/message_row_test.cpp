@@ -24,7 +24,8 @@ class MessageRowTest : public evaluator::LogTest {};
 
 /// What is said on the bus and stands in no log.
 const std::set<std::string> kNotRecorded{"DeviceWheels", "DeviceGyro",     "DeviceDrive", "DeviceKicker", "DeviceFire",
-                                         "DeviceCharge", "DeviceEmulated", "SimScan",     "StepDone"};
+                                         "DeviceCharge", "DeviceEmulated", "SimScan",     "StepDone",
+                                         "TeamHeard",    "TeamState"};
 
 /// Calls f.operator()<T>(table) for each message with a table of the log.
 template <class F>
