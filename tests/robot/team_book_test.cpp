@@ -65,7 +65,7 @@ class RefereeOfTheBase : public testing::Test {
   // The base is 50 s ahead; each message takes 2 ms.
   void meet(std::int64_t now_ns) {
     base.heard(said(robot, now_ns), now_ns + 50 * kS + 2 * kMs);
-    robot.heard(said(base, now_ns + 50 * kS), now_ns + 2 * kMs);
+    robot.heard(said(base, now_ns + 50 * kS + 2 * kMs), now_ns + 4 * kMs);
   }
   static msg::Referee word(std::int64_t t_ns, bool playing) {
     msg::Referee word{};
@@ -78,14 +78,14 @@ class RefereeOfTheBase : public testing::Test {
 };
 
 TEST_F(RefereeOfTheBase, IsNotHeardBeforeItsClockIsKnown) {
-  EXPECT_FALSE(robot.own_referee(word(51 * kS, true), kS));
+  EXPECT_FALSE(robot.own_referee(word(51 * kS, true), kS + 5 * kMs));
   meet(kS);
-  EXPECT_TRUE(robot.own_referee(word(51 * kS, true), kS + 3 * kMs));
+  EXPECT_TRUE(robot.own_referee(word(51 * kS, true), kS + 5 * kMs));
 }
 
 TEST_F(RefereeOfTheBase, HasOurNumberAndOurClockAndIsNeverYoungerThanItIs) {
   meet(kS);
-  const auto ours = robot.own_referee(word(51 * kS, true), kS + 4 * kMs);
+  const auto ours = robot.own_referee(word(51 * kS, true), kS + 5 * kMs);
   ASSERT_TRUE(ours);
   EXPECT_EQ(ours->robot_id, 3);
   EXPECT_EQ(ours->seq, 1u);
@@ -93,17 +93,17 @@ TEST_F(RefereeOfTheBase, HasOurNumberAndOurClockAndIsNeverYoungerThanItIs) {
   EXPECT_EQ(ours->command_counter, 4u);
   EXPECT_LE(ours->t_ns, kS);
   EXPECT_GT(ours->t_ns, kS - 3 * kMs) << "older by no more than what the clock is not known to";
-  const auto ahead = robot.own_referee(word(60 * kS, true), kS + 5 * kMs);
+  const auto ahead = robot.own_referee(word(60 * kS, true), kS + 6 * kMs);
   ASSERT_TRUE(ahead);
-  EXPECT_EQ(ahead->t_ns, kS + 5 * kMs) << "nothing is of the future";
+  EXPECT_EQ(ahead->t_ns, kS + 6 * kMs) << "nothing is of the future";
 }
 
 TEST_F(RefereeOfTheBase, AStopIsNotUndoneByAnOlderWordThatCameLate) {
   meet(kS);
-  EXPECT_TRUE(robot.own_referee(word(51 * kS + 100 * kMs, false), kS));
-  EXPECT_FALSE(robot.own_referee(word(51 * kS, true), kS));
-  EXPECT_FALSE(robot.own_referee(word(std::numeric_limits<std::int64_t>::max(), true), kS));
-  EXPECT_FALSE(robot.own_referee(word(std::numeric_limits<std::int64_t>::min(), true), kS));
+  EXPECT_TRUE(robot.own_referee(word(51 * kS + 100 * kMs, false), kS + 5 * kMs));
+  EXPECT_FALSE(robot.own_referee(word(51 * kS, true), kS + 5 * kMs));
+  EXPECT_FALSE(robot.own_referee(word(std::numeric_limits<std::int64_t>::max(), true), kS + 5 * kMs));
+  EXPECT_FALSE(robot.own_referee(word(std::numeric_limits<std::int64_t>::min(), true), kS + 5 * kMs));
 }
 
 TEST(TeamSummary, WhatIsSilentIsAnAlarmAndNoNumber) {
