@@ -18,7 +18,7 @@
 
 namespace trivela::nodes {
 
-constexpr double kTeamPeriod_s = bus::meta<msg::TeamState>::period_s;
+constexpr double kTeamPeriod_s = 0.35;  // a second without a state is a silence: on the air a few are lost in a row
 
 using evaluator::log::LossKind;
 using evaluator::log::TableId;

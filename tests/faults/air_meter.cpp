@@ -11,6 +11,7 @@ namespace trivela::faults {
 namespace {
 
 constexpr std::uint8_t kData = 0x15;
+constexpr double kEthernetHeader = 14;
 constexpr std::size_t kLongestReferee = 132;  // of the data's submessage: referee has 60 bytes of data, team_state 200
 
 AirKind kind_of(std::span<std::uint8_t> frame) {
@@ -27,7 +28,7 @@ AirKind kind_of(std::span<std::uint8_t> frame) {
 void AirMeter::count(std::span<std::uint8_t> frame) {
   Count& kind = counts[static_cast<std::size_t>(kind_of(frame))];
   ++kind.frames;
-  kind.bytes += static_cast<double>(frame.size());
+  kind.bytes += static_cast<double>(frame.size()) - kEthernetHeader;
   longest = std::max(longest, frame.size());
 }
 

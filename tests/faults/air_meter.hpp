@@ -18,14 +18,14 @@ enum class AirKind : std::uint8_t {
 };
 inline constexpr std::size_t kAirKinds = 5;
 
-/// Frames that hosts sent, each once however many took it, with all their headers up to Ethernet's.
+/// Frames that hosts sent, each once however many took it, with the headers of IP and UDP, as config/team_bus.hpp counts.
 struct AirMeter {
   struct Count {
     double frames = 0;
     double bytes = 0;
   };
   std::array<Count, kAirKinds> counts{};
-  std::size_t longest = 0;  ///< bytes of a frame
+  std::size_t longest = 0;  ///< bytes of a frame, with Ethernet's header
 
   void count(std::span<std::uint8_t> frame);
   const Count& of(AirKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
