@@ -89,8 +89,8 @@ struct Flying {
   msg::TeamState state;
 };
 
-/// The worst that the estimates between any two of `participants` were off, after the first two seconds; each must lie
-/// within its own error.
+/// The worst that the estimates between any two of `participants` were off, after the first five seconds, half a
+/// window; each must lie within its own error.
 std::int64_t worst_offset(std::vector<Participant>& participants, double loss, std::int64_t jitter_ns,
                           std::int64_t length_ns, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share{0.0, 1.0};
@@ -112,7 +112,7 @@ std::int64_t worst_offset(std::vector<Participant>& participants, double loss, s
         if (to != i && share(random) >= loss) air.push_back({t + std::llround(taken), to, state});
       }
     }
-    if (t < 2 * kS) continue;
+    if (t < 5 * kS) continue;
     for (Participant& one : participants)
       for (std::size_t k = 0; k < participants.size(); ++k) {
         Participant& other = participants[k];
