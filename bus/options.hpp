@@ -36,6 +36,9 @@ struct ReaderOptions {
   /// Looks on and is no part of the graph: best effort and volatile, so that no writer waits for it or keeps anything
   /// for it, without a demand of its own, and marked, so that wait_for_readers() and readers() do not count it.
   bool observer = false;
+  /// An observer of a state topic that is given the last sample of each writer when it joins: reliable, so that this
+  /// one is sent again where it was lost.
+  bool with_the_last = false;
   /// Called on Cyclone's threads when a writer appears, lapses or returns; must not throw, block or write.
   std::function<void(const Liveliness&)> on_liveliness = {};
 };

@@ -1,13 +1,14 @@
 #include "bus/process.hpp"
 
 #include <fcntl.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -87,6 +88,29 @@ Realtime set_realtime(int priority) {
   return {.scheduled = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0,
           .memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0,
           .processors_awake = keep_processors_awake()};
+}
+
+std::vector<int> processors_allowed() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  std::vector<int> processors;
+  for (int processor = 0; processor < CPU_SETSIZE; ++processor)
+    if (CPU_ISSET(processor, &allowed)) processors.push_back(processor);
+  return processors;
+}
+
+void stay_on(int processor) {
+  const std::vector<int> allowed = processors_allowed();
+  if (std::ranges::find(allowed, processor) == allowed.end()) {
+    throw Error("start", fmt::format("processor {}", processor),
+                fmt::format("this process may use {}", fmt::join(allowed, ", ")));
+  }
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(processor, &one);
+  if (sched_setaffinity(0, sizeof one, &one) != 0)
+    throw Error("start", fmt::format("processor {}", processor), "the kernel does not keep this process there");
 }
 
 }  // namespace trivela::bus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace trivela::bus {
 
@@ -26,5 +27,12 @@ struct Realtime {
 /// Participant: the bus's threads inherit it. Under load scheduling matters a hundred times more than the transport;
 /// when idle the wake-up of a sleeping processor takes longer than the whole chain.
 Realtime set_realtime(int priority);
+
+/// The processors that this process may use, ascending.
+std::vector<int> processors_allowed();
+
+/// Keeps this thread and those that it starts on one processor. Call it before the first Participant, as
+/// set_realtime(). Throws Error naming those that there are where it is none of them.
+void stay_on(int processor);
 
 }  // namespace trivela::bus

@@ -19,11 +19,13 @@ std::string userdata_of(const dds_qos_t* qos) {
   return text;
 }
 
-// What every writer of the profile meets: a reader that demands nothing.
-Qos observer_qos(Profile profile, bool keep_all) {
+// What every writer of the profile meets: a reader that demands nothing but, if asked to, the last sample.
+Qos observer_qos(Profile profile, const ReaderOptions& options) {
   Qos qos(dds_create_qos());
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
-  if (keep_all) {
+  const bool last = options.with_the_last && profile == Profile::kState;
+  dds_qset_reliability(qos.get(), last ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
+  if (last) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+  if (options.keep_all) {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   } else {
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, profile == Profile::kEvent ? kEventDepth : 1);
@@ -67,7 +69,7 @@ Qos writer_qos(Profile profile, const WriterOptions& options) {
 }
 
 Qos reader_qos(Profile profile, const ReaderOptions& options) {
-  if (options.observer) return observer_qos(profile, options.keep_all);
+  if (options.observer) return observer_qos(profile, options);
   Qos qos = profile_qos(profile, options.period);
   // The kind is demanded, the lease is the writer's to choose.
   dds_qset_liveliness(qos.get(), profile == Profile::kOrder ? DDS_LIVELINESS_MANUAL_BY_TOPIC : DDS_LIVELINESS_AUTOMATIC,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/collect/fetch.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/sound_team.hpp"
 #include "cli/verbs.hpp"
@@ -44,7 +45,10 @@ int run_collect(const CollectArguments& arguments) {
   if (error) throw std::runtime_error{fmt::format("cannot make the folder {}: {}", arguments.to, error.message())};
   std::vector<std::vector<std::string>> rows{{"robot", "logs", "here", "still written", "missing"}};
   std::vector<std::string> missing;
+  ProgressBar bar;
+  double done = 0.0;
   for (const LogHost& host : hosts) {
+    bar.show(done++, static_cast<double>(hosts.size()), "robots", host.host);
     const Fetched fetched = fetch_logs(host, arguments.to, arguments.ssh);
     rows.push_back({host.host, std::to_string(fetched.logs), std::to_string(fetched.here),
                     std::to_string(fetched.being_written.size()), std::to_string(fetched.missing.size())});
@@ -53,6 +57,7 @@ int run_collect(const CollectArguments& arguments) {
           fmt::format("{}: {} is being written; collect again when its recorder has ended", host.host, name));
     for (const std::string& line : fetched.missing) missing.push_back(fmt::format("{}: {}", host.host, line));
   }
+  bar.end();
   say(evaluator::text_table(rows) + '\n');
   if (missing.empty()) {
     say("missing: nothing\n");

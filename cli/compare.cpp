@@ -1,16 +1,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <span>
 
 #include "cli/compare_input.hpp"
+#include "cli/gate_option.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/comparison_gates.hpp"
+#include "evaluator/report/json_values.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/policy_comparison.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -27,6 +34,9 @@ struct CompareArguments {
   std::string blocked = "outside";
   double smallest_effect_points = 100.0 * evaluator::stats::kSmallestEffect;
   bool json = false;
+  bool all = false;
+  std::string out;
+  std::vector<std::string> gates;
 };
 
 std::string csv_name(const CompareArguments& arguments) {
@@ -87,28 +97,65 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
     book.design_reason = "as --design says";
   }
   try {
-    return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+    auto comparison = evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+    comparison.logs = arguments.logs;
+    const std::vector<std::filesystem::path> logs(arguments.logs.begin(), arguments.logs.end());
+    if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
+    return comparison;
   } catch (const std::runtime_error& error) {
     if (!of_csv) throw;
     throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
   }
 }
 
-void print_comparison(const CompareArguments& arguments) {
-  const auto print = [&](const auto& comparison) {
-    arguments.json ? fmt::print("{}", evaluator::to_json(comparison)) : say(evaluator::to_text(comparison));
+void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
+
+// Writes it, then says whether its gates are met.
+bool write_comparison(const CompareArguments& arguments, auto comparison, std::span<const evaluator::Gate> gates) {
+  comparison.gates = evaluator::judge_gates(comparison, gates);
+  const std::string text = arguments.json  ? evaluator::to_json(comparison)
+                           : arguments.all ? evaluator::to_text(comparison)
+                                           : evaluator::to_short_text(comparison);
+  write_out(arguments.out, text);
+  return warn_of_gates(comparison.gates);
+}
+
+/// Arms of a book of tallies, which has the sums of each match and nothing to compare within.
+experiment::Summary compared_book(const CompareArguments& arguments) {
+  const auto refuse = [](const std::string& flag) {
+    throw UsageError(fmt::format("{}: a book of tallies has the sums of each arm's matches alone", flag));
   };
+  if (!arguments.by.empty() && arguments.by != "arm") refuse("--by " + arguments.by);
+  if (!arguments.stratify.empty()) refuse("--stratify " + arguments.stratify);
+  if (!arguments.gates.empty()) refuse("--gate");
+  if (!arguments.design.empty()) refuse("--design " + arguments.design);
+  if (arguments.outcome == "truth") refuse("--outcome truth");
+  auto summary =
+      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
+  if (!arguments.baseline.empty() && !experiment::put_first(summary, arguments.baseline))
+    throw UsageError(fmt::format("--baseline '{}': there is no such arm", arguments.baseline));
+  return summary;
+}
+
+bool run_comparison(const CompareArguments& arguments) {
   check(arguments);
-  if (arguments.counts.empty()) return print(compared(arguments));
+  if (arguments.logs.size() == 1 && evaluator::log::any_is_tally_book({arguments.logs.front()})) {
+    const experiment::Summary summary = compared_book(arguments);
+    write_out(arguments.out, arguments.json ? evaluator::json_text(to_json(summary)) : to_text(summary));
+    return true;
+  }
+  const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
+  require_writable("--out", arguments.out);
+  if (arguments.counts.empty()) return write_comparison(arguments, compared(arguments), gates);
   const auto [older, newer] = parse_two_counts(arguments.counts);
-  print(evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points));
+  return write_comparison(arguments, evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points), gates);
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
   auto* const verb =
-      app.add_subcommand("compare", "Compare policies, height tables, robots or arms: how much, how sure, why");
+      app.add_subcommand("compare", "Compare policies, height tables, robots, arms or logs: how much, how sure, why");
   const auto arguments = std::make_shared<CompareArguments>();
   verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; their sessions are taken together")
       ->type_name("DB");
@@ -117,12 +164,13 @@ void add_compare(CLI::App& app, int& exit_code) {
                    "minutes, distance_m, kicked, opportunity and any others")
       ->type_name("FILE|-");
   verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132");
-  verb->add_option(
-      "--by", arguments->by,
-      "What is compared: policy, table, robot or arm; of a CSV any column (policy; arm where a log has several)");
+  verb->add_option("--by", arguments->by,
+                   "What is compared: policy, table, robot, arm or log; of a CSV any column (arm where a log has "
+                   "several, else policy, "
+                   "or log where there is one policy)");
   verb->add_option(
       "--stratify", arguments->stratify,
-      "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm of "
+      "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm, log of "
       "a log, any column of a CSV");
   verb->add_option("--baseline", arguments->baseline, "The group that the others are compared with (the first)");
   verb->add_option("--design", arguments->design, "How the groups came about, where the data do not say it")
@@ -135,14 +183,15 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("--smallest-effect", arguments->smallest_effect_points,
                    "Smallest difference of interest, in percentage points (5)");
   verb->add_flag("--json", arguments->json, "JSON instead of text");
+  verb->add_flag("--all", arguments->all,
+                 "Every table, test and reservation, after the one line; JSON has them anyway");
+  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
+  add_gates(*verb, arguments->gates, "'difference_lo(moving)>=0', 'kicks>=50'");
   verb->footer(
       "Examples: trivela compare ab.db --outcome truth\n"
       "          trivela compare --csv kicks.csv --stratify distance\n"
       "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
-  verb->callback([arguments, &exit_code] {
-    print_comparison(*arguments);
-    exit_code = kDone;
-  });
+  verb->callback([arguments, &exit_code] { exit_code = run_comparison(*arguments) ? kDone : kDoneWithLoss; });
 }
 
 }  // namespace trivela::cli

@@ -13,6 +13,7 @@
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
 #include "config/settings.hpp"
+#include "evaluator/report/log_findings.hpp"
 #include "monitor/network/findings.hpp"
 #include "monitor/network/gather.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -23,6 +24,7 @@ namespace {
 namespace network = monitor::network;
 
 struct DoctorFlags {
+  std::vector<std::string> logs;
   std::string config = config::shipped("default.toml").string();
   std::optional<std::uint32_t> domain;
   std::string interface;
@@ -51,7 +53,7 @@ void say_findings(const std::vector<network::Finding>& findings) {
   }
 }
 
-void say_json(const std::vector<network::Finding>& findings) {
+nlohmann::ordered_json json_of(const std::vector<network::Finding>& findings) {
   auto all = nlohmann::ordered_json::array();
   for (const network::Finding& finding : findings) {
     std::string verdict = verdict_text(finding.verdict);
@@ -59,7 +61,11 @@ void say_json(const std::vector<network::Finding>& findings) {
     all.push_back(
         {{"check", finding.check}, {"verdict", verdict}, {"value", finding.value}, {"advice", finding.advice}});
   }
-  say(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  return all;
+}
+
+void say_json(const std::vector<network::Finding>& findings) {
+  say(json_of(findings).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 /// The team's machines are peers, its interface and the domain between the machines what is looked at.
@@ -71,6 +77,38 @@ DoctorFlags with_team(DoctorFlags flags) {
   for (const config::TeamRobot& robot : team.robots) flags.peers.push_back(robot.address);
   flags.peers.push_back(team.base.address);
   return flags;
+}
+
+/// A log's finding as the network's are said.
+network::Finding finding_of(const evaluator::LogFinding& found) {
+  using evaluator::Health;
+  const network::Verdict verdict = found.health == Health::kOk    ? network::Verdict::kOk
+                                   : found.health == Health::kBad ? network::Verdict::kBad
+                                                                  : network::Verdict::kWarn;
+  return {found.check, verdict, found.value, found.advice};
+}
+
+/// Logs whose findings are worst decide: one that cannot be read or was changed, one that misses something.
+int examine_logs(const DoctorFlags& flags) {
+  evaluator::Health worst = evaluator::Health::kOk;
+  auto all = nlohmann::ordered_json::array();
+  const auto tell = [&](const std::string& of, const std::vector<evaluator::LogFinding>& found) {
+    std::vector<network::Finding> findings;
+    for (const evaluator::LogFinding& one : found) {
+      worst = std::max(worst, one.health);
+      findings.push_back(finding_of(one));
+    }
+    if (flags.json) {
+      all.push_back({{"log", of}, {"findings", json_of(findings)}});
+    } else {
+      say(of + '\n');
+      say_findings(findings);
+    }
+  };
+  for (const std::string& log : flags.logs) tell(log, evaluator::examine_log(log));
+  if (flags.logs.size() > 1) tell("all of them", evaluator::compare_logs({flags.logs.begin(), flags.logs.end()}));
+  if (flags.json) say(all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  return worst == evaluator::Health::kBad ? kFailed : worst == evaluator::Health::kDoubtful ? kDoneWithLoss : kDone;
 }
 
 int examine(const DoctorFlags& flags) {
@@ -87,13 +125,21 @@ int examine(const DoctorFlags& flags) {
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("doctor", "Say what is wrong with this machine's network, and what to do about it");
+  auto* verb = app.add_subcommand(
+      "doctor", "Say what is wrong with match logs or this machine's network, and what to do about it");
   auto flags = std::make_shared<DoctorFlags>();
   verb->footer(
-      "Exit codes: 0 nothing is bad, warnings may stand; 1 something is; 2 bad usage. The firewall's rules are read\n"
-      "where nft is installed and permits it, as root.");
+      "Of logs: their rows against their digests, sessions that were never closed, gaps, a -wal left behind, a match\n"
+      "that was cut short, the goal line against the tracks of balls, clocks that jumped, and of several kicks of\n"
+      "which they say different things. Nothing is changed. Exit codes: 0 nothing is wrong; 1 a log cannot be read or "
+      "is\n"
+      "not what was recorded; 3 something is missing or doubtful.\n"
+      "Of the network: 0 nothing is bad, warnings may stand; 1 something is. The firewall's rules are read where nft "
+      "is\n"
+      "installed and permits it, as root.");
+  auto* const logs = verb->add_option("logs", flags->logs, "match logs of any version");
   verb->add_flag("--network", flags->network, "interface, multicast, buffers, clock, ports, peers, firewall")
-      ->required();
+      ->excludes(logs);
   verb->add_option("--config", flags->config, "whose [domain] is looked at")
       ->check(readable_file())
       ->capture_default_str();
@@ -105,7 +151,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
                    "a team's file: its machines are peers, its interface and domain are looked at")
       ->check(readable_file());
   verb->add_flag("--json", flags->json, "findings as JSON");
-  verb->callback([flags, &exit_code] { exit_code = examine(with_team(*flags)); });
+  verb->callback([flags, &exit_code] {
+    if (flags->logs.empty() && !flags->network) throw UsageError{"say which: match logs, or --network"};
+    exit_code = flags->logs.empty() ? examine(with_team(*flags)) : examine_logs(*flags);
+  });
 }
 
 }  // namespace trivela::cli

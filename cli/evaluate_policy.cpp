@@ -16,6 +16,7 @@ struct EvaluatePolicyArguments {
   std::string policy;
   std::string outcome = "observed";
   bool json = false;
+  bool all = false;
 };
 
 }  // namespace
@@ -31,11 +32,13 @@ void add_evaluate_policy(CLI::App& app, int& exit_code) {
   verb->add_option("--outcome", arguments->outcome, "observed: as the robots saw it; truth: the simulator's (observed)")
       ->check(CLI::IsMember({"observed", "truth"}));
   verb->add_flag("--json", arguments->json, "JSON instead of text");
+  verb->add_flag("--all", arguments->all, "Every estimate and what they rest on, after the one sentence");
   verb->callback([arguments, &exit_code] {
     const bool truth = arguments->outcome == "truth";
     const auto logged = evaluator::read_opportunities({arguments->logs.begin(), arguments->logs.end()}, truth);
     const auto report = evaluator::evaluate_policy(logged, arguments->policy, truth);
-    arguments->json ? fmt::print("{}", evaluator::to_json(report)) : say(evaluator::to_text(report));
+    arguments->json ? fmt::print("{}", evaluator::to_json(report))
+                    : say(arguments->all ? evaluator::to_text(report) : evaluator::to_short_text(report));
     exit_code = kDone;
   });
 }

@@ -1,13 +1,15 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/open_file.hpp"
-#include "cli/study.hpp"
+#include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
+#include "config/scenario.hpp"
 #include "experiment/factorial/report.hpp"
 
 namespace trivela::cli {
@@ -38,45 +40,55 @@ experiment::FactorialReport empty_report(const FactorialFlags& flags, const sim:
 }
 
 /// Plays every cell, on the same opportunities.
-void play_cells(experiment::FactorialReport& report, const FactorialFlags& flags, const sim::Scenario& scenario,
-                const config::Settings& settings, const std::vector<config::Robot>& robots) {
-  std::vector<experiment::Arm> arms;
-  for (const experiment::Cell& cell : experiment::factorial_cells()) {
-    report.cells.push_back({cell, {}});
-    arms.push_back(experiment::arm_of(cell, settings, robots));
-  }
-  if (flags.study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
-  auto tallies = play_with_bar(scenario, arms, flags.study.plan, "the factorial");
-  for (std::size_t i = 0; i < arms.size(); ++i) report.cells[i].matches = std::move(tallies[i]);
+void play_cells(experiment::FactorialReport& report, StudyRun& run, const std::vector<experiment::Arm>& arms,
+                const sim::Scenario& scenario) {
+  auto tallies = run.play(scenario, arms, "the factorial");
+  const auto cells = experiment::factorial_cells();
+  for (std::size_t i = 0; i < cells.size(); ++i) report.cells.push_back({cells[i], std::move(tallies[i])});
 }
 
 /// Plays old and stopped against new and moving, by the opponents' distance and by the eye of the table's maker.
-void play_sweeps(experiment::FactorialReport& report, const FactorialFlags& flags, const sim::Scenario& scenario,
-                 const config::Settings& settings, const std::vector<config::Robot>& robots) {
+void play_sweeps(experiment::FactorialReport& report, StudyRun& run, const FactorialFlags& flags,
+                 const sim::Scenario& scenario, const config::Settings& settings,
+                 const std::vector<config::Robot>& robots) {
   const std::vector<experiment::Arm> pair{
       experiment::arm_of({"old", kicking::PolicyName::kStopped, flags.law}, settings, robots),
       experiment::arm_of({"new", kicking::PolicyName::kMoving, flags.law}, settings, robots)};
-  const auto points_of = [](std::vector<double> values) {
-    std::ranges::sort(values);
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
-  };
-  for (const double median_m : points_of(flags.opponent_medians_m)) {
+  for (const double median_m : flags.opponent_medians_m) {
     sim::Scenario world = scenario;
     world.opponent.distance_median_m = median_m;
-    auto two = play_with_bar(world, pair, flags.study.plan, fmt::format("opponents at {:g} m", median_m));
+    auto two = run.play(world, pair, fmt::format("opponents at {:g} m", median_m));
     report.sweep.push_back({median_m, std::move(two[0]), std::move(two[1])});
   }
-  for (const double bias_m : points_of(flags.eye_biases_m)) {
+  for (const double bias_m : flags.eye_biases_m) {
     sim::Scenario world = scenario;
     world.hand_table.target_height_m += bias_m;  // what seems right lies so much too high
-    auto two = play_with_bar(world, pair, flags.study.plan, fmt::format("an eye off by {:g} m", bias_m));
+    auto two = run.play(world, pair, fmt::format("an eye off by {:g} m", bias_m));
     report.biases.push_back({bias_m, std::move(two[0]), std::move(two[1])});
   }
 }
 
-void factorial(FactorialFlags flags) {
+/// Each value once, rising.
+void sort(std::vector<double>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// What the rows depend on besides the flags of play.
+std::string arguments_of(const FactorialFlags& flags, const sim::Scenario& scenario,
+                         const std::vector<experiment::Arm>& arms) {
+  std::string text = config::to_toml_text(scenario);
+  for (const experiment::Arm& arm : arms) text += "\n### arm\n" + experiment::describe(arm);
+  if (flags.no_sweep) return text;
+  return text + fmt::format("\n### sweeps\nlaw = {}\nopponent_medians_m = {}\neye_biases_m = {}\n",
+                            experiment::name(flags.law), fmt::join(flags.opponent_medians_m, ","),
+                            fmt::join(flags.eye_biases_m, ","));
+}
+
+ExitCode factorial(FactorialFlags flags) {
   require_writable(flags.study);
+  sort(flags.opponent_medians_m);
+  sort(flags.eye_biases_m);
   const sim::Scenario scenario = flags.study.world.load();
   const config::Settings settings = config::load_settings(flags.config);
   experiment::FactorialReport report = empty_report(flags, scenario);
@@ -88,9 +100,17 @@ void factorial(FactorialFlags flags) {
   flags.study.draw_evenings(scenario, {flags.config, {}, {}});
   const std::size_t evenings = flags.study.plan.evenings.size();
   if (evenings > 0) report.robots = {fmt::format("{} evenings of calibration", evenings)};
-  play_cells(report, flags, scenario, settings, robots);
-  if (!flags.no_sweep) play_sweeps(report, flags, scenario, settings, robots);
-  give(flags.study, report);
+  std::vector<experiment::Arm> arms;
+  for (const experiment::Cell& cell : experiment::factorial_cells())
+    arms.push_back(experiment::arm_of(cell, settings, robots));
+  if (evenings == 0) warn_of_shared_robots(scenario, arms);
+  const std::size_t sweeps = flags.no_sweep ? 0 : flags.opponent_medians_m.size() + flags.eye_biases_m.size();
+  StudyRun run{flags.study, "factorial", arguments_of(flags, scenario, arms), arms.size() + 2 * sweeps};
+  const auto play = [&] {
+    play_cells(report, run, arms, scenario);
+    if (!flags.no_sweep) play_sweeps(report, run, flags, scenario, settings, robots);
+  };
+  return run.run(play, [&] { give(flags.study, report); });
 }
 
 }  // namespace
@@ -128,10 +148,7 @@ void add_factorial(CLI::App& app, int& exit_code) {
   verb->footer(
       "{old, new height table} x {stopped, moving, predictive} x {paper, released, exact law}, on the same\n"
       "opportunities. The old table is drawn anew for each match from the scenario's [hand_table].");
-  verb->callback([flags, &exit_code] {
-    factorial(*flags);
-    exit_code = kDone;
-  });
+  verb->callback([flags, &exit_code] { exit_code = factorial(*flags); });
 }
 
 }  // namespace trivela::cli

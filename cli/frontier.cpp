@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/study.hpp"
+#include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
+#include "config/scenario.hpp"
 #include "experiment/frontier/report.hpp"
 
 namespace trivela::cli {
@@ -17,7 +18,33 @@ struct FrontierFlags {
   experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
 };
 
-void frontier(const FrontierFlags& flags) {
+/// What the rows depend on besides the flags of play.
+std::string arguments_of(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms) {
+  std::string text = config::to_toml_text(scenario);
+  for (const experiment::Arm& arm : arms) text += "\n### arm\n" + experiment::describe(arm);
+  return text;
+}
+
+experiment::FrontierReport report_of(const FrontierFlags& flags, const std::vector<double>& thresholds,
+                                     const std::vector<experiment::Arm>& arms,
+                                     std::vector<experiment::ArmTally> played) {
+  experiment::FrontierReport report{.policy = flags.policy,
+                                    .scenario = flags.study.scenario_name(),
+                                    .seed = flags.study.plan.seed,
+                                    .matches = flags.study.plan.matches,
+                                    .possessions = flags.study.plan.possessions,
+                                    .points = {},
+                                    .fixed = {},
+                                    .oracle = {},
+                                    .evenings = flags.study.calibrations};
+  const std::size_t n = thresholds.size();
+  for (std::size_t i = 0; i < n; ++i) report.points.push_back({thresholds[i], std::move(played[i])});
+  for (std::size_t i = n; i + 1 < arms.size(); ++i) report.fixed.push_back({arms[i].name, std::move(played[i])});
+  report.oracle = experiment::FixedPoint{arms.back().name, std::move(played.back())};
+  return report;
+}
+
+ExitCode frontier(const FrontierFlags& flags) {
   require_writable(flags.study);
   const sim::Scenario scenario = flags.study.world.load();
   std::vector<double> thresholds = flags.thresholds;
@@ -35,21 +62,10 @@ void frontier(const FrontierFlags& flags) {
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
   if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
-  auto played = play_with_bar(scenario, arms, study.plan, "the frontier");
-  experiment::FrontierReport report{.policy = flags.policy,
-                                    .scenario = flags.study.scenario_name(),
-                                    .seed = flags.study.plan.seed,
-                                    .matches = flags.study.plan.matches,
-                                    .possessions = flags.study.plan.possessions,
-                                    .points = {},
-                                    .fixed = {},
-                                    .oracle = {},
-                                    .evenings = study.plan.evenings.size()};
-  const std::size_t n = thresholds.size();
-  for (std::size_t i = 0; i < n; ++i) report.points.push_back({thresholds[i], std::move(played[i])});
-  for (std::size_t i = n; i + 1 < arms.size(); ++i) report.fixed.push_back({arms[i].name, std::move(played[i])});
-  report.oracle = experiment::FixedPoint{arms.back().name, std::move(played.back())};
-  give(study, report);
+  StudyRun run{study, "frontier", arguments_of(scenario, arms), arms.size()};
+  std::vector<experiment::ArmTally> played;
+  return run.run([&] { played = run.play(scenario, arms, "the frontier"); },
+                 [&] { give(study, report_of(flags, thresholds, arms, std::move(played))); });
 }
 
 }  // namespace
@@ -75,10 +91,7 @@ void add_frontier(CLI::App& app, int& exit_code) {
       "paper's, and oracle. Whether a policy lies below the frontier is asked at its own number of kicks, the "
       "frontier\n"
       "being linear between thresholds.");
-  verb->callback([flags, &exit_code] {
-    frontier(*flags);
-    exit_code = kDone;
-  });
+  verb->callback([flags, &exit_code] { exit_code = frontier(*flags); });
 }
 
 }  // namespace trivela::cli

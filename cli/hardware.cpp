@@ -15,6 +15,7 @@
 #include "cli/hardware/test_kick.hpp"
 #include "cli/hardware/watching.hpp"
 #include "cli/launch/person.hpp"
+#include "cli/match_mode.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
@@ -115,6 +116,7 @@ bool answers(hal::Wheels& wheels, const Bench& bench) {
 }
 
 int spin(const Bench& bench, const HardwareFlags& flags) {
+  refuse_in_a_match(bench.settings, "a wheel's test");
   const std::size_t wheels = bench.robot.base.wheel_angles_rad.size();
   if (static_cast<std::size_t>(*flags.spin) > wheels)
     throw UsageError{fmt::format("--spin {}: {} has wheels 1 to {}", *flags.spin, bench.robot.name, wheels)};
@@ -138,6 +140,7 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
 }
 
 int kick(const Bench& bench) {
+  refuse_in_a_match(bench.settings, "a test kick");
   if (!Person::is_there()) throw std::runtime_error{"--kick asks before it does it: standard input is no terminal"};
   bench.claims.require_kicker();
   const auto device = hal::open_kicker(bench.devices(), bench.owner());

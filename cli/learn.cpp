@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/calibrate/robot_file.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
@@ -118,9 +119,20 @@ Json to_json(const LearnedFit& fit, const std::string& written) {
 ExitCode learn(const LearnFlags& flags) {
   require_writable("--out", flags.out);
   const auto source = flags.shadows ? evaluator::PredictionSource::kAndShadows : evaluator::PredictionSource::kInCharge;
-  const auto logged = evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source);
+  ProgressBar bar;
+  const auto shown = [&](const char* unit, const char* what) {
+    return [&bar, unit, what](std::size_t done, std::size_t all) {
+      bar.show(static_cast<double>(done), static_cast<double>(all), unit, what);
+    };
+  };
+  const auto logged =
+      evaluator::predicted_kicks({flags.logs.begin(), flags.logs.end()}, source, shown("logs", "kicks are read"));
+  bar.end();
   for (const std::string& remark : logged.remarks) warn(remark);
-  const LearnedFit fit = evaluator::fit_learned_model(logged.kicks, flags.options);
+  evaluator::LearnOptions options = flags.options;
+  options.progress = shown("fits", "the ridge is chosen");
+  const LearnedFit fit = evaluator::fit_learned_model(logged.kicks, options);
+  bar.end();
   const bool better = fit.held_out.better();
   const std::string written = better || flags.anyway ? flags.out : "";
   if (!written.empty()) {

@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "cli/finite_numbers.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/manual/manual_flags.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"
 #include "config/installation.hpp"
+#include "evaluator/log/log_check.hpp"
 #include "kicking/text/nearest_word.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
@@ -35,11 +37,11 @@ const std::vector<Group>& groups() {
       {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
       {"After a match",
-       {cli::add_collect, cli::add_merge, cli::add_report, cli::add_query, cli::add_import, cli::add_replay,
-        cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
+       {cli::add_collect, cli::add_merge, cli::add_report, cli::add_query, cli::add_export, cli::add_import,
+        cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_label, cli::add_note, cli::add_migrate}},
       {"On the robot",
-       {cli::add_team, cli::add_top, cli::add_doctor, cli::add_hardware, cli::add_solve, cli::add_align,
-        cli::add_predict, cli::add_refbox, cli::add_emulate, cli::add_keys}}};
+       {cli::add_team, cli::add_top, cli::add_monitor, cli::add_doctor, cli::add_hardware, cli::add_solve,
+        cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate, cli::add_keys}}};
   return all;
 }
 
@@ -126,6 +128,11 @@ bool is_written() {
 
 int main(int argc, char** argv) {
   trivela::nodes::secure_standard_streams();
+  cli::ProgressBar bar;
+  trivela::evaluator::log::watch_verification([&](const std::string& file, std::int64_t rows, std::int64_t all) {
+    bar.show(static_cast<double>(rows), static_cast<double>(all), "rows", "verified of " + file);
+    if (rows >= all) bar.end();
+  });
   const int exit_code = run_or_say_why_not(argc, argv);
   return is_written() ? exit_code : cli::kFailed;
 }

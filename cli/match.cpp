@@ -9,6 +9,7 @@
 #include "cli/launch/throwaway_keys.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"
+#include "cli/watch/watch_page.hpp"
 #include "config/error.hpp"
 #include "config/field.hpp"
 #include "config/installation.hpp"
@@ -43,6 +44,9 @@ struct MatchFlags {
   std::vector<std::string> overrides;
   std::string log_level = "warn";
   std::string keys;
+  bool watch = false;
+  double pace = 1.0;
+  WatchFlags page;
 };
 
 std::string list(const std::vector<std::string>& policies) {
@@ -72,6 +76,7 @@ void refuse_settings_of_flags(const std::vector<std::string>& overrides) {
       {"simulator.paired_halves", "--paired-halves"},
       {"simulator.seed", "--seed"},
       {"simulator.devices", "--devices"},
+      {"simulator.pace", "--pace"},
       {"run.log_level", "--log-level"},
   };
   for (const std::string& line : overrides) {
@@ -103,6 +108,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   if (!flags.random.empty())
     lines.push_back(fmt::format("kick_decision.random = {}", list(drawn_policies(flags.random))));
   if (flags.paired_halves) lines.emplace_back("simulator.paired_halves = true");
+  if (flags.watch) lines.push_back(fmt::format("simulator.pace = {:.17e}", flags.pace));
   for (std::string line :
        {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
         fmt::format("kick_decision.assignment_seed = {}", flags.seed),
@@ -160,13 +166,27 @@ void add_match(CLI::App& app, int& exit_code) {
               "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), in which "
               "simulator has some; without a folder, with keys that go with the match")
           ->expected(0, 1);
-  verb->callback([flags, secure, &exit_code] {
+  auto* watch = verb->add_flag("--watch", flags->watch,
+                               "serve a live page of the match, which stays until Ctrl-C, and print its address");
+  auto* pace =
+      verb->add_option(
+              "--pace", flags->pace,
+              "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
+              "same at every pace")
+          ->check(between(0.0, 1000.0))
+          ->needs(watch)
+          ->capture_default_str();
+  for (CLI::Option* option : add_watch_flags(*verb, flags->page)) option->needs(watch);
+  verb->callback([flags, secure, pace, &exit_code] {
     if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
+    if (flags->devices == kEmulated && pace->count() > 0)
+      throw UsageError{"--pace: against emulated devices a match is played in real time"};
     config::Settings settings = settings_of(*flags);
     const auto keys = secure->count() == 0 ? nullptr : secure_children(flags->keys, settings.run.robot_id);
+    const WatchFlags* const page = flags->watch ? &flags->page : nullptr;
     exit_code = flags->devices == kEmulated
-                    ? record_emulated(std::move(settings), flags->domain, flags->out)
-                    : record_lockstep("simulator", std::move(settings), flags->domain, flags->out);
+                    ? record_emulated(std::move(settings), flags->domain, flags->out, page)
+                    : record_lockstep("simulator", std::move(settings), flags->domain, flags->out, page);
   });
 }
 

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "cli/launch/progress_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/merge.hpp"
 #include "evaluator/log/shard_merge.hpp"
+#include "evaluator/log/tally_book.hpp"
 #include "evaluator/report/merge_report.hpp"
 
 namespace trivela::cli {
@@ -21,30 +23,62 @@ struct MergeArguments {
   std::optional<int> reference_robot;
 };
 
+/// Shards that were copied, as progress.
+auto shown_on(ProgressBar& bar) {
+  return [&bar](std::size_t done, std::size_t all) {
+    bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
+  };
+}
+
+int merge_books(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
+  if (arguments.reference_robot) throw UsageError{"--reference: tallies have no clock"};
+  const auto merged = [&] {
+    ProgressBar bar;
+    return evaluator::log::merge_books(shards, arguments.out, shown_on(bar));
+  }();
+  say(fmt::format("{}: {} matches of {} arms, of {} shards\nmissing: nothing\n", arguments.out, merged.matches,
+                  merged.arms, merged.shards));
+  return kDone;
+}
+
 int merge_shards(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
   if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
-  const auto merged = evaluator::log::merge_shards(shards, arguments.out);
+  const auto merged = [&] {
+    ProgressBar bar;
+    return evaluator::log::merge_shards(shards, arguments.out, shown_on(bar));
+  }();
   say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,
                   merged.matches, merged.shards));
   return kDone;
 }
 
 int run_merge(const MergeArguments& arguments) {
-  require_writable("OUT", arguments.out);
+  require_new("OUT", arguments.out);
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
+  if (evaluator::log::any_is_tally_book(logs)) return merge_books(arguments, logs);
   if (evaluator::log::any_is_shard(logs)) return merge_shards(arguments, logs);
   evaluator::log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
-  const evaluator::log::Merged merged = evaluator::log::merge(logs, arguments.out, options);
+  const evaluator::log::Merged merged = [&] {
+    ProgressBar bar;
+    options.progress = [&](std::int64_t read, std::int64_t all) {
+      bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
+    };
+    return evaluator::log::merge(logs, arguments.out, options);
+  }();
   if (arguments.reference_robot && !merged.alignment.reference_robot)
     warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
   const evaluator::log::Reader reader(arguments.out, evaluator::log::Check::kQuick);
   const evaluator::MergeReport report = evaluator::report_merge(merged, reader);
   say(fmt::format("{}\n{}: {}\n", report.table, arguments.out, report.total));
   for (const std::string& note : report.notes) say(note + '\n');
+  if (!report.conflicts.empty()) {
+    say("conflicts, of which the more complete recording counts, of labels the latest:\n");
+    for (const std::string& line : report.conflicts) say("  " + line + '\n');
+  }
   if (report.missing.empty()) {
     say("missing: nothing\n");
-    return kDone;
+    return report.conflicts.empty() ? kDone : kDoneWithLoss;
   }
   say("missing:\n");
   for (const std::string& line : report.missing) say("  " + line + '\n');
@@ -60,9 +94,12 @@ void add_merge(CLI::App& app, int& exit_code) {
       "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
       "offsets\n"
       "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
-      "\"missing: nothing\", or with what is missing and exit code 3. Shards of an experiment (trivela simulate "
+      "\"missing: nothing\", or with what is missing and exit code 3, as where two files say different things of a "
+      "kick. Shards of an experiment (trivela simulate "
       "--shard)\n"
-      "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
+      "become the log that one run writes, books of tallies of factorial, frontier, sensitivity and tune the book that "
+      "one\n"
+      "run writes; a shard that lacks, is not finished or of another experiment is refused.");
   const auto arguments = std::make_shared<MergeArguments>();
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
   verb->add_option("logs", arguments->logs, "Match logs of any version, merged ones, too")->required();

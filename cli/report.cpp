@@ -1,52 +1,132 @@
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "cli/gate_option.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/json_values.hpp"
+#include "evaluator/report/page/report_page.hpp"
+#include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
+#include "experiment/effects/summary.hpp"
 
 namespace trivela::cli {
 namespace {
 
 struct ReportArguments {
-  std::string log;
+  std::vector<std::string> logs;
+  std::string html;
   bool json = false;
   bool csv = false;
+  bool markdown = false;
+  bool latex = false;
   bool verify = false;
   std::string blocked = "outside";
+  std::string out;
+  std::vector<std::string> gates;
 };
+
+// All logs are open at once, each with up to three files; the usual limit is 1024.
+void allow_many_files() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+evaluator::Report report_of(const ReportArguments& arguments) {
+  using evaluator::log::Check;
+  const auto gates = parse_gates(arguments.gates, evaluator::report_gate_metrics());
+  require_writable("--out", arguments.out);
+  require_writable("--html", arguments.html);
+  allow_many_files();
+  std::vector<std::unique_ptr<evaluator::log::Reader>> readers;
+  std::vector<evaluator::OpenLog> logs;
+  for (const std::string& log : arguments.logs) {
+    readers.push_back(
+        std::make_unique<evaluator::log::Reader>(log, arguments.verify ? Check::kWhole : Check::kIfShort));
+    logs.push_back({readers.back().get(), log});
+  }
+  evaluator::Report report = evaluator::make_report(logs, arguments.blocked == "apart");
+  report.gates = evaluator::judge_gates(report, gates);
+  return report;
+}
+
+std::string written(const evaluator::Report& report, const ReportArguments& arguments) {
+  if (arguments.json) return evaluator::to_json(report);
+  if (arguments.csv) return evaluator::to_csv(report);
+  if (arguments.markdown) return evaluator::to_markdown(report);
+  if (arguments.latex) return evaluator::to_latex(report);
+  return evaluator::to_text(report);
+}
+
+// What a reader of the text finds in it stands on standard error beside the other forms.
+void warn_of(const evaluator::Report& report) {
+  for (const std::string& warning : report.warnings) warn(warning);
+  if (report.doubt) warn(*report.doubt);
+}
+
+/// Of a book of tallies, what it says.
+void report_book(const ReportArguments& arguments) {
+  if (arguments.logs.size() > 1) throw UsageError("a book of tallies is reported alone: its matches are no log's");
+  if (arguments.markdown || arguments.latex || !arguments.html.empty() || !arguments.gates.empty())
+    throw UsageError("of a book of tallies there are text, --json and --csv, and no gates");
+  require_writable("--out", arguments.out);
+  const auto summary =
+      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
+  const std::string text = arguments.json  ? evaluator::json_text(to_json(summary))
+                           : arguments.csv ? to_csv(summary)
+                                           : to_text(summary);
+  arguments.out.empty() ? say(text) : write_file(arguments.out, text);
+}
 
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("report", "Table 2 of a match log, why kicks missed, and data quality");
+  auto* const verb = app.add_subcommand("report", "Table 2 of match logs, why kicks missed, and data quality");
   const auto arguments = std::make_shared<ReportArguments>();
-  verb->add_option("log", arguments->log, "Match log, such as out/match.db")->required();
-  auto* const json = verb->add_flag("--json", arguments->json, "JSON instead of text");
-  verb->add_flag("--csv", arguments->csv, "CSV instead of text, one line a policy")->excludes(json);
+  verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; each of their kicks counts once")
+      ->type_name("DB")
+      ->required();
+  auto* const form = verb->add_option_group("form", "One of these in place of text");
+  form->add_flag("--json", arguments->json, "JSON");
+  form->add_flag("--csv", arguments->csv, "CSV, a line for each policy, robot and number of the data quality");
+  form->add_flag("--markdown", arguments->markdown, "Markdown");
+  form->add_flag("--latex", arguments->latex, "LaTeX, for \\input");
+  form->require_option(0, 1);
+  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
   verb->add_option("--blocked", arguments->blocked,
                    "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
       ->check(CLI::IsMember({"outside", "apart"}));
+  add_gates(*verb, arguments->gates, "'efficiency(moving)>=0.7', 'missing_rows==0'");
   verb->add_flag(
       "--verify", arguments->verify,
       "Compare every row with the digest that the recorder wrote, also in a long log; short ones always are");
+  verb->add_option("--html", arguments->html,
+                   "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
+                   "needs nothing else");
   verb->callback([arguments, &exit_code] {
-    using evaluator::log::Check;
-    const evaluator::log::Reader reader(arguments->log, arguments->verify ? Check::kWhole : Check::kIfShort);
-    const evaluator::Report report = evaluator::make_report(reader, arguments->blocked == "apart");
-    const bool plain = !arguments->json && !arguments->csv;
-    if (arguments->json) {
-      fmt::print("{}", evaluator::to_json(report));
-    } else {
-      say(arguments->csv ? evaluator::to_csv(report) : evaluator::to_text(report));
+    if (evaluator::log::any_is_tally_book({arguments->logs.begin(), arguments->logs.end()})) {
+      report_book(*arguments);
+      exit_code = kDone;
+      return;
     }
-    if (!plain) {  // the text has them
-      for (const std::string& warning : report.warnings) warn(warning);
-      if (report.doubt) warn(*report.doubt);
+    const evaluator::Report report = report_of(*arguments);
+    if (!arguments->html.empty()) {
+      write_file(arguments->html,
+                 evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()}));
     }
-    exit_code = report.data_lost() ? kDoneWithLoss : kDone;
+    const std::string text = written(report, *arguments);
+    arguments->out.empty() ? say(text) : write_file(arguments->out, text);
+    const bool plain = !arguments->json && !arguments->csv && !arguments->markdown && !arguments->latex;
+    if (!plain || !arguments->out.empty()) warn_of(report);
+    const bool met = warn_of_gates(report.gates);
+    exit_code = report.data_lost() || !met ? kDoneWithLoss : kDone;
   });
 }
 

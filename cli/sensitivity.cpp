@@ -6,9 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cli/study.hpp"
+#include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
+#include "config/scenario.hpp"
 #include "experiment/sensitivity/analysis.hpp"
 
 namespace trivela::cli {
@@ -59,7 +60,42 @@ std::vector<experiment::Arm> with(std::vector<experiment::Arm> arms, const std::
   return arms;
 }
 
-void sensitivity(const SensitivityFlags& flags) {
+/// What the rows depend on besides the flags of play.
+std::string arguments_of(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                         const std::vector<experiment::UncertainInput>& inputs) {
+  std::string text = config::to_toml_text(scenario);
+  for (const experiment::Arm& arm : arms) text += "\n### arm\n" + experiment::describe(arm);
+  text += "\n### inputs\n";
+  for (const experiment::UncertainInput& input : inputs)
+    text += fmt::format("{} = {}, {}\n", input.key, input.low, input.high);
+  return text;
+}
+
+/// Plays the scenario as it is, then with each input at its two ends.
+void play_inputs(experiment::SensitivityReport& report, StudyRun& run, const sim::Scenario& scenario,
+                 const std::vector<experiment::Arm>& arms, const std::vector<experiment::UncertainInput>& inputs) {
+  report.base = run.play(scenario, arms, "the scenario");
+  for (const experiment::UncertainInput& input : inputs) {
+    const bool setting = experiment::is_setting(input.key);
+    experiment::PlayedInput played{input,
+                                   setting ? experiment::value_of(arms.front().settings.policy, input.key)
+                                           : experiment::value_of(scenario, input.key),
+                                   {}};
+    for (const double value : {input.low, input.high}) {
+      if (value == played.value) continue;
+      const std::string what = fmt::format("{} = {}", input.key, experiment::value_text(input.key, value));
+      if (setting) {
+        played.ends.push_back({value, run.play(scenario, with(arms, input.key, value), what)});
+      } else if (const auto world = playable_with(scenario, input.key, value)) {
+        played.ends.push_back({value, run.play(*world, arms, what)});
+      }
+    }
+    report.inputs.push_back(std::move(played));
+  }
+  experiment::sort_by_change(report);
+}
+
+ExitCode sensitivity(const SensitivityFlags& flags) {
   require_writable(flags.study);
   const sim::Scenario scenario = flags.study.world.load();
   const std::vector<experiment::Arm> arms = experiment::arms_of(flags.arms, flags.base);
@@ -81,26 +117,8 @@ void sensitivity(const SensitivityFlags& flags) {
   Study study = flags.study;
   study.draw_evenings(scenario, flags.base);
   if (study.plan.evenings.empty()) warn_of_shared_robots(scenario, arms);
-  report.base = play_with_bar(scenario, arms, study.plan, "the scenario");
-  for (const experiment::UncertainInput& input : inputs) {
-    const bool setting = experiment::is_setting(input.key);
-    experiment::PlayedInput played{input,
-                                   setting ? experiment::value_of(arms.front().settings.policy, input.key)
-                                           : experiment::value_of(scenario, input.key),
-                                   {}};
-    for (const double value : {input.low, input.high}) {
-      if (value == played.value) continue;
-      const std::string what = fmt::format("{} = {}", input.key, experiment::value_text(input.key, value));
-      if (setting) {
-        played.ends.push_back({value, play_with_bar(scenario, with(arms, input.key, value), study.plan, what)});
-      } else if (const auto world = playable_with(scenario, input.key, value)) {
-        played.ends.push_back({value, play_with_bar(*world, arms, study.plan, what)});
-      }
-    }
-    report.inputs.push_back(std::move(played));
-  }
-  experiment::sort_by_change(report);
-  give(study, report);
+  StudyRun run{study, "sensitivity", arguments_of(scenario, arms, inputs), arms.size() * (1 + 2 * inputs.size())};
+  return run.run([&] { play_inputs(report, run, scenario, arms, inputs); }, [&] { give(study, report); });
 }
 
 }  // namespace
@@ -119,10 +137,7 @@ void add_sensitivity(CLI::App& app, int& exit_code) {
       "(experiment/sensitivity/inputs.cpp says which and why), one at a time, and the same opportunities are played. "
       "Robots\n"
       "are not calibrated anew. Inputs of the hand table matter to arms with it (@old) alone.");
-  verb->callback([flags, &exit_code] {
-    sensitivity(*flags);
-    exit_code = kDone;
-  });
+  verb->callback([flags, &exit_code] { exit_code = sensitivity(*flags); });
 }
 
 }  // namespace trivela::cli

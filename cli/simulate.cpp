@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,10 +11,11 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/shard_option.hpp"
-#include "cli/study.hpp"
+#include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "cli/world.hpp"
 #include "config/installation.hpp"
+#include "experiment/effects/summary.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/experiment.hpp"
 
@@ -32,6 +34,7 @@ struct SimulateFlags {
   experiment::ArmBase base{config::shipped("default.toml").string(), {}, {}};
   bool shadows = false;
   bool every_cycle = false;
+  bool summaries = false;
   std::optional<evaluator::log::Shard> shard;
 };
 
@@ -46,7 +49,34 @@ experiment::ExperimentRun play(const experiment::ExperimentPlan& plan, const Sim
                                     {found, progress, [&] { return signals.stop_requested(); }});
 }
 
+/// Plays into a book of tallies, which keeps no more than it needs for the table below.
+int simulate_summaries(const experiment::ExperimentPlan& plan, const SimulateFlags& flags) {
+  Study study;
+  study.plan = {.seed = plan.seed,
+                .matches = plan.matches,
+                .possessions = plan.possessions,
+                .jobs = flags.jobs,
+                .evenings = plan.evenings};
+  study.tallies = flags.out;
+  study.shard = plan.shard;
+  StudyRun run{study, "simulate", plan.arguments(), plan.arms.size()};
+  const auto started = std::chrono::steady_clock::now();
+  std::int64_t before = run.book().size();
+  return run.run([&] { run.play(plan.scenario, plan.arms, ""); },
+                 [&] {
+                   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+                   const auto played = static_cast<double>(run.book().size() - before) * plan.possessions;
+                   say(to_text(experiment::summary_of(run.read_again(), false)));
+                   fmt::print("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", played, wall.count(),
+                              flags.jobs, flags.jobs == 1 ? "" : "s", played / wall.count());
+                 });
+}
+
 int simulate(const SimulateFlags& flags) {
+  if (flags.summaries && (flags.shadows || flags.every_cycle))
+    throw UsageError{fmt::format("--summaries and {}: a book of tallies keeps no decision",
+                                 flags.shadows ? "--shadows" : "--every-cycle")};
+  require_writable("--out", flags.out);
   check_shard(flags.shard, flags.matches);
   experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();
@@ -60,7 +90,8 @@ int simulate(const SimulateFlags& flags) {
   plan.evenings = draw_evenings(plan.scenario, flags.base, {flags.calibrations, flags.seed, flags.jobs}, flags.matches);
   if (plan.evenings.empty()) warn_of_shared_robots(plan.scenario, plan.arms);
   experiment::check_playable(plan);  // a plan that is refused leaves no log
-  SignalInbox signals;               // before the threads, which must not be interrupted
+  if (flags.summaries) return simulate_summaries(plan, flags);
+  SignalInbox signals;  // before the threads, which must not be interrupted
   const experiment::ExperimentRun run = play(plan, flags, signals);
   if (run.complete) {
     fmt::print("{}", to_text(plan, run, flags.jobs, flags.out));
@@ -102,6 +133,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
   add_world_options(*verb, flags->world);
   add_calibrations_option(*verb, flags->calibrations);
   add_arm_options(*verb, flags->base);
+  verb->add_flag("--summaries", flags->summaries,
+                 "Keep what each arm did in each match and nothing else: --out is a book of tallies, which report and "
+                 "compare read");
   verb->add_flag("--shadows", flags->shadows, "record what the other policies would have done");
   verb->add_flag("--every-cycle", flags->every_cycle, "record every decision, not only those that fire");
   verb->callback([flags, &exit_code] { exit_code = simulate(*flags); });

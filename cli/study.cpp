@@ -4,7 +4,7 @@
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/number_checks.hpp"
-#include "cli/open_file.hpp"
+#include "cli/shard_option.hpp"
 #include "cli/verbs.hpp"
 
 namespace trivela::cli {
@@ -26,7 +26,7 @@ std::vector<experiment::Team> draw_evenings(const sim::Scenario& scenario, const
     throw UsageError{fmt::format("--calibrations {}: more evenings than --matches {}", plan.evenings, matches)};
   ProgressBar bar;
   return experiment::teams_of_evenings(scenario, plan, [&](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), "evenings of calibration");
+    bar.show(static_cast<double>(done), static_cast<double>(all), "evenings", "calibration");
   });
 }
 
@@ -46,6 +46,11 @@ void add_play_options(CLI::App& verb, Study& study) {
   verb.add_option("--jobs", plan.jobs, "Threads; default one a core")->check(CLI::Range(1, 256));
   add_world_options(verb, study.world);
   add_calibrations_option(verb, study.calibrations);
+  verb.add_option(
+          "--tallies", study.tallies,
+          "Book that keeps what is played, match by match, new or of the same command, which goes on from there")
+      ->type_name("FILE");
+  add_shard_option(verb, study.shard, "trivela merge makes one book of their --tallies");
 }
 
 void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations) {
@@ -75,16 +80,15 @@ void add_arm_options(CLI::App& verb, experiment::ArmBase& base) {
 void require_writable(const Study& study) {
   if (!study.csv.empty() && study.csv == study.svg)
     throw UsageError{fmt::format("--csv and --svg are the same file: {}", study.csv)};
+  check_shard(study.shard, study.plan.matches);
+  if (study.shard && study.tallies.empty())
+    throw UsageError{fmt::format("--shard {}: --tallies FILE is where its part is kept", study.shard->text())};
+  if (study.shard && (study.json || !study.csv.empty() || !study.svg.empty()))
+    throw UsageError{
+        fmt::format("--shard {}: a part has no report; the merged book of all parts has", study.shard->text())};
+  require_writable("--tallies", study.tallies);
   require_writable("--csv", study.csv);
   require_writable("--svg", study.svg);
-}
-
-std::vector<experiment::ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                                const experiment::PlayPlan& plan, const std::string& what) {
-  ProgressBar bar;
-  return experiment::play_arms(scenario, arms, plan, [&](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), what);
-  });
 }
 
 }  // namespace trivela::cli

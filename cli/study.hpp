@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "cli/output.hpp"
 #include "cli/world.hpp"
+#include "evaluator/log/shard.hpp"
 #include "evaluator/report/json_values.hpp"
-#include "experiment/factorial/play.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/evenings.hpp"
+#include "experiment/run/kept_play.hpp"
 
 namespace trivela::cli {
 
@@ -24,6 +26,8 @@ struct Study {
   World world;
   std::uint32_t calibrations = 0;  ///< evenings; 0: the robot files as they are
   std::string csv, svg;
+  std::string tallies;  ///< book of what was played; empty: none
+  std::optional<evaluator::log::Shard> shard;
   bool json = false;
 
   /// Name of the scenario's file and what was changed of it, for the report.
@@ -41,7 +45,7 @@ std::vector<experiment::Team> draw_evenings(const sim::Scenario& scenario, const
 /// Says on standard error where an arm has fewer robot files than the scenario's team has robots.
 void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
 
-/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations.
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --tallies, --shard.
 void add_play_options(CLI::App& verb, Study& study);
 
 /// --calibrations alone.
@@ -53,12 +57,9 @@ void add_study_options(CLI::App& verb, Study& study);
 /// --robot, --config, --set.
 void add_arm_options(CLI::App& verb, experiment::ArmBase& base);
 
-/// Throws, before anything is played, where --csv or --svg cannot be written or are the same file.
+/// Throws, before anything is played, where --csv or --svg cannot be written or are the same file, or a shard has no
+/// place for what it plays or is asked for a report.
 void require_writable(const Study& study);
-
-/// Plays the arms with a progress bar that says what they are played for.
-std::vector<experiment::ArmTally> play_with_bar(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
-                                                const experiment::PlayPlan& plan, const std::string& what);
 
 /// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
 /// than the file.

@@ -19,6 +19,7 @@ struct Run {
   std::uint32_t robot_id = 1;
   double cycle_s = 0.02;           ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
   std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
+  bool match_mode = false;         ///< a match is on: what changes a log or a robot by hand is refused
   bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
@@ -121,6 +122,7 @@ struct Simulator {
   double half_minutes = 5.0;
   std::uint32_t max_possessions = 0;  ///< a half ends after so many of them, if it has not before; 0: no such limit
   bool paired_halves = false;         ///< every half has the possessions of the first
+  double pace = 0.0;  ///< simulated seconds a second, at most, in lockstep; 0: as fast as the nodes answer
   SimulatedDevices devices = SimulatedDevices::kBus;
   bool referee =
       true;  ///< it says its referee's word; false: the robot hears another one, and the world goes on by its own

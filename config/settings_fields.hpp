@@ -162,6 +162,7 @@ void fields(V& v, Run& r) {
   v("robot_id", r.robot_id, Range{1, 255});
   v("cycle_s", r.cycle_s, Range{0.0005, 0.5});
   v("session", r.session, Range{0, kicking::KickId::kLastSession});
+  v("match_mode", r.match_mode);
   v("lockstep", r.lockstep);
   v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);
@@ -301,6 +302,7 @@ void fields(V& v, Simulator& s) {
   v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
   v("max_possessions", s.max_possessions, Range{0, 1000000});
   v("paired_halves", s.paired_halves);
+  v("pace", s.pace, Range{0.0, 1000.0});
   v("devices", s.devices);
   v("referee", s.referee);
 }

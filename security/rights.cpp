@@ -33,6 +33,15 @@ std::vector<std::string> recorded() {
   return all;
 }
 
+// The live page's: what the simulator says of itself and of its truth is nobody's to see in a match.
+std::vector<std::string> looked_at() {
+  std::vector<std::string> all;
+  bus::for_each_message([&]<class T>() {
+    if (!bus::meta<T>::topic.starts_with("sim/")) all.emplace_back(bus::meta<T>::topic);
+  });
+  return all;
+}
+
 // Where the device is behind a bridge, its client in the node speaks on the bus too (hal/bus).
 std::vector<Rights> of_the_chain() {
   using namespace msg;
@@ -51,6 +60,7 @@ std::vector<Rights> of_the_chain() {
       {"refbox", these<Referee, DeviceEmulated>(), these<WorldState, TeamHeard>(), true, true},
       {"team_link", these<TeamHeard, Referee>(),
        these<WorldState, KickerStatus, KickDecision, Referee, VisionFrame, DriveCommand>(), true, true},
+      {"monitor", {}, looked_at()},
   };
 }
 

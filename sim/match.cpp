@@ -73,7 +73,7 @@ struct Match::State {
     ending.reset();
     const kicking::Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
-    world.place(opportunity, kicker_now(opportunity.robot).speed_scale_ratio, draws);
+    world.place(opportunity, speed_scale_now(opportunity.robot), draws);
     sensors.begin(draws);
     laser.begin(draws);
     sensors.remember(world);
@@ -81,11 +81,10 @@ struct Match::State {
     if (scenario.possession.stop_s <= 0.0) start_play();
   }
 
-  /// The kicker of a robot as its kicks have worn it.
-  Kicker kicker_now(std::uint32_t robot) const {
-    Kicker kicker = kickers.at(robot - 1);
-    kicker.speed_scale_ratio *= worn_ratio(kicker, kicked.at(robot - 1));
-    return kicker;
+  /// The speeds of a robot's kicker, of those of the scenario, as its kicks have worn them.
+  double speed_scale_now(std::uint32_t robot) const {
+    const Kicker& kicker = kickers.at(robot - 1);
+    return kicker.speed_scale_ratio * worn_ratio(kicker, kicked.at(robot - 1));
   }
 
   /// Number of the possession's situation: in the first half its own.
@@ -271,7 +270,11 @@ Sensors Match::sense(const SensorChoice& choice) const {
           .scans = s.laser.scans()};
 }
 
-Kicker Match::true_kicker(std::uint32_t robot) const { return state_->kicker_now(robot); }
+Kicker Match::true_kicker(std::uint32_t robot) const {
+  Kicker kicker = state_->kickers.at(robot - 1);
+  kicker.speed_scale_ratio = state_->speed_scale_now(robot);
+  return kicker;
+}
 
 TrueState Match::true_state() const {
   const State& s = *state_;

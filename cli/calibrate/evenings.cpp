@@ -10,6 +10,8 @@
 
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
+#include "cli/launch/progress_bar.hpp"
+#include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
 #include "config/scenario.hpp"
@@ -35,13 +37,21 @@ struct EveningsFlags {
   bool json = false;
 };
 
-void write_robots(const std::vector<experiment::Evening>& evenings, const std::string& folder) {
-  fs::create_directories(folder);
-  for (const experiment::Evening& evening : evenings) {
-    const fs::path file = fs::path{folder} / (evening.robot.robot().name + ".toml");
+constexpr const char* kName = "evening";
+
+/// Throws, before an evening is played, where a robot's file is there already or cannot be written.
+void require_room(const EveningsFlags& flags) {
+  fs::create_directories(flags.out_dir);
+  for (std::uint32_t i = 0; i < flags.count; ++i) {
+    const fs::path file = fs::path{flags.out_dir} / fmt::format("{}_{}.toml", kName, flags.seed + i);
     if (fs::exists(file)) throw UsageError{fmt::format("{} exists already; choose another --out-dir", file.string())};
-    evening.robot.write(file);
+    require_writable("--out-dir", file);
   }
+}
+
+void write_robots(const std::vector<experiment::Evening>& evenings, const std::string& folder) {
+  for (const experiment::Evening& evening : evenings)
+    evening.robot.write(fs::path{folder} / (evening.robot.robot().name + ".toml"));
 }
 
 std::size_t kicks_of(const experiment::Evening& evening) {
@@ -63,11 +73,17 @@ EveningsReport play_study(const EveningsFlags& flags) {
   const sim::Scenario world = config::load_scenario(flags.world);
   experiment::EveningOptions options = experiment::default_evening();
   options.scenario = experiment::evening_scenario(options.scenario, world);
-  options.name = "evening";
+  options.name = kName;
   options.seed = flags.seed;
   options.effort = flags.effort;
   options.date = today();
-  const std::vector<experiment::Evening> evenings = experiment::play_evenings(options, flags.count, flags.jobs);
+  if (!flags.out_dir.empty()) require_room(flags);
+  ProgressBar bar;
+  const std::vector<experiment::Evening> evenings =
+      experiment::play_evenings(options, flags.count, flags.jobs, [&](std::size_t done, std::size_t all) {
+        bar.show(static_cast<double>(done), static_cast<double>(all), "evenings", "calibration");
+      });
+  bar.end();
   if (!flags.out_dir.empty()) write_robots(evenings, flags.out_dir);
 
   std::vector<double> kicks;

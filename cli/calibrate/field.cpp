@@ -9,6 +9,7 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
+#include "cli/match_mode.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario.hpp"
@@ -31,6 +32,7 @@ Field field_of(const RunFlags& flags) {
   config::override_settings(field.settings, flags.overrides, "--set");
   field.settings.run.log_level = flags.log_level;
   if (!flags.rehearse) {
+    refuse_in_a_match(field.settings, "the evening on a field");
     field.settings = experiment::evening_settings(std::move(field.settings));
     return field;
   }

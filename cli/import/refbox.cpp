@@ -71,6 +71,7 @@ std::string write_log(const imports::BoxLogs& logs, const RefboxArguments& argum
 }
 
 int import_refbox(const RefboxArguments& arguments) {
+  if (!arguments.out.empty()) require_new("--out", arguments.out);
   const imports::BoxLogs logs = imports::read_box_logs({arguments.files.begin(), arguments.files.end()});
   const RefboxSummary summary = summary_of(logs);
   if (arguments.json) {

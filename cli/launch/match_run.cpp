@@ -94,7 +94,7 @@ struct Watch {
     std::array<pollfd, 2> sources{pollfd{progress.read_end(), POLLIN, 0}, pollfd{signals.file_descriptor(), POLLIN, 0}};
     poll(sources.data(), sources.size(), 1000);
     const bool over = progress.take();
-    bar.show(progress.played_s(), progress.total_s(), fmt::format("{:.0f} s played", progress.played_s()));
+    bar.show(progress.played_s(), progress.total_s(), "s of play", fmt::format("{:.0f} s played", progress.played_s()));
     return over;
   }
 };

@@ -6,34 +6,78 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace trivela::cli {
 
-/// One line on standard error that is drawn over: done, total, time left. Silent unless that is a terminal.
+/// Seconds as a person reads them: "42 s", "7 min", "3.4 h".
+inline std::string time_text(double seconds) {
+  if (seconds < 120.0) return fmt::format("{:.0f} s", seconds);
+  return seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0) : fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// One line of progress: share, time left and rate of what was done in `elapsed_s`. `done` of `total`: in `unit`, which
+/// is empty where nobody counts in it; of a `total` of 0 nobody knows how much there is, and there is no time left.
+inline std::string progress_line(double done, double total, double elapsed_s, const std::string& unit,
+                                 const std::string& what) {
+  std::string line = "  ";
+  if (total > 0.0) {
+    const double share = std::clamp(done / total, 0.0, 1.0);
+    const double left_s = share > 0.0 ? elapsed_s * (1.0 - share) / share : 0.0;
+    line += fmt::format("[{:<40}] {:3.0f} %  {}  ", std::string(static_cast<std::size_t>(40.0 * share), '#'),
+                        100.0 * share, share > 0.0 ? time_text(left_s) + " left" : "begins");
+  }
+  if (!unit.empty()) {
+    if (total <= 0.0) line += fmt::format("{:.0f} {}  ", done, unit);
+    const double rate = elapsed_s > 0.0 ? done / elapsed_s : 0.0;
+    line += rate >= 10.0 || rate == 0.0 ? fmt::format("{:.0f} {}/s  ", rate, unit)
+                                        : fmt::format("{:.2g} {}/s  ", rate, unit);
+  }
+  return line + what;
+}
+
+/// progress_line() on standard error, drawn over ten times a second at most. Silent unless that is a terminal.
 class ProgressBar {
  public:
-  ~ProgressBar() {
-    if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
+  ~ProgressBar() { end(); }
+  ProgressBar() = default;
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// Somebody sees it: what is shown may be worth some work.
+  bool is_seen() const { return terminal_; }
+
+  /// `done` of `total` since the first call; `what` stands behind it.
+  void show(double done, double total, const std::string& unit, const std::string& what) {
+    if (!terminal_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (!started_) started_ = now;
+    if (drawn_ && done < total && now - *drawn_ < std::chrono::milliseconds{100}) return;
+    const double elapsed_s = std::chrono::duration<double>{now - *started_}.count();
+    fmt::print(stderr, "\r{}\x1b[K", progress_line(done, total, elapsed_s, unit, what));
+    std::fflush(stderr);
+    drawn_ = now;
   }
 
-  /// `done` of `total` in whatever unit; `what` stands behind the bar.
-  void show(double done, double total, const std::string& what) {
-    if (!terminal_ || total <= 0.0) return;
-    const double share = std::clamp(done / total, 0.0, 1.0);
-    const double elapsed_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started_}.count();
-    const double left_s = share > 0.0 ? elapsed_s * (1.0 - share) / share : 0.0;
-    const int filled = static_cast<int>(40.0 * share);
-    fmt::print(stderr, "\r  [{:<40}] {:3.0f} %  {:.0f} s left  {} ", std::string(static_cast<std::size_t>(filled), '#'),
-               100.0 * share, left_s, what);
-    std::fflush(stderr);
-    drawn_ = true;
+  /// The same where `what` says all that can be said.
+  void show(double done, double total, const std::string& what) { show(done, total, "", what); }
+
+  /// Time counts from now, on the same line.
+  void restart() { started_.reset(); }
+
+  /// The line stays as it is; the next one begins anew.
+  void end() {
+    if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
+    drawn_.reset();
+    started_.reset();
   }
 
  private:
+  using Instant = std::chrono::steady_clock::time_point;
   bool terminal_ = isatty(STDERR_FILENO) != 0;
-  bool drawn_ = false;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  std::optional<Instant> started_;
+  std::optional<Instant> drawn_;
 };
 
 }  // namespace trivela::cli

@@ -6,6 +6,7 @@
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_lockstep.hpp"
+#include "cli/watch/match_watch.hpp"
 
 namespace trivela::cli {
 
@@ -16,7 +17,7 @@ config::Settings with_emulated_devices(config::Settings settings) {
   return settings;
 }
 
-int record_emulated(config::Settings settings, int domain, const std::string& out) {
+int record_emulated(config::Settings settings, int domain, const std::string& out, const WatchFlags* watch) {
   settings = match_settings(std::move(settings), domain, out);
   SignalInbox signals;
   const LogClaim log{out};
@@ -28,7 +29,11 @@ int record_emulated(config::Settings settings, int domain, const std::string& ou
   };
   std::vector<std::string> beside = more_nodes(settings);
   beside.emplace_back("refbox");
-  return say_how_it_went(run_emulated_match(world.path(), nodes_config, signals, beside), log, out);
+  MatchWatch page{watch, settings};
+  const MatchResult result = run_emulated_match(world.path(), nodes_config, signals, beside);
+  const int exit_code = say_how_it_went(result, log, out);
+  page.stay_after(result, signals);
+  return exit_code;
 }
 
 }  // namespace trivela::cli

@@ -8,6 +8,7 @@
 
 #include "cli/launch/config_file.hpp"
 #include "cli/verbs.hpp"
+#include "cli/watch/match_watch.hpp"
 #include "evaluator/log/reader.hpp"
 
 namespace trivela::cli {
@@ -53,12 +54,17 @@ int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::s
   return kFailed;
 }
 
-int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out) {
+int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out,
+                    const WatchFlags* watch) {
   settings = lockstep_settings(std::move(settings), domain, out);
   SignalInbox signals;
   const LogClaim log{out};
   const ConfigFile config{config::to_toml_text(settings)};
-  return say_how_it_went(run_match(feeder, config.path(), signals, more_nodes(settings)), log, out);
+  MatchWatch page{watch, settings};
+  const MatchResult result = run_match(feeder, config.path(), signals, more_nodes(settings));
+  const int exit_code = say_how_it_went(result, log, out);
+  page.stay_after(result, signals);
+  return exit_code;
 }
 
 }  // namespace trivela::cli

@@ -6,6 +6,7 @@
 
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
+#include "cli/watch/watch_page.hpp"
 #include "config/settings.hpp"
 
 namespace trivela::cli {
@@ -27,8 +28,9 @@ std::int64_t lost_rows(const std::string& log);
 int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::string& out);
 
 /// Runs the nodes with `feeder` in lockstep on a domain of their own and records to `out`; prints how fast it went.
-/// `domain` < 0: drawn. Returns the exit code. Throws UsageError when `out` exists: a recorded match is never
-/// overwritten.
-int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out);
+/// `domain` < 0: drawn. `watch`: its live page is served there, and stays until somebody asks to stop; nullptr: none.
+/// Returns the exit code. Throws UsageError when `out` exists: a recorded match is never overwritten.
+int record_lockstep(const std::string& feeder, config::Settings settings, int domain, const std::string& out,
+                    const WatchFlags* watch = nullptr);
 
 }  // namespace trivela::cli

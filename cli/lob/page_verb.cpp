@@ -13,8 +13,9 @@
 #include "config/robot.hpp"
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
-#include "pages/lob/page_server.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
+#include "pages/serve/page_server.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -70,10 +71,10 @@ int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
                const kicking::lob::AnalyzerConfig& config) {
   const pages::ListenAddress address = pages::parse_listen(flags.listen, flags.port, "--listen");
   SignalInbox signals;  // before all threads, which must not take them
-  pages::Broadcast broadcast;
+  pages::Broadcast broadcast{pages::lob_channels()};
   const auto scene = open_scene(flags, mount, config, broadcast);
   {
-    const pages::PageServer server(*scene, broadcast, address);
+    const pages::PageServer server(pages::lob_page(*scene), broadcast, address);
     fmt::print("{}\n", server.url());
     std::fflush(stdout);
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};

@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 
-#include "bus/reader.hpp"
 #include "idl/messages.hpp"
 
 namespace trivela::cli {
@@ -36,44 +35,13 @@ std::int64_t real_ns() { return std::chrono::nanoseconds{std::chrono::system_clo
 
 }  // namespace
 
-class Listening::AnyEar {
- public:
-  AnyEar() = default;
-  AnyEar(const AnyEar&) = delete;
-  AnyEar& operator=(const AnyEar&) = delete;
-  virtual ~AnyEar() = default;
-};
-
-/// Takes in the thread that brings a sample, so that the instant is that of its reception.
-template <class T>
-class Listening::Ear : public AnyEar {
- public:
-  explicit Ear(Listening& listening) : listening_(listening) {
-    bus::ReaderOptions options;
-    options.keep_all = true;
-    options.observer = true;
-    auto reader = std::make_unique<bus::Reader<T>>(
-        listening.participant_, options, [](void* ear) noexcept { static_cast<Ear*>(ear)->take(); }, this);
-    {
-      const std::lock_guard lock{mutex_};
-      reader_ = std::move(reader);
-    }
-    take();  // what came before there was a reader to take it from
-  }
-  ~Ear() override {
-    // Deleting a reader waits for its listener, which must find the mutex free.
-    std::unique_ptr<bus::Reader<T>> reader;
-    {
-      const std::lock_guard lock{mutex_};
-      reader.swap(reader_);
-    }
-  }
-
- private:
-  void take() noexcept try {
-    const std::lock_guard lock{mutex_};
-    if (!reader_) return;
-    reader_->take([&](const T& sample, const bus::SampleInfo& info) {
+Listening::Listening(const bus::DomainConfig& domain, std::optional<std::uint8_t> only)
+    : participant_(domain), census_(participant_), board_(host_name(), only) {
+  bus::for_each_message([this]<class T>() {
+    board_.add(std::string{bus::meta<T>::topic}, profile_text(bus::meta<T>::profile), bus::meta<T>::period_s);
+  });
+  bus::for_each_message([this]<class T>() {
+    ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, [this](const T& sample, const auto& info) {
       monitor::Heard heard{.writer = info.writer,
                            .seq = {},
                            .t_ns = sample.t_ns,
@@ -81,22 +49,9 @@ class Listening::Ear : public AnyEar {
                            .received_ns = steady_ns(),
                            .received_real_ns = real_ns()};
       if constexpr (requires { sample.seq; }) heard.seq = sample.seq;
-      listening_.hear(std::string{bus::meta<T>::topic}, sample.robot_id, heard);
-    });
-  } catch (...) {  // the bus's thread goes on: what could not be taken is not counted
-  }
-
-  Listening& listening_;
-  std::mutex mutex_;
-  std::unique_ptr<bus::Reader<T>> reader_;
-};
-
-Listening::Listening(const bus::DomainConfig& domain, std::optional<std::uint8_t> only)
-    : participant_(domain), census_(participant_), board_(host_name(), only) {
-  bus::for_each_message([this]<class T>() {
-    board_.add(std::string{bus::meta<T>::topic}, profile_text(bus::meta<T>::profile), bus::meta<T>::period_s);
+      hear(std::string{bus::meta<T>::topic}, sample.robot_id, heard);
+    }));
   });
-  bus::for_each_message([this]<class T>() { ears_.push_back(std::make_unique<Ear<T>>(*this)); });
 }
 
 Listening::~Listening() = default;

@@ -9,6 +9,7 @@
 #include "bus/census.hpp"
 #include "bus/participant.hpp"
 #include "monitor/bus_picture.hpp"
+#include "monitor/ear.hpp"
 
 namespace trivela::cli {
 
@@ -23,16 +24,13 @@ class Listening {
   monitor::BusPicture look();
 
  private:
-  class AnyEar;
-  template <class T>
-  class Ear;
   void hear(const std::string& topic, std::uint8_t robot_id, const monitor::Heard& heard);
 
   bus::Participant participant_;
   bus::CensusTaker census_;
   std::mutex mutex_;  // of the board: samples come on the bus's threads
   monitor::BusBoard board_;
-  std::vector<std::unique_ptr<AnyEar>> ears_;
+  std::vector<std::unique_ptr<monitor::AnyEar>> ears_;
 };
 
 }  // namespace trivela::cli

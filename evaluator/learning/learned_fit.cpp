@@ -91,6 +91,7 @@ double choose_ridge(std::span<const PredictedKick> kicks, std::span<const std::u
     const Kicks training = of_matches(kicks, inside), tested = of_matches(kicks, outside);
     if (tested.empty() || !has_both_outcomes(training)) continue;
     for (std::size_t i = 0; i < losses.size(); ++i) {
+      if (options.progress) options.progress(fold * losses.size() + i, folds * losses.size());
       losses[i] += mean_loss(train(training, options.ridges[i]), tested) * static_cast<double>(tested.size());
     }
   }

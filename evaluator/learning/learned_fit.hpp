@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct LearnOptions {
   int folds = 5;                ///< of the cross-validation that chooses the ridge, among the other matches
   std::vector<double> ridges{0.1, 1.0, 10.0, 100.0, 1000.0, 10000.0};
   std::uint64_t seed = 1;  ///< of the draw of matches
+  /// Told the fits of the cross-validation so far, and of how many; none: nobody asks.
+  std::function<void(std::size_t done, std::size_t all)> progress{};
 };
 
 /// A tenth of the held-out kicks, by the learned probability.

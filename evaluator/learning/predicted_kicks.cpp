@@ -7,7 +7,8 @@
 #include "evaluator/report/log_sessions.hpp"
 
 namespace trivela::evaluator {
-PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source) {
+PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source,
+                               const std::function<void(std::size_t, std::size_t)>& told) {
   struct Recorded {
     std::uint32_t session;
     int robot_id;
@@ -17,6 +18,7 @@ PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, P
   std::vector<Recorded> recorded;
   SessionBook book;
   for (const std::filesystem::path& path : logs) {
+    told(static_cast<std::size_t>(&path - logs.data()), logs.size());
     const log::Reader reader{path};
     const SessionPlaces fresh = book.add(reader, path.string());
     reader.query(kPredictedKicksSql,

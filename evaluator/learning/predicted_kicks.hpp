@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct PredictedKicks {
 
 /// Reads the predicted kicks of match logs, each kick once, with its match, as SessionBook says.
 /// Throws std::runtime_error as log::Reader does, and for a log of a version that had no predictions.
-PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source);
+/// `told(done, all)`: logs that were read.
+PredictedKicks predicted_kicks(
+    const std::vector<std::filesystem::path>& logs, PredictionSource source,
+    const std::function<void(std::size_t done, std::size_t all)>& told = [](auto, auto) {});
 
 }  // namespace trivela::evaluator

@@ -6,6 +6,7 @@
 
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -21,6 +22,11 @@ void check_hashes(const LogFile& file, const std::string& pairs, const std::stri
     if (const std::string is = sha256(text); is != named)
       damaged(file, fmt::format("{} named {:.64} has the SHA-256 {}", what, named, is));
   });
+}
+
+VerificationWatch& verification_watch() {
+  static VerificationWatch watch;
+  return watch;
 }
 
 struct DigestedSession {
@@ -55,6 +61,8 @@ void check_that_rows_have_sessions(const LogFile& file) {
 }
 
 }  // namespace
+
+void watch_verification(VerificationWatch watch) { verification_watch() = std::move(watch); }
 
 void check_texts(const LogFile& file) {
   if (file.version() < kFirstWithTexts) {
@@ -106,17 +114,22 @@ Verification verify(const LogFile& file) {
   Verification found = unverified(file);
   if (file.version() < kFirstWithDigests) return found;
   check_that_rows_have_sessions(file);
+  std::int64_t before = 0;  // rows of sessions that were compared
   RowDigests digests(file.database(), file.version());
+  if (verification_watch())
+    digests.tell([&](std::int64_t rows) { verification_watch()(file.path(), before + rows, found.rows); });
   for (const DigestedSession& session : digested_sessions(file)) {
     if (!session.noted && !session.closed) continue;
     if (!session.noted)
       damaged(file, fmt::format("session {} has ended, but the digest of its rows is not there", session.uuid));
     const RowDigest is = digests.of(session.session_id);
+    before += is.row_count;
     if (is == *session.noted) continue;
     damaged(file, fmt::format("the rows of session {} are not those that were recorded ({} rows, digest {:.12}...; "
                               "recorded {} rows, digest {:.12}...)",
                               session.uuid, is.row_count, is.sha256, session.noted->row_count, session.noted->sha256));
   }
+  if (const auto wrong = wrong_tallies(file); !wrong.empty()) damaged(file, wrong.front());
   found.compared = true;
   return found;
 }

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string>
 
 namespace trivela::evaluator::log {
 
 /// How closely a log is looked at when it is opened.
 enum class Check {
   kSchema,   ///< its schema alone, for who takes what is readable of a damaged file
-  kQuick,    ///< its schema, its texts, and that its pages hang together
+  kQuick,    ///< its schema, its texts, and, of at most kShort_B, that its pages hang together
   kIfShort,  ///< everything, where that takes well under a second: files of at most kShort_B
   kWhole,    ///< everything: each index entry, and each row by its digest
 };
@@ -19,6 +21,11 @@ struct Verification {
   std::int64_t without_digest = 0;  ///< sessions that never ended, or of a version that had no digests
   bool compared = false;            ///< the rows that digests cover are those that were recorded
 };
+
+/// Who is told, of every log that this program verifies: its path, rows that were compared, and of how many. Of the
+/// whole program, since logs are opened in many places; none: nobody.
+using VerificationWatch = std::function<void(const std::string& file, std::int64_t rows, std::int64_t all)>;
+void watch_verification(VerificationWatch watch);
 
 class LogFile;
 

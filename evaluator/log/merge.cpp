@@ -10,10 +10,12 @@
 
 #include "evaluator/log/merge_clocks.hpp"
 #include "evaluator/log/merge_source.hpp"
+#include "evaluator/log/merge_whole.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/row_copy.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -43,6 +45,7 @@ class Merging {
       file.damage = source.damage();
       file.readable = source.reader() != nullptr;
       if (file.readable) file.version = source.reader()->version();
+      if (file.readable) rows_ += source.reader()->verification().rows;
       for (const auto& [session_id, copy] : source.sessions()) file.parts.push_back({session_id, 0, 0});
     }
     choose();
@@ -51,8 +54,9 @@ class Merging {
   Merged write(const fs::path& to) {
     if (choices_.empty()) throw std::runtime_error(nothing_to_merge());
     const auto database = new_file(to, kMatchLog, [&](SQLite::Database& made) {
-      SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
       create_tables(made);
+      copy_whole_sources(made);
+      SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
       copy_all(made);
       finish_sessions(made);
       transaction.commit();
@@ -91,11 +95,39 @@ class Merging {
     }
   }
 
+  /// Of this version, sound, and the one file that all of its sessions are taken from: nothing in it has to be chosen.
+  bool is_taken_whole(std::size_t i) const {
+    const Reader* const reader = sources_[i].reader();
+    return reader != nullptr && reader->version() == kMatchLog.version && sources_[i].damage().empty() &&
+           std::ranges::all_of(sources_[i].sessions(), [&](const auto& session) {
+             return session.second == Copy::kWhole && choices_.at(session.first).source == i;
+           });
+  }
+
+  void copy_whole_sources(SQLite::Database& database) try {
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (!is_taken_whole(i)) continue;
+      const std::int64_t before = read_;
+      copy_whole(database, sources_[i].path(), [&](std::int64_t rows) {
+        read_ = before + rows;
+        if (options_.progress) options_.progress(read_, rows_);
+      });
+      for (MergedPart& part : merged_.files[i].parts) {
+        const auto rows = rows_of_whole(database, part.session_id);
+        part.rows = part.added = rows ? *rows : counted_rows(database, part.session_id);
+        if (part.rows == 0) unfit_.insert(part.session_id);
+      }
+    }
+  } catch (const SQLite::Exception& error) {
+    throw WriteFailed{error.what()};
+  }
+
   void copy_all(SQLite::Database& database) {
     copy_texts(database);
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].reader() == nullptr) continue;
       copy_experiments(database, sources_[i]);
+      if (is_taken_whole(i)) continue;
       for (const DigestedTable& table : digested_tables()) copy_rows(database, i, table, true);
     }
     for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -194,7 +226,7 @@ class Merging {
   }
 
   void tell() {
-    if (++read_ % kToldEvery == 0 && options_.progress) options_.progress(read_);
+    if (++read_ % kToldEvery == 0 && options_.progress) options_.progress(read_, rows_);
   }
 
   void finish_sessions(SQLite::Database& database) {
@@ -205,7 +237,8 @@ class Merging {
       MergedSession& session = merged_.sessions.emplace_back();
       session.is_whole = choice.copy == Copy::kWhole && !without_text_.contains(session_id);
       if (session.is_whole) {
-        digests.write(session_id);
+        if (!rows_of_whole(database, session_id)) digests.write(session_id);
+        if (!has_tallies(database, session_id)) write_tallies(database, session_id);
       } else {
         reopen.bind(1, session_id);
         reopen.exec();
@@ -215,6 +248,10 @@ class Merging {
       if (!session.is_whole) session.missing_rows = missing_rows(database, session_id);
     }
     write_provenance(database);
+    copy_said(database);
+    KickSayings sayings;
+    for (const MergeSource& source : sources_) sayings.add(source);
+    merged_.conflicts = sayings.conflicts();
     merged_.alignment = write_clocks(database, merged_.sessions, options_.reference_robot);
   }
 
@@ -237,6 +274,25 @@ class Merging {
     }
   }
 
+  /// What people say, of every file; tallies of the rows that a session has in the file that it is taken from.
+  void copy_said(SQLite::Database& database) {
+    for (const std::string_view table : kSaidAfterwards) {
+      if (table == "session_clocks" || table == "merged_sessions") continue;
+      const bool by_people = table == "labels" || table == "notes";
+      RowCopy copy(database, table);
+      const std::size_t id_place = copy.place("session_id");
+      for (std::size_t i = 0; i < sources_.size(); ++i) {
+        if (sources_[i].reader() == nullptr) continue;
+        sources_[i].for_each_row(table, copy.columns(), "session_id", [&](std::span<const Value> row) {
+          const auto* const id = std::get_if<std::int64_t>(&row[id_place]);
+          const auto choice = id != nullptr ? choices_.find(*id) : choices_.end();
+          if (choice == choices_.end() || unfit_.contains(*id)) return;
+          if (by_people || (choice->second.source == i && choice->second.copy == Copy::kWhole)) add(copy, row);
+        });
+      }
+    }
+  }
+
   /// Without its folder, which is another one tomorrow.
   static std::string damage_of(const MergedFile& file) {
     std::string damage = file.damage;
@@ -254,6 +310,7 @@ class Merging {
   std::set<std::int64_t> unfit_;                                     // sessions whose own row is against the schema
   std::set<std::pair<const MergeSource*, std::int64_t>> inherited_;  // sessions of which a merged file says more
   std::int64_t read_ = 0;
+  std::int64_t rows_ = 0;  // that digests of the files cover
   Merged merged_;
 };
 

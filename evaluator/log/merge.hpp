@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "evaluator/log/clock_alignment.hpp"
+#include "evaluator/log/kick_conflicts.hpp"
 
 namespace trivela::evaluator::log {
 
 struct MergeOptions {
-  std::optional<int> reference_robot{};          ///< by whose clock times are aligned, 0: the base's; none: chosen
-  std::function<void(std::int64_t)> progress{};  ///< told the rows read so far; none: nobody asks
+  std::optional<int> reference_robot{};  ///< by whose clock times are aligned, 0: the base's; none: chosen
+  /// Told the rows read so far, and how many the files say that they have; none: nobody asks.
+  std::function<void(std::int64_t read, std::int64_t all)> progress{};
 };
 
 /// A session as one file had it.
@@ -43,6 +45,7 @@ struct Merged {
   std::vector<MergedFile> files;        ///< in the order they were given
   std::vector<MergedSession> sessions;  ///< by session_id
   Alignment alignment;
+  std::vector<KickConflict> conflicts;  ///< kicks of which the files say different things
 };
 
 /// One new match log of kMatchLog.version out of several of any version. Each session is in it once, row for row as it
@@ -50,8 +53,9 @@ struct Merged {
 /// of one sample stay in the session of each; readers count them once (evaluator/report/one_play.hpp). Of a file that
 /// is damaged what can be read is taken, from its tables' beginnings and from their ends; its sessions count as not
 /// closed, unless another file has them whole. Times stay as they are: tables `session_clocks` says what UTC they are
-/// by the reference's clock, `merged_sessions` which file had what. The same files and their merged log make the same
-/// tables again. No file is changed. Throws std::runtime_error where none can be read, `to` exists, or cannot be
+/// by the reference's clock, `merged_sessions` which file had what. What people say of kicks and sessions
+/// comes along from every file, tallies with whole sessions. The same files and their merged log make the same tables
+/// again. No file is changed. Throws std::runtime_error where none can be read, `to` exists, or cannot be
 /// written; nothing is left behind then.
 Merged merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& to,
              const MergeOptions& options = {});

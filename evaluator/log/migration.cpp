@@ -6,14 +6,18 @@
 #include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row_copy.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::int64_t kTold_rows = 10'000;
 
@@ -57,6 +61,26 @@ void copy_rows(const Reader& reader, SQLite::Database& database, std::string_vie
   });
 }
 
+/// Folds what a killed recorder left behind into the file. Throws where somebody still has it.
+void let_go(const fs::path& log) {
+  const auto held = [&](const char* why) {
+    return std::runtime_error(fmt::format("cannot put another log in the place of {}: {}", log.string(), why));
+  };
+  try {
+    SQLite::Database database(log.string(), SQLite::OPEN_READWRITE);
+    if (!fold(database)) throw held("a recorder or a reader has it");
+  } catch (const SQLite::Exception& error) {
+    throw held(error.what());
+  }
+}
+
+/// The file under another name, too; where the disk knows no second names, a copy.
+void keep_as(const fs::path& log, const fs::path& backup) {
+  std::error_code no_links;
+  fs::create_hard_link(log, backup, no_links);
+  if (no_links) fs::copy_file(log, backup);
+}
+
 }  // namespace
 
 Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
@@ -71,19 +95,47 @@ Migrated migrate(const std::filesystem::path& from, const std::filesystem::path&
     const auto copied = [&] {
       if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
     };
-    for (const char* const beside : {"experiments", "session_clocks", "merged_sessions"})
-      copy_rows(reader, made, beside, names, [] {});
+    copy_rows(reader, made, "experiments", names, [] {});
+    for (const std::string_view table : kSaidAfterwards) copy_rows(reader, made, table, names, [] {});
     for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
     RowDigests digests(made);
     for (const RecordedSession& session : reader.sessions()) {
       if (!session.closed_t_ns) continue;
       digests.write(session.session_id);
+      write_tallies(made, session.session_id);
       ++migrated.sessions;
     }
     transaction.commit();
   });
   fold(*database);
   return migrated;
+}
+
+fs::path backup_of(const fs::path& log) {
+  const LogFile file(log, kMatchLog, Check::kSchema);
+  return log.parent_path() /
+         fmt::format("{}.version-{}{}", log.stem().string(), file.version(), log.extension().string());
+}
+
+Migrated migrate_in_place(const fs::path& log, const fs::path& backup,
+                          const std::function<void(std::int64_t, std::int64_t)>& progress) {
+  if (LogFile(log, kMatchLog, Check::kSchema).version() == kMatchLog.version)
+    throw std::runtime_error(fmt::format("{} is of version {} already", log.string(), kMatchLog.version));
+  if (fs::exists(backup))
+    throw std::runtime_error(fmt::format("{} exists already; the old log would take its place", backup.string()));
+  let_go(log);
+  const fs::path made = beside(log, ".migrating");
+  fs::remove(made);  // of a migration that was cut off
+  try {
+    const Migrated migrated = migrate(log, made, progress);
+    const Reader whole(made, Check::kWhole);
+    keep_as(log, backup);
+    fs::rename(made, log);
+    return migrated;
+  } catch (...) {
+    for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(made, suffix));
+    throw;
+  }
 }
 
 }  // namespace trivela::evaluator::log

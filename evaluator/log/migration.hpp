@@ -20,4 +20,14 @@ struct Migrated {
 Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
                  const std::function<void(std::int64_t, std::int64_t)>& progress);
 
+/// Puts a log of this version in the place of an older one: `backup` is the old file under its new name, beside it
+/// (backup_of()). The new log is made and verified before it takes the name, so that at any instant the name stands for
+/// the one or the other, whole. Throws std::runtime_error where the log is of this version already, where its recorder
+/// or a reader still has it, where the backup exists, and as migrate(): the log is as it was then.
+Migrated migrate_in_place(const std::filesystem::path& log, const std::filesystem::path& backup,
+                          const std::function<void(std::int64_t, std::int64_t)>& progress);
+
+/// "match.version-7.db" of "match.db", for the log's own version. Throws std::runtime_error as Reader does.
+std::filesystem::path backup_of(const std::filesystem::path& log);
+
 }  // namespace trivela::evaluator::log

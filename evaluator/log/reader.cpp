@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/log_file.hpp"
@@ -14,6 +15,8 @@
 
 namespace trivela::evaluator::log {
 namespace {
+
+constexpr std::int64_t kMostHeldKicks = 100'000;  // some 40 MB
 
 std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& outcome, std::optional<double> x_cross_m,
                                            std::optional<double> z_cross_m) {
@@ -37,6 +40,7 @@ struct Reader::Impl {
 
   LogFile file;
   Verification verification;
+  bool holds_kicks = false;
   std::map<std::string, StreamSearch, std::less<>> streams;  // by table and columns; before the file goes, they go
 };
 
@@ -60,6 +64,19 @@ std::optional<std::string> Reader::doubt() const {
                        found.without_digest == 1 ? "a session" : fmt::format("{} sessions", found.without_digest),
                        found.without_digest == 1 ? "has" : "have");
   return std::nullopt;
+}
+
+void Reader::hold_kicks() const {
+  if (std::exchange(impl_->holds_kicks, true)) return;
+  SQLite::Database& database = impl_->file.database();
+  impl_->file.as_query([&] {
+    if (database.execAndGet("SELECT count(*) FROM kick_decisions WHERE fire = 1").getInt64() > kMostHeldKicks) return;
+    // By the view's own name, which the others go by.
+    database.exec(
+        "CREATE TEMP TABLE put_together AS SELECT * FROM temp.kicks; DROP VIEW temp.kicks; "
+        "CREATE TEMP TABLE kicks AS SELECT * FROM temp.put_together; DROP TABLE temp.put_together; "
+        "CREATE INDEX temp.kicks_key ON kicks (session_id, robot_id, kick_id)");
+  });
 }
 
 void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const {

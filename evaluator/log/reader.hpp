@@ -116,6 +116,10 @@ class Reader final : public Queries {
   void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
            const RowFunction& fn) const;
 
+  /// From now on every question about kicks is answered out of memory, where there are not too many for that: putting
+  /// each together takes five looks into the file.
+  void hold_kicks() const;
+
   /// From now on the view counted_kicks of this reader has neither kicks of these sessions nor these kicks.
   void leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) const;
 

@@ -15,22 +15,38 @@ SELECT s.session_id,
     AS ball_offset_m
 FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256
 WHERE instr(t.text, char(10) || 'opponents_half_only = true' || char(10)) > 0;
+-- What people say of kicks: the latest label of each, unless it is withdrawn, for every recording of that kick in the log.
+-- An experiment's kicks are nobody else's.
+CREATE TEMP VIEW hand_labels AS
+SELECT session_id, robot_id, kick_id, utc_ns, who, outcome, note
+FROM (
+  SELECT s.session_id, l.robot_id, l.kick_id, l.utc_ns, l.who, l.outcome, l.note,
+    row_number() OVER (PARTITION BY s.session_id, l.robot_id, l.kick_id ORDER BY l.utc_ns DESC, l.who DESC) AS place
+  FROM labels AS l
+  JOIN sessions AS own ON own.session_id = l.session_id
+  JOIN sessions AS s ON s.session_id = l.session_id
+    OR (s.match_id IS NULL AND own.match_id IS NULL AND s.seed IS own.seed AND EXISTS (
+      SELECT 1 FROM kick_decisions AS d
+      WHERE d.session_id = s.session_id AND d.robot_id = l.robot_id AND d.kick_id = l.kick_id AND d.fire = 1
+        AND d.t_ns = l.t_ns)))
+WHERE place = 1 AND outcome IS NOT NULL;
 -- Kicks with own_half, 1 where the rules count no goal from where the ball lay when the kick was decided, and with what
--- counts as their outcome: 'own_half' of one on target from there, 'outside' where somebody saw by eye that it was
--- outside and did not say how.
+-- counts as their outcome, label: what people say of it (hand_outcome; NULL: nothing), else what the observer does (outcome).
+-- 'own_half' is one on target from there, 'outside' one of which somebody who saw it did not say how.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
-  CASE WHEN k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
+  CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
       AND k.session_id IN (SELECT session_id FROM imported_sessions)
     THEN 'outside'
-    WHEN k.own_half AND k.outcome = 'on_target' THEN 'own_half'
-    ELSE k.outcome END AS label
+    WHEN k.own_half AND coalesce(k.hand_outcome, k.outcome) = 'on_target' THEN 'own_half'
+    ELSE coalesce(k.hand_outcome, k.outcome) END AS label
 FROM (
-  SELECT j.*, CASE WHEN j.session_id IN (SELECT session_id FROM opponents_half_sessions) THEN EXISTS (
+  SELECT j.*, h.outcome AS hand_outcome, coalesce(h.utc_ns, 0) AS labelled_utc_ns, CASE WHEN j.session_id IN (SELECT session_id FROM opponents_half_sessions) THEN EXISTS (
     SELECT 1 FROM kick_decisions AS d JOIN opponents_half_sessions AS s ON s.session_id = d.session_id
     WHERE d.session_id = j.session_id AND d.robot_id = j.robot_id AND d.seq = j.seq
       AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0) ELSE 0 END AS own_half
-  FROM temp.kicks AS j) AS k;
+  FROM temp.kicks AS j
+  LEFT JOIN hand_labels AS h ON h.session_id = j.session_id AND h.robot_id = j.robot_id AND h.kick_id = j.kick_id) AS k;
 CREATE TEMP VIEW counted_kicks AS
 SELECT k.* FROM labelled_kicks AS k
 WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
@@ -39,9 +55,9 @@ WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
 
 -- Kicks that the driver accepted: the decision with what was given to the device and what the robot saw of the flight
 -- (NULL: nothing). An order may be sent twice, an outcome corrected: the first decision, the first receipt that accepts
--- and the latest outcome count.
+-- and the latest outcome count; what people say of the kick comes before the robot's outcome.
 CREATE TEMP VIEW accepted_kicks AS
-SELECT d.*, r.order_t_ns, r.power AS given_power, c.outcome, c.x_cross_m, c.z_cross_m
+SELECT d.*, r.order_t_ns, r.power AS given_power, coalesce(h.outcome, c.outcome) AS outcome, c.x_cross_m, c.z_cross_m
 FROM kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
@@ -49,6 +65,7 @@ JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_
 LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
   SELECT max(seq) FROM main.kick_outcomes INDEXED BY kick_outcomes_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)
+LEFT JOIN hand_labels AS h ON h.session_id = d.session_id AND h.robot_id = d.robot_id AND h.kick_id = d.kick_id
 WHERE d.fire = 1 AND d.seq = (
   SELECT min(seq) FROM main.kick_decisions INDEXED BY kick_decisions_fired
   WHERE fire = 1 AND session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id);

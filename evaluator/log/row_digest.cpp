@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <map>
@@ -9,6 +10,7 @@
 namespace trivela::evaluator::log {
 namespace {
 
+constexpr std::int64_t kToldEvery_rows = 10'000;
 constexpr std::size_t kPour_B = 1 << 16;
 
 std::vector<DigestedTable> tables_of_schema(int version) {
@@ -16,12 +18,14 @@ std::vector<DigestedTable> tables_of_schema(int version) {
   empty.exec(std::string(schema_of(kMatchLog, version)));
   SQLite::Statement keys(empty, R"(
     SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
-    WHERE t.type = 'table' AND t.name NOT IN ('digests', 'session_clocks', 'merged_sessions') AND k.pk > 0
+    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
       AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
     ORDER BY t.rowid, k.pk)");
   std::vector<DigestedTable> tables;
   while (keys.executeStep()) {
     const std::string name = keys.getColumn(0).getString(), column = keys.getColumn(1).getString();
+    if (std::ranges::find(kSaidAfterwards, name) != kSaidAfterwards.end()) continue;
+    if (std::ranges::find(kTallies, name) != kTallies.end()) continue;
     if (tables.empty() || tables.back().name != name) {
       tables.push_back({name, column});
     } else {
@@ -103,7 +107,7 @@ RowDigest RowDigests::of(std::int64_t session_id) {
     sqlite3_bind_int64(row, 1, session_id);
     int code = SQLITE_OK;
     while ((code = sqlite3_step(row)) == SQLITE_ROW) {
-      ++digest.row_count;
+      if (++digest.row_count % kToldEvery_rows == 0 && told_) told_(digest.row_count);
       bytes_.push_back('r');
       for (int i = 0; i < sqlite3_column_count(row); ++i) add_cell(row, i);
       if (bytes_.size() >= kPour_B) pour();

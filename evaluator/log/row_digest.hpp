@@ -3,7 +3,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,11 +22,19 @@ struct DigestedTable {
   std::string key;
 };
 
+/// Tables of what is said of a session afterwards, which no digest covers: by merging, by people. Copies of a log
+/// have them, too.
+inline constexpr std::array<std::string_view, 4> kSaidAfterwards = {"session_clocks", "merged_sessions", "labels",
+                                                                    "notes"};
+
+/// Tables of what was counted of a session's rows when it ended, which no digest covers; copies count anew.
+inline constexpr std::array<std::string_view, 6> kTallies = {
+    "session_tallies", "possession_tallies", "order_tallies", "referee_tallies", "ball_turns", "tallied_sessions"};
+
 /// What is recorded of a session, in the order of the digest: the tables of the version's schema that have a
-/// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and nothing
-/// that is said of a session afterwards, as merging does in `session_clocks` and `merged_sessions`. `texts` are covered
-/// by the hashes that sessions name them by. A change of these tables, or of their order, is another version of the
-/// log.
+/// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and neither
+/// kSaidAfterwards nor kTallies. `texts` are covered by the hashes that sessions name them by. A change of these
+/// tables, or of their order, is another version of the log.
 const std::vector<DigestedTable>& digested_tables(int version = kMatchLog.version);
 
 /// Version of a match log.
@@ -52,6 +62,9 @@ class RowDigests {
   /// Throws SQLite::Exception where the file cannot be read.
   RowDigest of(std::int64_t session_id);
 
+  /// From now on `told(rows)` is called every some thousand rows of a session.
+  void tell(std::function<void(std::int64_t rows)> told) { told_ = std::move(told); }
+
   /// Notes it in table `digests`.
   void write(std::int64_t session_id);
 
@@ -77,6 +90,7 @@ class RowDigests {
   std::vector<Rows> tables_;
   std::vector<unsigned char> bytes_;  // not hashed yet
   RunningSha256 sha256_;
+  std::function<void(std::int64_t)> told_;
 };
 
 }  // namespace trivela::evaluator::log

@@ -10,6 +10,7 @@
 #include "evaluator/log/before_version_5.sql.hpp"
 #include "evaluator/log/before_version_6.sql.hpp"
 #include "evaluator/log/before_version_7.sql.hpp"
+#include "evaluator/log/before_version_8.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
@@ -21,6 +22,9 @@
 #include "evaluator/log/schema_version_4.sql.hpp"
 #include "evaluator/log/schema_version_5.sql.hpp"
 #include "evaluator/log/schema_version_6.sql.hpp"
+#include "evaluator/log/schema_version_7.sql.hpp"
+#include "evaluator/log/session_tallies.hpp"
+#include "evaluator/log/tally_schema.sql.hpp"
 #include "evaluator/log/version_1.sql.hpp"
 #include "evaluator/log/version_2.sql.hpp"
 #include "evaluator/log/version_3.sql.hpp"
@@ -86,6 +90,7 @@ std::string kicks_with_nulls() {
 
 std::string_view schema_of(const LogKind& kind, int version) {
   if (kind.application_id == kScanRecord.application_id) return version == 1 ? kScanSchemaVersion1Sql : kScanSchemaSql;
+  if (kind.application_id == kTallyBook.application_id) return kTallySchemaSql;
   switch (version) {
     case 1:
       return kSchemaVersion1Sql;
@@ -99,6 +104,8 @@ std::string_view schema_of(const LogKind& kind, int version) {
       return kSchemaVersion5Sql;
     case 6:
       return kSchemaVersion6Sql;
+    case 7:
+      return kSchemaVersion7Sql;
     default:
       return match_schema();
   }
@@ -117,6 +124,18 @@ std::optional<std::string> table_of_message(std::string_view type) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The view policy_order: policies with their place in every list.
+std::string policy_order() {
+  std::string rows;
+  for (std::size_t place = 0; place < kicking::kPolicyCount; ++place)
+    rows += fmt::format("{}('{}', {})", place == 0 ? "" : ", ", kicking::kPolicyFacts[place].name, place);
+  return fmt::format("CREATE TEMP VIEW policy_order (policy, place) AS VALUES {};", rows);
+}
+
+}  // namespace
+
 void create_reading_views(SQLite::Database& database, int version) {
   const char* const kicks = version == 1 ? "kicks_of_version_1" : version < 4 ? "kicks_of_version_3" : "kicks";
   database.exec(own_kicks(schema_of(kMatchLog, version), kicks));
@@ -130,13 +149,28 @@ void create_reading_views(SQLite::Database& database, int version) {
   if (version < 5) database.exec(kBeforeVersion5Sql);
   if (version < 6) database.exec(kBeforeVersion6Sql);
   if (version < 7) database.exec(kBeforeVersion7Sql);
+  if (version < 8) database.exec(kBeforeVersion8Sql);
+  database.exec(policy_order());
   database.exec(kReadingViewsSql);
+  create_tally_views(database, version);
 }
 
 void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
   database.exec(match_schema());
+}
+
+void create_book(SQLite::Database& database, const StudyRow& study) {
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kTallyBook.application_id,
+                            kTallyBook.version));
+  database.exec(kTallySchemaSql);
+  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, ?)");
+  insert.bind(1, sha256(study.arguments));
+  insert.bind(2, study.arguments);
+  insert.bind(3, study.matches);
+  insert.bind(4, study.finished ? 1 : 0);
+  insert.exec();
 }
 
 namespace {

@@ -19,8 +19,9 @@ struct LogKind {
   int application_id = 0;    ///< shown by file(1)
   int version = 1;           ///< PRAGMA user_version
 };
-inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 7};     ///< "KICK"
-inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 2};  ///< "SCAN"
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 8};                ///< "KICK"
+inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 2};             ///< "SCAN"
+inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 1};  ///< "TALY"
 
 struct Column {
   std::string name;
@@ -37,6 +38,16 @@ void create_reading_views(SQLite::Database& database, int version);
 
 /// Creates the tables of a match log. Throws SQLite::Exception.
 void create_tables(SQLite::Database& database);
+
+/// What a book of tallies says of its study.
+struct StudyRow {
+  std::string arguments;
+  std::int64_t matches = 0;
+  bool finished = false;
+};
+
+/// Creates the tables of a book of tallies (evaluator/log/tally_book.hpp). Throws SQLite::Exception.
+void create_book(SQLite::Database& database, const StudyRow& study);
 
 /// Inserts a session's rows, its texts where they are not there yet; `uuid` must be set. `closed_t_ns`: end of the
 /// recording, none: it goes on. Throws SQLite::Exception.

@@ -1,4 +1,4 @@
--- Schema of a match log, version 7. One file holds one session or several merged ones.
+-- Schema of a match log, version 8. One file holds one session or several merged ones.
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
@@ -450,6 +450,93 @@ CREATE TABLE merged_sessions (             -- made by merging: the files that ha
   row_count INTEGER NOT NULL,              -- rows of the session that could be read there
   damage TEXT NOT NULL,                    -- what was wrong with the file; empty: nothing
   PRIMARY KEY (session_id, file)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE labels (                      -- what people say of a kick; every row stays, the latest of a kick holds
+  session_id INTEGER NOT NULL,             -- sessions.session_id in which it was labelled
+  robot_id INTEGER NOT NULL,               -- robot that kicked
+  kick_id INTEGER NOT NULL,                -- of the decision
+  utc_ns INTEGER NOT NULL,                 -- UTC since 1970, later than the kick's other labels
+  who TEXT NOT NULL,                       -- who says so
+  t_ns INTEGER NOT NULL,                   -- of the decision: with robot and kick_id it names the kick in other recordings
+  outcome TEXT CHECK (outcome = 'on_target' OR outcome = 'wide_left' OR outcome = 'wide_right'
+    OR outcome = 'over' OR outcome = 'short' OR outcome = 'post' OR outcome = 'bar' OR outcome = 'blocked'
+    OR outcome = 'outside' OR outcome = 'unknown'), -- what became of it; outside: it does not say how; NULL: withdrawn
+  note TEXT NOT NULL,                      -- why, such as a video's time; empty: none
+  PRIMARY KEY (session_id, robot_id, kick_id, utc_ns, who)
+) STRICT, WITHOUT ROWID;
+
+CREATE INDEX labels_kick ON labels (robot_id, kick_id);
+
+CREATE TABLE notes (                       -- what people say of a session; every row stays
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  kind TEXT NOT NULL CHECK (kind = 'match' OR kind = 'opponent' OR kind = 'venue'
+    OR kind = 'note'), -- of match, opponent and venue the latest holds, notes stand beside each other
+  utc_ns INTEGER NOT NULL,                 -- UTC since 1970
+  who TEXT NOT NULL,                       -- who says so
+  text TEXT,                               -- NULL: what was said of this kind before is withdrawn
+  PRIMARY KEY (session_id, kind, utc_ns, who)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE session_tallies (             -- decisions counted when a session ends; tallied_sessions says of which
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  policy TEXT NOT NULL,                    -- that decided
+  in_charge INTEGER NOT NULL CHECK (in_charge IN (0, 1)), -- 1: rows of kick_decisions; 0: of shadow_decisions
+  decisions INTEGER NOT NULL,              -- rows
+  fires INTEGER NOT NULL,                  -- of them with fire = 1
+  first_t_ns INTEGER NOT NULL,             -- of the first decision
+  last_t_ns INTEGER NOT NULL,              -- of the last one
+  possessions INTEGER NOT NULL,            -- that it decided in: different half and possession_id of the decisions
+  PRIMARY KEY (session_id, robot_id, policy, in_charge)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE possession_tallies (          -- possessions counted when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot; of the referee's count the one that heard him
+  half INTEGER NOT NULL,                   -- 1, 2
+  possession_id INTEGER NOT NULL,          -- by the count of counted_by
+  counted_by TEXT NOT NULL CHECK (counted_by = 'robot' OR counted_by = 'referee'), -- whose count it is
+  first_seq INTEGER,                       -- kick_decisions.seq of the first decision; NULL: none, or the referee's count
+  decisions INTEGER NOT NULL,              -- rows of kick_decisions; 0 of the referee's count
+  fires INTEGER NOT NULL,                  -- of them with fire = 1
+  from_t_ns INTEGER,                       -- play by this count (evaluator/metrics/played_spans.sql); NULL: none
+  to_t_ns INTEGER,                         -- its end
+  played_ns INTEGER,                       -- played between the two
+  PRIMARY KEY (session_id, robot_id, half, possession_id, counted_by)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE order_tallies (               -- kicker_status counted when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  first_t_ns INTEGER NOT NULL,             -- of the first status
+  first_handled INTEGER NOT NULL,          -- orders_handled there
+  first_refused INTEGER NOT NULL,          -- orders_refused there
+  handled_within INTEGER NOT NULL,         -- orders from there to the last status, a driver that starts anew counting from 0
+  refused_within INTEGER NOT NULL,         -- of them refused
+  PRIMARY KEY (session_id, robot_id)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE referee_tallies (             -- the referee's words counted when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot that heard them
+  half INTEGER NOT NULL,                   -- 1, 2; 3, 4 in overtime
+  words INTEGER NOT NULL,                  -- rows of referee
+  first_t_ns INTEGER NOT NULL,             -- of the first one
+  last_t_ns INTEGER NOT NULL,              -- of the last one
+  PRIMARY KEY (session_id, robot_id, half)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE ball_turns (                  -- balls that came back after a kick (evaluator/log/ball_turns.hpp), when a session ends
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  turn INTEGER NOT NULL,                   -- from 0, in the order of time
+  y_m REAL NOT NULL,                       -- how far forward it came, in F, m
+  PRIMARY KEY (session_id, turn)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE tallied_sessions (            -- sessions that were counted when they ended, after all of their tallies
+  session_id INTEGER NOT NULL PRIMARY KEY, -- sessions.session_id
+  sha256 TEXT NOT NULL                     -- digests.sha256 of the rows that were counted: of others the tallies say nothing
 ) STRICT, WITHOUT ROWID;
 
 -- A kick is a decision that fired; an order may be sent twice, so the latest receipt that is no answer to a repetition

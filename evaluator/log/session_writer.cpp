@@ -11,6 +11,7 @@
 
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/session_tallies.hpp"
 
 namespace trivela::evaluator::log {
 SessionWriter::SessionWriter(const std::filesystem::path& path, const NewLog& log)
@@ -182,6 +183,7 @@ void SessionWriter::commit_end(const LossBook& book, std::optional<std::int64_t>
     close.bind(2, session_id_);
     close.exec();
     if (schema_.contains("digests")) RowDigests(*database_).write(session_id_);
+    if (schema_.contains("tallied_sessions")) write_tallies(*database_, session_id_);
   }
   transaction.commit();
 }

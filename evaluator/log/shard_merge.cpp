@@ -1,9 +1,9 @@
 #include "evaluator/log/shard_merge.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,94 +13,109 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
-#include "evaluator/log/shard.hpp"
+#include "evaluator/log/shard_set.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ShardFile {
-  fs::path path;
-  ShardStamp stamp;
-  std::int64_t matches = 0;       // of this shard
-  std::int64_t matches_done = 0;  // so far
+/// With the matches that it shall have, and has.
+struct ExperimentFile : ShardFile {
+  std::int64_t matches = 0;
+  std::int64_t done = 0;
+  bool is_shard = false;  // false: a whole experiment, as its one part
 };
 
-std::runtime_error refused(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
-}
-
-/// None: a log, but no shard's.
-std::optional<ShardFile> shard_in(const fs::path& path, const Reader& reader) {
-  std::optional<ShardFile> found;
+/// A shard's log or that of a whole experiment; none: another log.
+std::optional<ExperimentFile> experiment_in(const fs::path& path, const Reader& reader) {
+  std::optional<ExperimentFile> found;
   std::int64_t experiments = 0;
   reader.query("SELECT arguments, matches, matches_done FROM experiments",
                [&](const std::string& arguments, std::int64_t matches, std::int64_t done) {
                  ++experiments;
-                 if (const auto stamp = stamp_of(arguments)) found = ShardFile{path, *stamp, matches, done};
+                 const auto stamp = stamp_of(arguments);
+                 found = ExperimentFile{
+                     {path, stamp.value_or(ShardStamp{arguments, Shard{}, matches})}, matches, done, stamp.has_value()};
                });
   return experiments == 1 ? found : std::nullopt;
 }
 
-ShardFile read_shard(const fs::path& path) {
+ExperimentFile read_shard(const fs::path& path) {
   const Reader reader(path, Check::kWhole);
-  auto file = shard_in(path, reader);
-  if (!file) throw refused(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
+  const auto file = experiment_in(path, reader);
+  if (!file) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
   if (reader.version() != kMatchLog.version)
-    throw refused(path, fmt::format("is of version {} and not {}: shards are merged by the program that played them",
+    throw refused_shard(path,
+                        fmt::format("is of version {} and not {}: shards are merged by the program that played them",
                                     reader.version(), kMatchLog.version));
-  const std::string name = "shard " + file->stamp.shard.text();
-  if (file->matches_done != file->matches)
-    throw refused(path, fmt::format("{} has {} of its {} matches: the command that began it goes on from there", name,
-                                    file->matches_done, file->matches));
-  if (const auto range = range_of(file->stamp.shard, static_cast<std::uint32_t>(file->stamp.matches));
-      range.size() != file->matches)
-    throw refused(path, fmt::format("{} should have {} matches and not {}", name, range.size(), file->matches));
+  if (file->done != file->matches)
+    throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
+                                          "there",
+                                          file->stamp.shard.text(), file->done, file->matches));
+  check_share(*file, file->matches);
   return *file;
 }
 
-/// Throws unless the files are all shards of one experiment, each once.
-void check_set(const std::vector<ShardFile>& files) {
-  const ShardFile& first = files.front();
-  for (const ShardFile& file : files) {
-    const bool same = file.stamp.arguments == first.stamp.arguments && file.stamp.matches == first.stamp.matches &&
-                      file.stamp.shard.count == first.stamp.shard.count;
-    if (!same)
-      throw refused(file.path, fmt::format("shard {} of {} matches is of another experiment, or cut otherwise, than {}"
-                                           " (shard {} of {})",
-                                           file.stamp.shard.text(), file.stamp.matches, first.path.string(),
-                                           first.stamp.shard.text(), first.stamp.matches));
-  }
-  const auto twice =
-      std::ranges::adjacent_find(files, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
-  if (twice != files.end())
-    throw refused(twice->path,
-                  fmt::format("shard {} is in {}, too", twice->stamp.shard.text(), std::next(twice)->path.string()));
-  std::vector<std::string> missing;
-  std::size_t next = 0;
-  for (std::uint32_t number = 1; number <= first.stamp.shard.count; ++number) {
-    if (next < files.size() && files[next].stamp.shard.number == number) {
-      ++next;
-    } else {
-      missing.push_back(Shard{number, first.stamp.shard.count}.text());
-    }
-  }
-  if (missing.empty()) return;
-  throw std::runtime_error(fmt::format("of {} shards {} {} missing: {}", first.stamp.shard.count, missing.size(),
-                                       missing.size() == 1 ? "is" : "are", fmt::join(missing, ", ")));
+/// Rows of its sessions, by their digests.
+std::map<std::int64_t, std::string> digests_of(const fs::path& path) {
+  std::map<std::int64_t, std::string> digests;
+  Reader(path, Check::kSchema)
+      .query("SELECT session_id, sha256 FROM digests",
+             [&](std::int64_t session_id, const std::string& sha256) { digests[session_id] = sha256; });
+  return digests;
 }
 
-/// In the order of the keys, as one run writes them.
-void copy_rows(SQLite::Database& database, const ShardFile& file) {
+/// Throws where `part` has a session that `all` has not, or has with other rows.
+void check_part(const ExperimentFile& part, const ExperimentFile& all) {
+  const auto rows = digests_of(all.path);
+  for (const auto& [session_id, sha256] : digests_of(part.path)) {
+    const auto there = rows.find(session_id);
+    if (there != rows.end() && there->second == sha256) continue;
+    throw refused_shard(part.path,
+                        fmt::format("of session {} it says something else than {}", session_id, all.path.string()));
+  }
+}
+
+/// Leaves out what says nothing new: a shard that is there already, and, where the whole experiment is, every shard.
+/// Throws where two files say different things of the same matches. Returns what was left out: of it comes along what
+/// people say.
+std::vector<ExperimentFile> leave_out_repeated(std::vector<ExperimentFile>& files) {
+  const auto whole = std::ranges::find(files, false, &ExperimentFile::is_shard);
+  std::vector<ExperimentFile> kept, repeated;
+  for (const ExperimentFile& file : files) {
+    const auto there = std::ranges::find_if(kept, [&](const ExperimentFile& other) {
+      return other.stamp.arguments == file.stamp.arguments && other.stamp.shard == file.stamp.shard;
+    });
+    const bool has_whole = whole != files.end() && whole->stamp.arguments == file.stamp.arguments;
+    if (has_whole && &file != &*whole) {
+      check_part(file, *whole);
+      repeated.push_back(file);
+    } else if (there != kept.end()) {
+      check_part(file, *there);
+      repeated.push_back(file);
+    } else {
+      kept.push_back(file);
+    }
+  }
+  files = std::move(kept);
+  return repeated;
+}
+
+/// In the order of the keys, as one run writes them; or what is said of them alone.
+void copy_rows(SQLite::Database& database, const ShardFile& file, bool said_alone) {
   SQLite::Statement attach(database, "ATTACH ? AS shard");
   attach.bind(1, file.path.string());
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  database.exec("INSERT OR IGNORE INTO main.texts SELECT * FROM shard.texts");
-  database.exec("INSERT INTO main.digests SELECT * FROM shard.digests");
-  for (const DigestedTable& table : digested_tables())
-    database.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM shard.{0} ORDER BY {1}", table.name, table.key));
+  if (!said_alone) {
+    database.exec("INSERT OR IGNORE INTO main.texts SELECT * FROM shard.texts");
+    database.exec("INSERT INTO main.digests SELECT * FROM shard.digests");
+    for (const DigestedTable& table : digested_tables())
+      database.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM shard.{0} ORDER BY {1}", table.name, table.key));
+  }
+  for (const std::string_view table : kSaidAfterwards)
+    database.exec(fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM shard.{0}", table));
   transaction.commit();
   attach.reset();
   database.exec("DETACH shard");
@@ -120,7 +135,8 @@ void write_whole(SQLite::Database& database, const ShardStamp& stamp) {
 bool any_is_shard(const std::vector<fs::path>& files) {
   return std::ranges::any_of(files, [](const fs::path& path) {
     try {
-      return shard_in(path, Reader(path, Check::kSchema)).has_value();
+      const auto found = experiment_in(path, Reader(path, Check::kSchema));
+      return found && found->is_shard;
     } catch (const std::exception&) {
       return false;  // merging says what is wrong with it
     }
@@ -129,10 +145,11 @@ bool any_is_shard(const std::vector<fs::path>& files) {
 
 MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to,
                           const std::function<void(std::size_t, std::size_t)>& told) {
-  std::vector<ShardFile> shards;
-  shards.reserve(files.size());
-  for (const fs::path& path : files) shards.push_back(read_shard(path));
-  std::ranges::stable_sort(shards, {}, [](const ShardFile& file) { return file.stamp.shard.number; });
+  std::vector<ExperimentFile> found;
+  found.reserve(files.size());
+  for (const fs::path& path : files) found.push_back(read_shard(path));
+  const std::vector<ExperimentFile> repeated = leave_out_repeated(found);
+  std::vector<ShardFile> shards(found.begin(), found.end());
   check_set(shards);
   MergedShards merged{
       .shards = static_cast<std::int64_t>(shards.size()), .sessions = 0, .matches = shards.front().stamp.matches};
@@ -140,9 +157,10 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
     made.exec("PRAGMA trusted_schema = OFF");
     create_tables(made);
     for (std::size_t i = 0; i < shards.size(); ++i) {
-      copy_rows(made, shards[i]);
+      copy_rows(made, shards[i], false);
       told(i + 1, shards.size());
     }
+    for (const ShardFile& file : repeated) copy_rows(made, file, true);
     write_whole(made, shards.front().stamp);
     merged.sessions = made.execAndGet("SELECT count(*) FROM sessions").getInt64();
   });

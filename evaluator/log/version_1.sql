@@ -1,4 +1,4 @@
--- A match log of version 1 as queries of version 7 know it: views of this connection that stand before its tables.
+-- A match log of version 1 as queries of version 8 know it: views of this connection that stand before its tables.
 -- What version 1 did not have is empty, NULL or what was true then.
 CREATE TEMP VIEW texts AS
 SELECT config_sha256 AS sha256, config_toml AS text FROM main.sessions GROUP BY config_sha256

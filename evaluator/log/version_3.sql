@@ -1,4 +1,4 @@
--- A match log of version 3 as queries of version 7 know it: views of this connection that stand before its tables.
+-- A match log of version 3 as queries of version 8 know it: views of this connection that stand before its tables.
 -- What version 3 did not have is empty, NULL or what was true then.
 CREATE TEMP VIEW sessions AS
 SELECT s.*, CASE WHEN s.scenario LIKE 'replay of %' THEN 'not noted' END AS replays_uuid,

@@ -4,27 +4,16 @@
 -- started anew between the two, what it did before that is not known), orders_before, kicks_before (before the
 -- session's first status; where it continues another: since that one's last), orders_within, kicks_within (between the
 -- session's first status and its last).
-WITH steps AS (
-  SELECT session_id, robot_id, seq, t_ns, orders_handled AS handled, orders_refused AS refused,
-    lag(orders_handled) OVER by_seq AS handled_before, lag(orders_refused) OVER by_seq AS refused_before
-  FROM kicker_status
-  WINDOW by_seq AS (PARTITION BY session_id, robot_id ORDER BY seq)),
-within (session_id, robot_id, orders, refused) AS (
-  SELECT session_id, robot_id,
-    sum(handled - CASE WHEN handled >= handled_before THEN handled_before ELSE 0 END),
-    sum(refused - CASE WHEN handled >= handled_before THEN refused_before ELSE 0 END)
-  FROM steps
-  WHERE handled_before IS NOT NULL
-  GROUP BY session_id, robot_id),
+WITH counts AS MATERIALIZED (SELECT * FROM driver_counts),
 firsts AS (
-  SELECT f.session_id, f.robot_id, f.t_ns, f.handled, f.refused, s.continues_uuid IS NOT NULL AS continues,
-    coalesce(f.handled < c.orders_handled, 0) AS restarted,
-    CASE WHEN f.handled >= c.orders_handled THEN c.orders_handled ELSE 0 END AS handled_there,
-    CASE WHEN f.handled >= c.orders_handled THEN c.orders_refused ELSE 0 END AS refused_there
-  FROM steps AS f
+  SELECT f.session_id, f.robot_id, f.first_t_ns AS t_ns, f.first_handled AS handled, f.first_refused AS refused,
+    f.handled_within, f.refused_within, s.continues_uuid IS NOT NULL AS continues,
+    coalesce(f.first_handled < c.orders_handled, 0) AS restarted,
+    CASE WHEN f.first_handled >= c.orders_handled THEN c.orders_handled ELSE 0 END AS handled_there,
+    CASE WHEN f.first_handled >= c.orders_handled THEN c.orders_refused ELSE 0 END AS refused_there
+  FROM counts AS f
   JOIN sessions AS s ON s.session_id = f.session_id
-  LEFT JOIN continued AS c ON c.session_id = f.session_id AND c.robot_id = f.robot_id
-  WHERE f.handled_before IS NULL),
+  LEFT JOIN continued AS c ON c.session_id = f.session_id AND c.robot_id = f.robot_id),
 receipts AS (
   SELECT r.session_id, r.robot_id, r.t_ns, r.accepted,
     r.accepted = 0 AND r.refusal <> 'double' AND EXISTS (
@@ -46,11 +35,10 @@ missing AS (
     max(0, f.handled - f.handled_there - CAST(n.orders_before AS INTEGER)) AS orders_before,
     max(0, f.handled - f.refused - (f.handled_there - f.refused_there) - CAST(n.kicks_before AS INTEGER))
       AS kicks_before,
-    max(0, coalesce(w.orders, 0) - CAST(n.orders_within AS INTEGER)) AS orders_within,
-    max(0, coalesce(w.orders - w.refused, 0) - CAST(n.kicks_within AS INTEGER)) AS kicks_within
+    max(0, f.handled_within - CAST(n.orders_within AS INTEGER)) AS orders_within,
+    max(0, f.handled_within - f.refused_within - CAST(n.kicks_within AS INTEGER)) AS kicks_within
   FROM firsts AS f
-  JOIN recorded AS n ON n.session_id = f.session_id AND n.robot_id = f.robot_id
-  LEFT JOIN within AS w ON w.session_id = f.session_id AND w.robot_id = f.robot_id)
+  JOIN recorded AS n ON n.session_id = f.session_id AND n.robot_id = f.robot_id)
 SELECT session_id, robot_id, continues, restarted_before, orders_before, kicks_before, orders_within, kicks_within
 FROM missing
 WHERE orders_before > 0 OR kicks_before > 0 OR orders_within > 0 OR kicks_within > 0 OR restarted_before

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/report/gate.hpp"
 #include "evaluator/stats/bayes.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
@@ -44,6 +45,8 @@ struct Comparison {
   double needed_for_smallest = 0.0;                ///< kicks of each for the smallest effect, power 80 %
   std::optional<double> needed_for_seen;           ///< the same for the difference seen; none: it is 0
 
+  std::vector<GateResult> gates;  ///< of whoever asked (judge_gates())
+
   /// The counts are the paper's Table 2: 34 of 65 and 100 of 132.
   bool is_table2() const;
 };
@@ -58,6 +61,9 @@ const char* label(stats::Verdict verdict);
 std::vector<std::string> notes(const Comparison& comparison);
 
 std::string to_text(const Comparison& comparison);
+
+/// One line: who is better, by how much, how sure, how many kicks more are needed.
+std::string to_short_text(const Comparison& comparison);
 
 /// Keys: old, new, difference, newcombe95, relative_gain, risk_ratio, risk_ratio_ci95, odds_ratio, odds_ratio_ci95,
 /// fisher_one_sided_p, fisher_two_sided_p, boschloo_one_sided_p, boschloo_two_sided_p, two_sided_definition,

@@ -54,6 +54,7 @@ std::string to_json(const Comparison& c) {
   Json json = counts_json(c);
   json["needed_kicks_for_smallest"] = c.needed_for_smallest;
   json["needed_kicks_for_seen"] = json_of(c.needed_for_seen);
+  if (!c.gates.empty()) json["gates"] = gates_json(c.gates);
   return json_text(json);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "evaluator/report/comparison.hpp"
@@ -15,6 +16,9 @@ std::string efficiency_lines(const Comparison& comparison);
 
 /// The same as JSON; the keys are those of to_json().
 Json counts_json(const Comparison& comparison);
+
+/// A line for each under a title; empty where there is none.
+std::string gates_text(std::span<const GateResult> gates);
 
 /// A line with a name in a column of its own.
 std::string named_line(const std::string& name, const std::string& value);

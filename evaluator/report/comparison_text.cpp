@@ -120,7 +120,7 @@ std::string to_text(const Comparison& c) {
   text += named_line("verdict", verdict_of(c));
   text += "\nTo be read with care\n";
   for (const std::string& note : notes(c)) text += bullet(note);
-  return text;
+  return text + gates_text(c.gates);
 }
 
 }  // namespace trivela::evaluator

@@ -18,46 +18,6 @@ using Cells = std::span<const log::Value>;
 
 constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
-/// What the decision says of its alignment.
-struct DecidedAlignment {
-  Pose robot{};
-  double alpha_rad = 0.0;
-  Eigen::Vector2d target_m{};
-  double distance_m = 0.0;
-  bool aligned = false;
-  std::optional<double> offset_right_m;
-  double left_m = 0.0;
-  double right_m = 0.0;
-};
-
-/// Where S1 begins. By law paper_line that is the robot's centre; by law physical the ball's place at the release,
-/// which the row has not, but of which distance, direction of S1 and offset leave one place alone.
-Eigen::Vector2d start_of_s1(const DecidedAlignment& a) {
-  const Eigen::Vector2d centre(a.robot.x_m, a.robot.y_m);
-  if (!a.offset_right_m || !(a.distance_m > 0.0)) return centre;
-  const auto from_centre = kicking::align(a.robot, a.alpha_rad, 0.0, 0.0, a.target_m).offset_right_m;
-  if (from_centre && std::abs(*from_centre - *a.offset_right_m) < 1e-6) return centre;
-  const double turn_rad = std::atan2(*a.offset_right_m, a.distance_m);
-  return a.target_m - a.distance_m * kicking::direction(a.robot.heading_rad - a.alpha_rad + turn_rad);
-}
-
-StorySegments segments_of(const DecidedAlignment& a) {
-  StorySegments segments;
-  segments.aligned = a.aligned;
-  segments.s1_from_m = start_of_s1(a);
-  const Eigen::Vector2d line = a.target_m - segments.s1_from_m;
-  const double length_m = line.norm();
-  const Eigen::Vector2d along = length_m > 1e-9 ? Eigen::Vector2d(line / length_m) : Eigen::Vector2d(0.0, 1.0);
-  const Eigen::Vector2d right(along.y(), -along.x());
-  segments.s1_to_m =
-      a.offset_right_m
-          ? Eigen::Vector2d(a.target_m + *a.offset_right_m * right)
-          : Eigen::Vector2d(segments.s1_from_m + length_m * kicking::direction(a.robot.heading_rad - a.alpha_rad));
-  segments.s2_left_m = a.target_m - a.left_m * right;
-  segments.s2_right_m = a.target_m + a.right_m * right;
-  return segments;
-}
-
 std::optional<double> seconds_after(std::int64_t t_ns, std::optional<std::int64_t> then_ns) {
   if (!then_ns || *then_ns <= 0) return std::nullopt;  // 0: never
   return kicking::seconds(*then_ns - t_ns);
@@ -76,7 +36,7 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
           std::optional<std::int64_t> release_t_ns, std::optional<std::string> outcome,
           std::optional<std::int64_t> settled_t_ns, std::optional<double> x_cross_m, std::optional<double> z_cross_m,
           std::optional<double> sd_cross_m, std::optional<std::string> truth_outcome, std::optional<double> truth_x_m,
-          std::optional<double> truth_z_m) {
+          std::optional<double> truth_z_m, std::optional<bool> bounced) {
         KickStory& story = stories.emplace_back();
         story.session_id = session_id;
         story.robot_id = robot_id;
@@ -88,14 +48,17 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
         story.policy = std::move(policy);
         story.distance_m = distance_m;
         story.power = power;
-        story.segments = segments_of({{x_m, y_m, heading_rad},
-                                      alpha_rad,
-                                      {target_x_m, target_y_m},
-                                      distance_m,
-                                      aligned,
-                                      offset_right_m,
-                                      left_m,
-                                      right_m});
+        story.robot = {x_m, y_m, heading_rad};
+        story.target_m = {target_x_m, target_y_m};
+        story.bounced = bounced;
+        story.segments = decided_segments({{x_m, y_m, heading_rad},
+                                           alpha_rad,
+                                           {target_x_m, target_y_m},
+                                           distance_m,
+                                           aligned,
+                                           offset_right_m,
+                                           left_m,
+                                           right_m});
         story.fired_after_s = seconds_after(t_ns, fired_t_ns);
         story.released_after_s = seconds_after(t_ns, release_t_ns);
         if (predicted_x_m || predicted_z_m) {
@@ -241,17 +204,25 @@ class KickStreams {
 
 }  // namespace
 
-std::vector<KickStory> kick_stories(const log::Reader& reader, const StoryPlan& plan) {
+std::vector<KickStory> kicks_without_tracks(const log::Reader& reader) {
   std::map<std::int64_t, LoggedPitch> pitches;
   for (const log::RecordedSession& session : reader.sessions())
     pitches[session.session_id] = pitch_of(reader.whole(session).config_toml);
   std::vector<KickStory> stories = listed_kicks(reader);
-  KickStreams streams(reader, plan);
   for (KickStory& story : stories) {
     story.goal = pitches[story.session_id].goal;
     story.side_line_x_m = pitches[story.session_id].side_line_x_m;
-    streams.fill(story);
   }
+  return stories;
+}
+
+void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan) {
+  KickStreams(reader, plan).fill(story);
+}
+
+std::vector<KickStory> kick_stories(const log::Reader& reader, const StoryPlan& plan) {
+  std::vector<KickStory> stories = kicks_without_tracks(reader);
+  for (KickStory& story : stories) add_tracks(reader, story, plan);
   return stories;
 }
 

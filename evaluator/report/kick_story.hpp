@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
-#include "kicking/alignment/alignment.hpp"
+#include "evaluator/report/decided_segments.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
 
@@ -32,12 +32,6 @@ struct StoryEnd {
   std::optional<double> after_s;  ///< after the decision
 };
 
-/// The two segments of the alignment at the decision, in F.
-struct StorySegments {
-  Eigen::Vector2d s1_from_m, s1_to_m, s2_left_m, s2_right_m;
-  bool aligned = false;
-};
-
 /// A kick with what a replay of it needs. What the log does not have is empty.
 struct KickStory {
   std::int64_t session_id = 0;
@@ -51,13 +45,16 @@ struct KickStory {
   std::string policy;
   double distance_m = 0.0;
   std::optional<double> power;
+  kicking::Pose robot{};                               ///< at the decision
+  Eigen::Vector2d target_m = Eigen::Vector2d::Zero();  ///< aim point
+  std::optional<bool> bounced;                         ///< it touched the floor before the line, as observed
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   std::vector<StoryPose> path;       ///< of the robot
   std::vector<StoryPlace> ball;      ///< as the robot believed
   std::vector<StoryPlace> flight;    ///< as its flight camera saw the ball
   std::vector<StoryPlace> opponent;  ///< the nearest one that it saw
-  StorySegments segments;
+  DecidedSegments segments;
   std::optional<double> fired_after_s;     ///< the coil was energised, after the decision
   std::optional<double> released_after_s;  ///< the ball was expected to leave
   std::optional<StoryEnd> predicted;
@@ -73,6 +70,13 @@ struct StoryPlan {
   double longest_s = 6.0;  ///< after the decision
   double step_s = 0.04;    ///< a sample in each
 };
+
+/// The log's kicks that count, with their pitch and without their tracks, as kick_stories() orders them. Throws
+/// std::runtime_error where the log cannot be read.
+std::vector<KickStory> kicks_without_tracks(const log::Reader& reader);
+
+/// Adds the tracks, and the time of the half. Throws std::runtime_error where the log cannot be read.
+void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan = {});
 
 /// The stories of the log's kicks that count, in the order of their time; refused orders are none. Throws
 /// std::runtime_error where the log cannot be read.

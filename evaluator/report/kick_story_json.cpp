@@ -73,7 +73,7 @@ Json json_of(const KickStory& story) {
                    {"goal_height_cm", cm(story.goal.height_m)},
                    {"post_cm", cm(story.goal.post_width_m)},
                    {"side_line_x_cm", cm(story.side_line_x_m)}};
-  const StorySegments& segments = story.segments;
+  const DecidedSegments& segments = story.segments;
   json["segments"] = {{"s1_cm", pair_of(segments.s1_from_m, segments.s1_to_m)},
                       {"s2_cm", pair_of(segments.s2_left_m, segments.s2_right_m)},
                       {"aligned", segments.aligned}};

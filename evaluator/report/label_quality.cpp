@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <tuple>
 
-#include "evaluator/metrics/kicked_tracks.sql.hpp"
+#include "evaluator/log/ball_turns.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
 #include "evaluator/report/own_half.hpp"
-#include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -17,17 +18,16 @@ namespace {
 constexpr std::int64_t kManyTurns = 4;
 constexpr std::int64_t kManySightings = 10;  // by which a block would have been seen
 constexpr double kNearGoal_m = 0.3;
-constexpr double kFlight_s = 3.0;
-constexpr double kCameBack_m = 0.4;
-constexpr double kJump_m = 1.3, kFastest_mps = 15.0;  // farther apart: another ball than the one kicked
 
 constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
     {{0, "none"}, {4, "1 to 4"}, {9, "5 to 9"}, {19, "10 to 19"}, {INT64_MAX, "20 or more"}}};
 
 void read_labels(const log::Reader& reader, LabelQuality& quality) {
   for (const auto& [most, name] : kRows) quality.rows.push_back({.sightings = name});
-  const auto add = [&](const std::string& policy, const std::string& label, std::int64_t sightings,
-                       std::optional<double> p_inside, std::optional<double> p_label, std::optional<double> p_any) {
+  std::map<std::tuple<std::int64_t, int, std::string>, stats::LabelDoubt> doubts;
+  const auto add = [&](std::int64_t session_id, int robot_id, const std::string& policy, const std::string& label,
+                       std::int64_t sightings, std::optional<double> p_inside, std::optional<double> p_label,
+                       std::optional<double> p_any) {
     const auto place = std::ranges::find_if(kRows, [&](const auto& r) { return sightings <= r.first; });
     SightingsRow& of = quality.rows[static_cast<std::size_t>(place - kRows.begin())];
     const bool unknown = label == "unknown";
@@ -40,7 +40,7 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
       return;
     }
     of.expected_wrong += 1.0 - p_label.value_or(1.0);
-    stats::LabelDoubt& doubt = quality.doubts[policy];
+    stats::LabelDoubt& doubt = doubts[{session_id, robot_id, policy}];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
     } else if (label != kOwnHalf) {  // however sure it is that it was inside
@@ -48,63 +48,15 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     }
   };
   reader.query(kLabelDoubtSql, add);
+  for (const auto& [key, doubt] : doubts)
+    quality.doubts.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), doubt});
 }
-
-/// Follows the ball after each release and notes how far forward it came where it came back.
-class Turns {
- public:
-  void release(std::int64_t session_id, std::int64_t t_ns) {
-    end();
-    session_id_ = session_id;
-    release_t_ns_ = last_t_ns_ = t_ns;
-    followed_ = true;
-  }
-  void seen(std::int64_t session_id, std::int64_t t_ns, double x_m, double y_m) {
-    if (!followed_) return;
-    const double apart_s = kicking::seconds(t_ns - last_t_ns_);
-    const bool other_ball =
-        sightings_ > 0 && std::hypot(x_m - last_x_m_, y_m - last_y_m_) > std::max(kJump_m, kFastest_mps * apart_s);
-    if (session_id != session_id_ || other_ball || kicking::seconds(t_ns - release_t_ns_) > kFlight_s) return end();
-    if (sightings_++ == 0) first_y_m_ = y_m;
-    farthest_y_m_ = std::max(farthest_y_m_, y_m);
-    last_t_ns_ = t_ns;
-    last_x_m_ = x_m;
-    last_y_m_ = y_m;
-  }
-  std::vector<double> all() {
-    end();
-    return std::move(turns_y_m_);
-  }
-
- private:
-  void end() {
-    const bool went = farthest_y_m_ - first_y_m_ > kCameBack_m, came_back = farthest_y_m_ - last_y_m_ > kCameBack_m;
-    if (followed_ && sightings_ > 0 && went && came_back) turns_y_m_.push_back(farthest_y_m_);
-    followed_ = false;
-    sightings_ = 0;
-    farthest_y_m_ = -HUGE_VAL;
-  }
-
-  std::vector<double> turns_y_m_;
-  bool followed_ = false;
-  std::int64_t session_id_ = 0, release_t_ns_ = 0, last_t_ns_ = 0, sightings_ = 0;
-  double first_y_m_ = 0.0, last_x_m_ = 0.0, last_y_m_ = 0.0, farthest_y_m_ = -HUGE_VAL;
-};
 
 void read_turns(const log::Reader& reader, LabelQuality& quality) {
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
                [&](std::optional<double> goal_y_m) { quality.goal_y_m = goal_y_m; });
   if (!quality.goal_y_m) return;
-  Turns turns;
-  reader.query(kKickedTracksSql, [&](std::int64_t session_id, std::int64_t t_ns, std::optional<double> x_m,
-                                     std::optional<double> y_m, std::optional<double> /*z_m*/) {
-    if (!x_m || !y_m) {
-      turns.release(session_id, t_ns);
-    } else {
-      turns.seen(session_id, t_ns, *x_m, *y_m);
-    }
-  });
-  auto away = turns.all();
+  std::vector<double> away = log::ball_turns_of(reader);
   const auto at_goal = std::erase_if(away, [&](double y_m) { return std::abs(y_m - *quality.goal_y_m) < kNearGoal_m; });
   quality.turns_at_goal = static_cast<std::int64_t>(at_goal);
   quality.elsewhere = densest(std::move(away));
@@ -121,6 +73,20 @@ std::optional<TurnCluster> densest(std::vector<double> turns_y_m) {
     if (n >= kManyTurns && (!best || n > best->turns)) best = TurnCluster{turns_y_m[first + (last - first) / 2], n};
   }
   return best;
+}
+
+void LabelQuality::add(const LabelQuality& other) {
+  if (rows.empty()) rows.resize(other.rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].sightings = other.rows[i].sightings;
+    rows[i].kicks += other.rows[i].kicks;
+    rows[i].unknown += other.rows[i].unknown;
+    rows[i].expected_wrong += other.rows[i].expected_wrong;
+  }
+  doubts.insert(doubts.end(), other.doubts.begin(), other.doubts.end());
+  has_probabilities = has_probabilities || other.has_probabilities;
+  stopped_free += other.stopped_free;
+  kicks += other.kicks;
 }
 
 double LabelQuality::expected_wrong() const {

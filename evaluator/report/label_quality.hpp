@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,16 +26,27 @@ struct TurnCluster {
 };
 inline constexpr double kTurnReach_m = 0.12;
 
+/// Doubt of the labels of a robot's kicks.
+struct KickerDoubt {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::string policy;
+  stats::LabelDoubt doubt;
+};
+
 /// How far the observed outcomes can be trusted.
 struct LabelQuality {
-  std::vector<SightingsRow> rows;                   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
-  std::map<std::string, stats::LabelDoubt> doubts;  ///< by policy
-  bool has_probabilities = false;                   ///< false: an older log, whose labels are taken at their word
-  std::int64_t stopped_free = 0;  ///< kicks seen flying freely until the game was stopped, before the goal line
+  std::vector<SightingsRow> rows;   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
+  std::vector<KickerDoubt> doubts;  ///< by session, robot and policy
+  bool has_probabilities = false;   ///< false: an older log, whose labels are taken at their word
+  std::int64_t stopped_free = 0;    ///< kicks seen flying freely until the game was stopped, before the goal line
   std::int64_t kicks = 0;
   std::optional<double> goal_y_m;        ///< of the robots' settings; none: no kick says it
   std::int64_t turns_at_goal = 0;        ///< balls that came back within 0.3 m of it
   std::optional<TurnCluster> elsewhere;  ///< where most of the others did, if they were four or more
+
+  /// Adds the labels of another log; where each has its goal, their own goal_warnings() say.
+  void add(const LabelQuality& other);
 
   double expected_wrong() const;
   /// Sentences on tracks that contradict the goal's place; none: they do not.

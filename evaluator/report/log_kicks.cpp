@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "evaluator/report/log_design.hpp"
-#include "kicking/policy/policy.hpp"
+#include "evaluator/report/policy_order.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -27,6 +27,7 @@ std::optional<Name> name_by(const LoggedOpportunities& logged, const std::string
   if (column == "half") return [](const LoggedOpportunity& o) { return fmt::format("half {}", o.half); };
   if (column == "table") return [=](const LoggedOpportunity& o) { return session(o).table; };
   if (column == "arm") return [=](const LoggedOpportunity& o) { return session(o).arm; };
+  if (column == "log") return [&, session](const LoggedOpportunity& o) { return logged.logs[session(o).log]; };
   if (column == "scenario") return [=](const LoggedOpportunity& o) { return session(o).scenario; };
   const auto bin = [](const std::optional<double>& distance_m) {
     return distance_m ? distance_bins()[distance_bin(std::abs(*distance_m))] : std::string();
@@ -36,16 +37,6 @@ std::optional<Name> name_by(const LoggedOpportunities& logged, const std::string
   return std::nullopt;
 }
 
-// Policies of play and tables, older and simpler ones first; others behind by their name.
-std::size_t rank_of(const std::string& name) {
-  static const std::vector<std::string> order = [] {
-    auto names = kicking::policies_where([](const auto& policy) { return policy.plays(); });
-    names.insert(names.end(), {"old", "new"});
-    return names;
-  }();
-  return static_cast<std::size_t>(std::ranges::find(order, name) - order.begin());
-}
-
 std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std::string& by, const Name& name) {
   std::vector<std::string> groups;
   std::set<std::string> seen;
@@ -53,7 +44,7 @@ std::vector<std::string> groups_of(const LoggedOpportunities& logged, const std:
     const std::string group = name(o);
     if (!group.empty() && seen.insert(group).second) groups.push_back(group);
   }
-  if (by != "arm") std::ranges::sort(groups, {}, [](const auto& group) { return std::pair(rank_of(group), group); });
+  if (by != "arm" && by != "log") std::ranges::sort(groups, PolicyOrder{});
   return groups;
 }
 
@@ -66,7 +57,7 @@ class Settings {
 
   std::uint32_t of(const ComparedSession& session, const std::string& policy) {
     const std::int64_t evening = session.calibration_id.value_or(0);
-    const bool any = by_ == "arm" || by_ == "robot";
+    const bool any = by_ == "arm" || by_ == "robot" || by_ == "log";
     const Setting setting{by_ == "policy" || any ? "" : policy, by_ == "table" || any ? "" : session.table,
                           any ? 0 : session.setup.settings, evening};
     return numbers_.try_emplace(setting, static_cast<std::uint32_t>(numbers_.size())).first->second;
@@ -88,14 +79,17 @@ void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::s
   for (const PlayedSpan& span : logged.spans) {
     const ComparedSession& session = logged.sessions[span.session];
     std::set<std::string> names;
-    const bool of_session = by == "arm" || by == "table";
-    if (of_session && span.had_it.empty()) names.insert(by == "arm" ? session.arm : session.table);
+    const auto name_of_session = [&]() -> std::optional<std::string> {
+      if (by == "arm") return session.arm;
+      if (by == "table") return session.table;
+      if (by == "log") return logged.logs[session.log];
+      return std::nullopt;
+    };
+    const auto of_session = name_of_session();
+    if (of_session && span.had_it.empty()) names.insert(*of_session);
     for (const PolicyOfRobot& who : span.had_it) {
       if (left_out(settings.of(session, who.policy))) continue;
-      names.insert(by == "arm"      ? session.arm
-                   : by == "table"  ? session.table
-                   : by == "policy" ? who.policy
-                                    : fmt::format("robot {}", who.robot_id));
+      names.insert(of_session ? *of_session : by == "policy" ? who.policy : fmt::format("robot {}", who.robot_id));
     }
     for (const std::string& name : names) {
       const auto group = std::ranges::find(book.groups, name);
@@ -106,14 +100,14 @@ void add_minutes(KickBook& book, const LoggedOpportunities& logged, const std::s
 }
 
 void check(const LogKicks& options, const std::string& by, bool known_stratum) {
-  const std::array kBy{"policy", "table", "robot", "arm"};
+  const std::array kBy{"policy", "table", "robot", "arm", "log"};
   if (std::ranges::find(kBy, by) == kBy.end()) {
-    throw BadOption(fmt::format("by '{}': a match log is compared by policy, table, robot or arm", by));
+    throw BadOption(fmt::format("by '{}': a match log is compared by policy, table, robot, arm or log", by));
   }
   if (!options.stratify.empty() && !known_stratum) {
     throw BadOption(
         fmt::format("stratify '{}': a match log has distance, start_distance, robot, half, "
-                    "scenario, table, policy and arm",
+                    "scenario, table, policy, arm and log",
                     options.stratify));
   }
 }
@@ -199,13 +193,23 @@ std::vector<std::size_t> enter_opportunities(KickBook& book, const LoggedOpportu
   return rows;
 }
 
+// Arms where there are several, else policies; logs where all have the same one.
+std::string what_differs(const LoggedOpportunities& logged) {
+  std::set<std::string> arms, policies;
+  for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
+  for (const LoggedOpportunity& o : logged.rows)
+    if (!o.policy.empty()) policies.insert(o.policy);
+  return arms.size() > 1 ? "arm" : policies.size() == 1 && logged.logs.size() > 1 ? "log" : "policy";
+}
+
 }  // namespace
 
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by) {
-  const LoggedOpportunities logged = read_opportunities(logs, options.truth);
-  std::set<std::string> arms;
-  for (const ComparedSession& session : logged.sessions) arms.insert(session.arm);
-  by = !options.by.empty() ? options.by : arms.size() > 1 ? "arm" : "policy";
+  return kick_book_of(read_opportunities(logs, options.truth), options, by);
+}
+
+KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by) {
+  by = options.by.empty() ? what_differs(logged) : options.by;
   check(options, by, name_by(logged, options.stratify).has_value());
   KickBook book = book_of(logged, options, by);
   Settings settings{by};

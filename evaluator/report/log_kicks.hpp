@@ -17,15 +17,19 @@ struct BadOption : std::runtime_error {
 
 /// How to read logs for a comparison.
 struct LogKicks {
-  std::string by{};  ///< "policy", "table", "robot" or "arm"; empty: arm where the logs have several, else policy
-  std::string
-      stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm" or none
-  bool truth = false;  ///< outcomes by the simulator's truth; otherwise as observed
+  std::string by{};  ///< "policy", "table", "robot", "arm" or "log"; empty: arm where there are several, else policy,
+                     ///< or log where there is one policy
+  std::string stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm",
+                               ///< "log" or none
+  bool truth = false;          ///< outcomes by the simulator's truth; otherwise as observed
   bool blocked_apart = false;  ///< blocked kicks stand apart; otherwise they are outside
 };
 
 /// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value
 /// where a log cannot be read, BadOption where the logs have not what is asked for.
 KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
+
+/// The same of what was read of them, with the outcomes that it was read for: `options.truth` says which.
+KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
 
 }  // namespace trivela::evaluator

@@ -212,6 +212,7 @@ class OpportunityReading {
 
   SessionPlaces add(const log::Reader& reader, const std::string& name) {
     SessionPlaces fresh = book_.add(reader, name);
+    logged_.logs.push_back(name);
     const TruthCount truths(reader);
     see_opportunities(reader, fresh, truths, seen_);
     see_kicks(reader, fresh, truths, truth_, seen_);
@@ -252,7 +253,8 @@ class OpportunityReading {
       alone.push_back(session);
       alone.back().play = static_cast<std::uint32_t>(alone.size());
     }
-    for (const PlayedLength& length : played_lengths(reader, alone)) {
+    const log::Reader* const log = &reader;
+    for (const PlayedLength& length : played_lengths(std::span(&log, 1), alone)) {
       const auto session = fresh.find(length.session_id);
       if (session == fresh.end()) continue;
       for (const std::string& line : cut_short_lines({length}))
@@ -287,12 +289,24 @@ LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>&
   return std::move(reading).finish();
 }
 
-LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth) {
+LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth) {
   OpportunityReading reading(truth);
-  const SessionPlaces places = reading.add(reader, name);
+  std::vector<SessionPlaces> places;
+  for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
   reading.settle();
-  reader.leave_out(reading.book().sessions_left_out(places), reading.book().kicks_left_out(places));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    std::vector<std::int64_t> left_out = reading.book().sessions_left_out(places[i]);
+    logs[i].reader->query("SELECT session_id FROM sessions", [&](std::int64_t session_id) {
+      if (!places[i].contains(session_id)) left_out.push_back(session_id);
+    });
+    logs[i].reader->leave_out(left_out, reading.book().kicks_left_out(places[i]));
+  }
   return std::move(reading).finish();
+}
+
+LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth) {
+  const OpenLog log{&reader, name};
+  return read_opportunities(std::span(&log, 1), truth);
 }
 
 }  // namespace trivela::evaluator

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,7 @@ struct PlayedSpan {
 
 /// What logs know of opportunities and kicks, their sessions merged.
 struct LoggedOpportunities {
+  std::vector<std::string> logs;  ///< their names, in the order of reading
   std::vector<ComparedSession> sessions;
   std::vector<LoggedOpportunity> rows;
   std::vector<PlayedSpan> spans;
@@ -74,7 +76,15 @@ struct LoggedOpportunities {
 /// find_plays() says. Throws std::runtime_error where a log cannot be read, or the logs hold replays alone.
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth);
 
-/// The same of one log, a replay alone too; the reader's counted_kicks has from then on what counts.
+/// A log that is open, and what sentences call it.
+struct OpenLog {
+  const log::Reader* reader = nullptr;
+  std::string name;
+};
+
+/// The same of open logs, replays alone too; each reader's counted_kicks has from then on what counts, and what an
+/// earlier log has does not count again.
+LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth);
 LoggedOpportunities read_opportunities(const log::Reader& reader, const std::string& name, bool truth);
 
 }  // namespace trivela::evaluator

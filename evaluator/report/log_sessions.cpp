@@ -32,6 +32,9 @@ std::vector<ComparedSession> sessions_of(const log::Reader& reader) {
 }  // namespace
 
 SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& name) {
+  reader.hold_kicks();
+  const auto log = static_cast<std::uint32_t>(logs_.size());
+  logs_.push_back(name);
   SessionPlaces fresh;
   std::int64_t again = 0, open = 0;
   const auto setups = setups_of(reader, setups_);
@@ -43,8 +46,8 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
     if (const auto setup = setups.find(session.config_sha256); setup != setups.end()) session.setup = setup->second;
     open += session.closed_utc_ns ? 0 : 1;
     fresh[session.session_id] = static_cast<std::uint32_t>(sessions_.size());
+    session.log = log;
     sessions_.push_back(std::move(session));
-    names_.push_back(name);
   }
   reader.query("SELECT session_id, half, robot_id, policy FROM session_policies ORDER BY 1, 2, 3",
                [&](std::int64_t session_id, int half, int robot_id, const std::string& policy) {
@@ -53,24 +56,27 @@ SessionPlaces SessionBook::add(const log::Reader& reader, const std::string& nam
                  sessions_[session->second].in_charge[half] += fmt::format("{}:{} ", robot_id, policy);
                });
   reader.query(kKickWordsSql, [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns,
-                                  std::int64_t utc_ns, int words, int half) {
+                                  std::int64_t utc_ns, int words, int half, std::int64_t labelled_utc_ns) {
     const auto session = fresh.find(session_id);
-    if (session != fresh.end()) kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half});
+    if (session != fresh.end())
+      kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half, labelled_utc_ns});
   });
   note_log(reader, name, again, open);
   return fresh;
 }
 
 void SessionBook::note_log(const log::Reader& reader, const std::string& name, std::int64_t again, std::int64_t open) {
-  const auto remark = [&](std::int64_t n, const char* one, const char* many) {
-    if (n > 0) remarks_.push_back(fmt::format("{}: {} {}", name, n, n == 1 ? one : many));
+  const auto sentence = [&](std::int64_t n, const char* one, const char* many) {
+    return fmt::format("{}: {} {}", name, n, n == 1 ? one : many);
   };
-  remark(again, "of its sessions stands in an earlier log, too, and counts once",
-         "of its sessions stand in an earlier log, too, and count once");
+  if (again > 0)
+    not_counted_.push_back(sentence(again, "of its sessions stands in an earlier log, too, and counts once",
+                                    "of its sessions stand in an earlier log, too, and count once"));
   if (const auto doubt = reader.doubt(); doubt && !reader.verification().compared && reader.verification().rows > 0)
     remarks_.push_back(fmt::format("{}: {}", name, *doubt));
-  remark(open, "session was not closed, its last kicks may be missing",
-         "sessions were not closed, their last kicks may be missing");
+  if (open > 0)
+    remarks_.push_back(sentence(open, "session was not closed, its last kicks may be missing",
+                                "sessions were not closed, their last kicks may be missing"));
   for (const auto& [session_id, notes] : import_notes_of(reader)) {
     if (!notes.empty()) remarks_.push_back(fmt::format("{}: {}", name, notes.front()));
   }
@@ -94,12 +100,12 @@ void SessionBook::settle() {
 
 void SessionBook::note_left_out() {
   std::map<std::string, std::int64_t> replays, repetitions, halves, twice;  // by log
-  for (std::size_t i = 0; i < sessions_.size(); ++i) {
-    if (!sessions_[i].counts) ++(sessions_[i].is_replay ? replays : repetitions)[names_[i]];
-    halves[names_[i]] += static_cast<std::int64_t>(sessions_[i].halves_left_out.size());
+  for (const ComparedSession& session : sessions_) {
+    if (!session.counts) ++(session.is_replay ? replays : repetitions)[logs_[session.log]];
+    halves[logs_[session.log]] += static_cast<std::int64_t>(session.halves_left_out.size());
   }
   for (const auto& [kick, of_another_recording] : left_out_)
-    twice[names_[std::get<0>(kick)]] += of_another_recording ? 1 : 0;
+    twice[logs_[sessions_[std::get<0>(kick)].log]] += of_another_recording ? 1 : 0;
   const auto remark = [&](const std::map<std::string, std::int64_t>& counts, const char* one, const char* many) {
     for (const auto& [name, n] : counts) {
       if (n > 0) not_counted_.push_back(fmt::format("{}: {} {}", name, n, n == 1 ? one : many));
@@ -117,8 +123,9 @@ void SessionBook::note_left_out() {
 
 void SessionBook::refuse_replays_alone() const {
   if (sessions_.empty() || !std::ranges::all_of(sessions_, &ComparedSession::is_replay)) return;
-  throw std::runtime_error(fmt::format(
-      "{}: a replay, whose kicks were never made, and nothing else: there is nothing to count", names_.front()));
+  throw std::runtime_error(
+      fmt::format("{}: a replay, whose kicks were never made, and nothing else: there is nothing to count",
+                  logs_[sessions_.front().log]));
 }
 
 bool SessionBook::counts(std::uint32_t session, int robot_id, std::int64_t kick_id) const {

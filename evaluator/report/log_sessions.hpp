@@ -39,7 +39,7 @@ class SessionBook {
   std::vector<std::int64_t> sessions_left_out(const SessionPlaces& places) const;
   std::vector<log::RecordedKick> kicks_left_out(const SessionPlaces& places) const;
 
-  /// Sentences on sessions that were not closed or stand in two logs, and on experiments under way.
+  /// Sentences on sessions that were not closed, and on experiments under way.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Sentences on what does not count, or not twice.
@@ -53,7 +53,7 @@ class SessionBook {
   using KickKey = std::tuple<std::uint32_t, int, std::int64_t>;  // session, robot, kick
 
   std::vector<ComparedSession> sessions_;
-  std::vector<std::string> names_;  // of the logs, by session
+  std::vector<std::string> logs_;  // their names
   std::vector<KickWord> kicks_;
   std::map<KickKey, bool> left_out_;  // whether another recording of the match has it
   std::uint32_t matches_ = 0;

@@ -112,6 +112,7 @@ MergeReport report_merge(const log::Merged& merged, const log::Reader& reader) {
       fmt::format("{} session{} of {}: {} rows, {} kicks", merged.sessions.size(),
                   merged.sessions.size() == 1 ? "" : "s", fmt::join(robots, ", "), added, counted_kicks(reader));
   report.notes = clock_notes(merged);
+  for (const log::KickConflict& conflict : merged.conflicts) report.conflicts.push_back(conflict.line());
   report.missing = merge_gaps(merged, reader);
   return report;
 }

@@ -158,8 +158,9 @@ std::vector<std::size_t> kicks_left_out(const std::vector<ComparedSession>& sess
     const auto [place, first] = best.try_emplace({session.play, kicks[i].robot_id, kicks[i].kick_id}, i);
     if (first) continue;
     const KickWord& other = kicks[place->second];
+    const auto said = [](const KickWord& kick) { return std::pair(kick.labelled_utc_ns, kick.words); };
     const bool better =
-        kicks[i].words != other.words ? kicks[i].words > other.words : more_complete(session, sessions[other.session]);
+        said(kicks[i]) != said(other) ? said(kicks[i]) > said(other) : more_complete(session, sessions[other.session]);
     left_out.push_back(better ? std::exchange(place->second, i) : i);
   }
   return left_out;

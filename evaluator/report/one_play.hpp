@@ -35,6 +35,7 @@ struct ComparedSession {
   std::optional<std::int64_t> calibration_id;
   std::string config_sha256;
   SessionSetup setup;
+  std::uint32_t log = 0;    ///< place of the log that it is read from
   std::uint32_t match = 0;  ///< number of its match over all logs, from 0
   std::uint32_t play = 0;   ///< recordings of one play have the same number: what they have alike is one thing
   bool counts = true;       ///< false: a replay, or a match that another session has, played again
@@ -51,6 +52,7 @@ struct KickWord {
   std::int64_t utc_ns = 0;  ///< the same by the recorder's clock
   int words = 0;  ///< 0: decided; 1: with a receipt; 2: refused, or with an outcome; 3: with one that is known
   int half = 0;
+  std::int64_t labelled_utc_ns = 0;  ///< of the label by hand that holds; 0: none
 
   /// The same kick, whoever recorded it.
   auto kick() const { return std::tuple(robot_id, kick_id, t_ns); }
@@ -71,7 +73,8 @@ bool more_complete(const ComparedSession& a, const ComparedSession& b);
 void find_plays(std::vector<ComparedSession>& sessions, const std::vector<KickWord>& kicks);
 
 /// Places in `kicks` of those that do not count: of sessions that do not, and of a kick that several recordings of a
-/// play have all but the one that says most, the more complete recording's where they say as much.
+/// play have all but the one with the latest label by hand, else the one that says most, the more complete recording's
+/// where they say as much.
 std::vector<std::size_t> kicks_left_out(const std::vector<ComparedSession>& sessions,
                                         const std::vector<KickWord>& kicks);
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct PlayedLength {
 };
 
 /// Of every match whose length was planned (sessions.planned_s), in the order of `sessions`.
-std::vector<PlayedLength> played_lengths(const log::Reader& reader, const std::vector<ComparedSession>& sessions);
+std::vector<PlayedLength> played_lengths(std::span<const log::Reader* const> logs,
+                                         const std::vector<ComparedSession>& sessions);
 
 /// "cut short: 27.0 s of 300.0 s are recorded"; one a match that was.
 std::vector<std::string> cut_short_lines(const std::vector<PlayedLength>& lengths);

@@ -7,7 +7,9 @@
 
 #include "evaluator/report/bounces.hpp"
 #include "evaluator/report/comparison.hpp"
+#include "evaluator/report/gate.hpp"
 #include "evaluator/report/kick_book.hpp"
+#include "evaluator/report/log_differences.hpp"
 #include "evaluator/stats/clustered.hpp"
 #include "evaluator/stats/label_doubt.hpp"
 #include "evaluator/stats/paired.hpp"
@@ -121,6 +123,9 @@ struct PolicyComparison {
   std::optional<double> sample_ratio_p;  ///< that the groups came in their planned shares; none: no plan
   KickBook book;                         ///< what it was made from, without its opportunities
   double smallest_effect = stats::kSmallestEffect;
+  std::vector<std::string> logs;           ///< that were compared or taken together; empty: it is of no logs
+  std::vector<LogDifference> differences;  ///< between them
+  std::vector<GateResult> gates;           ///< of whoever asked (judge_gates())
 };
 
 /// Compares every group with the first. Throws std::runtime_error with a sentence where there are fewer than two groups
@@ -135,7 +140,14 @@ std::string design_sentence(const PairResult& pair, const PolicyComparison& comp
 /// How many more are needed; empty where there are enough.
 std::string needed_sentence(const PairResult& pair, const PolicyComparison& comparison);
 
+/// All of it.
 std::string to_text(const PolicyComparison& comparison);
+
+/// What differs between the logs, then a line a pair: who is better, by how much, how sure, how many more are needed.
+std::string to_short_text(const PolicyComparison& comparison);
+
+/// How both begin.
+std::string head_text(const PolicyComparison& comparison, std::size_t most_differences);
 
 /// Its keys are explained in docs/evaluation.md; null where there is no such number.
 std::string to_json(const PolicyComparison& comparison);

@@ -159,10 +159,13 @@ std::string to_json(const PolicyComparison& c) {
                {"sample_ratio_p", json_of(c.sample_ratio_p)},
                {"groups", Json::array()},
                {"comparisons", Json::array()},
-               {"remarks", c.book.remarks}};
+               {"remarks", c.book.remarks},
+               {"logs", c.logs},
+               {"differences", differences_json(c.differences, c.logs)}};
   for (const GroupResult& group : c.groups)
     json["groups"].push_back(group_json(group, c.book.keeper, c.book.blocked_apart));
   for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
+  if (!c.gates.empty()) json["gates"] = gates_json(c.gates);
   return json_text(json);
 }
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/policy_comparison.hpp"
-#include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::evaluator {
@@ -242,8 +242,7 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
 }  // namespace
 
 std::string to_text(const PolicyComparison& c) {
-  std::string text;
-  if (c.book.simulated) text += kSimulated;
+  std::string text = head_text(c, SIZE_MAX);
   for (const PairResult& pair : c.pairs) {
     text += wrapped(verdict_sentence(pair, c), "  ") + "\n";
     const std::string more = needed_sentence(pair, c);
@@ -268,7 +267,7 @@ std::string to_text(const PolicyComparison& c) {
   if (!c.book.remarks.empty()) text += "\nData\n";
   for (const std::string& remark : c.book.remarks) text += bullet(remark);
   text += "\n  inside: between the posts and below the bar, saves included; it is not goals scored\n";
-  return text;
+  return text + gates_text(c.gates);
 }
 
 }  // namespace trivela::evaluator

@@ -28,6 +28,9 @@ PolicyValueReport evaluate_policy(const LoggedOpportunities& logged, const std::
 
 std::string to_text(const PolicyValueReport& report);
 
+/// Its first sentence, and what forbids to trust it.
+std::string to_short_text(const PolicyValueReport& report);
+
 /// Keys: policy, outcome, ips, snips, doubly_robust (each value, ci95), logged, trials, by_policy, matches, by_match,
 /// effective_sample_size, largest_weight, mean_weight, mean_weight_p, opportunities, not_drawn, unknown, model,
 /// simulated, remarks.

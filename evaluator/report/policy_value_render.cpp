@@ -14,22 +14,39 @@ std::vector<std::string> row(const std::string& name, const stats::PolicyValue& 
   return {name, percent(value.value), percent(value.ci)};
 }
 
+constexpr const char* kWrongWeights =
+    "The policies were not drawn with the probabilities of the log: trust nothing here before that is explained.";
+
+std::string value_sentence(const PolicyValueReport& r) {
+  const stats::OffPolicy& v = r.value;
+  return wrapped(
+      fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
+                  "as they were played it was {}.",
+                  r.policy, percent(v.doubly_robust.value), percent(v.doubly_robust.ci), percent(v.logged)),
+      "  ");
+}
+
 Json value_json(const stats::PolicyValue& value) {
   return {{"value", value.value}, {"ci95", evaluator::json_of(value.ci)}};
 }
 
 }  // namespace
 
+std::string to_short_text(const PolicyValueReport& r) {
+  const stats::OffPolicy& v = r.value;
+  std::string text = (r.simulated ? kSimulated : "") + value_sentence(r) + "\n";
+  text +=
+      fmt::format("  {} opportunities, {:.1f} effective; how else it can be estimated, and what that rests on: --all\n",
+                  v.trials, v.effective_sample_size);
+  if (v.mean_weight_p < stats::kSampleRatioAlarm) text += bullet(kWrongWeights);
+  return text;
+}
+
 std::string to_text(const PolicyValueReport& r) {
   const stats::OffPolicy& v = r.value;
   std::string text;
   if (r.simulated) text += kSimulated;
-  text +=
-      wrapped(fmt::format("{} would have had a shot on target in {} of these opportunities, 95 % {} (doubly robust); "
-                          "as they were played it was {}.",
-                          r.policy, percent(v.doubly_robust.value), percent(v.doubly_robust.ci), percent(v.logged)),
-              "  ") +
-      "\n\nOn target an opportunity\n";
+  text += value_sentence(r) + "\n\nOn target an opportunity\n";
   text += text_table({{"estimate", "value", "95 %"},
                       row("inverse probability", v.ips),
                       row("the same, normalised", v.snips),
@@ -53,8 +70,7 @@ std::string to_text(const PolicyValueReport& r) {
   if (r.unknown > 0)
     text += bullet(fmt::format("{} kicks whose outcome is unknown count as not on target.", r.unknown));
   if (v.mean_weight_p < stats::kSampleRatioAlarm) {
-    text += bullet(
-        "The policies were not drawn with the probabilities of the log: trust nothing here before that is explained.");
+    text += bullet(kWrongWeights);
   }
   if (!v.by_match) {
     text += bullet(

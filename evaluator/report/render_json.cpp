@@ -10,7 +10,8 @@ Json policy_json(const PolicyRow& row) {
   for (const std::string& miss : kMisses) misses[miss] = row.of(miss);
   if (row.of("outside") > 0) misses["outside"] = row.of("outside");
   if (row.of(kOwnHalf) > 0) misses[kOwnHalf] = row.of(kOwnHalf);
-  return {{"policy", row.policy},
+  return {{"arm", row.arm.empty() ? Json() : Json(row.arm)},
+          {"policy", row.policy},
           {"inside", row.inside()},
           {"outside", row.outside()},
           {"unknown", row.unknown()},
@@ -48,6 +49,22 @@ Json session_json(const log::RecordedSession& session, const ImportNotes& import
           {"policies", policies}};
 }
 
+Json arm_json(const Arm& arm) {
+  Json policies = Json::array();
+  for (const auto& half : arm.policies) {
+    policies.push_back({{"half", half.half}, {"policy", half.policy}, {"robot_id", half.robot_id}});
+  }
+  return {{"arm", arm.name},
+          {"log", arm.log},
+          {"scenario", arm.scenario},
+          {"table", arm.table.empty() ? Json() : Json(arm.table)},
+          {"software_version", arm.software_version},
+          {"configurations", arm.configurations},
+          {"sessions", arm.sessions},
+          {"matches", arm.matches},
+          {"policies", policies}};
+}
+
 Json loss_json(const log::Loss& loss) {
   return {{"stream", loss.stream},
           {"received", loss.received},
@@ -79,7 +96,7 @@ Json unrecorded_json(const UnrecordedOrders& orders) {
           {"counts", orders.counts()}};
 }
 
-Json labels_json(const LabelQuality& labels) {
+Json labels_json(const LabelQuality& labels, const std::vector<std::string>& goal_warnings) {
   Json rows = Json::array();
   for (const SightingsRow& row : labels.rows) {
     rows.push_back({{"sightings", row.sightings},
@@ -87,7 +104,7 @@ Json labels_json(const LabelQuality& labels) {
                     {"unknown", row.unknown},
                     {"expected_wrong", labels.has_probabilities ? Json(row.expected_wrong) : Json()}});
   }
-  return {{"by_sightings", rows}, {"goal_warnings", labels.goal_warnings()}};
+  return {{"by_sightings", rows}, {"goal_warnings", goal_warnings}};
 }
 
 Json quality_json(const Report& report) {
@@ -127,7 +144,11 @@ Json quality_json(const Report& report) {
   for (const UnrecordedOrders& orders : report.unrecorded_orders) {
     quality["unrecorded_orders"].push_back(unrecorded_json(orders));
   }
-  quality["labels"] = labels_json(report.labels);
+  quality["labels"] = labels_json(report.labels, report.goal_warnings);
+  quality["hand_labels"] = {{"kicks", report.hand_labels.kicks},
+                            {"compared", report.hand_labels.compared},
+                            {"disagreed", report.hand_labels.disagreed},
+                            {"observer_knew_not", report.hand_labels.observer_knew_not}};
   quality["verification"] = {{"verified_rows", report.verified_rows},
                              {"doubt", report.doubt ? Json(*report.doubt) : Json()}};
   if (report.compared_with_truth > 0) {
@@ -139,7 +160,7 @@ Json quality_json(const Report& report) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  Json json = {{"simulated", report.simulated_sessions() > 0}, {"policies", Json::array()}};
+  Json json = {{"simulated", report.simulated_sessions() > 0}, {"logs", report.logs}, {"policies", Json::array()}};
   for (const PolicyRow& row : report.policies) json["policies"].push_back(policy_json(row));
   json["robots"] = Json::array();
   for (const RobotRow& row : report.robots) {
@@ -147,8 +168,16 @@ std::string to_json(const Report& report) {
     json["robots"].back()["robot_id"] = row.robot_id;
   }
   json["sessions"] = Json::array();
-  for (const auto& session : report.sessions) json["sessions"].push_back(session_json(session, report.imports));
+  for (const auto& session : report.sessions) {
+    if (!session.arm) json["sessions"].push_back(session_json(session, report.imports));
+  }
+  json["arms"] = Json::array();
+  for (const Arm& arm : report.arms) json["arms"].push_back(arm_json(arm));
+  json["said"] = Json::array();
+  for (const SessionNote& note : report.notes)
+    json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
   json["data_quality"] = quality_json(report);
+  if (!report.gates.empty()) json["gates"] = gates_json(report.gates);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",
                    "efficiency: inside over the kicks whose outcome is known; efficiency_bounds: if every unknown "
                    "kick was outside and as many labels as may be are wrong (Poisson's 97.5 % of expected_wrong), and "

@@ -1,26 +1,19 @@
 #include "evaluator/report/table2.hpp"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
-#include <tuple>
 
-#include "evaluator/metrics/bounces_by_policy.sql.hpp"
-#include "evaluator/metrics/outcomes_by_policy.sql.hpp"
-#include "evaluator/metrics/outcomes_by_robot.sql.hpp"
 #include "evaluator/metrics/refused_orders.sql.hpp"
 #include "evaluator/metrics/truth_agreement.sql.hpp"
 #include "evaluator/metrics/unclosed_kicks.sql.hpp"
-#include "evaluator/report/log_opportunities.hpp"
-#include "evaluator/report/pair_counts.hpp"
-#include "evaluator/stats/clustered.hpp"
+#include "evaluator/report/policy_order.hpp"
+#include "evaluator/report/report_rows.hpp"
 
 namespace trivela::evaluator {
 namespace {
-
-using Rows = std::map<std::string, PolicyRow, std::greater<>>;  // by reverse alphabet: "stopped" before "moving"
 
 // What sessions say of robots that they have not recorded is nobody's.
 void forget_absent_robots(std::vector<log::RecordedSession>& sessions, const LoggedOpportunities& logged) {
@@ -37,96 +30,32 @@ void forget_absent_robots(std::vector<log::RecordedSession>& sessions, const Log
   }
 }
 
-// Arms of an experiment meet the same opportunities: under one policy's name they would count several times.
-void refuse_arms_of_one_policy(const std::vector<log::RecordedSession>& sessions) {
-  std::map<std::string, std::set<std::string>> arms;  // by policy
-  for (const log::RecordedSession& session : sessions) {
-    for (const log::HalfPolicy& half : session.policies) {
-      if (session.arm) arms[half.policy].insert(*session.arm);
-    }
-  }
-  for (const auto& [policy, names] : arms) {
-    if (names.size() < 2) continue;
-    throw std::runtime_error(fmt::format(
-        "'{}' is the policy of several arms ({}), which meet the same opportunities: a table by policy would "
-        "count them more than once; trivela compare --by arm has a row for each",
-        policy, fmt::join(names, ", ")));
-  }
+// What a log has of its own: an earlier one has not its sessions.
+template <class Row>
+void append(std::vector<Row>& all, std::vector<Row> rows, const std::set<std::int64_t>& own) {
+  std::erase_if(rows, [&](const Row& row) { return !own.contains(row.session_id); });
+  all.insert(all.end(), rows.begin(), rows.end());
 }
 
-void add_minutes(std::optional<double>& sum, double minutes) { sum = sum.value_or(0.0) + minutes; }
-
-// Situations of paired halves are one thing each, however many halves had them.
-void allow_for_paired_halves(const LoggedOpportunities& logged, Rows& rows) {
-  using Situation = std::tuple<std::uint32_t, std::uint32_t, int, int, std::int64_t>;  // match, play, robot, half, id
-  std::map<std::string, std::map<Situation, stats::Counts>> situations;
-  for (const LoggedOpportunity& o : logged.rows) {
-    if (o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
-    const ComparedSession& session = logged.sessions[o.session];
-    const int half = session.paired_halves && o.possession_id != 0 ? 0 : o.half;
-    stats::Counts& counts = situations[o.policy][{session.match, session.play, o.robot_id, half, o.possession_id}];
-    if (half == 0 && counts.n > 0) ++rows[o.policy].repeated;
-    add(counts, o.ending);
-  }
-  for (auto& [policy, row] : rows) {
-    if (row.repeated == 0) continue;
-    std::vector<stats::Counts> counts;
-    for (const auto& [situation, of] : situations[policy]) counts.push_back(of);
-    row.paired_ci = stats::clustered_wilson(counts);
-  }
-}
-
-std::vector<PolicyRow> policy_rows(const log::Reader& reader, const std::vector<log::RecordedSession>& sessions,
-                                   const LoggedOpportunities& logged, bool blocked_apart) {
-  Rows rows;
-  for (const log::RecordedSession& session : sessions) {
-    for (const log::HalfPolicy& half : session.policies) rows[half.policy];  // whether it kicked or not
-  }
-  for (const PlayedSpan& span : logged.spans) {
-    std::set<std::string> policies;
-    for (const PolicyOfRobot& who : span.had_it) policies.insert(who.policy);
-    policies.erase("");
-    for (const std::string& policy : policies) add_minutes(rows[policy].played_min, span.minutes);
-  }
-  reader.query(kOutcomesByPolicySql, [&](const std::string& policy, const std::string& outcome, std::int64_t kicks) {
-    rows[policy].kicks_by_outcome[outcome] = kicks;
-  });
-  reader.query(kBouncesByPolicySql, [&](const std::string& policy, std::int64_t observed, std::int64_t observed_bounced,
-                                        std::int64_t truth, std::int64_t truth_bounced) {
-    rows[policy].bounces = {observed, observed_bounced, truth, truth_bounced};
-  });
-  allow_for_paired_halves(logged, rows);
-  std::vector<PolicyRow> result;
-  for (auto& [policy, row] : rows) {
-    row.policy = policy;
-    row.blocked_apart = blocked_apart;
-    result.push_back(std::move(row));
-  }
-  return result;
-}
-
-std::vector<RobotRow> robot_rows(const log::Reader& reader, const LoggedOpportunities& logged, bool blocked_apart) {
-  std::map<std::pair<int, std::string>, RobotRow> rows;
-  std::set<int> robots;
-  for (const PlayedSpan& span : logged.spans) {
-    for (const PolicyOfRobot& who : span.had_it) {
-      if (who.robot_id != 0) add_minutes(rows[{who.robot_id, who.policy}].played_min, span.minutes);
-    }
-  }
-  reader.query(kOutcomesByRobotSql,
-               [&](int robot_id, const std::string& policy, const std::string& outcome, std::int64_t kicks) {
-                 rows[{robot_id, policy}].kicks_by_outcome[outcome] = kicks;
-               });
-  for (auto& [key, row] : rows) {
-    std::tie(row.robot_id, row.policy) = key;
-    row.blocked_apart = blocked_apart;
-    robots.insert(row.robot_id);
-  }
-  std::vector<RobotRow> result;
-  for (auto& [key, row] : rows) {
-    if (robots.size() > 1) result.push_back(std::move(row));
-  }
-  return result;
+void add_losses(std::map<std::string, log::Loss>& losses, const log::Reader& reader,
+                const std::set<std::int64_t>& own) {
+  reader.query(
+      "SELECT session_id, stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
+      "sum(out_of_order) FROM losses GROUP BY session_id, stream",
+      [&](std::int64_t session_id, const std::string& stream, std::int64_t received, std::int64_t lost,
+          std::int64_t gaps, std::int64_t overflow, std::int64_t nan_refused, std::int64_t rejected,
+          std::int64_t out_of_order) {
+        if (!own.contains(session_id)) return;
+        log::Loss& loss = losses[stream];
+        loss.stream = stream;
+        loss.received += received;
+        loss.lost += lost;
+        loss.gaps += gaps;
+        loss.overflow += overflow;
+        loss.nan_refused += nan_refused;
+        loss.rejected += rejected;
+        loss.out_of_order += out_of_order;
+      });
 }
 
 std::vector<UnclosedKick> unclosed_kicks_of(const log::Reader& reader) {
@@ -135,9 +64,76 @@ std::vector<UnclosedKick> unclosed_kicks_of(const log::Reader& reader) {
                         &U::has_order, &U::has_receipt, &U::has_outcome);
 }
 
-std::vector<RefusedOrders> refused_orders_of(const log::Reader& reader) {
-  using R = RefusedOrders;
-  return reader.rows<R>(kRefusedOrdersSql, &R::policy, &R::refusal, &R::orders);
+void add_refused_orders(std::vector<RefusedOrders>& refused, const log::Reader& reader) {
+  reader.query(kRefusedOrdersSql, [&](const std::string& policy, const std::string& refusal, std::int64_t orders) {
+    const auto known = std::ranges::find_if(
+        refused, [&](const RefusedOrders& row) { return row.policy == policy && row.refusal == refusal; });
+    if (known == refused.end()) {
+      refused.push_back({policy, refusal, orders});
+    } else {
+      known->orders += orders;
+    }
+  });
+}
+
+// Adds everything but tables and lengths. `named`: several logs, whose sentences name them.
+void add_log(Report& report, std::map<std::string, log::Loss>& losses, const OpenLog& log,
+             const std::set<std::int64_t>& own, bool named) {
+  const log::Reader& reader = *log.reader;
+  const auto sentence = [&](const std::string& text) { return named ? log.name + ": " + text : text; };
+  append(report.sessions, reader.sessions(), own);
+  append(report.unclosed_kicks, unclosed_kicks_of(reader), own);
+  append(report.silences, silences_of(reader), own);
+  append(report.unrecorded_orders, unrecorded_orders_of(reader), own);
+  report.imports.merge(import_notes_of(reader));
+  add_losses(losses, reader, own);
+  add_refused_orders(report.refused_orders, reader);
+  append(report.notes, session_notes(reader), own);
+  report.hand_labels.add(hand_labels_of(reader, own));
+  const LabelQuality labels = label_quality_of(reader);
+  report.labels.add(labels);
+  for (const std::string& warning : reader.warnings()) report.warnings.push_back(sentence(warning));
+  reader.query("SELECT matches_done, matches FROM experiments WHERE matches_done < matches",
+               [&](std::int64_t done, std::int64_t matches) {
+                 report.warnings.push_back(sentence(
+                     fmt::format("the experiment is not finished, {} of {} matches are there", done, matches)));
+               });
+  for (const std::string& warning : labels.goal_warnings()) report.goal_warnings.push_back(sentence(warning));
+  if (const auto doubt = reader.doubt())
+    report.doubt = (report.doubt ? *report.doubt + "; " : std::string()) + sentence(*doubt);
+  report.verified_rows += reader.verification().compared ? reader.verification().rows : 0;
+  reader.query(kTruthAgreementSql, [&](std::int64_t compared, std::int64_t alike) {
+    report.compared_with_truth += compared;
+    report.alike_with_truth += alike;
+  });
+}
+
+// What differs between sessions of no arm, which are added up all the same.
+std::string mixture_of(const LoggedOpportunities& logged, const std::vector<log::RecordedSession>& recorded) {
+  std::set<std::uint32_t> worlds, settings;
+  std::set<std::string> versions;
+  std::set<std::int64_t> counted;
+  for (const ComparedSession& session : logged.sessions) {
+    if (!session.arm.empty() || !session.counts) continue;
+    counted.insert(session.session_id);
+    settings.insert(session.setup.settings);
+    if (session.simulated) worlds.insert(session.setup.world);
+  }
+  for (const log::RecordedSession& session : recorded)
+    if (counted.contains(session.session_id)) versions.insert(session.software_version);
+  std::vector<std::string> differs;
+  if (settings.size() > 1) differs.push_back(fmt::format("{} settings", settings.size()));
+  if (worlds.size() > 1) differs.push_back(fmt::format("{} simulated worlds", worlds.size()));
+  if (versions.size() > 1) differs.push_back(fmt::format("{} versions", versions.size()));
+  return differs.empty() ? "" : fmt::format("added up though played with {}", fmt::join(differs, ", "));
+}
+
+void warn_of_replays(Report& report) {
+  for (const log::RecordedSession& session : report.sessions) {
+    if (session.replays_uuid.empty()) continue;
+    report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
+                              ": the outcomes are those of the recorded kicks, whatever was ordered here");
+  }
 }
 
 }  // namespace
@@ -180,38 +176,40 @@ bool Report::data_lost() const {
          std::ranges::any_of(lengths, &PlayedLength::cut_short);
 }
 
-Report make_report(const log::Reader& reader, bool blocked_apart) {
-  const LoggedOpportunities logged = read_opportunities(reader, "this log", false);
-  std::vector<log::RecordedSession> sessions = reader.sessions();
-  refuse_arms_of_one_policy(sessions);
-  forget_absent_robots(sessions, logged);
-  Report report{.sessions = sessions,
-                .policies = policy_rows(reader, sessions, logged, blocked_apart),
-                .robots = robot_rows(reader, logged, blocked_apart),
-                .lengths = played_lengths(reader, logged.sessions),
-                .imports = import_notes_of(reader),
-                .not_counted = logged.not_counted,
-                .losses = reader.losses(),
-                .unclosed_kicks = unclosed_kicks_of(reader),
-                .refused_orders = refused_orders_of(reader),
-                .silences = silences_of(reader),
-                .unrecorded_orders = unrecorded_orders_of(reader),
-                .labels = label_quality_of(reader),
-                .warnings = reader.warnings(),
-                .doubt = reader.doubt(),
-                .verified_rows = reader.verification().compared ? reader.verification().rows : 0};
-  for (PolicyRow& row : report.policies) row.doubt = report.labels.doubts[row.policy];
-  for (std::string& warning : report.labels.goal_warnings()) report.warnings.push_back(std::move(warning));
-  for (const log::RecordedSession& session : report.sessions) {
-    if (session.replays_uuid.empty()) continue;
-    report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
-                              ": the outcomes are those of the recorded kicks, whatever was ordered here");
+Report make_report(std::span<const OpenLog> logs, bool blocked_apart) {
+  const LoggedOpportunities logged = read_opportunities(logs, false);
+  Report report;
+  report.logs = logged.logs;
+  report.not_counted = logged.not_counted;
+  std::vector<std::set<std::int64_t>> own(logs.size());  // sessions
+  for (const ComparedSession& session : logged.sessions) own[session.log].insert(session.session_id);
+  std::map<std::string, log::Loss> losses;
+  std::vector<const log::Reader*> readers;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    add_log(report, losses, logs[i], own[i], logs.size() > 1);
+    readers.push_back(logs[i].reader);
   }
-  reader.query(kTruthAgreementSql, [&](std::int64_t compared, std::int64_t alike) {
-    report.compared_with_truth = compared;
-    report.alike_with_truth = alike;
-  });
+  for (auto& [stream, loss] : losses) report.losses.push_back(std::move(loss));
+  report.notes = notes_that_hold(report.notes);
+  std::ranges::stable_sort(report.refused_orders, PolicyOrder{}, &RefusedOrders::policy);
+  forget_absent_robots(report.sessions, logged);
+  report.lengths = played_lengths(readers, logged.sessions);
+  Arms arms = arms_of(logged, report.sessions);
+  ReportRows rows = report_rows({readers, logged, report.sessions, arms, report.labels.doubts}, blocked_apart);
+  report.policies = std::move(rows.policies);
+  report.robots = std::move(rows.robots);
+  report.robot_ids = std::move(rows.robot_ids);
+  report.not_counted.insert(report.not_counted.end(), arms.apart.begin(), arms.apart.end());
+  if (const std::string mix = mixture_of(logged, report.sessions); !mix.empty()) report.not_counted.push_back(mix);
+  report.arms = std::move(arms.all);
+  report.warnings.insert(report.warnings.end(), report.goal_warnings.begin(), report.goal_warnings.end());
+  warn_of_replays(report);
   return report;
+}
+
+Report make_report(const log::Reader& reader, bool blocked_apart) {
+  const OpenLog log{&reader, "this log"};
+  return make_report(std::span(&log, 1), blocked_apart);
 }
 
 }  // namespace trivela::evaluator

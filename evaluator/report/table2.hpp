@@ -3,15 +3,21 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "evaluator/log/reader.hpp"
+#include "evaluator/report/arms.hpp"
 #include "evaluator/report/bounces.hpp"
+#include "evaluator/report/gate.hpp"
+#include "evaluator/report/hand_labels.hpp"
 #include "evaluator/report/import_notes.hpp"
 #include "evaluator/report/label_quality.hpp"
+#include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/played_length.hpp"
 #include "evaluator/report/recording_gaps.hpp"
+#include "evaluator/report/session_notes.hpp"
 #include "evaluator/stats/counts.hpp"
 #include "evaluator/stats/interval.hpp"
 
@@ -21,8 +27,9 @@ namespace trivela::evaluator {
 /// without any of them.
 inline const std::vector<std::string> kMisses = {"wide_left", "wide_right", "over", "short", "post", "bar", "blocked"};
 
-/// One row of Table 2: the kicks of a policy.
+/// One row of Table 2: the kicks of a policy, of an experiment those of an arm with it.
 struct PolicyRow {
+  std::string arm;  ///< Arm::name; empty: none
   std::string policy;
   std::map<std::string, std::int64_t> kicks_by_outcome;
   stats::LabelDoubt doubt;  ///< of the labels; 0 where the log does not say
@@ -74,25 +81,33 @@ struct RefusedOrders {
   std::int64_t orders = 0;
 };
 
-/// Table 2 of a match log, its sessions pooled by policy, and how far it can be trusted.
+/// Table 2 of match logs, their sessions pooled by policy or arm, and how far it can be trusted.
 struct Report {
+  std::vector<std::string> logs;  ///< their names
   std::vector<log::RecordedSession> sessions;
-  std::vector<PolicyRow> policies;  ///< stopped before moving
-  std::vector<RobotRow> robots;     ///< by robot and policy; empty: the log has one robot
+  std::vector<SessionNote> notes;   ///< what people say of them, as far as it holds
+  std::vector<Arm> arms;            ///< of experiments, whose sessions are not named one by one
+  std::vector<PolicyRow> policies;  ///< by arm, and in the order of PolicyOrder
+  std::vector<RobotRow> robots;     ///< by robot, arm and policy; empty: there is one robot
+  std::vector<int> robot_ids;       ///< of all that kicked or had the ball; 0: one that an import does not know
   std::vector<PlayedLength> lengths;
   ImportNotes imports{};                 ///< of sessions that no robot recorded
-  std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice
+  std::vector<std::string> not_counted;  ///< sentences on what does not count, or not twice, or stands apart
   std::vector<log::Loss> losses;         ///< by stream
   std::vector<UnclosedKick> unclosed_kicks;
   std::vector<RefusedOrders> refused_orders;
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
   LabelQuality labels;
-  std::vector<std::string> warnings;     ///< sentences on unclosed sessions and lost rows
-  std::optional<std::string> doubt;      ///< a sentence on rows that nobody compared with their digest
-  std::int64_t verified_rows = 0;        ///< that are as they were recorded
-  std::int64_t compared_with_truth = 0;  ///< kicks whose outcome and truth are both known
+  HandLabels hand_labels;
+  std::vector<std::string> goal_warnings;  ///< sentences on where the goal is, also among `warnings`
+  std::vector<std::string> warnings;       ///< sentences on unclosed sessions, lost rows, unfinished experiments
+  std::optional<std::string> doubt;        ///< a sentence on rows that nobody compared with their digest
+  std::int64_t verified_rows = 0;          ///< that are as they were recorded
+  std::int64_t compared_with_truth = 0;    ///< kicks whose outcome and truth are both known
   std::int64_t alike_with_truth = 0;
+
+  std::vector<GateResult> gates;  ///< of whoever asked (judge_gates())
 
   std::int64_t rows_missing() const;
   std::int64_t unclosed_sessions() const;
@@ -103,15 +118,22 @@ struct Report {
   bool data_lost() const;
 };
 
-/// Counts what is in the log. `blocked_apart`: blocked kicks stand apart, efficiency is of the others; otherwise they
-/// are outside, as in the paper's Table 2. Throws std::runtime_error where it cannot be read, and where several
-/// arms of an experiment have the same policy.
+/// Counts what is in the logs, each kick once. `blocked_apart`: blocked kicks stand apart, efficiency is of the others;
+/// otherwise they are outside, as in the paper's Table 2. Throws std::runtime_error where a log cannot be read.
+Report make_report(std::span<const OpenLog> logs, bool blocked_apart = false);
+
+/// The same of one log.
 Report make_report(const log::Reader& reader, bool blocked_apart = false);
 
 /// Aligned tables for a terminal: Table 2, why the misses missed, data quality.
 std::string to_text(const Report& report);
 
-/// One line a policy with a header. A cell is empty where there is no such number.
+/// The same tables in Markdown (GitHub's), and in LaTeX for \input; names are harmless in either.
+std::string to_markdown(const Report& report);
+std::string to_latex(const Report& report);
+
+/// A line for each policy, robot, and number of the data quality, told apart by the column `row`; a number that belongs
+/// to no policy has its `name` and `value`. A cell is empty where there is no such number.
 std::string to_csv(const Report& report);
 
 /// `policies: [{policy, inside, outside, efficiency, wilson95, ...}]`, `sessions`, `data_quality` and notes.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,14 @@
 #include "evaluator/stats/exact.hpp"
 
 namespace trivela::evaluator::stats {
+
+Interval rate_interval(Rate rate, double confidence) {
+  if (!(rate.minutes > 0.0)) throw std::invalid_argument("a rate needs minutes above 0");
+  const double tail = 0.5 * (1.0 - confidence);
+  const auto k = static_cast<double>(rate.events);
+  const double lo = rate.events > 0 ? boost::math::gamma_p_inv(k, tail) : 0.0;
+  return {lo / rate.minutes, boost::math::gamma_q_inv(k + 1.0, tail) / rate.minutes};
+}
 
 std::optional<RateRatio> rate_ratio(Rate older, Rate newer, double confidence) {
   const Counts share{newer.events, newer.events + older.events};

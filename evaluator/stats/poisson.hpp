@@ -15,6 +15,10 @@ struct Rate {
   double minutes = 0.0;  ///< > 0
 };
 
+/// Of events a minute, exact (Garwood 1936): half the quantiles of chi-square with 2 k and 2 k + 2 degrees of freedom,
+/// by the minutes. Throws std::invalid_argument where minutes are not above 0.
+Interval rate_interval(Rate rate, double confidence = kConfidence);
+
 /// Ratio of two rates, exact given the sum of the events (R's poisson.test, after Przyborowski and Wilenski 1940): the
 /// newer one's share of them is binomial with r T2 / (T1 + r T2). The interval is Clopper and Pearson's of the share.
 struct RateRatio {

@@ -86,14 +86,18 @@ config::Robot evening_robot(const sim::Scenario& world, std::int64_t seed, std::
   return play_evening(options).robot.robot();
 }
 
-std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t count, std::size_t jobs) {
+std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t count, std::size_t jobs,
+                                   const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<std::optional<Evening>> evenings(count);
-  in_threads(count, jobs, [&](std::size_t i) {
-    EveningOptions of_one = options;
-    of_one.seed += static_cast<std::int64_t>(i);
-    of_one.name = fmt::format("{}_{}", options.name, of_one.seed);
-    evenings[i] = play_evening(of_one);
-  });
+  in_threads(
+      count, jobs,
+      [&](std::size_t i) {
+        EveningOptions of_one = options;
+        of_one.seed += static_cast<std::int64_t>(i);
+        of_one.name = fmt::format("{}_{}", options.name, of_one.seed);
+        evenings[i] = play_evening(of_one);
+      },
+      progress);
   std::vector<Evening> played;
   played.reserve(count);
   for (std::optional<Evening>& evening : evenings) played.push_back(std::move(*evening));

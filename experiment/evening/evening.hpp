@@ -56,7 +56,10 @@ Evening play_evening(const EveningOptions& options);
 /// The robot of an evening of this world for an experiment: seed alone decides.
 config::Robot evening_robot(const sim::Scenario& world, std::int64_t seed, std::uint32_t number = 1);
 
-/// Evenings with the seeds options.seed, options.seed + 1, ..., played by `jobs` threads.
-std::vector<Evening> play_evenings(const EveningOptions& options, std::size_t count, std::size_t jobs);
+/// Evenings with the seeds options.seed, options.seed + 1, ..., played by `jobs` threads. `progress`: evenings that
+/// were played, of how many; called by one thread at a time.
+std::vector<Evening> play_evenings(
+    const EveningOptions& options, std::size_t count, std::size_t jobs,
+    const std::function<void(std::size_t done, std::size_t all)>& progress = [](auto, auto) {});
 
 }  // namespace trivela::experiment

@@ -1,5 +1,7 @@
 #include "experiment/factorial/play.hpp"
 
+#include <mutex>
+
 #include "experiment/play/play_match.hpp"
 #include "experiment/run/in_threads.hpp"
 
@@ -24,19 +26,33 @@ MatchTally tally_of(const PlayedMatch& match, std::uint32_t evening) {
 
 }  // namespace
 
+void play_matches(const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
+                  const std::vector<ArmMatch>& matches,
+                  const std::function<void(const ArmMatch&, const MatchTally&)>& played) {
+  const EveningArms by_evening{arms, plan.evenings};
+  std::mutex one_at_a_time;
+  in_threads(matches.size(), plan.jobs, [&](std::size_t i) {
+    const auto& [arm, match] = matches[i];
+    const MatchTally tally =
+        tally_of(play_match(scenario, by_evening.of(match)[arm], plan.seed, match, plan.possessions),
+                 by_evening.evening_of(match));
+    const std::lock_guard lock{one_at_a_time};
+    played(matches[i], tally);
+  });
+}
+
 std::vector<std::vector<MatchTally>> play_arms(const sim::Scenario& scenario, const std::vector<Arm>& arms,
                                                const PlayPlan& plan,
                                                const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<std::vector<MatchTally>> tallies(arms.size(), std::vector<MatchTally>(plan.matches));
-  const EveningArms by_evening{arms, plan.evenings};
-  // Match by match, so that slow arms are spread over the threads.
-  const auto play = [&](std::size_t i) {
-    const std::size_t arm = i % arms.size();
-    const auto match = static_cast<std::uint32_t>(i / arms.size());
-    tallies[arm][match] = tally_of(play_match(scenario, by_evening.of(match)[arm], plan.seed, match, plan.possessions),
-                                   by_evening.evening_of(match));
-  };
-  in_threads(arms.size() * plan.matches, plan.jobs, play, progress);
+  std::vector<ArmMatch> matches;  // match by match, so that slow arms are spread over the threads
+  for (std::uint32_t match = 0; match < plan.matches; ++match)
+    for (std::size_t arm = 0; arm < arms.size(); ++arm) matches.push_back({arm, match});
+  std::size_t done = 0;
+  play_matches(scenario, arms, plan, matches, [&](const ArmMatch& at, const MatchTally& tally) {
+    tallies[at.arm][at.match] = tally;
+    progress(++done, matches.size());
+  });
   return tallies;
 }
 

@@ -21,6 +21,18 @@ struct PlayPlan {
   std::vector<Team> evenings{};
 };
 
+/// A match of an arm, by their numbers.
+struct ArmMatch {
+  std::size_t arm = 0;
+  std::uint32_t match = 0;
+};
+
+/// Plays these matches; `played(match, tally)` is called from one thread at a time, as they end; where it throws,
+/// nothing more is played. Rethrows what it or a match throws.
+void play_matches(const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
+                  const std::vector<ArmMatch>& matches,
+                  const std::function<void(const ArmMatch&, const MatchTally&)>& played);
+
 /// Plays every match with every arm, on the same opportunities: result[arm][match]. The same answer for any number of
 /// jobs. `progress(done, all)` is called from one thread at a time, as matches end; where it throws, nothing more is
 /// played. Rethrows what it or a match throws.

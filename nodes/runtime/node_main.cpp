@@ -144,6 +144,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     config::override_settings(settings, flags.overrides, "--set");
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
+    if (flags.processor >= 0) bus::stay_on(flags.processor);
     if (flags.realtime_priority > 0) warn_of_refusals(bus::set_realtime(flags.realtime_priority), *logger);
     const bus::LibraryLog library{
         [logger](bool severe, std::string_view text) { logger->log(level_of(severe, text), "dds: {}", text); }};

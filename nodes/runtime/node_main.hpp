@@ -9,9 +9,9 @@
 
 namespace trivela::nodes {
 
-/// The main of every node: `--config FILE`, any number of `--set section.key=value`, `--realtime PRIORITY`, `--secure
-/// KEYS`. Joins the bus, runs `body` until it returns or SIGTERM or SIGINT requests the stop, and turns exceptions into
-/// one line on standard error. Returns the exit code: 0 stopped, 1 failed, 2 bad usage.
+/// The main of every node: `--config FILE`, any number of `--set section.key=value`, `--realtime PRIORITY`,
+/// `--processor N`, `--secure KEYS`. Joins the bus, runs `body` until it returns or SIGTERM or SIGINT requests the
+/// stop, and turns exceptions into one line on standard error. Returns the exit code: 0 stopped, 1 failed, 2 bad usage.
 int node_main(int argc, char** argv, const char* name, const std::function<void(NodeContext&)>& body);
 
 /// Where the nodes of these settings meet.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 #include <type_traits>
@@ -162,8 +163,18 @@ void SimulatorNode::publish_scans(const sim::Sensors& sensors) {
 }
 
 bool SimulatorNode::await_cycle(std::int64_t t_ns) {
-  if (context_.settings.run.lockstep) return barrier_.wait_for(t_ns, context_.stop);
-  const std::int64_t until_ns = started_ns_ + t_ns + context_.cycle().count();
+  if (!context_.settings.run.lockstep) return wait_until(started_ns_ + t_ns + context_.cycle().count());
+  if (!barrier_.wait_for(t_ns, context_.stop)) return false;
+  const double pace = context_.settings.simulator.pace;
+  if (pace <= 0.0) return true;
+  if (!wait_until(next_ns_)) return false;
+  // What the nodes took longer for is not caught up with: nobody could follow.
+  next_ns_ = std::max(next_ns_ + kicking::nanoseconds(context_.settings.run.cycle_s / pace), context_.steady_ns());
+  return true;
+}
+
+/// On the steady clock; false: the stop was requested.
+bool SimulatorNode::wait_until(std::int64_t until_ns) const {
   pollfd stop{context_.stop.file_descriptor(), POLLIN, 0};
   const std::int64_t left_ns = until_ns - context_.steady_ns();
   timespec timeout{};

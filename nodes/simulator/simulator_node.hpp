@@ -16,11 +16,11 @@ namespace trivela::nodes {
 /// played in it.
 sim::Scenario scenario_of(const config::Settings& settings);
 
-/// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer, otherwise in
-/// real time. The world's time begins at 0. In lockstep it is every t_ns on the bus; in real time those are of the
-/// steady clock, so that a simulator that is started anew goes on where the nodes are. A fire that reaches the
-/// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
-/// the base stands.
+/// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer or, where there
+/// is a pace, no faster than that, otherwise in real time. The world's time begins at 0. In lockstep it is every t_ns
+/// on the bus; in real time those are of the steady clock, so that a simulator that is started anew goes on where the
+/// nodes are. A fire that reaches the simulated coil long after its instant energises nothing, and without a drive
+/// command for odometry.drive_timeout_s the base stands.
 ///
 /// With emulated devices the kicker's board, the base's drives and the referee box are in place of their topics, and
 /// the world begins when the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is
@@ -47,6 +47,7 @@ class SimulatorNode {
   void publish(const sim::Sensors& sensors);
   void publish_scans(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
+  bool wait_until(std::int64_t until_ns) const;
   std::optional<sim::Commands> commands(std::int64_t t_ns);
   void publish_truth(const sim::StepEvents& events);
   void report_progress();
@@ -82,6 +83,7 @@ class SimulatorNode {
   std::uint64_t possessions_ = 0;
   std::uint64_t scans_ = 0;
   std::int64_t started_ns_ = 0;  // on the steady clock; 0 in lockstep
+  std::int64_t next_ns_ = 0;     // on the steady clock: the next cycle begins no sooner, in lockstep at a pace
   ProgressLine progress_;
 };
 

@@ -10,10 +10,11 @@
 
 #include "evaluator/log/scan_log.hpp"
 #include "hal/range_finder.hpp"
-#include "pages/lob/broadcast.hpp"
+#include "pages/lob/channels.hpp"
 #include "pages/lob/frame.hpp"
 #include "pages/lob/lob_book.hpp"
 #include "pages/lob/scene.hpp"
+#include "pages/serve/broadcast.hpp"
 
 namespace trivela::pages {
 

@@ -6,11 +6,12 @@
 #include <mutex>
 #include <thread>
 
-#include "pages/lob/broadcast.hpp"
+#include "pages/lob/channels.hpp"
 #include "pages/lob/frame.hpp"
 #include "pages/lob/lob_book.hpp"
 #include "pages/lob/player.hpp"
 #include "pages/lob/scene.hpp"
+#include "pages/serve/broadcast.hpp"
 
 namespace trivela::pages {
 

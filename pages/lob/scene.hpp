@@ -2,16 +2,11 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 
-namespace trivela::pages {
+#include "pages/serve/page.hpp"
 
-/// A command that cannot be done, with the status of the HTTP answer.
-struct CommandError : std::runtime_error {
-  CommandError(int http_status, const std::string& sentence) : std::runtime_error(sentence), status(http_status) {}
-  int status;
-};
+namespace trivela::pages {
 
 /// What the page shows and does: a live scanner or a replayed record. Publishes by itself. Any thread.
 class Scene {

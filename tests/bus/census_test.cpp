@@ -79,6 +79,21 @@ TEST(Observer, HearsEveryProfile) {
   hears(hears_event, event, msg::KickDecision{});
 }
 
+TEST(Observer, IsGivenTheLastStateWhereItAsksForItAndStaysUncounted) {
+  const WirePair wire = fresh_wire_pair();
+  const Participant nodes(wire.a), outside(wire.b);
+  Writer<msg::DeviceEmulated> writer(nodes);
+  msg::DeviceEmulated word{};
+  word.robot_id = 1;
+  writer.write(word);
+  ReaderOptions options = looking_on();
+  options.with_the_last = true;
+  Reader<msg::DeviceEmulated> late(outside, options);
+  ASSERT_TRUE(late.wait(seconds(10)));
+  EXPECT_EQ(late.take([](const auto&) {}), 1u);
+  EXPECT_EQ(writer.readers(), 0u);
+}
+
 TEST(Census, NamesWritersWithOwnerStrengthAndProcess) {
   const WirePair wire = fresh_wire_pair();
   const Participant nodes(wire.a), outside(wire.b);

@@ -1,5 +1,7 @@
 #include "bus/process.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <unistd.h>
@@ -9,7 +11,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <vector>
 
+#include "bus/cyclone.hpp"
 #include "bus/participant.hpp"
 #include "tests/bus/test_domain.hpp"
 
@@ -69,6 +73,38 @@ TEST(SchedulingDeathTest, TheProcessorsStayAwakeWhereThatWasPermitted) {
 
 TEST(SchedulingDeathTest, AnImpossiblePriorityIsNotPermitted) {
   EXPECT_EXIT(_exit(set_realtime(1000).scheduled ? 1 : 0), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(SchedulingDeathTest, ThisThreadAndTheBussStayOnTheProcessorThatIsNamed) {
+  EXPECT_EXIT(
+      {
+        const int processor = processors_allowed().back();
+        stay_on(processor);
+        const Participant participant(fresh_domain());
+        bool all_there = processors_allowed() == std::vector{processor};
+        for (const pid_t thread : threads()) {
+          cpu_set_t allowed;
+          all_there = all_there && sched_getaffinity(thread, sizeof allowed, &allowed) == 0 &&
+                      CPU_COUNT(&allowed) == 1 && CPU_ISSET(processor, &allowed);
+        }
+        _exit(all_there && threads().size() > 1 ? 0 : 1);
+      },
+      ::testing::ExitedWithCode(0), "");
+}
+
+TEST(Scheduling, AProcessorThatIsNotThereIsRefusedByNamingThoseThatAre) {
+  const std::vector<int> before = processors_allowed();
+  ASSERT_FALSE(before.empty());
+  for (const int processor : {-1, before.back() + 1, 1'000'000}) {
+    try {
+      stay_on(processor);
+      FAIL() << processor;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(fmt::format("processor {}", processor)));
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(fmt::format("may use {}", fmt::join(before, ", "))));
+    }
+  }
+  EXPECT_EQ(processors_allowed(), before);
 }
 
 }  // namespace

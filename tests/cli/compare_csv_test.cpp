@@ -31,7 +31,7 @@ class CompareCsv : public evaluator::LogTest {
     add_compare(app, exit_code);
     testing::internal::CaptureStdout();
     try {
-      app.parse("compare --csv " + path("kicks.csv").string() + " " + flags);
+      app.parse("compare --all --csv " + path("kicks.csv").string() + " " + flags);
     } catch (const std::exception& error) {
       testing::internal::GetCapturedStdout();
       return error.what();

@@ -1,13 +1,18 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/compare_input.hpp"
 #include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
+#include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::cli {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -16,7 +21,7 @@ std::string output_of(const std::string& arguments) {
   int exit_code = -1;
   add_compare(app, exit_code);
   testing::internal::CaptureStdout();
-  app.parse(arguments);
+  app.parse(arguments + " --all");
   EXPECT_EQ(exit_code, kDone);
   return testing::internal::GetCapturedStdout();
 }
@@ -114,6 +119,117 @@ TEST(Compare, NothingInsideLeavesTheRatiosOpen) {
   EXPECT_TRUE(json["risk_ratio"].is_null());
   EXPECT_TRUE(json["risk_ratio_ci95"].is_null());
   EXPECT_THAT(output_of("compare --counts old=0/5 new=3/5"), HasSubstr("nothing was inside before"));
+}
+
+int count_of_lines(const std::string& text) { return static_cast<int>(std::ranges::count(text, '\n')); }
+
+TEST(CompareInShort, SaysOfCountsWhoIsBetterByHowMuchHowSureAndHowManyMoreAreNeeded) {
+  const std::string text = run_verbs({add_compare}, "compare --counts old=34/65 new=100/132").out;
+  EXPECT_THAT(text,
+              testing::StartsWith("new differs from old: +23.4 points in efficiency, 95 % +9.3 to +37.0, p 0.00112; no "
+                                  "more kicks needed\n"));
+  EXPECT_EQ(count_of_lines(text), 2);
+  EXPECT_THAT(run_verbs({add_compare}, "compare --counts old=34/65 new=36/65").out,
+              AllOf(testing::StartsWith("new against old, not enough data: +3.1 points"),
+                    testing::ContainsRegex("about [0-9]+ more kicks of the one with fewer for 5.0 points\n")));
+  EXPECT_THAT(run_verbs({add_compare}, "compare --counts a=5000/10000 b=5010/10000").out,
+              testing::StartsWith("b and a are alike within 5.0 points: "));
+  EXPECT_THAT(run_verbs({add_compare}, "compare --counts a=90/100 b=10/100").out,
+              testing::StartsWith("b differs from a: -80.0 points"));
+}
+
+class CompareLogs : public evaluator::LogTest {
+ protected:
+  void write(const std::string& name, std::int64_t seed, int half, int inside, const std::string& config) {
+    evaluator::log::Session played = session();
+    played.uuid = fmt::format("{:08x}-0000-4000-8000-000000000001", seed);
+    played.seed = seed;
+    played.config_toml = config;
+    played.policies = {{half, half == 1 ? "stopped" : "moving"}};
+    evaluator::MatchLog match(path(name), played, options());
+    match.kicks(half, "on_target", inside);
+    match.kicks(half, "over", 50 - inside);
+    match.close();
+  }
+
+  VerbRun compared(const std::string& rest) const {
+    return run_verbs({add_compare}, "compare " + path("a.db").string() + " " + path("b.db").string() + " " + rest);
+  }
+};
+
+const std::string kOlder =
+    "### settings\n\n[policy]\nkeep_off_m = 2.5\nsame = 1\n\n### robot 2\n[kicker]\ndelay_s = 0.05\n";
+const std::string kNewer =
+    "### settings\n\n[policy]\nkeep_off_m = 3.0\nsame = 1\nfresh = true\n\n### robot 2\n[kicker]\ndelay_s = 0.06\n";
+
+TEST_F(CompareLogs, BeginWithWhatDiffersBetweenThem) {
+  write("a.db", 1, 1, 10, kOlder);
+  write("b.db", 2, 2, 40, kNewer);
+  const std::string text = compared("").out;
+  const std::string a = path("a.db").string(), b = path("b.db").string();
+  const auto line = [&](const std::string& of, const std::string& older, const std::string& newer) {
+    return fmt::format("  {}: {} in {}; {} in {}\n", of, older, a, newer, b);
+  };
+  EXPECT_THAT(text, HasSubstr("What differs between the logs\n"));
+  EXPECT_THAT(text, HasSubstr(line("settings policy.keep_off_m", "2.5", "3.0")));
+  EXPECT_THAT(text, HasSubstr(line("settings policy.fresh", "none", "true")));
+  EXPECT_THAT(text, HasSubstr(line("robot 2 kicker.delay_s", "0.05", "0.06")));
+  EXPECT_THAT(text, HasSubstr(line("sessions seed", "1", "2")));
+  EXPECT_THAT(text, Not(HasSubstr("policy.same")));
+  EXPECT_LT(text.find("keep_off_m"), text.find("moving differs from stopped: +60.0 points in efficiency"))
+      << "differences, then the effect";
+  const auto json = nlohmann::json::parse(compared("--json").out);
+  EXPECT_THAT(json["differences"].dump(), HasSubstr("keep_off_m"));
+}
+
+TEST_F(CompareLogs, OfOnePolicyAreComparedWithEachOther) {
+  write("a.db", 1, 2, 10, kOlder);
+  write("b.db", 2, 2, 40, kOlder);
+  const auto json = nlohmann::json::parse(compared("--json").out);
+  EXPECT_EQ(json["by"], "log");
+  EXPECT_EQ(json["groups"][0]["name"], path("a.db").string());
+  EXPECT_EQ(json["groups"][0]["inside"], 10);
+  EXPECT_EQ(json["groups"][1]["inside"], 40);
+  EXPECT_EQ(json["comparisons"][0]["design"], "before_after");
+}
+
+TEST_F(CompareLogs, ThatDifferInNothingSaySo) {
+  write("a.db", 1, 2, 10, kOlder);
+  std::filesystem::copy_file(path("a.db"), path("b.db"));
+  EXPECT_THROW(compared("--by log"), std::runtime_error) << "the same session: one log alone has kicks";
+}
+
+TEST_F(CompareLogs, HaveGates) {
+  write("a.db", 1, 1, 10, kOlder);
+  write("b.db", 2, 2, 40, kNewer);
+  const VerbRun met = compared("--gate 'difference_lo(moving)>=0.3' --gate 'kicks>=50' --gate 'p<0.05'");
+  EXPECT_EQ(met.exit_code, kDone);
+  EXPECT_THAT(met.out, HasSubstr("gate met: kicks>=50: stopped 50; moving 50"));
+  EXPECT_EQ(met.errors, "");
+  for (const char* const gate : {"difference_lo(moving)>=0.6", "difference(stopped)>=-1", "kicks_per_min>=0",
+                                 "efficiency>=0.7", "on_target_per_opportunity(moving)<=1"}) {
+    const VerbRun missed = compared(fmt::format("--gate '{}'", gate));
+    EXPECT_EQ(missed.exit_code, kDoneWithLoss) << gate;
+    EXPECT_THAT(missed.out, HasSubstr("moving differs from stopped")) << "the comparison is written first";
+    EXPECT_THAT(missed.errors, HasSubstr("gate MISSED: ")) << gate;
+  }
+  EXPECT_THROW(compared("--gate 'diference>=0'"), UsageError);
+}
+
+TEST(CompareGates, HoldOfCountsToo) {
+  EXPECT_EQ(run_verbs({add_compare}, "compare --counts old=34/65 new=100/132 --gate 'difference_lo>=0.09'").exit_code,
+            kDone);
+  EXPECT_EQ(run_verbs({add_compare}, "compare --counts old=34/65 new=100/132 --gate 'efficiency(new)>=80%'").exit_code,
+            kDoneWithLoss);
+}
+
+TEST(CompareOut, IsFoundUnwritableBeforeTheWork) {
+  EXPECT_THROW(run_verbs({add_compare}, "compare --csv /nowhere/kicks.csv --out /nowhere/x.txt"), std::runtime_error);
+  try {
+    run_verbs({add_compare}, "compare --csv /nowhere/kicks.csv --out /nowhere/x.txt");
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cannot write --out /nowhere/x.txt")) << "not that the table is missing";
+  }
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ class EvaluatePolicy : public evaluator::LogTest {
     add_evaluate_policy(app, exit_code);
     testing::internal::CaptureStdout();
     try {
-      app.parse("evaluate-policy " + path().string() + " " + flags);
+      app.parse("evaluate-policy --all " + path().string() + " " + flags);
     } catch (const std::exception& error) {
       testing::internal::GetCapturedStdout();
       return error.what();

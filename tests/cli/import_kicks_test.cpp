@@ -59,11 +59,11 @@ TEST_F(ImportKicks, ThePapersKicksAreItsTable2) {
 TEST_F(ImportKicks, ThePapersKicksAreComparedAsItsCountsAre) {
   const std::string log = path().string();
   run("import kicks " + kTable2 + " --out " + log);
-  const std::string compared = run("compare " + log);
+  const std::string compared = run("compare --all " + log);
   EXPECT_THAT(compared, HasSubstr("+23.4 percentage points, 95 % +9.3 to +37.0"));
   EXPECT_THAT(compared, HasSubstr("Outcomes: as somebody labelled them."));
   EXPECT_THAT(compared, HasSubstr("labels by hand do not say how the policies were assigned"));
-  EXPECT_THAT(run("compare --stratify distance " + log), HasSubstr("197 kicks left out below"));
+  EXPECT_THAT(run("compare --all --stratify distance " + log), HasSubstr("197 kicks left out below"));
 }
 
 TEST_F(ImportKicks, ReasonsTimesHalvesAndRobotsAreKept) {
@@ -96,13 +96,13 @@ TEST_F(ImportKicks, FilesAreMatchesAndTheSameFileCountsOnce) {
     moving += i < 25 ? ",moving,inside,A\n" : ",moving,over,A\n";
   }
   const std::string a = import("a", stopped), b = import("b", moving);
-  const std::string both = run("compare " + a + " " + b);
+  const std::string both = run("compare --all " + a + " " + b);
   EXPECT_THAT(both, HasSubstr("+33.3 percentage points"));
   run("import kicks " + path("b.csv").string() + " --out " + path("again.db").string());
-  const std::string again = run("compare " + a + " " + b + " " + path("again.db").string());
+  const std::string again = run("compare --all " + a + " " + b + " " + path("again.db").string());
   EXPECT_THAT(again, HasSubstr("1 of its sessions stands in an earlier log, too"));
   EXPECT_THAT(again, HasSubstr("+33.3 percentage points"));
-  const auto json = nlohmann::json::parse(run("compare --json " + a + " " + b));
+  const auto json = nlohmann::json::parse(run("compare --all --json " + a + " " + b));
   EXPECT_EQ(json["outcome"], "labelled");
 }
 

@@ -42,10 +42,10 @@ TEST_F(QueryVerb, AnswersAMetricAsTextCsvAndJson) {
   EXPECT_THAT(said({path(), "--metric", "outcomes_by_policy"}),
               AllOf(HasSubstr("  policy     outcome  kicks\n"), HasSubstr("  stopped  on_target      2\n")));
   EXPECT_EQ(said({path(), "--metric", "outcomes_by_policy", "--csv"}),
-            "policy,outcome,kicks\nmoving,over,1\nstopped,on_target,2\n");
+            "policy,outcome,kicks\nstopped,on_target,2\nmoving,over,1\n");
   const auto rows = nlohmann::json::parse(said({path(), "--metric", "outcomes_by_policy", "--json"}));
-  EXPECT_EQ(rows, nlohmann::json::parse(R"([{"policy": "moving", "outcome": "over", "kicks": 1},
-                                            {"policy": "stopped", "outcome": "on_target", "kicks": 2}])"));
+  EXPECT_EQ(rows, nlohmann::json::parse(R"([{"policy": "stopped", "outcome": "on_target", "kicks": 2},
+                                            {"policy": "moving", "outcome": "over", "kicks": 1}])"));
 }
 
 TEST_F(QueryVerb, AnswersAQuestionOfOnesOwn) {

@@ -46,7 +46,9 @@ TEST_F(ReportVerb, PrintsTable2AndIsDone) {
   EXPECT_EQ(run().exit_code, kDone);
   EXPECT_THAT(run().out, HasSubstr("52.3 %  40.4 % to 64.0 %"));
   EXPECT_THAT(run("--json").out, StartsWith("{"));
-  EXPECT_THAT(run("--csv").out, StartsWith("policy,"));
+  EXPECT_THAT(run("--csv").out, StartsWith("row,arm,policy,"));
+  EXPECT_THAT(run("--markdown").out, HasSubstr("| stopped | 34 | 31 | 0 | 52.3 % |"));
+  EXPECT_THAT(run("--latex").out, HasSubstr("stopped & 34 & 31 & 0 & 52.3 \\% & "));
   EXPECT_EQ(run("--json").err, "");
 }
 
@@ -92,7 +94,55 @@ TEST_F(ReportVerb, FailsOnAFileThatIsNoLog) {
   EXPECT_THROW(run(), std::runtime_error);
 }
 
-TEST_F(ReportVerb, TakesOneFormat) { EXPECT_THROW(run("--json --csv"), CLI::ParseError); }
+TEST_F(ReportVerb, TakesOneFormat) {
+  for (const char* const two : {"--json --csv", "--markdown --latex", "--csv --latex"})
+    EXPECT_THROW(run(two), CLI::ParseError) << two;
+}
+
+TEST_F(ReportVerb, WritesTheReportAndThenExitsByItsGates) {
+  evaluator::MatchLog match(path(), session(), options());
+  evaluator::write_table2(match);
+  match.close();
+  const Result met = run("--gate 'efficiency(moving)>=0.7' --gate missing_rows==0 --gate 'kicks(robot 1)==197'");
+  EXPECT_EQ(met.exit_code, kDone) << met.out;
+  EXPECT_THAT(met.out, HasSubstr("gate met: efficiency(moving)>=0.7: 0.757576"));
+  EXPECT_EQ(met.err, "");
+  for (const char* const form : {"", "--json ", "--csv ", "--markdown ", "--latex "}) {
+    const Result missed = run(std::string(form) + "--gate 'efficiency(stopped)>=0.7' --gate missing_rows==0");
+    EXPECT_EQ(missed.exit_code, kDoneWithLoss) << form;
+    EXPECT_THAT(missed.out, HasSubstr("34")) << form;
+    EXPECT_THAT(missed.err, HasSubstr("gate MISSED: efficiency(stopped)>=0.7: 0.523077")) << form;
+  }
+  EXPECT_EQ(run("--gate 'kicks_per_min(moving)<=99'").exit_code, kDoneWithLoss) << "no minutes, no rate";
+}
+
+TEST_F(ReportVerb, RefusesAGateThatCannotBeReadBeforeTheWork) {
+  try {
+    run("--gate 'efficiency(moving)=0.7'");  // of a log that is not there
+    ADD_FAILURE();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("--gate 'efficiency(moving)=0.7', character 19: one of >= <= > < == is missing"));
+  }
+}
+
+TEST_F(ReportVerb, WritesToAFileThatItFindsWritableBeforeTheWork) {
+  evaluator::MatchLog match(path(), session(), options());
+  evaluator::write_table2(match);
+  match.close();
+  const std::string out = path("report.md").string();
+  const Result written = run("--markdown --out " + out);
+  EXPECT_EQ(written.out, "");
+  std::ifstream in(out, std::ios::binary);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), run("--markdown").out);
+  std::filesystem::remove(path());
+  try {
+    run("--out " + path("nowhere/report.txt").string());
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cannot write --out")) << "not that there is no log";
+  }
+}
 
 }  // namespace
 }  // namespace trivela::cli

@@ -51,19 +51,32 @@ TEST(Shards, MergeToTheRowsOfOneRun) {
   EXPECT_EQ(verified.wait(), 0) << verified.errors();
 }
 
-TEST(Shards, ThatLackOrAreThereTwiceOrForeignAreNamed) {
+TEST(Shards, ThatAreThereTwiceOrBesideTheWholeSayNothingNew) {
+  const Folder folder;
+  play_shards(folder, 2);
+  run(folder, simulate("whole.db", kMatches));
+  std::filesystem::copy_file(folder / "shard_2.db", folder / "again.db");
+  run(folder, {"merge", "merged.db", "shard_1.db", "again.db", "shard_2.db"});
+  EXPECT_THAT(other_rows(folder, "whole.db", "merged.db"), IsEmpty());
+  run(folder, {"note", "shard_2.db", "rain", "--by", "Ada"});
+  run(folder, {"merge", "again_merged.db", "shard_2.db", "merged.db", "shard_1.db"});
+  EXPECT_EQ(number_of(Reader{folder / "again_merged.db"}, "SELECT count(*) FROM notes"),
+            kMatches - kMatches / 2 + kMatches - kMatches / 2)
+      << "a note of each session of the second shard, both arms";
+  run(folder, {"merge", "third.db", "again_merged.db", "shard_1.db"});
+  EXPECT_THAT(other_rows(folder, "again_merged.db", "third.db"), IsEmpty());
+}
+
+TEST(Shards, ThatLackOrAreForeignAreNamed) {
   const Folder folder;
   play_shards(folder, 3);
   EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "shard_3.db"}), HasSubstr("missing: 2/3"));
-  std::filesystem::copy_file(folder / "shard_2.db", folder / "again.db");
-  EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "shard_2.db", "shard_3.db", "again.db"}),
-              AllOf(HasSubstr("shard_2.db"), HasSubstr("again.db"), HasSubstr("2/3")));
   run(folder, simulate("foreign.db", kMatches, {"--shard", "2/3", "--seed", "2"}));
   EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "foreign.db", "shard_3.db"}),
               AllOf(HasSubstr("foreign.db"), HasSubstr("another experiment")));
-  run(folder, simulate("whole.db", kMatches));
-  EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "whole.db", "shard_3.db"}),
-              AllOf(HasSubstr("whole.db"), HasSubstr("no shard")));
+  run(folder, simulate("other.db", kMatches, {"--seed", "2"}));
+  EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "other.db", "shard_3.db"}),
+              AllOf(HasSubstr("other.db"), HasSubstr("another experiment")));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.db"));
 }
 

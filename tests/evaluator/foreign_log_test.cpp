@@ -126,10 +126,11 @@ TEST_F(ForeignLog, AnIndexThatDoesNotSayWhatItsTableSaysIsRefused) {
 }
 
 TEST_F(ForeignLog, OtherTablesViewsAndTriggersPlayNoPart) {
-  exec(std::string("CREATE TABLE notes (text); CREATE INDEX notes_text ON notes (text); CREATE VIEW mine AS ") +
-       kEndless +
-       "; CREATE TABLE pragma_table_info (arg, name, \"notnull\"); CREATE TABLE words (a); CREATE TABLE heard (a);"
-       "CREATE TRIGGER t AFTER INSERT ON referee BEGIN INSERT INTO notes VALUES ('x'); END;");
+  exec(
+      std::string("CREATE TABLE jottings (text); CREATE INDEX jottings_text ON jottings (text); CREATE VIEW mine AS ") +
+      kEndless +
+      "; CREATE TABLE pragma_table_info (arg, name, \"notnull\"); CREATE TABLE words (a); CREATE TABLE heard (a);"
+      "CREATE TRIGGER t AFTER INSERT ON referee BEGIN INSERT INTO jottings VALUES ('x'); END;");
   EXPECT_EQ(said(), report_);
   int rows = 0;
   Reader(path()).for_each_row("kick_orders", {"seq"}, [&](auto) { ++rows; });
@@ -190,7 +191,7 @@ TEST_F(ForeignLog, ATextThatIsNotThereIsRefused) {
 }
 
 TEST_F(ForeignLog, WhatIsNotRecordedMayBeAdded) {
-  exec("CREATE TABLE labels (session_id, label); INSERT INTO labels VALUES (1, 'final')");
+  exec("CREATE TABLE verdicts (session_id, label); INSERT INTO verdicts VALUES (1, 'final')");
   EXPECT_EQ(said(Check::kWhole), report_);
 }
 
@@ -213,7 +214,7 @@ TEST_F(ForeignLog, PagesOfAnySizeAreReadRight) {
 TEST_F(ForeignLog, Utf16IsReadRight) {
   std::filesystem::rename(path(), path("utf8.db"));
   SQLite::Database database(path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 7;");
+  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 8;");
   database.exec(std::string(log::schema_of(log::kMatchLog, log::kMatchLog.version)));
   SQLite::Database source(path("utf8.db").string());
   for (const std::string& table : log::tables_of(source)) {

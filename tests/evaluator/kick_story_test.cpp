@@ -179,7 +179,7 @@ TEST_F(KickStories, HaveThePathFromBeforeTheDecisionToWhatSettledTheKick) {
 
 TEST_F(KickStories, DrawTheSegmentsThatTheDecisionHad) {
   log().whole_kick();
-  const StorySegments segments = stories().at(0).segments;
+  const DecidedSegments segments = stories().at(0).segments;
   EXPECT_TRUE(segments.aligned);
   EXPECT_NEAR(segments.s1_from_m.y(), 4.0, 1e-9) << "the robot's centre, since by it S1 has this offset";
   EXPECT_NEAR(segments.s1_to_m.x(), 0.5, 1e-9);

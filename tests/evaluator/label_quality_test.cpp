@@ -65,9 +65,11 @@ TEST_F(LabelQualityOfALog, SumsTheDoubtOfTheLabelsByPolicyAndSightings) {
   kick(2, "unknown", 0.6, 0.4, 7);
   const auto quality = read();
   EXPECT_TRUE(quality.has_probabilities);
-  EXPECT_NEAR(quality.doubts.at("stopped").inside, 0.04, 1e-12);
-  EXPECT_NEAR(quality.doubts.at("stopped").outside, 0.03, 1e-12);
-  EXPECT_NEAR(quality.doubts.at("moving").inside, 0.01, 1e-12);
+  ASSERT_THAT(quality.doubts, SizeIs(2)) << "of one robot, by policy";
+  EXPECT_EQ(quality.doubts[0].policy, "moving");
+  EXPECT_NEAR(quality.doubts[0].doubt.inside, 0.01, 1e-12);
+  EXPECT_NEAR(quality.doubts[1].doubt.inside, 0.04, 1e-12);
+  EXPECT_NEAR(quality.doubts[1].doubt.outside, 0.03, 1e-12);
   EXPECT_NEAR(quality.expected_wrong(), 0.08, 1e-12);
   ASSERT_THAT(quality.rows, SizeIs(5));
   EXPECT_EQ(quality.rows[2].kicks, 2) << "5 to 9";

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 
+#include "evaluator/log/additions.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/report/merge_report.hpp"
 #include "evaluator/report/table2.hpp"
@@ -128,6 +129,78 @@ TEST_F(Merge, AKickOfTwoRecordersCountsOnce) {
   const log::Merged result = merged({robot, base});
   EXPECT_THAT(said(result).total, HasSubstr(", 8 kicks"));
   EXPECT_EQ(table2_of(path("merged.db")), table2_of(robot));
+}
+
+TEST_F(Merge, OfTheHalvesOfAMatchIsTheMatch) {
+  Path halves[2];
+  for (const int half : {1, 2}) {
+    log::Session session = of_robot(1);
+    session.started_t_ns = half == 1 ? 0 : 60'000 * kMs;
+    MatchLog match(path("half" + std::to_string(half) + ".db"), session, options());
+    if (half == 2) match.referee(61.0, 2, true);
+    match.kicks(half, "on_target", 2 + half);
+    match.close();
+    halves[half - 1] = path("half" + std::to_string(half) + ".db");
+  }
+  const log::Merged result = merged({halves[0], halves[1]});
+  EXPECT_THAT(result.conflicts, IsEmpty());
+  const auto counts = table2_of(path("merged.db"));
+  EXPECT_EQ(counts.at("stopped on_target"), 3);
+  EXPECT_EQ(counts.at("moving on_target"), 4);
+}
+
+TEST_F(Merge, NamesKicksOfWhichTwoRecordersSayDifferentThings) {
+  const Path robot = robot_log("robot.db", 1, 5, 3), base = robot_log("base.db", 1, 5, 3);
+  exec(base,
+       "UPDATE kick_outcomes SET outcome = 'post', on_target = 0 WHERE kick_id = 2;"
+       "UPDATE kick_outcomes SET outcome = 'unknown' WHERE kick_id = 3;"
+       "UPDATE kick_receipts SET accepted = 0, refusal = 'charging' WHERE kick_id = 4; DELETE FROM digests;"
+       "UPDATE sessions SET closed_t_ns = NULL");
+  const log::Merged result = merged({robot, base});
+  EXPECT_THAT(said(result).conflicts,
+              ElementsAre("kick 1:2 (outcome): robot.db says on_target, base.db says post",
+                          "kick 1:4 (driver): robot.db says kicked, base.db says refused: charging"));
+  EXPECT_THAT(said(result).total, HasSubstr(", 8 kicks"));
+  EXPECT_EQ(table2_of(path("merged.db")), table2_of(robot)) << "the more complete recording counts";
+  EXPECT_EQ(rows_of_all(path("merged.db")).at("kick_outcomes").size(), 16u) << "both sources are kept";
+}
+
+TEST_F(Merge, NamesACopyOfASessionThatSaysSomethingElse) {
+  const Path one = robot_log("one.db", 1, 5, 3);
+  std::filesystem::copy_file(one, path("copy.db"));
+  exec(path("copy.db"), "UPDATE kick_outcomes SET outcome = 'bar', on_target = 0 WHERE kick_id = 1");
+  {
+    SQLite::Database copy(path("copy.db").string(), SQLite::OPEN_READWRITE);
+    log::RowDigests(copy).write(copy.execAndGet("SELECT session_id FROM sessions").getInt64());
+  }
+  const log::Merged result = merged({one, path("copy.db")});
+  EXPECT_THAT(said(result).conflicts, ElementsAre("kick 1:1 (outcome): one.db says on_target, copy.db says bar"));
+}
+
+TEST_F(Merge, TakesWhatPeopleSaidOfEveryFileAndIsTheSameAgain) {
+  const Path robot = robot_log("robot.db", 1, 5, 3), base = robot_log("base.db", 1, 5, 3);
+  const auto say = [&](const Path& log, const std::string& outcome, std::int64_t utc_ns) {
+    std::int64_t session_id = 0, t_ns = 0;
+    Reader(log).query("SELECT session_id, t_ns FROM kicks WHERE kick_id = 1", [&](std::int64_t of, std::int64_t at) {
+      session_id = of;
+      t_ns = at;
+    });
+    log::Additions additions(log);
+    additions.add(log::Label{session_id, 1, 1, t_ns, outcome, "Ada", ""}, utc_ns);
+    additions.add(log::Note{session_id, "opponent", "Them", "Ada"}, utc_ns);
+  };
+  say(robot, "over", 1000);
+  say(base, "post", 2000);
+  exec(robot, "INSERT INTO order_tallies SELECT session_id, 1, 0, 0, 0, 0, 0 FROM sessions");
+  const log::Merged result = merged({robot, base});
+  EXPECT_THAT(said(result).conflicts, ElementsAre("kick 1:1 (label): robot.db says over, base.db says post"));
+  const auto rows = rows_of_all(path("merged.db"));
+  EXPECT_EQ(rows.at("labels").size(), 2u);
+  EXPECT_EQ(rows.at("notes").size(), 2u);
+  EXPECT_EQ(rows.at("order_tallies").size(), 1u);
+  EXPECT_EQ(make_report(Reader(path("merged.db"))).policies.at(0).of("post"), 1) << "the latest holds";
+  merged({path("merged.db"), base, robot, path("merged.db")}, "again.db");
+  EXPECT_EQ(rows_of_all(path("again.db")), rows);
 }
 
 TEST_F(Merge, SaysFromWhichFileASessionIs) {

@@ -1,5 +1,6 @@
 #include "evaluator/metrics/metrics.hpp"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -8,6 +9,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "evaluator/log/additions.hpp"
+#include "kicking/policy/policy.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -49,6 +52,7 @@ void write_predicted_kick(MatchLog& match) {
   const auto shadows = writer.table("shadow_decisions", {"robot_id", "seq", "shadow_index", "policy", "fire", "reason",
                                                          "aligned", "p_on_target", "fire_after_s"});
   writer.push(shadows, {Int{1}, Int{1000}, Int{0}, "predictive", Int{0}, "waiting", Int{1}, 0.625, 0.0});
+  writer.push(shadows, {Int{1}, Int{999}, Int{0}, "stopped", Int{1}, "fire", Int{0}, log::Value{}, 0.0});
   writer.push(decisions, {Int{1},   Int{999}, 49 * kSecond_ns,
                           Int{0},   Int{2},   Int{99},
                           "moving", Int{0},   "not_aligned",
@@ -78,6 +82,18 @@ void write_surroundings(MatchLog& match) {
   writer.silence({"odometry", 1, 12 * kSecond_ns, 13 * kSecond_ns});
 }
 
+/// A label of the first kick, and a tally that is not what the rows say.
+void say_afterwards(const std::filesystem::path& path) {
+  Int session_id = 0, t_ns = 0;
+  log::Reader(path).query("SELECT session_id, t_ns FROM kicks WHERE kick_id = 1", [&](Int of, Int at) {
+    session_id = of;
+    t_ns = at;
+  });
+  log::Additions(path).add(log::Label{session_id, 1, 1, t_ns, "on_target", "Ada", "video 12:34"}, kSecond_ns);
+  SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
+      .exec("INSERT INTO session_tallies VALUES (" + std::to_string(session_id) + ", 1, 'stopped', 1, 4, 5, 0, 0, 5)");
+}
+
 /// A match in which every metric finds something.
 void write_known_match(const std::filesystem::path& path, log::Session session, log::WriterOptions options) {
   session.uuid = "00000000-0000-4000-8000-000000000001";
@@ -100,7 +116,15 @@ void write_known_match(const std::filesystem::path& path, log::Session session, 
   write_surroundings(match);
   match.status(12, 1);
   match.referee(60.0, 2, false);
+  const auto statuses = match.writer().table(
+      "kicker_status", {"robot_id", "seq", "t_ns", "charge", "armed", "ready", "fault", "last_kick_id", "last_accepted",
+                        "orders_handled", "orders_refused", "state", "charge_modelled"});
+  for (const Int seq : {2000, 2001}) {  // the second a second before the first
+    match.writer().push(statuses, {Int{1}, seq, (2070 - seq) * kSecond_ns, 1.0, Int{1}, Int{1}, "none", Int{0}, Int{0},
+                                   Int{12}, Int{1}, "ready", Int{0}});
+  }
   match.close();
+  say_afterwards(path);
 }
 
 std::string cell_text(const log::Value& cell) {
@@ -184,6 +208,12 @@ TEST_F(Question, IsAnsweredFromTablesAndViews) {
                    "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 3) "
                    "SELECT i FROM n -- three of them"),
             "i\n1\n2\n3\n");
+}
+
+TEST_F(Question, HasThePoliciesInTheOrderOfTheRegistry) {
+  std::string order = "policy\n";
+  for (const std::string& policy : kicking::policies_where([](const auto&) { return true; })) order += policy + "\n";
+  EXPECT_EQ(answer(log::Reader(path()), "SELECT policy FROM policy_order ORDER BY place"), order);
 }
 
 TEST_F(Question, ThatWouldChangeSomethingIsRefused) {

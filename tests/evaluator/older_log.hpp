@@ -107,7 +107,7 @@ inline void insert_half(const OlderRows& rows, int half) {
       ", saved", ", 0");
 }
 
-/// A closed session in a match log of version 1 to 6, with a kick on target of each of two policies, in half a
+/// A closed session in a match log of version 1 to 7, with a kick on target of each of two policies, in half a
 /// minute each.
 inline std::filesystem::path older_match_log(const std::filesystem::path& path, int version) {
   SQLite::Database database =

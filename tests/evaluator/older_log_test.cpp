@@ -45,8 +45,9 @@ TEST_P(OlderLog, SaysWhatItSaid) {
 
 TEST_P(OlderLog, WhatItDidNotHaveIsEmpty) {
   const Reader reader(log_path);
-  std::vector<const char*> tables{"assignments",   "continued",      "experiments",
-                                  "clock_offsets", "session_clocks", "merged_sessions"};
+  std::vector<const char*> tables{"assignments",     "continued",          "experiments",  "clock_offsets",
+                                  "session_clocks",  "merged_sessions",    "labels",       "notes",
+                                  "session_tallies", "possession_tallies", "order_tallies"};
   if (GetParam() < log::kFirstWithDigests) tables.push_back("digests");
   for (const char* const table : tables) EXPECT_EQ(rows_of(reader, table), 0) << table;
   int rows = 0;
@@ -122,7 +123,7 @@ TEST_P(OlderLog, AConfigurationThatIsNotTheNamedOneIsDamage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3, 4, 5, 6));
+INSTANTIATE_TEST_SUITE_P(Version, OlderLog, testing::Values(1, 2, 3, 4, 5, 6, 7));
 
 using Version2 = LogTest;
 

@@ -30,7 +30,8 @@ std::string output_of(const std::string& program, const std::vector<std::string>
   return process.said();
 }
 
-/// The words of the lines that begin with a policy, a line each; what separates them is a blank or a comma.
+/// The words of a line from its last name of a policy on, of each line that has one; what separates them is a blank or
+/// a comma.
 std::map<std::string, std::vector<std::string>> rows_by_policy(std::string table) {
   std::replace(table.begin(), table.end(), ',', ' ');
   std::map<std::string, std::vector<std::string>> rows;
@@ -38,7 +39,9 @@ std::map<std::string, std::vector<std::string>> rows_by_policy(std::string table
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words{line};
     std::vector<std::string> row{std::istream_iterator<std::string>{words}, {}};
-    if (!row.empty() && (row[0] == "stopped" || row[0] == "moving")) rows[row[0]] = row;
+    const auto name = std::find_if(row.rbegin(), row.rend(),
+                                   [](const std::string& word) { return word == "stopped" || word == "moving"; });
+    if (name != row.rend()) rows[*name] = {name.base() - 1, row.end()};
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 
+#include "bus/process.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "evaluator/log/reader.hpp"
@@ -149,6 +150,30 @@ TEST_F(NodeProgramTest, WhatRealTimeIsRefusedIsSaidAndTheNodeGoesOn) {
 #endif
   node.send(SIGTERM);
   EXPECT_EQ(node.exit_code(), 0) << node.said();
+}
+
+TEST_F(NodeProgramTest, ANodeRunsOnTheProcessorThatItIsToldAndOnNoneThatIsNotThere) {
+  const std::vector<int> processors = bus::processors_allowed();
+  auto words = arguments();
+  words.insert(words.end(), {"--processor", std::to_string(processors.back())});
+  bus::Writer<msg::Odometry> writer{participant};
+  Spawned node{program("world_state"), words};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << node.said();
+  int threads = 0;
+  for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", node.pid()))) {
+    std::ifstream in{task.path() / "status"};
+    const std::string status{std::istreambuf_iterator<char>{in}, {}};
+    EXPECT_THAT(status, HasSubstr(fmt::format("Cpus_allowed_list:\t{}\n", processors.back())));
+    ++threads;
+  }
+  EXPECT_GT(threads, 1);
+
+  words.back() = "4095";
+  Spawned nowhere{program("world_state"), words};
+  EXPECT_EQ(nowhere.exit_code(), 1);
+  EXPECT_THAT(nowhere.said(), HasSubstr(fmt::format("(processor 4095): this process may use {}", processors.front())));
+  words.back() = "-1";
+  EXPECT_EQ((Spawned{program("world_state"), words}.exit_code()), 2);
 }
 
 TEST_F(NodeProgramTest, ASecondOneOfAKindEndsWithOneSentence) {

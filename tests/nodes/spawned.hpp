@@ -45,6 +45,7 @@ class Spawned {
     ::close(output_);
   }
 
+  pid_t pid() const { return pid_; }
   void send(int signal) const { ::kill(pid_, signal); }
 
   /// Its exit code, -1 if it died of a signal or does not end within 30 s.

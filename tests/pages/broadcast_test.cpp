@@ -1,8 +1,10 @@
-#include "pages/lob/broadcast.hpp"
+#include "pages/serve/broadcast.hpp"
 
 #include <gmock/gmock.h>
 
 #include <thread>
+
+#include "pages/lob/channels.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -13,18 +15,18 @@ using testing::IsEmpty;
 using testing::Pointee;
 
 TEST(Broadcast, ANewViewerGetsTheNewestOfEveryChannel) {
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   broadcast.publish(Channel::kFrame, "1");
   broadcast.publish(Channel::kLobs, "[]");
   broadcast.publish(Channel::kFrame, "2");
-  Broadcast::Seen seen{};
+  Broadcast::Seen seen;
   EXPECT_THAT(broadcast.wait(seen, 10s), ElementsAre(Pointee(std::string("event: lobs\ndata: []\n\n")),
                                                      Pointee(std::string("event: frame\ndata: 2\n\n"))));
   EXPECT_THAT(broadcast.wait(seen, 0s), IsEmpty()) << "nothing twice";
 }
 
 TEST(Broadcast, ASlowViewerSkipsFramesAndAllViewersShareOneMessage) {
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   Broadcast::Seen fast{};
   Broadcast::Seen slow{};
   for (int i = 0; i < 100; ++i) {
@@ -39,8 +41,8 @@ TEST(Broadcast, ASlowViewerSkipsFramesAndAllViewersShareOneMessage) {
 }
 
 TEST(Broadcast, WakesWhoWaitsWhenSomethingComesAndWhenItCloses) {
-  Broadcast broadcast;
-  Broadcast::Seen seen{};
+  Broadcast broadcast{lob_channels()};
+  Broadcast::Seen seen;
   std::thread publisher([&] { broadcast.publish(Channel::kStatus, "{}"); });
   EXPECT_EQ(broadcast.wait(seen, 60s).size(), 1u);
   publisher.join();

@@ -5,7 +5,8 @@
 #include "hal/open.hpp"
 #include "hal/scip/emulator.hpp"
 #include "pages/lob/live_scene.hpp"
-#include "pages/lob/page_server.hpp"
+#include "pages/lob/lob_page.hpp"
+#include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
 #include "tests/pages/viewer.hpp"
 
@@ -47,9 +48,9 @@ class LivePage : public testing::Test {
   RecordedLobs record_{{{15, 5.97}, {15, 6.05}, {20, 7.33}}};
   std::atomic<std::size_t> next_ = 0;  // also of the emulator's thread
   hal::scip::Emulator emulator_{config(), [this] { return next_scan(); }};
-  Broadcast broadcast_;
+  Broadcast broadcast_{lob_channels()};
   LiveScene scene_{hal::open_range_finder(emulator_.address()), options(), broadcast_};
-  PageServer server_{scene_, broadcast_, {}};
+  PageServer server_{lob_page(scene_), broadcast_, {}};
   Viewer viewer_{server_.port()};
 };
 
@@ -148,12 +149,12 @@ TEST_F(LivePage, RefusesWhatALiveScannerCannotDo) {
 
 TEST(LivePageWithoutScanner, SaysSoAndMakesNoRecord) {
   const RecordedLobs folder({});
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   LiveOptions options;
   options.device = folder.path("no_such_device").string();
   options.record = folder.path("live.db");
   LiveScene scene(hal::open_range_finder(options.device), options, broadcast);
-  const PageServer server(scene, broadcast, {});
+  const PageServer server(lob_page(scene), broadcast, {});
   Viewer viewer(server.port());
   ASSERT_TRUE(viewer.wait([&] {
     return !viewer.status.is_null() &&
@@ -165,7 +166,7 @@ TEST(LivePageWithoutScanner, SaysSoAndMakesNoRecord) {
 }
 
 TEST_F(LivePage, ARecordThatCannotBeMadeIsAnError) {
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   LiveOptions options;
   hal::scip::EmulatorConfig other;
   other.port = hal::scip::EmulatedPort::kTcp;

@@ -3,9 +3,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "pages/lob/page_server.hpp"
+#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
+#include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
+#include "tests/pages/stalled_viewer.hpp"
 #include "tests/pages/viewer.hpp"
 
 namespace trivela::pages {
@@ -36,9 +38,9 @@ class ReplayPage : public testing::Test {
   json state() const { return json::parse(get(server_.port(), "/api/state")); }
   void to_the_end() const { command({{"position", 1'000'000}}); }
 
-  Broadcast broadcast_;
+  Broadcast broadcast_{lob_channels()};
   ReplayScene scene_{record().path(), {}, {.powers = {15, 20}, .trials = 2}, broadcast_};
-  PageServer server_{scene_, broadcast_, {}};
+  PageServer server_{lob_page(scene_), broadcast_, {}};
 };
 
 TEST_F(ReplayPage, ServesItselfWithoutOtherSites) {
@@ -99,7 +101,7 @@ TEST_F(ReplayPage, RejectingALobChangesTheTableAndIsKeptBesideTheRecord) {
   EXPECT_EQ(state()["lobs"][1]["why"], "rejected by the operator: touched a foot");
   EXPECT_EQ(bytes_of(record().path()), before) << "a finished record is never changed";
 
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   ReplayScene again(record().path(), {}, {}, broadcast);
   again.command("player", {{"position", 1'000'000}});
   EXPECT_EQ(again.state()["table"][0]["trials"], 1);
@@ -137,7 +139,7 @@ TEST_F(ReplayPage, CommandsThatMakeNoSenseAreAnsweredWithASentence) {
 
 TEST_F(ReplayPage, APortThatIsTakenIsNamed) {
   try {
-    const PageServer second(scene_, broadcast_, {.host = "127.0.0.1", .port = server_.port()});
+    const PageServer second(lob_page(scene_), broadcast_, {.host = "127.0.0.1", .port = server_.port()});
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_EQ(error.what(),
@@ -163,34 +165,10 @@ TEST_F(ReplayPage, ThirtyViewersDoNotSlowTheFirst) {
   for (auto& other : others) ASSERT_TRUE(other->wait([&] { return other->frames.back() >= kScans; }));
 }
 
-/// Asks for the events and never reads them.
-class StalledViewer {
- public:
-  explicit StalledViewer(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-    const std::string request = "GET /api/events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
-    const int small = 4096;
-    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-    connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 &&
-                 ::send(socket_, request.data(), request.size(), 0) == static_cast<ssize_t>(request.size());
-  }
-  StalledViewer(const StalledViewer&) = delete;
-  StalledViewer& operator=(const StalledViewer&) = delete;
-  ~StalledViewer() { ::close(socket_); }
-  bool connected() const { return connected_; }
-
- private:
-  int socket_;
-  bool connected_ = false;
-};
-
 TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   ReplayScene scene(record().path(), {}, {}, broadcast);
-  auto server = std::make_unique<PageServer>(scene, broadcast, ListenAddress{});
+  auto server = std::make_unique<PageServer>(lob_page(scene), broadcast, ListenAddress{});
   std::vector<std::unique_ptr<StalledViewer>> stalled;
   for (int i = 0; i < 5; ++i) stalled.push_back(std::make_unique<StalledViewer>(server->port()));
   for (const auto& viewer : stalled) ASSERT_TRUE(viewer->connected());
@@ -206,7 +184,7 @@ TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
 TEST(ReplayPageServer, ARecordWithoutScansIsNamed) {
   const RecordedLobs empty({});
   evaluator::log::ScanWriter(empty.path("none.db"), empty.session()).finalise();
-  Broadcast broadcast;
+  Broadcast broadcast{lob_channels()};
   try {
     const ReplayScene scene(empty.path("none.db"), {}, {}, broadcast);
     FAIL();

@@ -1,4 +1,4 @@
-#include "pages/lob/site.hpp"
+#include "pages/serve/site.hpp"
 
 #include <gtest/gtest.h>
 

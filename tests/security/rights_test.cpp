@@ -64,7 +64,8 @@ TEST(Rights, AreWhatTheContractsTableSays) {
   std::map<std::string, Row> granted;
   for (const Rights& rights : all_rights()) {
     // An emulation of the camera's and the referee's words out of a log; the table names who says them in a match.
-    if (rights.node == "replay_player") continue;
+    // And the live page reads what it likes.
+    if (rights.node == "replay_player" || rights.node == "monitor") continue;
     for (const std::string& topic : rights.publish) granted[topic].writers.insert(rights.node);
     for (const std::string& topic : rights.subscribe) granted[topic].readers.insert(rights.node);
   }
@@ -79,6 +80,14 @@ TEST(Rights, AreWhatTheContractsTableSays) {
     EXPECT_EQ(granted[topic].readers, row.readers) << topic;
   }
   EXPECT_EQ(granted.size(), written.size());
+}
+
+TEST(Rights, TheLivePageReadsWhatIsSaidInAMatchAndWritesNothing) {
+  const Rights& monitor = rights_of("monitor");
+  EXPECT_THAT(monitor.publish, testing::IsEmpty());
+  for (const auto& [topic, row] : contract())
+    EXPECT_EQ(std::ranges::count(monitor.subscribe, topic), topic.starts_with("sim/") ? 0 : 1) << topic;
+  EXPECT_TRUE(monitor.on_robot);
 }
 
 TEST(Rights, AnOrderIsWrittenByTheDecisionNodesAlone) {

@@ -29,7 +29,8 @@ pid_t fork_child(const std::function<void()>& body) {
   _exit(0);
 }
 
-Contender::Contender(std::string name, std::vector<Process> processes, int priority) : name_(std::move(name)) {
+Contender::Contender(std::string name, std::vector<Process> processes, int priority, std::string reference)
+    : name_(std::move(name)), reference_(std::move(reference)) {
   for (const Process& process : processes) {
     children_.push_back(fork_child([&] {
       if (priority > 0) bus::set_realtime(priority);

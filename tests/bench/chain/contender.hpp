@@ -17,13 +17,15 @@ class Contender {
   using Process = std::function<void(Track&)>;
 
   /// With a priority above 0 every child asks for SCHED_FIFO and locked memory first.
-  Contender(std::string name, std::vector<Process> processes, int priority);
+  Contender(std::string name, std::vector<Process> processes, int priority, std::string reference = {});
   Contender(const Contender&) = delete;
   Contender& operator=(const Contender&) = delete;
   /// Ends the children and waits for them.
   ~Contender();
 
   const std::string& name() const { return name_; }
+  /// The contender beside which it is printed.
+  const std::string& reference() const { return reference_; }
   Track& track() { return track_; }
 
   /// Runs batches until one arrives whole: every stage has found the next. Throws std::runtime_error after 20 s.
@@ -31,6 +33,7 @@ class Contender {
 
  private:
   std::string name_;
+  std::string reference_;
   Track track_;
   std::vector<pid_t> children_;
 };

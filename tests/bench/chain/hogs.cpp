@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "tests/bench/chain/contender.hpp"
@@ -10,7 +11,7 @@
 namespace trivela::bench {
 
 Hogs::Hogs() {
-  for (unsigned core = 0; core < std::thread::hardware_concurrency(); ++core) {
+  for (unsigned core = 0; core < std::max(4U, std::thread::hardware_concurrency()); ++core) {
     children_.push_back(fork_child([] {
       for (volatile unsigned turns = 0;;) turns = turns + 1;
     }));

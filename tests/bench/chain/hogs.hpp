@@ -6,7 +6,7 @@
 
 namespace trivela::bench {
 
-/// While it lives, a process per core that does nothing but use it.
+/// While it lives, four processes, or one per core where there are more, that do nothing but use them.
 class Hogs {
  public:
   Hogs();

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "tests/bench/chain/track.hpp"
 
@@ -11,7 +13,10 @@ namespace trivela::bench {
 /// The sensor at the start of a chain: samples at the rate that the parent ordered.
 class Pacer {
  public:
-  explicit Pacer(Track& track) : track_(track) {}
+  /// `rehearse`, where there is one, is called 0.5 ms before each sample; with `busy_wait` the thread does not sleep in
+  /// the last millisecond.
+  explicit Pacer(Track& track, std::function<void()> rehearse = {}, bool busy_wait = false)
+      : track_(track), rehearse_(std::move(rehearse)), busy_wait_(busy_wait) {}
 
   struct Tick {
     std::int64_t seq;
@@ -22,7 +27,11 @@ class Pacer {
   std::optional<Tick> next(std::chrono::nanoseconds timeout);
 
  private:
+  void wait_until(std::int64_t t_ns) const;
+
   Track& track_;
+  std::function<void()> rehearse_;
+  bool busy_wait_;
   Track::Batch batch_{};
   std::int64_t sent_ = 0;
   std::int64_t next_t_ns_ = 0;

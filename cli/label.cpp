@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/match_mode.hpp"
+#include "cli/open_file.hpp"
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "config/installation.hpp"
+#include "config/settings.hpp"
+#include "evaluator/log/additions.hpp"
+#include "evaluator/report/log_opportunities.hpp"
+#include "evaluator/report/named_kicks.hpp"
+#include "evaluator/report/text_table.hpp"
+#include "pages/labels/label_server.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using evaluator::NamedKick;
+
+struct LabelArguments {
+  std::string log;
+  std::string kick;
+  std::string outcome;
+  std::string who;
+  std::string note;
+  std::string session;
+  bool withdraw = false;
+  bool serve = false;
+  int port = 0;
+  std::string config = config::shipped("default.toml").string();
+};
+
+std::int64_t now_utc_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+std::vector<NamedKick> counted_kicks(const std::string& log) {
+  const evaluator::log::Reader reader(log);
+  evaluator::read_opportunities(reader, log, false);  // from here on each kick once
+  return evaluator::named_kicks(reader);
+}
+
+std::string text_of(const NamedKick& kick) {
+  return fmt::format("kick {} at {:.2f} s ({})", kick.name(), kick.at_s, kick.policy);
+}
+
+int list_kicks(const LabelArguments& arguments) {
+  std::vector<std::vector<std::string>> table{{"kick", "at s", "policy", "observer", "by hand", "who"}};
+  std::size_t unknown = 0;
+  const auto kicks = counted_kicks(arguments.log);
+  for (const NamedKick& kick : kicks) {
+    unknown += kick.unknown() ? 1 : 0;
+    if (!kick.unknown() && !kick.by_hand) continue;
+    table.push_back({kick.name(), fmt::format("{:.2f}", kick.at_s), kick.policy,
+                     kick.observed.empty() ? "-" : evaluator::words(kick.observed),
+                     kick.by_hand ? evaluator::words(*kick.by_hand) : "-", kick.labelled_by.value_or("-")});
+  }
+  if (table.size() > 1) say(evaluator::text_table(table));
+  say(fmt::format("{} of {} kicks are unknown\n", unknown, kicks.size()));
+  return kDone;
+}
+
+int add_one(const LabelArguments& arguments) {
+  const auto kicks = counted_kicks(arguments.log);
+  const NamedKick& kick = evaluator::kick_called(kicks, arguments.kick, arguments.session);
+  if (arguments.withdraw && !kick.by_hand)
+    throw std::runtime_error{fmt::format("{} has no label by hand to withdraw", text_of(kick))};
+  evaluator::log::Label label{.session_id = kick.session_id,
+                              .robot_id = kick.robot_id,
+                              .kick_id = kick.kick_id,
+                              .t_ns = kick.t_ns,
+                              .outcome = std::nullopt,
+                              .who = arguments.who,
+                              .note = arguments.note};
+  if (!arguments.withdraw) label.outcome = arguments.outcome;
+  evaluator::log::Additions(arguments.log).add(label, now_utc_ns());
+  const std::string observed = kick.observed.empty() ? "nothing" : evaluator::words(kick.observed);
+  say(arguments.withdraw
+          ? fmt::format("{}: {} by {} is withdrawn; the observer says {}, and that holds\n", text_of(kick),
+                        evaluator::words(*kick.by_hand), kick.labelled_by.value_or("?"), observed)
+          : fmt::format("{}: {}, says {}; the observer says {}\n", text_of(kick), evaluator::words(arguments.outcome),
+                        arguments.who, observed));
+  return kDone;
+}
+
+int serve(const LabelArguments& arguments) {
+  if (!arguments.kick.empty() || arguments.withdraw || !arguments.who.empty() || !arguments.session.empty())
+    throw UsageError{"--serve: the page asks for kicks, outcomes and names itself"};
+  refuse_in_a_match(config::load_settings(arguments.config), "trivela label --serve");
+  SignalInbox signals;  // before all threads, which must not take them
+  pages::LabelDesk desk(arguments.log);
+  const pages::LabelServer server(desk, arguments.port);
+  say(server.url() + '\n');
+  std::fflush(stdout);
+  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+  while (!signals.stop_requested()) poll(&inbox, 1, -1);
+  return kDone;
+}
+
+int run_label(const LabelArguments& arguments) {
+  if (arguments.serve) return serve(arguments);
+  if (arguments.kick.empty()) {
+    if (arguments.withdraw || !arguments.who.empty())
+      throw UsageError{"say which kick: trivela label LOG KICK OUTCOME"};
+    return list_kicks(arguments);
+  }
+  if (arguments.withdraw == !arguments.outcome.empty()) {
+    throw UsageError{
+        fmt::format("say what became of the kick ({}), or --withdraw", fmt::join(evaluator::log::kLabels, ", "))};
+  }
+  if (arguments.who.empty()) throw UsageError{"--by WHO: who says so?"};
+  return add_one(arguments);
+}
+
+}  // namespace
+
+void add_label(CLI::App& app, int& exit_code) {
+  auto* const verb = app.add_subcommand("label", "Say by hand what became of a kick, or list the unknown ones");
+  verb->footer(
+      "Each label is a row of its own with who and when; nothing is changed or removed, and the observer's class "
+      "stays\n"
+      "beside it. The latest label of a kick counts before the observer, in report, compare and every metric, which\n"
+      "also say how often the two disagreed. \"outside\" is a miss that is not said how; --withdraw is a row, too, "
+      "after\n"
+      "which the observer's class counts again. Without KICK: the kicks that nobody knows, and those labelled. "
+      "--serve\n"
+      "is a page that steps through them with their replay and a video's time; it prints an address that holds the "
+      "right\n"
+      "to label, for this machine alone.");
+  const auto arguments = std::make_shared<LabelArguments>();
+  verb->add_option("log", arguments->log, "Match log of this version (trivela migrate)")->required();
+  verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
+  verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(evaluator::log::kLabels, ", ")))
+      ->check(CLI::IsMember(std::vector<std::string>(evaluator::log::kLabels.begin(), evaluator::log::kLabels.end())));
+  verb->add_option("--by", arguments->who, "Who says so");
+  verb->add_option("--note", arguments->note, "Why, such as the video's time");
+  verb->add_option("--session", arguments->session, "How the uuid of the kick's session begins");
+  verb->add_flag("--withdraw", arguments->withdraw, "The kick's label no longer holds");
+  auto* const serve = verb->add_flag("--serve", arguments->serve, "A page for this machine's browser, until Ctrl-C");
+  verb->add_option("--port", arguments->port, "of the page, 0: any free one")
+      ->check(CLI::Range(0, 65535))
+      ->needs(serve)
+      ->capture_default_str();
+  verb->add_option("--config", arguments->config, "Settings whose run.match_mode refuses --serve")
+      ->check(readable_file())
+      ->needs(serve)
+      ->capture_default_str();
+  verb->callback([arguments, &exit_code] { exit_code = run_label(*arguments); });
+}
+
+}  // namespace trivela::cli

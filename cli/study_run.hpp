@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/study.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/log/tally_book.hpp"
+
+namespace trivela::cli {
+
+/// What a verb that plays many matches has in hand: the book of what was played, a line of progress, and Ctrl-C. It is
+/// made when everything else is known to be in order, before the first thread.
+class StudyRun {
+ public:
+  /// `arguments`: everything that the study's rows depend on but its flags of play, as text. `arms`: that it will play
+  /// in all; 0: nobody knows. Throws std::runtime_error where --tallies cannot be gone on with.
+  StudyRun(const Study& study, const std::string& verb, const std::string& arguments, std::size_t arms);
+
+  /// Plays what the book lacks and gives what it knows then. Throws Interrupted where somebody asks to stop.
+  experiment::KeptPlay play_known(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                                  const experiment::PlayPlan& plan, const std::string& what);
+
+  /// The arms of play_known().
+  std::vector<experiment::ArmTally> play(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms,
+                                         const std::string& what) {
+    return play_known(scenario, arms, study_.plan, what).arms;
+  }
+
+  /// `play_all`, then `report` unless this is a shard, of which it is said how it becomes one with the others. Stopped:
+  /// what was played is kept, and said where.
+  ExitCode run(const std::function<void()>& play_all, const std::function<void()>& report);
+
+  /// Keeps what was played, and says how to go on from there.
+  void keep();
+
+  evaluator::log::TallyBook& book() { return book_; }
+
+  /// All that the book has.
+  evaluator::log::Book read_again() const { return book_.all(); }
+
+  /// Somebody asked to stop.
+  struct Interrupted {};
+
+ private:
+  const Study& study_;
+  std::string verb_;
+  evaluator::log::TallyBook book_;
+  SignalInbox signals_;  // before the threads, which must not be interrupted
+  ProgressBar bar_;
+  bool knows_all_;         // how many matches of arms it will play
+  double expected_ = 0.0;  // of those that are not in the book; where nobody knows: of this step
+  double played_ = 0.0;
+};
+
+}  // namespace trivela::cli

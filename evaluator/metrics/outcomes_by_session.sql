@@ -1,0 +1,10 @@
+-- Kicks of each session, robot and policy by outcome, and how many of them had touched the floor before the line, as
+-- observed and by the simulator's truth, each among those of which it was said.
+-- Columns: session_id, robot_id, policy, outcome, kicks, observed, observed_bounced, truth, truth_bounced.
+SELECT session_id, robot_id, policy, coalesce(label, 'unknown') AS outcome, count(*) AS kicks,
+  count(bounced) AS observed, coalesce(sum(bounced), 0) AS observed_bounced,
+  count(truth_bounced) AS truth, coalesce(sum(truth_bounced), 0) AS truth_bounced
+FROM counted_kicks
+WHERE accepted IS NOT 0
+GROUP BY session_id, robot_id, policy, coalesce(label, 'unknown')
+ORDER BY session_id, robot_id, policy, outcome;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "evaluator/report/table2.hpp"
+
+namespace trivela::evaluator {
+
+/// The `trivela compare` that says how sure the differences of a report are, as a line to copy: by arm, policy, log or
+/// robot, whichever there are several of, in that order. Empty where there is nothing to compare: no kick, or replays.
+std::string next_comparison(const Report& report);
+
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(const std::string& word);
+
+}  // namespace trivela::evaluator

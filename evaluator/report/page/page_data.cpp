@@ -1,0 +1,230 @@
+#include "evaluator/report/page/page_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <tuple>
+
+#include "evaluator/log/clock_offsets.hpp"
+#include "evaluator/log/digest.hpp"
+#include "evaluator/metrics/held_decisions.sql.hpp"
+#include "evaluator/metrics/held_shadows.sql.hpp"
+#include "evaluator/metrics/predicted_kicks.sql.hpp"
+#include "evaluator/report/log_kicks.hpp"
+
+namespace trivela::evaluator::page {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sha256_of_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  log::RunningSha256 digest;
+  std::vector<char> block(1 << 20);
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(block.data());  // the same bytes
+    digest.add({bytes, static_cast<std::size_t>(in.gcount())});
+  }
+  if (!in.eof()) throw std::runtime_error(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+  return digest.finish();
+}
+
+/// Robot, half and the robot's own number of a possession in one play.
+using ChanceKey = std::tuple<std::uint32_t, int, int, std::int64_t>;
+
+/// What one recording has of the cycles of a possession.
+struct ChanceCycles {
+  std::int64_t cycles = 0;
+  std::int64_t last_seq = -1;
+  double x_m = 0.0, y_m = 0.0;
+  std::string policy;
+  bool kicked = false;
+  std::map<std::pair<std::string, std::string>, std::int64_t> held;                 // by policy and reason
+  std::map<std::tuple<std::string, std::string, std::string>, std::int64_t> would;  // and the shadow's policy
+};
+
+bool stands(const std::string& reason) { return reason == "not_playing"; }
+
+/// The held cycles of all logs. Of several recordings of a play the one that has most of a possession counts.
+class HeldBook {
+ public:
+  explicit HeldBook(const LoggedOpportunities& logged) {
+    for (const ComparedSession& session : logged.sessions) plays_[session.session_id] = session.play;
+  }
+
+  void add(const log::Reader& reader) {
+    std::map<std::pair<std::int64_t, ChanceKey>, ChanceCycles> fresh;  // by session, too
+    reader.query(kHeldDecisionsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
+                                        const std::string& policy, const std::string& reason, std::int64_t cycles,
+                                        std::int64_t seq, double x_m, double y_m) {
+      ChanceCycles& chance = fresh[{session_id, {plays_[session_id], robot_id, half, possession_id}}];
+      if (reason == "fire") {
+        chance.kicked = true;
+      } else {
+        chance.held[{policy, reason}] += cycles;
+      }
+      chance.cycles += cycles;
+      if (stands(reason) || seq <= chance.last_seq) return;
+      chance.last_seq = seq;
+      chance.policy = policy;
+      chance.x_m = x_m;
+      chance.y_m = y_m;
+    });
+    reader.query(kHeldShadowsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
+                                      const std::string& policy, const std::string& reason, const std::string& shadow,
+                                      std::int64_t cycles) {
+      const auto chance = fresh.find({session_id, {plays_[session_id], robot_id, half, possession_id}});
+      if (chance != fresh.end()) chance->second.would[{policy, reason, shadow}] += cycles;
+    });
+    for (auto& [key, chance] : fresh) {
+      ChanceCycles& kept = chances_[key.second];
+      if (chance.cycles > kept.cycles) kept = std::move(chance);
+    }
+  }
+
+  void fill(PageData& data) const {
+    std::map<std::pair<std::string, std::string>, HeldReason> reasons;
+    for (const auto& [key, chance] : chances_) {
+      for (const auto& [why, cycles] : chance.held) {
+        HeldReason& row = reasons[why];
+        row.cycles += cycles;
+        ++row.chances;
+      }
+      bool would = false;
+      for (const auto& [what, cycles] : chance.would) {
+        const auto& [policy, reason, shadow] = what;
+        WouldKick& row = reasons[{policy, reason}].would[shadow];
+        row.cycles += cycles;
+        ++row.chances;
+        would = would || !stands(reason);
+      }
+      const bool numbered = std::get<3>(key) != 0;
+      if (!chance.kicked && numbered && chance.last_seq >= 0)
+        data.held_chances.push_back({chance.policy, chance.x_m, chance.y_m, would});
+    }
+    for (auto& [why, row] : reasons) {
+      std::tie(row.policy, row.reason) = why;
+      data.held.push_back(row);
+    }
+    std::ranges::stable_sort(data.held, [](const HeldReason& a, const HeldReason& b) {
+      return std::tuple(a.policy, -a.cycles) < std::tuple(b.policy, -b.cycles);
+    });
+  }
+
+ private:
+  std::map<std::int64_t, std::uint32_t> plays_;
+  std::map<ChanceKey, ChanceCycles> chances_;
+};
+
+/// Calls `read` and notes what goes wrong: a stream that is missing costs its section alone.
+template <class Read>
+void attempt(PageData& data, const std::string& what, Read&& read) {
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    data.failures.push_back(fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+void compare(const LoggedOpportunities& logged, PageData& data) {
+  try {
+    std::string by;  // arms where there are several, else policies
+    KickBook book = kick_book_of(logged, {}, by);
+    data.comparison = compare_policies(std::move(book), by);
+  } catch (const std::runtime_error& error) {
+    data.no_comparison = error.what();
+  }
+}
+
+void read_kicks(const log::Reader& reader, std::size_t log, PageData& data) {
+  for (KickStory& story : kicks_without_tracks(reader)) data.kicks.push_back({log, std::move(story)});
+}
+
+void read_predictions(const log::Reader& reader, PageData& data) {
+  reader.query(
+      kPredictedKicksSql,
+      [&](const std::string& /*policy*/, std::int64_t /*session_id*/, int /*robot_id*/, double p_on_target,
+          double /*distance_m*/, double /*vx_mps*/, double /*vy_mps*/, double /*omega_radps*/, double /*power*/,
+          std::optional<double> /*opponent_distance_m*/, bool on_target, std::int64_t /*kick_id*/) {
+        data.predictions.push_back({p_on_target, on_target});
+      });
+}
+
+void read_clocks(const log::Reader& reader, PageData& data) {
+  std::map<std::pair<int, int>, ClockRow> rows;
+  for (const log::ClockOffset& offset : log::clock_offsets(reader)) {
+    ClockRow& row = rows[{offset.robot_id, offset.other_robot_id}];
+    const double ms = 1e-6 * static_cast<double>(offset.offset_ns);
+    const double error_ms = 1e-6 * static_cast<double>(offset.error_ns);
+    row.least_ms = row.measurements == 0 ? ms : std::min(row.least_ms, ms);
+    row.most_ms = row.measurements == 0 ? ms : std::max(row.most_ms, ms);
+    row.error_ms = row.measurements == 0 ? error_ms : std::min(row.error_ms, error_ms);
+    ++row.measurements;
+  }
+  for (auto& [who, row] : rows) {
+    std::tie(row.robot_id, row.other_robot_id) = who;
+    data.clocks.push_back(row);
+  }
+  reader.query(
+      "SELECT s.uuid, max(c.error_ns) * 1e-6, min(c.reference_uuid) FROM session_clocks AS c JOIN sessions AS s "
+      "ON s.session_id = c.session_id GROUP BY s.uuid ORDER BY s.uuid",
+      [&](const std::string& uuid, double error_ms, const std::string& reference) {
+        data.aligned.push_back({uuid, error_ms, reference});
+      });
+}
+
+/// The paths of robots and balls, of so many kicks that they fit a page.
+void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
+  if (data.kicks.size() > kMostReplays) return;
+  for (PageKick& kick : data.kicks) add_tracks(*readers[kick.log].reader, kick.story);
+}
+
+}  // namespace
+
+PageData read_page_data(const std::vector<fs::path>& logs) {
+  PageData data;
+  std::vector<std::unique_ptr<log::Reader>> open;
+  std::vector<OpenLog> readers;
+  for (const fs::path& path : logs) {
+    open.push_back(std::make_unique<log::Reader>(path, log::Check::kSchema));  // the report has looked closer
+    readers.push_back({open.back().get(), path.filename().string()});
+    data.logs.push_back({readers.back().name, sha256_of_file(path), open.back()->version()});
+  }
+  LoggedOpportunities logged;
+  attempt(data, "chances", [&] {
+    logged = read_opportunities(readers, false);
+    for (const LoggedOpportunity& o : logged.rows) {
+      if (o.has_possession && !o.policy.empty()) ++data.opportunities[o.policy];
+    }
+  });
+  compare(logged, data);
+  HeldBook held(logged);
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    const log::Reader& reader = *readers[i].reader;
+    attempt(data, "kicks", [&] { read_kicks(reader, i, data); });
+    attempt(data, "decisions", [&] { held.add(reader); });
+    attempt(data, "predicted chances", [&] { read_predictions(reader, data); });
+    attempt(data, "clocks", [&] { read_clocks(reader, data); });
+    attempt(data, "shadows", [&] {
+      reader.query("SELECT DISTINCT policy FROM shadow_decisions ORDER BY policy",
+                   [&](const std::string& policy) { data.shadows.push_back(policy); });
+    });
+  }
+  std::ranges::sort(data.shadows);
+  data.shadows.erase(std::ranges::unique(data.shadows).begin(), data.shadows.end());
+  held.fill(data);
+  std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
+    return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
+  });
+  attempt(data, "tracks of robots and balls", [&] { read_tracks(readers, data); });
+  return data;
+}
+
+}  // namespace trivela::evaluator::page

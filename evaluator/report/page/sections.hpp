@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "evaluator/report/page/page_data.hpp"
+#include "evaluator/report/report_parts.hpp"
+#include "evaluator/report/table2.hpp"
+
+namespace trivela::evaluator::page {
+
+/// What sections are made of.
+struct PageView {
+  const Report& report;
+  const PageData& data;
+  bool simulated = false;  ///< some of it
+};
+
+// Each section of the page as HTML, from plain data. One whose stream is missing says so in a sentence.
+
+/// The verdict on the policies, the design behind it and its caveat.
+std::string verdict_section(const PageView& view);
+/// Table 2, why the misses missed, and robots where there are several.
+std::string table2_section(const PageView& view);
+/// Efficiency of policies, robots and distance bands with intervals.
+std::string forest_section(const PageView& view);
+/// The goal mouth with every observed crossing and its uncertainty.
+std::string goal_mouth_section(const PageView& view);
+/// Where kicks were taken and where chances were held.
+std::string pitch_section(const PageView& view);
+/// Chances, kicks and shots on target a minute.
+std::string rates_section(const PageView& view);
+/// Height by set-point against its prediction, and probabilities against outcomes.
+std::string prediction_section(const PageView& view);
+/// Why policies held, and what those that ride along would have done.
+std::string held_section(const PageView& view);
+/// The list of kicks, filtered and replayed by page.js.
+std::string kick_list_section(const PageView& view);
+/// What is missing, doubtful or unknown, clocks, versions and hashes.
+std::string quality_section(const PageView& view);
+
+/// Place of a policy in Table 2: the number of its colour.
+std::size_t colour_of(const PageView& view, const std::string& policy);
+
+}  // namespace trivela::evaluator::page

@@ -1,0 +1,89 @@
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "pages/monitor/match_scene.hpp"
+
+namespace trivela::pages {
+namespace {
+
+using Alarms = std::map<std::string, std::string>;
+
+constexpr std::int64_t kUnarmed_ns = 500'000'000;  // the driver arms a cycle after the referee's word
+constexpr std::size_t kLastKicks = 10;
+constexpr int kMostUnknown = 2;  // of them
+
+void note_silences(const SceneState& state, Alarms& alarms) {
+  if (state.over) return;
+  for (const std::uint8_t id : state.streams.robots()) {
+    if (state.streams.all_silent(id)) {
+      alarms[fmt::format("{}/silent", id)] = fmt::format("robot {} is silent", id);
+      continue;
+    }
+    for (const std::string& topic : state.streams.silent(id)) {
+      alarms[fmt::format("{}/silent/{}", id, topic)] =
+          topic == bus::meta<msg::Referee>::topic ? fmt::format("robot {}: the referee is silent", id)
+                                                  : fmt::format("robot {}: no {} is heard any more", id, topic);
+    }
+  }
+  if (!state.robots.empty() && !state.streams.was_heard(std::string{bus::meta<msg::Referee>::topic}))
+    alarms["referee"] = "no referee has been heard";
+}
+
+const char* words_of(msg::KickerFault fault) {
+  switch (fault) {
+    case msg::FAULT_NONE:
+      return "fault";
+    case msg::FAULT_CHARGER:
+      return "fault of the charger";
+    case msg::FAULT_COIL:
+      return "fault of the coil";
+    case msg::FAULT_LINK:
+      return "its board does not answer";
+  }
+  return "a fault that this page does not know";
+}
+
+void note_kickers(const SceneState& state, std::int64_t now_ns, Alarms& alarms) {
+  for (const auto& [id, robot] : state.robots) {
+    const auto* kicker = robot.kicker.within(kFresh_ns, now_ns);
+    if (kicker != nullptr && (kicker->fault != msg::FAULT_NONE || kicker->state == msg::STATE_FAULT))
+      alarms[fmt::format("{}/fault", id)] = fmt::format("robot {}: kicker: {}", id, words_of(kicker->fault));
+    const auto* device = robot.device.within(kFresh_ns, now_ns);
+    const bool open = device != nullptr ? !device->armed
+                                        : robot.unarmed_since_ns != 0 && now_ns - robot.unarmed_since_ns >= kUnarmed_ns;
+    if (open && !state.over) alarms[fmt::format("{}/switch", id)] = fmt::format("robot {}: the arm switch is open", id);
+  }
+}
+
+void note_kicks(const SceneState& state, std::int64_t now_ns, Alarms& alarms) {
+  const LedgerNow now = ledger_now(state, now_ns);
+  const auto last = state.kicks.latest(kLastKicks);
+  const auto unknown =
+      std::ranges::count_if(last, [&](const KnownKick& kick) { return fate_of(kick, now) == KickFate::kUnknown; });
+  if (unknown > kMostUnknown)
+    alarms["unknown"] = fmt::format("{} of the last {} kicks have no known outcome", unknown, last.size());
+  if (state.kicks.not_kept() > 0)
+    alarms["full"] = fmt::format("the table is full: kicks beyond {} are not counted", KickLedger::kMostKicks);
+}
+
+}  // namespace
+
+Alarms alarms_of(const SceneState& state, std::int64_t now_ns) {
+  Alarms alarms;
+  note_silences(state, alarms);
+  note_kickers(state, now_ns, alarms);
+  note_kicks(state, now_ns, alarms);
+  for (const auto& [stream, messages] : state.streams.missed_lately(now_ns)) {
+    const auto& [id, topic] = stream;
+    const std::string how_many = messages == 1 ? "a message" : fmt::format("{} messages", messages);
+    alarms[fmt::format("{}/missed/{}", id, topic)] =
+        fmt::format("robot {}: this page missed {} of {}", id, how_many, topic);
+  }
+  if (state.strangers > 0)
+    alarms["strangers"] =
+        fmt::format("messages of more than {} robots, or of robot 0: not shown", MatchScene::kMostRobots);
+  return alarms;
+}
+
+}  // namespace trivela::pages

@@ -1,0 +1,112 @@
+#include "pages/monitor/kick_ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "idl/none.hpp"
+
+namespace trivela::pages {
+namespace {
+
+bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
+  if (now.over || now.heard_ns - kick.heard_ns > kSilencePatience_ns) return false;
+  const auto robot = now.robots_t_ns.find(kick.robot_id);
+  return !kick.decided || robot == now.robots_t_ns.end() || robot->second - kick.decided->t_ns <= kOutcomePatience_ns;
+}
+
+// Whether this receipt says more than the last one: an order that came twice is refused as `double` after it was fired.
+bool outweighs(const msg::KickReceipt& receipt, const KnownKick::Answered& last) {
+  const auto rank = [](bool is_double, std::uint64_t seq) { return std::pair{!is_double, seq}; };
+  return rank(receipt.refusal == msg::REFUSAL_DOUBLE, receipt.seq) >
+         rank(last.refusal == msg::REFUSAL_DOUBLE, last.seq);
+}
+
+}  // namespace
+
+KickFate fate_of(const KnownKick& kick, const LedgerNow& now) {
+  if (kick.answered && !kick.answered->accepted) return KickFate::kRefused;
+  if (!kick.ended) return is_waited_for(kick, now) ? KickFate::kUnderWay : KickFate::kUnknown;
+  switch (kick.ended->outcome) {
+    case msg::OUTCOME_UNKNOWN:
+      return KickFate::kUnknown;
+    case msg::OUTCOME_ON_TARGET:
+      return kick.decided && kick.decided->from_own_half ? KickFate::kOutside : KickFate::kInside;
+    default:
+      return KickFate::kOutside;
+  }
+}
+
+KnownKick* KickLedger::kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns) {
+  if (robot_id == 0 || kick_id <= 0) return nullptr;
+  const auto known = places_.find({robot_id, kick_id});
+  if (known != places_.end()) return &kicks_[known->second];
+  if (kicks_.size() >= kMostKicks) {
+    ++not_kept_;
+    return nullptr;
+  }
+  places_[{robot_id, kick_id}] = kicks_.size();
+  KnownKick& kick = kicks_.emplace_back();
+  kick.kick_id = kick_id;
+  kick.robot_id = robot_id;
+  kick.heard_ns = heard_ns;
+  return &kick;
+}
+
+void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) {
+  if (!decision.fire) return;
+  KnownKick* const kick = kick_of(decision.robot_id, decision.kick_id, heard_ns);
+  if (kick == nullptr || (kick->decided && kick->decided->seq <= decision.seq)) return;
+  KnownKick::Decided decided{.seq = decision.seq,
+                             .t_ns = decision.t_ns,
+                             .policy = decision.policy,
+                             .distance_m = decision.distance_m,
+                             .power = msg::optional_of(decision.power),
+                             .p_on_target = msg::optional_of(decision.p_on_target)};
+  decided.from_own_half = ball_offset_m_ && decision.y_m + *ball_offset_m_ * std::cos(decision.heading_rad) <= 0.0;
+  kick->decided = decided;
+}
+
+void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {
+  KnownKick* const kick = kick_of(receipt.robot_id, receipt.kick_id, heard_ns);
+  if (kick == nullptr || (kick->answered && !outweighs(receipt, *kick->answered))) return;
+  kick->answered = KnownKick::Answered{receipt.seq, receipt.accepted, receipt.refusal};
+}
+
+void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {
+  KnownKick* const kick = kick_of(outcome.robot_id, outcome.kick_id, heard_ns);
+  if (kick == nullptr || (kick->ended && kick->ended->seq >= outcome.seq)) return;
+  kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, msg::optional_of(outcome.x_cross_m),
+                                 msg::optional_of(outcome.z_cross_m)};
+}
+
+std::map<std::optional<msg::Policy>, KickTally> KickLedger::tallies(const LedgerNow& now) const {
+  std::map<std::optional<msg::Policy>, KickTally> tallies;
+  for (const KnownKick& kick : kicks_) {
+    KickTally& tally = tallies[kick.decided ? std::optional{kick.decided->policy} : std::nullopt];
+    switch (fate_of(kick, now)) {
+      case KickFate::kUnderWay:
+        ++tally.under_way;
+        break;
+      case KickFate::kRefused:
+        ++tally.refused;
+        break;
+      case KickFate::kInside:
+        ++tally.inside;
+        break;
+      case KickFate::kOutside:
+        ++tally.outside;
+        break;
+      case KickFate::kUnknown:
+        ++tally.unknown;
+        break;
+    }
+  }
+  return tallies;
+}
+
+std::vector<KnownKick> KickLedger::latest(std::size_t most) const {
+  const std::size_t n = std::min(most, kicks_.size());
+  return {kicks_.rbegin(), kicks_.rbegin() + static_cast<std::ptrdiff_t>(n)};
+}
+
+}  // namespace trivela::pages

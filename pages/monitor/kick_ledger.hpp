@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "idl/messages.hpp"
+
+namespace trivela::pages {
+
+/// What has become of a kick, as Table 2 counts it.
+enum class KickFate { kUnderWay, kRefused, kInside, kOutside, kUnknown };
+
+/// What was heard of a kick. Each word may be missing: it got lost, is not there yet, or the page was opened later.
+struct KnownKick {
+  struct Decided {
+    std::uint64_t seq = 0;
+    std::int64_t t_ns = 0;
+    msg::Policy policy{};
+    double distance_m = 0.0;
+    std::optional<double> power;
+    std::optional<double> p_on_target;
+    bool from_own_half = false;
+  };
+  struct Answered {
+    std::uint64_t seq = 0;
+    bool accepted = false;
+    msg::Refusal refusal{};
+  };
+  struct Ended {
+    std::uint64_t seq = 0;
+    msg::Outcome outcome{};
+    std::optional<double> x_m;  ///< ball centre at the goal line, in F
+    std::optional<double> z_m;
+  };
+
+  std::int64_t kick_id = 0;
+  std::uint8_t robot_id = 0;
+  std::int64_t heard_ns = 0;  ///< the first word of it, by the listener's clock
+  std::optional<Decided> decided;
+  std::optional<Answered> answered;
+  std::optional<Ended> ended;
+};
+
+/// Now: by the listener's clock, and as far as each robot's own messages have come.
+struct LedgerNow {
+  std::int64_t heard_ns = 0;
+  std::map<std::uint8_t, std::int64_t> robots_t_ns{};
+  bool over = false;  ///< nothing more comes
+};
+
+/// How long an outcome is waited for: of the robot's own time, and of the listener's where the robot says no more.
+inline constexpr std::int64_t kOutcomePatience_ns = 10'000'000'000;
+inline constexpr std::int64_t kSilencePatience_ns = 60'000'000'000;
+
+/// A refused order is no kick; an outcome that never came is unknown; one on target from the own half is outside where
+/// the rules say so.
+KickFate fate_of(const KnownKick& kick, const LedgerNow& now);
+
+/// Kicks by fate; `refused` are none.
+struct KickTally {
+  std::int64_t inside = 0;
+  std::int64_t outside = 0;
+  std::int64_t unknown = 0;
+  std::int64_t under_way = 0;
+  std::int64_t refused = 0;
+};
+
+/// Joins decisions, receipts and outcomes by kick_id, each kick once however often and in whatever order its words
+/// come. As the log's view `kicks` has it: the first decision that fired, the last receipt (one that says `double` last
+/// of all), the last outcome.
+class KickLedger {
+ public:
+  static constexpr std::size_t kMostKicks = 10'000;  ///< a stranger may say any number of them
+
+  /// `ball_offset_m`: how far before a robot's centre the ball lies; none: goals from the own half count.
+  explicit KickLedger(std::optional<double> own_half_ball_offset_m = {}) : ball_offset_m_(own_half_ball_offset_m) {}
+
+  void hear(const msg::KickDecision& decision, std::int64_t heard_ns);
+  void hear(const msg::KickReceipt& receipt, std::int64_t heard_ns);
+  void hear(const msg::KickOutcome& outcome, std::int64_t heard_ns);
+
+  /// By policy; under none those whose decision was not heard.
+  std::map<std::optional<msg::Policy>, KickTally> tallies(const LedgerNow& now) const;
+
+  /// The latest ones that were heard of, the newest first.
+  std::vector<KnownKick> latest(std::size_t most) const;
+
+  /// Kicks that found no place.
+  std::int64_t not_kept() const { return not_kept_; }
+
+ private:
+  KnownKick* kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns);
+
+  std::optional<double> ball_offset_m_;
+  std::map<std::pair<std::uint8_t, std::int64_t>, std::size_t> places_;
+  std::vector<KnownKick> kicks_;  // in the order of their first words
+  std::int64_t not_kept_ = 0;
+};
+
+}  // namespace trivela::pages

@@ -1,0 +1,99 @@
+#include "pages/monitor/match_scene.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace trivela::pages {
+
+MatchScene::MatchScene(SceneSettings settings) : state_(std::move(settings)) {
+  bus::for_each_message([this]<class T>() {
+    if constexpr (listens_to<T>()) {
+      const double period_s =
+          bus::meta<T>::period_s > 0.0 ? std::max(bus::meta<T>::period_s, state_.settings.cycle_s) : 0.0;
+      const std::string topic{bus::meta<T>::topic};
+      streams_[topic] = state_.streams.add(topic, period_s);
+    }
+  });
+}
+
+bool MatchScene::has_place(std::uint8_t robot_id) {
+  if (robot_id != 0 && state_.robots.contains(robot_id)) return true;
+  if (robot_id == 0 || state_.robots.size() >= kMostRobots) {
+    ++state_.strangers;
+    return false;
+  }
+  state_.robots[robot_id];
+  return true;
+}
+
+void MatchScene::note_members(std::vector<std::string> nodes, const std::set<std::string>& simulated) {
+  state_.nodes = std::move(nodes);
+  state_.simulated.insert(simulated.begin(), simulated.end());
+}
+
+void MatchScene::look(std::int64_t now_ns) {
+  state_.streams.look(now_ns);
+  for (auto& [id, robot] : state_.robots) {
+    const auto* world = robot.world.within(kFresh_ns, now_ns);
+    const auto* kicker = robot.kicker.within(kFresh_ns, now_ns);
+    const bool unarmed = world != nullptr && kicker != nullptr && world->playing && !kicker->armed;
+    if (!unarmed) robot.unarmed_since_ns = 0;
+    if (unarmed && robot.unarmed_since_ns == 0) robot.unarmed_since_ns = now_ns;
+  }
+  state_.alarms.update(alarms_of(state_, now_ns), now_ns);
+}
+
+void MatchScene::take(const msg::WorldState& world, std::int64_t now_ns) {
+  state_.robots[world.robot_id].world.hear(world, now_ns);
+}
+
+void MatchScene::take(const msg::KickDecision& decision, std::int64_t now_ns) {
+  RobotView& robot = state_.robots[decision.robot_id];
+  robot.decision.hear(decision, now_ns);
+  if (decision.fire) robot.fired.hear(decision, now_ns);
+  state_.kicks.hear(decision, now_ns);
+}
+
+void MatchScene::take(const msg::KickReceipt& receipt, std::int64_t now_ns) { state_.kicks.hear(receipt, now_ns); }
+
+void MatchScene::take(const msg::KickOutcome& outcome, std::int64_t now_ns) { state_.kicks.hear(outcome, now_ns); }
+
+void MatchScene::take(const msg::KickerStatus& status, std::int64_t now_ns) {
+  state_.robots[status.robot_id].kicker.hear(status, now_ns);
+}
+
+void MatchScene::take(const msg::DeviceKicker& device, std::int64_t now_ns) {
+  state_.robots[device.robot_id].device.hear(device, now_ns);
+  if (device.emulated) state_.simulated.insert("an emulated kicker");
+}
+
+void MatchScene::take(const msg::DeviceWheels& device, std::int64_t) {
+  if (device.emulated) state_.simulated.insert("an emulated base");
+}
+
+void MatchScene::take(const msg::DeviceGyro& device, std::int64_t) {
+  if (device.emulated) state_.simulated.insert("an emulated gyro");
+}
+
+void MatchScene::take(const msg::DeviceEmulated& word, std::int64_t) {
+  constexpr std::array kParts{"an emulated base", "an emulated gyro", "an emulated kicker", "an emulated referee box",
+                              "an emulated range finder"};
+  const auto part = static_cast<std::size_t>(word.part);
+  state_.simulated.insert(part < kParts.size() ? kParts[part] : "an emulated device");
+}
+
+void MatchScene::take(const msg::FlightFrame& frame, std::int64_t now_ns) {
+  state_.robots[frame.robot_id].flight.hear(frame, now_ns);
+}
+
+void MatchScene::take(const msg::Referee& referee, std::int64_t now_ns) { state_.referee.hear(referee, now_ns); }
+
+LedgerNow ledger_now(const SceneState& state, std::int64_t now_ns) {
+  LedgerNow now{.heard_ns = now_ns, .over = state.over};
+  for (const auto& [id, robot] : state.robots) {
+    if (robot.world.sample) now.robots_t_ns[id] = robot.world.sample->t_ns;
+  }
+  return now;
+}
+
+}  // namespace trivela::pages

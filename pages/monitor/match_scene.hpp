@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "idl/messages.hpp"
+#include "kicking/geometry/goal.hpp"
+#include "pages/monitor/alarm_book.hpp"
+#include "pages/monitor/kick_ledger.hpp"
+#include "pages/monitor/robot_view.hpp"
+#include "pages/monitor/stream_board.hpp"
+
+namespace trivela::pages {
+
+/// What a scene is told before anything is heard.
+struct SceneSettings {
+  std::string title;                            ///< the team's name
+  std::map<std::uint8_t, std::string> names{};  ///< of robots, where they are known
+  kicking::Goal goal{};
+  double side_line_x_m = 6.0;
+  double cycle_s = 0.02;
+  std::optional<double> own_half_ball_offset_m{};  ///< where goals from the own half do not count: KickLedger
+};
+
+/// All that the page knows.
+struct SceneState {
+  SceneSettings settings;
+  std::map<std::uint8_t, RobotView> robots;
+  Latest<msg::Referee> referee;
+  KickLedger kicks;
+  StreamBoard streams;
+  AlarmBook alarms;
+  std::set<std::string> simulated;  ///< what says so; empty: nothing
+  std::vector<std::string> nodes;   ///< programs that are there
+  std::int64_t strangers = 0;       ///< messages of robots that found no place
+  bool over = false;                ///< nothing more comes, and that is as it should be
+
+  explicit SceneState(SceneSettings given) : settings(std::move(given)), kicks(settings.own_half_ball_offset_m) {}
+};
+
+/// A match as it looks from the topics. Pure: messages and the clock are handed in, instants are of the listener's
+/// clock. The simulator's truth is none of its inputs.
+class MatchScene {
+ public:
+  static constexpr std::size_t kMostRobots = 16;  // strangers may say any number
+
+  explicit MatchScene(SceneSettings settings);
+
+  /// What the page listens to: everything but the simulator's own.
+  template <class T>
+  static constexpr bool listens_to() {
+    return !(std::is_same_v<T, msg::SimScan> || std::is_same_v<T, msg::StepDone> || std::is_same_v<T, msg::KickTruth> ||
+             std::is_same_v<T, msg::PossessionTruth>);
+  }
+
+  template <bus::Message T>
+  void hear(const T& sample, std::uint64_t writer, std::int64_t now_ns) {
+    if (!has_place(sample.robot_id)) return;
+    state_.streams.heard(streams_.at(std::string{bus::meta<T>::topic}), sample.robot_id, sample.seq, writer, now_ns);
+    take(sample, now_ns);
+  }
+
+  /// Who is in the domain, and what of it says that this is no robot on a field.
+  void note_members(std::vector<std::string> nodes, const std::set<std::string>& simulated);
+
+  /// The match has ended as planned: silence is no alarm from here on, and no outcome is waited for.
+  void note_over() { state_.over = true; }
+
+  /// To be called each StreamBoard::kStep_ns: what fell silent, which alarms hold.
+  void look(std::int64_t now_ns);
+
+  const SceneState& state() const { return state_; }
+
+ private:
+  bool has_place(std::uint8_t robot_id);
+  void take(const auto&, std::int64_t) {}
+  void take(const msg::WorldState& world, std::int64_t now_ns);
+  void take(const msg::KickDecision& decision, std::int64_t now_ns);
+  void take(const msg::KickReceipt& receipt, std::int64_t now_ns);
+  void take(const msg::KickOutcome& outcome, std::int64_t now_ns);
+  void take(const msg::KickerStatus& status, std::int64_t now_ns);
+  void take(const msg::DeviceKicker& device, std::int64_t now_ns);
+  void take(const msg::DeviceWheels& device, std::int64_t now_ns);
+  void take(const msg::DeviceGyro& device, std::int64_t now_ns);
+  void take(const msg::DeviceEmulated& word, std::int64_t now_ns);
+  void take(const msg::FlightFrame& frame, std::int64_t now_ns);
+  void take(const msg::Referee& referee, std::int64_t now_ns);
+
+  SceneState state_;
+  std::map<std::string, std::size_t> streams_;
+};
+
+/// Now, for the fates of kicks.
+LedgerNow ledger_now(const SceneState& state, std::int64_t now_ns);
+
+/// The alarms that hold: their texts by names that stay the same.
+std::map<std::string, std::string> alarms_of(const SceneState& state, std::int64_t now_ns);
+
+}  // namespace trivela::pages

@@ -1,0 +1,135 @@
+// The verbs that say something of a log afterwards: label, note, doctor, migrate.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/verbs.hpp"
+#include "tests/cli/verb_run.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/older_log.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using Words = std::vector<std::string>;
+
+class AfterTheMatch : public evaluator::LogTest {
+ protected:
+  AfterTheMatch() {
+    evaluator::MatchLog match(path(), session(), options());
+    match.kicks(1, "on_target", 2);
+    match.kick(1, "unknown");
+    match.close();
+  }
+
+  std::string said(const Words& words) {
+    const VerbRun run = run_verbs({add_label, add_note, add_doctor, add_migrate, add_report, add_query}, words);
+    exit_code_ = run.exit_code;
+    return run.out;
+  }
+
+  template <class Error>
+  std::string why_refused(const Words& words) {
+    try {
+      said(words);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "it was not refused";
+  }
+
+  const std::string log_ = path().string();
+  int exit_code_ = -1;
+};
+
+TEST_F(AfterTheMatch, AKickIsLabelledAndTheLabelWithdrawn) {
+  EXPECT_THAT(said({"label", log_}),
+              AllOf(HasSubstr("1:3"), Not(HasSubstr("1:2")), HasSubstr("1 of 3 kicks are unknown")));
+  EXPECT_EQ(said({"label", log_, "1:3", "wide_left", "--by", "Ada", "--note", "video 3:21"}),
+            "kick 1:3 at 0.18 s (stopped): wide left, says Ada; the observer says unknown\n");
+  EXPECT_EQ(exit_code_, kDone);
+  EXPECT_THAT(said({"label", log_}), AllOf(HasSubstr("wide left  Ada"), HasSubstr("0 of 3 kicks are unknown")));
+  EXPECT_THAT(said({"report", log_}),
+              HasSubstr("hand labels: 1 kick; they disagreed with the observer in 0 of 0, who did not know 1"));
+  EXPECT_THAT(said({"query", log_, "SELECT outcome, who, note FROM labels", "--csv"}),
+              HasSubstr("wide_left,Ada,video 3:21"));
+  EXPECT_THAT(said({"label", log_, "3", "--withdraw", "--by", "Grace"}), HasSubstr("wide left by Ada is withdrawn"));
+  EXPECT_THAT(said({"label", log_}), HasSubstr("1 of 3 kicks are unknown"));
+  EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "3", "--withdraw", "--by", "Grace"}),
+              HasSubstr("no label by hand"));
+}
+
+TEST_F(AfterTheMatch, WhatSqliteSaysIsWhatWasLabelled) {
+  said({"label", log_, "1:1", "post", "--by", "Ada"});
+  const std::string ask = "sqlite3 " + log_ + " \"SELECT outcome || who FROM labels\" > " + path("said").string();
+  ASSERT_EQ(std::system(ask.c_str()), 0);
+  std::ifstream in(path("said"));
+  std::string line;
+  std::getline(in, line);
+  EXPECT_EQ(line, "postAda");
+}
+
+TEST_F(AfterTheMatch, WhatMakesNoSenseIsRefused) {
+  for (const Words& words :
+       {Words{"label", log_, "1:3"}, Words{"label", log_, "1:3", "post"},
+        Words{"label", log_, "1:3", "post", "--withdraw", "--by", "Ada"}, Words{"label", log_, "--by", "Ada"},
+        Words{"label", log_, "1:3", "--serve"}, Words{"note", log_, "rain"}, Words{"note", log_, "--by", "Ada"},
+        Words{"doctor"}, Words{"migrate", log_}})
+    EXPECT_THROW(said(words), UsageError) << words[1];
+  EXPECT_THROW(said({"label", log_, "1:3", "goal", "--by", "Ada"}), CLI::ValidationError);
+  EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "1:9", "post", "--by", "Ada"}),
+              HasSubstr("there is no kick 1:9"));
+  EXPECT_THAT(said({"query", log_, "SELECT count(*) AS n FROM labels", "--csv"}), HasSubstr("n\n0\n"));
+}
+
+TEST_F(AfterTheMatch, NotesStandInTheReport) {
+  EXPECT_EQ(said({"note", log_, "--match", "semi-final", "--opponent", "Them", "--venue", "Hall 3", "a post leans",
+                  "--by", "Ada"}),
+            log_ + ": noted of 1 session\n");
+  EXPECT_THAT(said({"report", log_}),
+              AllOf(HasSubstr("Match: semi-final\nOpponent: Them\nVenue: Hall 3\nNote of Ada, "),
+                    HasSubstr("UTC: a post leans\n")));
+  said({"note", log_, "--withdraw", "venue", "--by", "Ada"});
+  EXPECT_THAT(said({"report", log_}), Not(HasSubstr("Hall 3")));
+  EXPECT_THAT(said({"note", log_}),
+              AllOf(HasSubstr("Venue: Hall 3 (Ada) - no longer holds"), HasSubstr("Venue: (withdrawn)")));
+}
+
+TEST_F(AfterTheMatch, TheDoctorsExitCodeIsTheWorstThatHeFound) {
+  EXPECT_THAT(said({"doctor", log_}), HasSubstr("ok   integrity"));
+  EXPECT_EQ(exit_code_, kDone);
+  {
+    evaluator::MatchLog open(path("open.db"), session(), options());
+    open.kicks(1, "on_target", 1);
+    open.writer().flush();
+    EXPECT_THAT(said({"doctor", log_, path("open.db")}),
+                AllOf(HasSubstr("never closed"), HasSubstr("-> "), HasSubstr("all of them")));
+    EXPECT_EQ(exit_code_, kDoneWithLoss);
+  }
+  std::ofstream(path("none.db")) << "none";
+  EXPECT_THAT(said({"doctor", "--json", path("none.db"), log_}), HasSubstr("\"verdict\": \"bad\""));
+  EXPECT_EQ(exit_code_, kFailed);
+}
+
+TEST_F(AfterTheMatch, WhileAMatchIsOnNoPageIsServed) {
+  std::ofstream(path("match.toml")) << "[run]\nmatch_mode = true\n";
+  EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "--serve", "--config", path("match.toml").string()}),
+              HasSubstr("run.match_mode = true: a match is on, and trivela label --serve waits"));
+}
+
+TEST_F(AfterTheMatch, AnOlderLogIsMigratedInItsPlaceAndThenLabelled) {
+  const std::string old = evaluator::older_match_log(path("old.db"), 7).string();
+  EXPECT_THAT(why_refused<std::runtime_error>({"label", old, "1:1", "post", "--by", "Ada"}),
+              HasSubstr("trivela migrate " + old + " --in-place"));
+  EXPECT_THAT(said({"migrate", old, "--in-place"}), HasSubstr("the old log is " + path("old.version-7.db").string()));
+  EXPECT_THAT(said({"label", old, "1:1", "post", "--by", "Ada"}),
+              HasSubstr("post, says Ada; the observer says on target"));
+}
+
+}  // namespace
+}  // namespace trivela::cli

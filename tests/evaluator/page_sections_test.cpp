@@ -1,0 +1,260 @@
+// Sections of the page of a report, from plain data.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "evaluator/report/page/html.hpp"
+#include "evaluator/report/page/kick_list.hpp"
+#include "evaluator/report/page/report_page.hpp"
+#include "evaluator/stats/poisson.hpp"
+
+namespace trivela::evaluator::page {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+  return n;
+}
+
+KickStory kick(const std::string& policy, const std::string& outcome, double x_m, double z_m, double distance_m = 5.0) {
+  KickStory story;
+  story.robot_id = 1;
+  story.number = 7;
+  story.half = 1;
+  story.policy = policy;
+  story.distance_m = distance_m;
+  story.power = 20.0;
+  story.robot = {1.0, 4.0, 0.0};
+  story.predicted = StoryEnd{"", x_m, z_m - 0.1, std::nullopt, std::nullopt};
+  story.observed = StoryEnd{outcome, x_m, z_m, 0.05, 0.6};
+  return story;
+}
+
+/// A report of two policies and the kicks that it counts.
+struct TwoPolicies {
+  TwoPolicies() {
+    report.policies.resize(2);
+    report.policies[0].policy = "stopped";
+    report.policies[0].kicks_by_outcome = {{"on_target", 34}, {"over", 31}};
+    report.policies[0].played_min = 10.0;
+    report.policies[1].policy = "moving";
+    report.policies[1].kicks_by_outcome = {{"on_target", 100}, {"post", 30}, {"unknown", 2}};
+    report.policies[1].played_min = 10.0;
+    data.logs = {{"match.db", std::string(64, 'a'), 7}};
+    data.no_comparison = "fewer than two policies";
+  }
+  PageView view() const { return {report, data, false}; }
+
+  Report report;
+  PageData data;
+};
+
+TEST(PageText, MakesTextsOfAnybodyTexts) {
+  EXPECT_EQ(html("<b a=\"'&\">"), "&lt;b a=&quot;&#39;&amp;&quot;&gt;");
+  EXPECT_EQ(html("a\x01z"), "a\\x01z");
+  EXPECT_EQ(html("a\xffz"), "a\\xffz");
+  EXPECT_EQ(html("\u00e9"), "\u00e9");
+}
+
+TEST(PageText, LetsNoJsonEndItsScript) {
+  EXPECT_EQ(script_json(Json{{"a", "</script><!--"}}), "{\"a\":\"\\u003c/script>\\u003c!--\"}");
+  EXPECT_EQ(Json::parse(script_json(Json{{"a", "</script>"}}))["a"], "</script>");
+}
+
+// printf '' | openssl dgst -sha256 -binary | base64; the same of abc.
+TEST(PageText, NamesAScriptByItsHash) {
+  EXPECT_EQ(csp_hash(""), "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
+  EXPECT_EQ(csp_hash("abc"), "'sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0='");
+}
+
+TEST(PageVerdict, SaysWhatEachPolicyHadWhereNothingIsCompared) {
+  const TwoPolicies two;
+  const std::string text = verdict_section(two.view());
+  EXPECT_THAT(text, HasSubstr("stopped: 34 of 65 kicks on target, 52.3 % (95 % 40.4 % to 64.0 %)."));
+  EXPECT_THAT(text, HasSubstr("Nothing is compared: fewer than two policies."));
+}
+
+TEST(PageTable2, HasTheRowsOfTheReport) {
+  const TwoPolicies two;
+  const std::string text = table2_section(two.view());
+  EXPECT_THAT(text, HasSubstr("<th scope=\"row\">stopped</th><td>34</td><td>31</td><td>0</td><td>52.3 %</td>"));
+  EXPECT_THAT(text, HasSubstr("<th scope=\"row\">moving</th><td>100</td><td>30</td><td>2</td><td>76.9 %</td>"));
+  EXPECT_THAT(text, Not(HasSubstr("By robot")));
+}
+
+TEST(PageForest, HasARowForEachPolicyRobotAndDistance) {
+  TwoPolicies two;
+  two.data.kicks = {{0, kick("moving", "on_target", 0.1, 0.5, 3.5)}, {0, kick("moving", "post", 1.1, 0.5, 3.6)}};
+  RobotRow robot;
+  robot.policy = "moving";
+  robot.robot_id = 4;
+  robot.kicks_by_outcome = {{"on_target", 3}};
+  two.report.robots = {robot};
+  const std::string text = forest_section(two.view());
+  EXPECT_THAT(text, HasSubstr("34/65, 52.3 %"));
+  EXPECT_THAT(text, HasSubstr("robot 4, moving"));
+  EXPECT_THAT(text, HasSubstr("3 to 4 m, moving"));
+  EXPECT_THAT(text, HasSubstr("1/2, 50.0 %"));
+}
+
+TEST(PageGoalMouth, DrawsEachCrossingWithItsSpreadToScale) {
+  TwoPolicies two;
+  two.data.kicks = {{0, kick("moving", "on_target", 0.0, 0.5)}, {0, kick("moving", "over", 0.5, 1.6)}};
+  const std::string text = goal_mouth_section(two.view());
+  EXPECT_EQ(count(text, "data-kick="), 2U);
+  // 512 units for 4.25 m: 0.05 m are 6.02
+  EXPECT_THAT(text, HasSubstr("<circle class=\"spread inside\" cx=\"260.0\""));
+  EXPECT_EQ(count(text, "r=\"6.02\""), 2U);
+  EXPECT_THAT(text, HasSubstr("on target: 1"));
+  EXPECT_THAT(text, HasSubstr("wide, over, short: 1"));
+}
+
+TEST(PageGoalMouth, KeepsWhatFlewFarAtItsEdge) {
+  TwoPolicies two;
+  two.data.kicks = {{0, kick("moving", "wide_right", 40.0, 0.5)}};
+  EXPECT_THAT(goal_mouth_section(two.view()), HasSubstr("1 beyond the picture lie at its edge"));
+}
+
+TEST(PageGoalMouth, SaysWhereNoCrossingWasSeen) {
+  TwoPolicies two;
+  two.data.kicks = {{0, kick("moving", "on_target", 0.0, 0.5)}};
+  two.data.kicks[0].story.observed->x_m.reset();
+  EXPECT_THAT(goal_mouth_section(two.view()), HasSubstr("No kick has an observed crossing"));
+  two.data.kicks.clear();
+  EXPECT_THAT(goal_mouth_section(two.view()), HasSubstr("There are no kicks."));
+}
+
+TEST(PagePitch, ShowsWhereKicksWereTakenAndChancesHeld) {
+  TwoPolicies two;
+  two.data.kicks = {{0, kick("moving", "on_target", 0.0, 0.5)}};
+  two.data.held_chances = {{"moving", 2.0, 3.0, true}, {"moving", -2.0, 3.0, false}, {"moving", 90.0, 3.0, false}};
+  const std::string text = pitch_section(two.view());
+  EXPECT_EQ(count(text, "data-kick="), 1U);
+  EXPECT_THAT(text, HasSubstr("another policy would have kicked: 1"));
+  EXPECT_THAT(text, HasSubstr(">held: 2<"));
+  EXPECT_THAT(text, HasSubstr("1 off the field are not drawn"));
+}
+
+TEST(PageRates, GivesEventsByTheMinutesOfPlay) {
+  TwoPolicies two;
+  two.data.opportunities = {{"stopped", 80}};
+  const std::string text = rates_section(two.view());
+  EXPECT_THAT(text, HasSubstr("stopped: 80 in 10.0 min"));
+  EXPECT_THAT(text, HasSubstr("moving: 132 in 10.0 min"));
+  two.report.policies[0].played_min.reset();
+  two.report.policies[1].played_min.reset();
+  EXPECT_THAT(rates_section(two.view()), HasSubstr("How long was played is not in the log."));
+}
+
+// R 4.2.2: poisson.test(10, 2)$conf.int, poisson.test(0, 2)$conf.int
+TEST(RateInterval, IsThatOfPoissonTest) {
+  const auto ten = stats::rate_interval({10, 2.0});
+  EXPECT_NEAR(ten.lo, 2.397694, 1e-6);
+  EXPECT_NEAR(ten.hi, 9.195178, 1e-6);
+  const auto none = stats::rate_interval({0, 2.0});
+  EXPECT_EQ(none.lo, 0.0);
+  EXPECT_NEAR(none.hi, 1.844440, 1e-6);
+  EXPECT_THROW(stats::rate_interval({3, 0.0}), std::invalid_argument);
+}
+
+TEST(PagePredictions, FindsTheDriftOfHeights) {
+  TwoPolicies two;
+  for (int i = 0; i < 16; ++i) {
+    two.data.kicks.push_back({0, kick("moving", "on_target", 0.0, 0.6)});  // predicted 0.1 m lower
+    two.data.kicks.back().story.observed->z_m = i % 2 == 0 ? 0.61 : 0.59;
+  }
+  std::string text = prediction_section(two.view());
+  EXPECT_THAT(text, HasSubstr("<td>+10.0 cm</td>"));
+  EXPECT_THAT(text, HasSubstr("No kick was given a probability"));
+  for (PageKick& bounced : two.data.kicks) bounced.story.bounced = true;
+  EXPECT_THAT(prediction_section(two.view()), HasSubstr("No kick has both"));
+}
+
+TEST(PagePredictions, ComparesProbabilitiesWithOutcomes) {
+  TwoPolicies two;
+  two.data.predictions = {{0.85, true}, {0.85, false}, {0.2, false}, {1.0, true}};
+  const std::string text = prediction_section(two.view());
+  EXPECT_THAT(text, HasSubstr("predicted 85.0 %: 1 of 2 on target"));
+  EXPECT_THAT(text, HasSubstr("2.9 of 4 predicted, 2 came"));
+}
+
+TEST(PageHeld, SaysWhyAndWhatTheShadowsWouldHaveDone) {
+  TwoPolicies two;
+  two.data.shadows = {"moving", "stopped"};
+  two.data.held = {{"moving", "not_aligned", 400, 30, {{"stopped", {9, 5}}}}, {"moving", "not_playing", 70, 9, {}}};
+  const std::string text = held_section(two.view());
+  EXPECT_THAT(text, HasSubstr("400 in 30 chances"));
+  EXPECT_THAT(text, HasSubstr("<td>in 5 chances of 30</td>"));
+  EXPECT_THAT(text, HasSubstr("70 cycles in which the game stood"));
+  EXPECT_THAT(text, Not(HasSubstr("not playing")));
+  two.data.held.clear();
+  EXPECT_THAT(held_section(two.view()), HasSubstr("no decision that held"));
+}
+
+TEST(PageKickList, TellsTheInstantByUtcAndByTheMatch) {
+  KickStory story = kick("moving", "on_target", 0.0, 0.5);
+  story.half = 2;
+  story.half_time_s = 184.52;
+  story.utc_ns = 1'795'510'033'120'000'000;
+  EXPECT_EQ(match_time_text(story), "2, 3:04.5");
+  EXPECT_EQ(instant_text(story), "2026-11-24 08:47:13.12");
+  story.half_time_s.reset();
+  story.utc_ns = story.t_ns = 73'200'000'000;
+  EXPECT_EQ(match_time_text(story), "2");
+  EXPECT_EQ(instant_text(story), "+73.20 s");
+}
+
+TEST(PageKickList, HasAReplayForEachUntilTheyAreTooMany) {
+  TwoPolicies two;
+  two.data.kicks.assign(kMostReplays, {0, kick("moving", "on_target", 0.0, 0.5)});
+  EXPECT_EQ(count(kick_list_section(two.view()), "data-replay="), kMostReplays);
+  two.data.kicks.push_back(two.data.kicks.front());
+  EXPECT_EQ(count(kick_list_section(two.view()), "data-replay="), 0U);
+  EXPECT_EQ(count(kick_list_section(two.view()), "<tr id="), kMostReplays + 1);
+}
+
+TEST(ReportPage, BinsAboveFiveThousandKicks) {
+  TwoPolicies two;
+  two.data.kicks.assign(kMostKicks + 1, {0, kick("moving", "on_target", 0.0, 0.5)});
+  const std::string text = to_html(two.report, two.data);
+  EXPECT_THAT(text, HasSubstr("Squares of 10 cm"));
+  EXPECT_THAT(text, HasSubstr("Squares of 50 cm"));
+  EXPECT_THAT(text, HasSubstr("5001 kicks are too many for a list"));
+  EXPECT_EQ(count(text, " data-kick="), 0U);
+  EXPECT_LT(text.size(), 200'000U);
+}
+
+TEST(ReportPage, SaysOnEveryFigureThatDataAreSimulated) {
+  TwoPolicies two;
+  two.data.kicks.assign(20, {0, kick("moving", "on_target", 0.0, 0.5)});
+  two.data.predictions = {{0.85, true}};
+  two.data.held = {{"moving", "not_aligned", 400, 30, {}}};
+  const std::string measured = to_html(two.report, two.data);
+  EXPECT_EQ(count(measured, "simulated: the simulation"), 0U);
+  two.report.sessions.resize(1);
+  two.report.sessions[0].simulated = true;
+  const std::string simulated = to_html(two.report, two.data);
+  EXPECT_EQ(count(simulated, "<figure"), 7U);
+  EXPECT_EQ(count(simulated, "class=\"simulated\""), 8U);  // and the replay
+}
+
+TEST(ReportPage, AsksForNothingAndIsTheSameEachTime) {
+  TwoPolicies two;
+  two.data.logs[0].name = "</title><script>alert(1)</script>";
+  two.data.kicks = {{0, kick("</script><script>alert(2)</script>", "on_target", 0.0, 0.5)}};
+  const std::string text = to_html(two.report, two.data);
+  EXPECT_EQ(text, to_html(two.report, two.data));
+  EXPECT_THAT(text, HasSubstr("default-src 'none'; script-src 'sha256-"));
+  EXPECT_EQ(count(text, "<script"), 2U);
+  EXPECT_EQ(count(text, "</script>"), 2U);
+  EXPECT_THAT(text, Not(HasSubstr("http://www.w3.org/1999")));
+  EXPECT_EQ(count(text, " src="), 0U);
+  EXPECT_THAT(text, Not(HasSubstr("unsafe")));
+}
+
+}  // namespace
+}  // namespace trivela::evaluator::page
