@@ -52,8 +52,8 @@ void say_keys(const security::KeyFolder& keys, const security::Validity& validit
                   fmt::gmtime(validity.to)));
 }
 
-std::vector<std::string> asked_nodes(const KeyFlags& flags) {
-  return flags.nodes.empty() ? security::usual_nodes() : flags.nodes;
+std::vector<std::string> asked_nodes(const KeyFlags& flags, std::uint32_t robot_id) {
+  return flags.nodes.empty() ? security::usual_nodes(robot_id) : flags.nodes;
 }
 
 void check_key_nodes(const KeyFlags& flags) try {
@@ -67,7 +67,7 @@ int init_keys(const KeyFlags& flags) {
   const auto validity = asked_validity(flags);
   const security::KeyFolder keys{flags.folder};
   keys.init(validity);
-  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags), validity);
+  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags, robot_id), validity);
   say_keys(keys, validity);
   return kDone;
 }
@@ -76,7 +76,7 @@ int issue_keys(const KeyFlags& flags) {
   check_key_nodes(flags);
   const auto validity = asked_validity(flags);
   const security::KeyFolder keys{flags.folder};
-  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags), validity);
+  for (const std::uint32_t robot_id : flags.robots) keys.issue(robot_id, asked_nodes(flags, robot_id), validity);
   say_keys(keys, validity);
   return kDone;
 }
@@ -95,8 +95,11 @@ int revoke_keys(const KeyFlags& flags) {
   const security::KeyFolder keys{flags.folder};
   for (const std::uint32_t robot_id : flags.robots) {
     if (flags.nodes.empty()) {
-      keys.revoke_robot(robot_id);
-      say(fmt::format("robot {}: forgotten; its nodes were strangers to every other robot before\n", robot_id));
+      keys.revoke_robot(robot_id, validity);
+      say(
+          fmt::format("robot {}: forgotten; copy the folders of all others, which have another authority of the team's "
+                      "bus\n",
+                      robot_id));
       continue;
     }
     for (const std::string& node : flags.nodes) keys.revoke(robot_id, node, validity);
@@ -127,9 +130,9 @@ CLI::App* add_key_verb(CLI::App& keys, const char* name, const char* what, const
 }
 
 void add_key_robots(CLI::App* verb, KeyFlags& flags, const char* nodes) {
-  verb->add_option("--robot", flags.robots, "numbers, such as 1,2,3")
+  verb->add_option("--robot", flags.robots, "numbers, such as 1,2,3; 0: the base")
       ->delimiter(',')
-      ->check(CLI::Range(1, 255))
+      ->check(CLI::Range(0, 255))
       ->required();
   verb->add_option("--node", flags.nodes, nodes)->delimiter(',');
 }

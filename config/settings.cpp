@@ -20,9 +20,14 @@
 namespace trivela::config {
 namespace {
 
-std::array<std::string*, 6> files_of(Settings& settings) {
-  return {&settings.run.robot,       &settings.run.scenario,   &settings.run.field_file,
-          &settings.domain.dds_file, &settings.hal.replay_log, &settings.kick_decision.learned_model};
+std::array<std::string*, 7> files_of(Settings& settings) {
+  return {&settings.run.robot,
+          &settings.run.scenario,
+          &settings.run.field_file,
+          &settings.domain.dds_file,
+          &settings.team_link.dds_file,
+          &settings.hal.replay_log,
+          &settings.kick_decision.learned_model};
 }
 
 /// Robot and world that the file does not name are the shipped ones, wherever it lies.

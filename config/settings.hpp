@@ -124,6 +124,8 @@ struct Simulator {
   bool paired_halves = false;         ///< every half has the possessions of the first
   double pace = 0.0;  ///< simulated seconds a second, at most, in lockstep; 0: as fast as the nodes answer
   SimulatedDevices devices = SimulatedDevices::kBus;
+  bool referee =
+      true;  ///< it says its referee's word; false: the robot hears another one, and the world goes on by its own
 };
 
 struct Recorder {
@@ -161,6 +163,15 @@ struct Refbox {
   double acknowledgement_s = 0.4;  ///< what we sent waits for longer: the connection is lost
 };
 
+/// This machine's place on the team's bus.
+struct TeamLink {
+  std::uint32_t domain_id = 43;  ///< of the team's bus
+  std::string dds_file;          ///< its Cyclone configuration
+  std::string interface;         ///< by which this machine is on it: joined anew where its address goes or comes
+  bool base = false;             ///< it is the base, which passes its referee on; else robot run.robot_id
+  bool referee = true;           ///< a robot's referee is the base's; false: it has one of its own
+};
+
 /// Everything a node takes from default.toml, defaults included.
 struct Settings {
   Run run;
@@ -178,6 +189,7 @@ struct Settings {
   Recorder recorder;
   ScanRecorder scan_recorder;
   Refbox refbox;
+  TeamLink team_link;
 };
 
 /// The defaults overridden by `path`; relative file names in it are relative to its folder, robot and scenario that it

@@ -304,6 +304,7 @@ void fields(V& v, Simulator& s) {
   v("paired_halves", s.paired_halves);
   v("pace", s.pace, Range{0.0, 1000.0});
   v("devices", s.devices);
+  v("referee", s.referee);
 }
 
 template <class V>
@@ -345,6 +346,15 @@ void fields(V& v, Refbox& r) {
 }
 
 template <class V>
+void fields(V& v, TeamLink& t) {
+  v("domain_id", t.domain_id, Range{0, 100});
+  v("dds_file", t.dds_file);
+  v("interface", t.interface);
+  v("base", t.base);
+  v("referee", t.referee);
+}
+
+template <class V>
 void fields(V& v, Settings& s) {
   v("run", s.run);
   v("domain", s.domain);
@@ -362,6 +372,7 @@ void fields(V& v, Settings& s) {
   v("recorder", s.recorder);
   v("scan_recorder", s.scan_recorder);
   v("refbox", s.refbox);
+  v("team_link", s.team_link);
 }
 
 }  // namespace trivela::config

@@ -19,6 +19,7 @@ Settings beginning(const Team& team, const std::string& file) {
   settings.domain.domain_id = team.domains.robot;
   settings.domain.dds_file.clear();
   settings.refbox.team_name = team.team.name;
+  settings.team_link.domain_id = team.domains.team;
   if (!team.team.group.empty())
     settings.refbox.group = team.team.group;
   else if (team.team.number > 0)
@@ -42,6 +43,7 @@ Settings settings_of(const Team& team, const TeamRobot& robot) {
   settings.run.robot = robot.robot;
   settings.domain.tag = tag_of(team, robot);
   settings.recorder.log = logs_of(team, "{robot}");
+  settings.team_link.interface = team.interface_of(robot);
   if (robot.policy) {
     settings.kick_decision.policy_by_half = {*robot.policy};
     settings.kick_decision.policy_by_robot.clear();
@@ -56,6 +58,8 @@ Settings settings_of_base(const Team& team) {
   Settings settings = beginning(team, team.team.settings);
   settings.domain.tag = team.team.name + "-base";
   settings.recorder.log = logs_of(team, "base");
+  settings.team_link.interface = team.interface_of_base();
+  settings.team_link.base = true;
   settings.refbox.robots.clear();
   for (const TeamRobot& robot : team.robots) settings.refbox.robots.push_back(robot.number);
   if (!team.robots.empty()) {

@@ -5,6 +5,7 @@
 #include "idl/kick.hpp"
 #include "idl/robot.hpp"
 #include "idl/sim.hpp"
+#include "idl/team.hpp"
 
 namespace trivela::bus {
 
@@ -15,6 +16,7 @@ constexpr void for_each_message(F&& f) {
   for_each_message_of_kick(f);
   for_each_message_of_device(f);
   for_each_message_of_sim(f);
+  for_each_message_of_team(f);
 }
 
 }  // namespace trivela::bus

@@ -67,12 +67,13 @@ template <class T, class F>
 requires Struct<std::remove_reference_t<T>>
 constexpr void visit_fields(T&& message, F&& f) { meta<std::remove_cvref_t<T>>::visit(message, f); }
 
-/// Calls f(name, field) for each field that is a value and no array: the columns of the message in a table.
+/// Calls f(name, field) for each field that is a value, no array and no struct: the columns of the message in a table.
 template <class T, class F>
 requires Struct<std::remove_reference_t<T>>
 constexpr void visit_columns(T&& message, F&& f) {
   visit_fields(message, [&](std::string_view name, std::string_view, auto& field) {
-    if constexpr (!std::is_array_v<std::remove_cvref_t<decltype(field)>>) f(name, field);
+    using Value = std::remove_cvref_t<decltype(field)>;
+    if constexpr (!std::is_array_v<Value> && !Struct<Value>) f(name, field);
   });
 }
 

@@ -38,8 +38,8 @@ std::string instant(std::chrono::sys_seconds t) { return fmt::format("{:%Y-%m-%d
 
 std::string governance_xml() {
   std::string rules;
-  for (const std::string_view topic :
-       {bus::meta<msg::KickOrder>::topic, bus::meta<msg::KickerStatus>::topic, bus::meta<msg::Referee>::topic})
+  for (const std::string_view topic : {bus::meta<msg::KickOrder>::topic, bus::meta<msg::KickerStatus>::topic,
+                                       bus::meta<msg::Referee>::topic, bus::meta<msg::TeamState>::topic})
     rules += topic_rule(topic, true);
   rules += topic_rule("*", false);  // the first rule that fits counts
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>

@@ -53,21 +53,22 @@ struct Authorities {
   Certificate permissions;
 };
 
-void check_node(const fs::path& folder, std::uint32_t robot_id, const std::string& node, const Authorities& authorities,
+void check_node(const fs::path& folder, std::uint32_t robot_id, const Rights& rights, const Authorities& authorities,
                 std::chrono::sys_seconds now, Faults& faults) {
+  const std::string& node = rights.node;
   const fs::path file = folder / (node + ".pem");
   const Certificate certificate = read_certificate(file);
   if (!belongs(read_key(folder / (node + ".key")), certificate))
     faults.push_back(fmt::format("{}: is not of the key beside it", file.string()));
   if (!is_signed_by(certificate, authorities.identity))
-    faults.push_back(fmt::format("{}: is not signed by the robot's identity authority", file.string()));
+    faults.push_back(fmt::format("{}: is not signed by the identity authority beside it", file.string()));
   const std::string subject = "O=Trivela,CN=" + common_name(node, robot_id);
   if (subject_of(certificate) != subject)
     faults.push_back(fmt::format("{}: is of {}, must be of {}", file.string(), subject_of(certificate), subject));
   const Validity validity = validity_of(certificate);
   check_clock(file, validity, now, faults);
-  check_document(folder / (node + ".p7s"), authorities.permissions,
-                 permissions_xml(rights_of(node), robot_id, validity), faults);
+  check_document(folder / (node + ".p7s"), authorities.permissions, permissions_xml(rights, robot_id, validity),
+                 faults);
 }
 
 void check_authorities(const fs::path& folder, const Authorities& authorities, std::chrono::sys_seconds now,
@@ -87,6 +88,18 @@ void noting(Faults& faults, const auto& check) try { check(); } catch (const std
   faults.emplace_back(error.what());
 }
 
+/// The keys of one bus: a robot's own, or the team's.
+void check_bus(const fs::path& folder, std::uint32_t robot_id, const std::vector<Rights>& nodes,
+               std::chrono::sys_seconds now, Faults& faults) {
+  noting(faults, [&] {
+    check_modes(folder, faults);
+    const Authorities authorities{folder};
+    check_authorities(folder, authorities, now, faults);
+    for (const Rights& rights : nodes)
+      noting(faults, [&] { check_node(folder, robot_id, rights, authorities, now, faults); });
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_seconds now) {
@@ -95,13 +108,10 @@ std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_sec
   if (robots.empty()) faults.push_back(fmt::format("{}: has no keys of a robot", folder.path().string()));
   for (const std::uint32_t robot_id : robots) {
     const fs::path of_robot = folder.robot_folder(robot_id);
-    noting(faults, [&] {
-      check_modes(of_robot, faults);
-      const Authorities authorities{of_robot};
-      check_authorities(of_robot, authorities, now, faults);
-      for (const std::string& node : folder.nodes(robot_id))
-        noting(faults, [&] { check_node(of_robot, robot_id, node, authorities, now, faults); });
-    });
+    std::vector<Rights> of_nodes;
+    for (const std::string& node : folder.nodes(robot_id)) noting(faults, [&] { of_nodes.push_back(rights_of(node)); });
+    check_bus(of_robot, robot_id, of_nodes, now, faults);
+    check_bus(of_robot / "team", robot_id, {rights_on_team_bus(robot_id)}, now, faults);
   }
   return faults;
 }

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kRobotPrefix = "robot_";
+constexpr const char* kTeamAuthority = "identity_ca_team";
 // Authorities outlive tournaments; what ends after a week is what they sign.
 constexpr std::chrono::days kAuthorityLife{3650};
 
@@ -39,10 +40,10 @@ std::string identity_authority(std::uint32_t robot_id) { return fmt::format("ide
 
 }  // namespace
 
-std::vector<std::string> usual_nodes() {
+std::vector<std::string> usual_nodes(std::uint32_t robot_id) {
   std::vector<std::string> names;
   for (const Rights& rights : all_rights())
-    if (rights.on_robot) names.push_back(rights.node);
+    if (robot_id == 0 ? rights.on_base : rights.on_robot) names.push_back(rights.node);
   return names;
 }
 
@@ -96,6 +97,10 @@ void KeyFolder::make_identity_authority(std::uint32_t robot_id, const Validity& 
                   validity);
 }
 
+void KeyFolder::make_team_authority(const Validity& validity) const {
+  write_authority(authority() / kTeamAuthority, "Identity CA of the team's bus", validity);
+}
+
 void KeyFolder::issue(std::uint32_t robot_id, const std::vector<std::string>& nodes, const Validity& validity) const {
   require_authority();
   std::set<std::string> all(nodes.begin(), nodes.end());
@@ -119,38 +124,56 @@ void KeyFolder::revoke(std::uint32_t robot_id, const std::string& node, const Va
   write_robot(robot_id, left, validity);
 }
 
-void KeyFolder::revoke_robot(std::uint32_t robot_id) const {
+void KeyFolder::revoke_robot(std::uint32_t robot_id, const Validity& validity) const {
   require_authority();
   if (!fs::exists(robot_folder(robot_id)))
     throw std::runtime_error{fmt::format("{}: is not there", robot_folder(robot_id).string())};
   for (const char* ending : {".key", ".pem"}) fs::remove(authority() / (identity_authority(robot_id) + ending));
   fs::remove_all(robot_folder(robot_id));
+  make_team_authority(validity);
+  renew(validity);
 }
+
+namespace {
+
+/// The folder of one bus: whom its nodes believe.
+void write_bus(const fs::path& folder, const Authority& identity, const Authority& permissions) {
+  if (same_public_key(identity.certificate, permissions.certificate))
+    throw std::runtime_error{
+        fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)", folder.string())};
+  make_private_folder(folder);
+  write_private_file(folder / "identity_ca.pem", pem_of(identity.certificate));
+  write_private_file(folder / "permissions_ca.pem", pem_of(permissions.certificate));
+  write_private_file(folder / "governance.p7s",
+                     signed_document(governance_xml(), permissions.certificate, permissions.key));
+}
+
+void write_identity(const fs::path& folder, const Rights& rights, std::uint32_t robot_id, const Authority& identity,
+                    const Authority& permissions, const Validity& validity) {
+  const Key key = new_key();
+  const Certificate certificate =
+      new_identity(key, common_name(rights.node, robot_id), validity, identity.certificate, identity.key);
+  write_private_file(folder / (rights.node + ".key"), pem_of(key));
+  write_private_file(folder / (rights.node + ".pem"), pem_of(certificate));
+  write_private_file(folder / (rights.node + ".p7s"), signed_document(permissions_xml(rights, robot_id, validity),
+                                                                      permissions.certificate, permissions.key));
+}
+
+}  // namespace
 
 void KeyFolder::write_robot(std::uint32_t robot_id, const std::vector<std::string>& nodes,
                             const Validity& validity) const {
+  if (!fs::exists(authority() / fmt::format("{}.key", kTeamAuthority))) make_team_authority(validity);
   const Authority identity{authority() / identity_authority(robot_id)};
+  const Authority of_team{authority() / kTeamAuthority};
   const Authority permissions{authority() / "permissions_ca"};
-  if (same_public_key(identity.certificate, permissions.certificate))
-    throw std::runtime_error{
-        fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)", authority().string())};
   const fs::path made = folder_ / fmt::format(".new_{}{}", kRobotPrefix, robot_id);
   fs::remove_all(made);
-  make_private_folder(made);
-  write_private_file(made / "identity_ca.pem", pem_of(identity.certificate));
-  write_private_file(made / "permissions_ca.pem", pem_of(permissions.certificate));
-  const auto sign = [&](const std::string& text) {
-    return signed_document(text, permissions.certificate, permissions.key);
-  };
-  write_private_file(made / "governance.p7s", sign(governance_xml()));
-  for (const std::string& node : nodes) {
-    const Key key = new_key();
-    const Certificate certificate =
-        new_identity(key, common_name(node, robot_id), validity, identity.certificate, identity.key);
-    write_private_file(made / (node + ".key"), pem_of(key));
-    write_private_file(made / (node + ".pem"), pem_of(certificate));
-    write_private_file(made / (node + ".p7s"), sign(permissions_xml(rights_of(node), robot_id, validity)));
-  }
+  write_bus(made, identity, permissions);
+  for (const std::string& node : nodes)
+    write_identity(made, rights_of(node), robot_id, identity, permissions, validity);
+  write_bus(made / "team", of_team, permissions);
+  write_identity(made / "team", rights_on_team_bus(robot_id), robot_id, of_team, permissions, validity);
   fs::remove_all(robot_folder(robot_id));
   fs::rename(made, robot_folder(robot_id));
 }

@@ -11,13 +11,16 @@ namespace trivela::security {
 
 /// A team's keys, a folder that its owner alone may read:
 ///
-///     authority/   permissions_ca.{pem,key}, identity_ca_N.{pem,key}: never leaves the team's own machine
+///     authority/   permissions_ca.{pem,key}, identity_ca_N.{pem,key}, identity_ca_team.{pem,key}: never leaves the
+///                  team's own machine
 ///     robot_N/     all that is copied to robot N: identity_ca.pem, permissions_ca.pem, governance.p7s,
-///                  and NODE.pem, NODE.key, NODE.p7s of each node
+///                  and NODE.pem, NODE.key, NODE.p7s of each node; robot_0 is the base's
+///     robot_N/team the same for the bus between the machines, with team_bus.{pem,key,p7s} alone
 ///
 /// Each robot has an identity authority of its own: a node of another robot is a stranger there, whatever it may do at
-/// home. Every function writes a robot's folder anew beside the old one and then puts it in its place; throws
-/// std::runtime_error, std::invalid_argument (a kind of node that is none) or std::filesystem::filesystem_error.
+/// home. On the team's bus all have one authority in common, which nobody asks anywhere else. Every function writes a
+/// robot's folder anew beside the old one and then puts it in its place; throws std::runtime_error,
+/// std::invalid_argument (a kind of node that is none) or std::filesystem::filesystem_error.
 class KeyFolder {
  public:
   explicit KeyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -36,8 +39,9 @@ class KeyFolder {
   /// no more on this robot once its folder has been copied there.
   void revoke(std::uint32_t robot_id, const std::string& node, const Validity& validity) const;
 
-  /// Forgets the robot. No other robot has to be told: none ever trusted its authority.
-  void revoke_robot(std::uint32_t robot_id) const;
+  /// Forgets the robot, and gives all others another authority of the team's bus, which it was known by: their folders
+  /// have to be copied. On their own buses none ever trusted it.
+  void revoke_robot(std::uint32_t robot_id, const Validity& validity) const;
 
   std::vector<std::uint32_t> robots() const;
   /// Nodes of a robot that have an identity, sorted.
@@ -49,12 +53,14 @@ class KeyFolder {
   std::filesystem::path authority() const { return folder_ / "authority"; }
   void make_identity_authority(std::uint32_t robot_id, const Validity& validity) const;
   void require_authority() const;
+  void make_team_authority(const Validity& validity) const;
   void write_robot(std::uint32_t robot_id, const std::vector<std::string>& nodes, const Validity& validity) const;
 
   std::filesystem::path folder_;
 };
 
-/// What a robot has by default: every kind of node but those that stand in for the world.
-std::vector<std::string> usual_nodes();
+/// What a robot has by default: every kind of node but those that stand in for the world; the base (robot 0) those that
+/// run there.
+std::vector<std::string> usual_nodes(std::uint32_t robot_id);
 
 }  // namespace trivela::security

@@ -55,9 +55,11 @@ std::vector<Rights> of_the_chain() {
       {"kicker_driver", these<KickerStatus, KickReceipt, DeviceFire, DeviceCharge, DeviceEmulated, StepDone>(),
        topics(nodes::KickerDriverInputs{})},
       {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},
-      {"recorder", these<StepDone>(), recorded()},
+      {"recorder", these<StepDone>(), recorded(), true, true},
       {"scan_recorder", these<DeviceEmulated, StepDone>(), topics(nodes::ScanRecorderInputs{})},
-      {"refbox", these<Referee, DeviceEmulated>(), these<WorldState>()},
+      {"refbox", these<Referee, DeviceEmulated>(), these<WorldState, TeamHeard>(), true, true},
+      {"team_link", these<TeamHeard, Referee>(),
+       these<WorldState, KickerStatus, KickDecision, Referee, VisionFrame, DriveCommand>(), true, true},
       {"monitor", {}, looked_at()},
   };
 }
@@ -93,6 +95,12 @@ const Rights& rights_of(std::string_view node) {
   std::vector<std::string> known;
   for (const Rights& rights : all_rights()) known.push_back(rights.node);
   throw std::invalid_argument{fmt::format("\"{}\" is no kind of node; there are {}", node, fmt::join(known, ", "))};
+}
+
+Rights rights_on_team_bus(std::uint32_t robot_id) {
+  using namespace msg;
+  if (robot_id == 0) return {"team_bus", these<TeamState, Referee>(), these<TeamState>()};
+  return {"team_bus", these<TeamState>(), these<TeamState, Referee>()};
 }
 
 std::string common_name(std::string_view node, std::uint32_t robot_id) { return fmt::format("{}.{}", node, robot_id); }

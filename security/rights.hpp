@@ -15,11 +15,17 @@ struct Rights {
   /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has
   /// not, since it may write what referee and devices say.
   bool on_robot = true;
+  /// And on the base.
+  bool on_base = false;
 };
 
 /// Of every kind of node, in the order of the chain; what the programs take and write (nodes/runtime/readers.hpp), and
 /// the team's own processes of idl/README.md.
 const std::vector<Rights>& all_rights();
+
+/// A machine's identity on the team's bus, where its team_link speaks: it says its state and hears the others', and the
+/// base (robot 0) says the referee's word too. The name is not its own bus's: permissions of there are none of here.
+Rights rights_on_team_bus(std::uint32_t robot_id);
 
 /// Of one kind. Throws std::invalid_argument naming it and the known ones if there is none.
 const Rights& rights_of(std::string_view node);

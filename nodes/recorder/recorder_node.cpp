@@ -18,6 +18,8 @@
 
 namespace trivela::nodes {
 
+constexpr double kTeamPeriod_s = 0.35;  // a second without a state is a silence: on the air a few are lost in a row
+
 using evaluator::log::LossKind;
 using evaluator::log::TableId;
 
@@ -27,6 +29,7 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
       node_(context.participant, "recorder"),
       shadows_(log.table(robot::table_of<msg::ShadowDecision>(), robot::shadow_columns())),
       assignments_(log.table("assignments", robot::assignment_columns())),
+      clocks_(log),
       step_done_(step_done_writer(context, node_)),
       state_(std::move(state)) {
   if (!context.settings.run.lockstep) {
@@ -39,6 +42,11 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
       if (const auto table = evaluator::log::table_of_message(bus::meta<T>::name)) record<T>(*table);
     }
   });
+  if (state_->silences) {
+    bus::ReaderOptions everything;
+    everything.keep_all = true;
+    node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) { store_heard(heard); }, {}, everything);
+  }
   node_.on<msg::DeviceEmulated>([this](const msg::DeviceEmulated&) { note_simulation(false); }, bus::writes<>());
 }
 
@@ -108,6 +116,28 @@ void RecorderNode::record(const std::string& table) {
         if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
+}
+
+/// The other's clock once a second, and his silences: of a robot by its number, of the base by that of who heard.
+void RecorderNode::store_heard(const msg::TeamHeard& heard) {
+  constexpr std::int64_t kEvery_ns = 1'000'000'000;
+  if (!context_.participant.believes(heard.t_ns)) return;
+  const std::int64_t other = heard.other_robot_id;
+  if (other > 0) {
+    const std::size_t voice = state_->silences->add("team_state", kTeamPeriod_s);
+    state_->silences->heard(voice, heard.other_robot_id, heard.t_ns);
+  } else {
+    const std::size_t voice = state_->silences->add("team_state of the base", kTeamPeriod_s);
+    state_->silences->heard(voice, heard.robot_id, heard.t_ns);
+  }
+  const auto last = state_->clocks.find(heard.other_robot_id);
+  if (!heard.clock_known || (last != state_->clocks.end() && heard.t_ns - last->second < kEvery_ns)) return;
+  state_->clocks[heard.other_robot_id] = heard.t_ns;
+  clocks_.push({.robot_id = heard.robot_id,
+                .other_robot_id = heard.other_robot_id,
+                .t_ns = heard.t_ns,
+                .offset_ns = heard.offset_ns,
+                .error_ns = std::max<std::int64_t>(heard.error_ns, 0)});
 }
 
 void RecorderNode::report_cycle(std::size_t stream, std::int64_t t_ns) {

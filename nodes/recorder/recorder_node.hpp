@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "evaluator/log/clock_offsets.hpp"
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/recording_state.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -40,12 +41,15 @@ class RecorderNode {
   /// A writer of truth is there, or else an emulated device: the log says so, once. For any thread.
   void note_simulation(bool truth);
 
+  void store_heard(const msg::TeamHeard& heard);
+
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
   NodeContext& context_;
   evaluator::log::Writer& log_;
   bus::Node node_;
   evaluator::log::TableId shadows_, assignments_;
+  evaluator::log::ClockOffsetWriter clocks_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::mutex mutex_;  // of cycles_
   robot::CycleWatch cycles_;

@@ -33,6 +33,7 @@ struct StreamWatch {
 struct RecordingState {
   std::map<std::string, StreamWatch> streams;              ///< by table
   std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for
+  std::map<std::uint8_t, std::int64_t> clocks;             ///< when another participant's clock was noted last
   std::shared_ptr<SilenceRecord> silences;                 ///< none in lockstep
   std::atomic<bool> emulated = false;                      ///< the log says that the session is simulated
   std::atomic<bool> truth_told = false;                    ///< and in which world

@@ -37,6 +37,8 @@ struct NodeContext {
   std::function<std::int64_t()> steady_ns = [] { return now_ns(std::chrono::steady_clock::now()); };
   /// Who started this process and waits for its signs of life; null: nobody.
   std::shared_ptr<Supervisor> supervisor = {};
+  /// Folder of keys; empty: the bus is not secured.
+  std::string keys = {};
 
   std::uint8_t robot_id() const { return static_cast<std::uint8_t>(settings.run.robot_id); }
   std::chrono::nanoseconds cycle() const;

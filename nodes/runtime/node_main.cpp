@@ -60,7 +60,11 @@ bus::DomainConfig domain_of(const config::Domain& domain) {
 bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node) {
   bus::DomainConfig domain = domain_of(settings.domain);
   if (keys.empty()) return domain;
-  return bus::secured(domain, std::filesystem::path{keys} / fmt::format("robot_{}", settings.run.robot_id), node);
+  return bus::secured(domain, std::filesystem::path{keys} / key_folder_of(settings), node);
+}
+
+std::string key_folder_of(const config::Settings& settings) {
+  return fmt::format("robot_{}", settings.team_link.base ? 0 : settings.run.robot_id);
 }
 
 namespace {
@@ -90,7 +94,7 @@ bus::Participant join(const config::Settings& settings, const bus::DomainConfig&
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know
 /// anew. Should that not help either, since the other side is silent, each stays longer than the one before.
 void run_as_member(const config::Settings& settings, const config::Robot& robot, const bus::DomainConfig& domain,
-                   const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
+                   const std::string& keys, const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
   const auto supervisor = Supervisor::of_environment();
   constexpr std::chrono::seconds kShortestStay{5};
@@ -99,6 +103,7 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
     try {
       NodeContext context{settings, robot, join(settings, domain, logger, stay), logger, stop};
       context.supervisor = supervisor;
+      context.keys = keys;
       logger->info("robot {} ({}) in domain {}{}", settings.run.robot_id, robot.name, settings.domain.domain_id,
                    domain.xml.find("<Security>") == std::string::npos ? "" : ", secured");
       return body(context);
@@ -143,7 +148,7 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     if (flags.realtime_priority > 0) warn_of_refusals(bus::set_realtime(flags.realtime_priority), *logger);
     const bus::LibraryLog library{
         [logger](bool severe, std::string_view text) { logger->log(level_of(severe, text), "dds: {}", text); }};
-    run_as_member(settings, robot, domain_of(settings, flags.keys, name), logger, stop, body);
+    run_as_member(settings, robot, domain_of(settings, flags.keys, name), flags.keys, logger, stop, body);
     logger->info("stopped");
     return 0;
   } catch (const std::exception& error) {

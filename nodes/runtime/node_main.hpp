@@ -17,6 +17,9 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
 /// Where the nodes of these settings meet.
 bus::DomainConfig domain_of(const config::Domain& domain);
 
+/// The folder of a machine's keys in that of all: "robot_3"; of the base "robot_0".
+std::string key_folder_of(const config::Settings& settings);
+
 /// The same for a node that has its identity in the folder of keys (security/key_folder.hpp), where that is not empty.
 /// Throws bus::Error as bus::secured does.
 bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node);

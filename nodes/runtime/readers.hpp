@@ -26,9 +26,9 @@ using KickerDriverInputs = Inputs<msg::DeviceKicker, msg::KickOrder, msg::Refere
 using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;
 using ScanRecorderInputs = Inputs<msg::SimScan, msg::KickReceipt>;  // where it is enabled
 
-/// What the recorder leaves out: the devices' own.
+/// What the recorder leaves out: the devices' own, and what is on the team's bus alone.
 using NotRecorded = Inputs<msg::DeviceWheels, msg::DeviceGyro, msg::DeviceDrive, msg::DeviceKicker, msg::DeviceFire,
-                           msg::DeviceCharge, msg::SimScan, msg::StepDone>;
+                           msg::DeviceCharge, msg::SimScan, msg::StepDone, msg::TeamState>;
 
 /// How many nodes of a match read T.
 template <bus::Message T>

@@ -71,7 +71,10 @@ SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
   } else {
     kicker_.emplace(context.participant);
   }
-  if (devices_ == nullptr) referee_.emplace(context.participant, referee_of(context.robot_id()));
+  if (!context.settings.simulator.referee && context.settings.run.lockstep)
+    throw std::runtime_error{"simulator.referee = false: in lockstep nobody else says the referee's word of a cycle"};
+  if (devices_ == nullptr && context.settings.simulator.referee)
+    referee_.emplace(context.participant, referee_of(context.robot_id()));
   refuse_twins();
 }
 

@@ -12,6 +12,7 @@ namespace {
 config::Settings set_up(config::Settings settings) {
   settings.domain.domain_id = config::Domain{}.domain_id;
   settings.domain.tag = config::Domain{}.tag;
+  settings.team_link = config::TeamLink{};
   settings.recorder.log = config::Recorder{}.log;
   settings.scan_recorder.file = config::ScanRecorder{}.file;
   settings.run.team = config::Run{}.team;

@@ -62,6 +62,7 @@ TEST(TeamFiles, SettingsReadBackAreThoseOfTheTeam) {
   const Settings read = load_settings(written.path());
   Settings meant = settings_of(team, *robot);
   meant.run.robot = std::filesystem::absolute(meant.run.robot).lexically_normal().string();
+  meant.team_link.dds_file = "/etc/trivela/here/team_bus.xml";
   meant.run.scenario = read.run.scenario;  // the simulator's
   EXPECT_EQ(to_toml_text(read), to_toml_text(meant));
   EXPECT_EQ(read.run.robot_id, 2u);
@@ -73,6 +74,9 @@ TEST(TeamFiles, SettingsOfTheBaseReadBackNameEveryRobot) {
   const Settings read = load_settings(written.path());
   EXPECT_THAT(read.refbox.robots, ElementsAre(1, 2, 3, 4, 5));
   EXPECT_EQ(read.domain.tag, "example-base");
+  EXPECT_TRUE(read.team_link.base);
+  EXPECT_EQ(read.team_link.interface, "eth0");
+  EXPECT_EQ(read.team_link.domain_id, team.domains.team);
 }
 
 TEST(TeamFiles, TheSameTeamGivesTheSameFiles) {
@@ -91,7 +95,7 @@ TEST(TeamFiles, TheEnvironmentNamesWhatTheLauncherReads) {
               HasSubstr("CYCLONEDDS_URI=\"file:///etc/trivela/cyclonedds/loopback.xml\"\nTRIVELA_TAG=\"example-1\"\n"));
   EXPECT_THAT(robot, HasSubstr("TRIVELA_FLAGS_kicker_driver=\"--realtime 50\"\n"));
   const std::string base = text_in(team_files(team, nullptr, "/here", ""), "robot.env");
-  EXPECT_THAT(base, HasSubstr("TRIVELA_NODES=\"recorder refbox\"\n"));
+  EXPECT_THAT(base, HasSubstr("TRIVELA_NODES=\"recorder team_link refbox\"\n"));
   EXPECT_THAT(base, Not(HasSubstr("TRIVELA_CONFIG")));
 }
 

@@ -26,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestFrame = 2048;
 constexpr std::size_t kMostBits = 8;  // turned over in a datagram
 constexpr std::size_t kMostConfined = 4;
+constexpr std::size_t kMostOverheard = 2000;
 
 struct Waiting {
   Clock::time_point due;
@@ -50,6 +51,8 @@ struct Hub::Impl {
   mutable std::mutex mutex;
   Ways ways;                                          // under the mutex
   HubCounts counts;                                   // under the mutex
+  std::deque<std::vector<std::uint8_t>> overheard;    // under the mutex
+  AirMeter meter;                                     // under the mutex
   std::deque<std::pair<Guid, std::size_t>> confined;  // under the mutex
   std::optional<std::size_t> keeps_garbled;           // under the mutex
   std::vector<GarbledFrame> garbled;                  // under the mutex
@@ -74,6 +77,12 @@ struct Hub::Impl {
     }
   }
 
+  void note(Frame payload) {
+    if (payload.empty()) return;
+    overheard.emplace_back(payload.begin(), payload.end());
+    if (overheard.size() > kMostOverheard) overheard.pop_front();
+  }
+
   void deliver_what_is_due() {
     const auto now = Clock::now();
     while (!waiting.empty() && waiting.top().due <= now) {
@@ -89,6 +98,11 @@ struct Hub::Impl {
       const ssize_t size = read(cables[from].descriptor, buffer.data(), buffer.size());
       if (size <= 0) return;
       const Frame frame{buffer.data(), static_cast<std::size_t>(size)};
+      {
+        const std::lock_guard lock{mutex};
+        meter.count(frame);
+        note(udp_payload(frame));
+      }
       const auto receiver = receiver_of(frame);
       for (std::size_t to = 0; to < cables.size(); ++to) {
         if (to != from && (!receiver || *receiver == cables[to].number)) send(from, to, frame);
@@ -158,6 +172,16 @@ void Hub::keep_garbled(std::size_t to) {
 std::vector<GarbledFrame> Hub::garbled() const {
   const std::lock_guard lock{impl_->mutex};
   return impl_->garbled;
+}
+
+std::vector<std::vector<std::uint8_t>> Hub::overheard() const {
+  const std::lock_guard lock{impl_->mutex};
+  return {impl_->overheard.begin(), impl_->overheard.end()};
+}
+
+AirMeter Hub::meter() const {
+  const std::lock_guard lock{impl_->mutex};
+  return impl_->meter;
 }
 
 HubCounts Hub::counts() const {

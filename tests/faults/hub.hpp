@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/faults/air_meter.hpp"
 #include "tests/faults/rtps_writer.hpp"
 
 namespace trivela::faults {
@@ -58,6 +59,12 @@ class Hub {
   void confine(const Guid& writer, std::size_t listener);
 
   HubCounts counts() const;
+
+  /// The UDP payloads that hosts sent last, as anybody on the air has them.
+  std::vector<std::vector<std::uint8_t>> overheard() const;
+
+  /// What hosts have sent, by what it carries.
+  AirMeter meter() const;
 
   /// Keeps what is garbled on its way to the host at place `to`, from now on.
   void keep_garbled(std::size_t to);

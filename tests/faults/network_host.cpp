@@ -46,12 +46,15 @@ void bring_up(int socket, const char* interface) {
   checked(ioctl(socket, SIOCSIFFLAGS, &request), interface);
 }
 
-void give_address(int socket, const char* interface, std::uint8_t number) {
+void give_mac(int socket, const char* interface, std::uint8_t number) {
   ifreq mac = request_for(interface);
   mac.ifr_hwaddr.sa_family = ARPHRD_ETHER;
   const unsigned char bytes[6] = {2, 0, 0, 0, 0, number};
   std::memcpy(mac.ifr_hwaddr.sa_data, bytes, sizeof bytes);
   checked(ioctl(socket, SIOCSIFHWADDR, &mac), "MAC address");
+}
+
+void give_address_to(int socket, const char* interface, std::uint8_t number) {
   ifreq address = request_for(interface);
   address.ifr_addr = inet(fmt::format("10.77.0.{}", number));
   checked(ioctl(socket, SIOCSIFADDR, &address), "address");
@@ -79,14 +82,15 @@ void enter_new_network(std::uint8_t number, int& cable, int& network) {
   cable = open_cable();
   const int socket = checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), "socket");
   bring_up(socket, "lo");
-  give_address(socket, "tap0", number);
+  give_mac(socket, "tap0", number);
+  give_address_to(socket, "tap0", number);
   bring_up(socket, "tap0");
   close(socket);
 }
 
 }  // namespace
 
-NetworkHost::NetworkHost(std::uint8_t number) {
+NetworkHost::NetworkHost(std::uint8_t number) : number_(number) {
   // A namespace belongs to a thread: this one goes, what it opened stays.
   std::exception_ptr failure;
   std::thread{[&] {
@@ -103,7 +107,8 @@ NetworkHost::NetworkHost(std::uint8_t number) {
   std::rethrow_exception(failure);
 }
 
-NetworkHost::NetworkHost(NetworkHost&& other) noexcept : cable_(other.cable_), network_(other.network_) {
+NetworkHost::NetworkHost(NetworkHost&& other) noexcept
+    : number_(other.number_), cable_(other.cable_), network_(other.network_) {
   other.cable_ = other.network_ = -1;
 }
 
@@ -111,6 +116,41 @@ NetworkHost::~NetworkHost() {
   for (const int descriptor : {cable_, network_}) {
     if (descriptor >= 0) close(descriptor);
   }
+}
+
+namespace {
+
+/// Does it on the host: in a thread, to which a namespace belongs.
+void on_host(int network, const auto& act) {
+  std::exception_ptr failure;
+  std::thread{[&] {
+    try {
+      checked(setns(network, CLONE_NEWNET), "setns");
+      const int socket = checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), "socket");
+      act(socket);
+      close(socket);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }}.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+void NetworkHost::lose_address() const {
+  on_host(network_, [](int socket) {
+    ifreq request = request_for("tap0");
+    request.ifr_addr = inet("0.0.0.0");
+    checked(ioctl(socket, SIOCSIFADDR, &request), "no address");
+  });
+}
+
+void NetworkHost::give_address() const {
+  on_host(network_, [this](int socket) {
+    give_address_to(socket, "tap0", number_);
+    bring_up(socket, "tap0");
+  });
 }
 
 std::string NetworkHost::obstacle() {

@@ -19,6 +19,10 @@ class NetworkHost {
   /// What stands in the way of hosts on this machine; empty: nothing.
   static std::string obstacle();
 
+  /// Takes the interface's address away, and gives it back.
+  void lose_address() const;
+  void give_address() const;
+
   /// The end of the cable: a read is a frame that the host sends, a write one that it receives. Does not block.
   int cable() const { return cable_; }
 
@@ -26,6 +30,7 @@ class NetworkHost {
   int network() const { return network_; }
 
  private:
+  std::uint8_t number_ = 0;
   int cable_ = -1;
   int network_ = -1;
 };

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,6 +19,7 @@ struct ProcessPlan {
   std::map<std::string, std::string> environment;  ///< on top of ours
   std::filesystem::path says;                      ///< file that its standard output and error are added to
   int network = -1;                                ///< namespace to run in; -1: ours
+  std::int64_t clock_ahead_ns = 0;                 ///< of CLOCK_MONOTONIC, in a time namespace; 0: ours
   int output = -1;                                 ///< standard output instead, e.g. a pipe's end
 };
 
@@ -34,6 +36,8 @@ class NodeProcess {
 
   /// SIGRTMIN with a value; several come one after the other.
   void tell(int value) const;
+
+  int pid() const { return pid_; }
 
   /// Readable when it has ended.
   int file_descriptor() const { return pid_fd_; }

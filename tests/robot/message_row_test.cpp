@@ -23,8 +23,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 class MessageRowTest : public evaluator::LogTest {};
 
 /// What is said on the bus and stands in no log.
-const std::set<std::string> kNotRecorded{"DeviceWheels", "DeviceGyro",     "DeviceDrive", "DeviceKicker", "DeviceFire",
-                                         "DeviceCharge", "DeviceEmulated", "SimScan",     "StepDone"};
+const std::set<std::string> kNotRecorded{"DeviceWheels", "DeviceGyro",   "DeviceDrive",    "DeviceKicker",
+                                         "DeviceFire",   "DeviceCharge", "DeviceEmulated", "SimScan",
+                                         "StepDone",     "TeamHeard",    "TeamState"};
 
 /// Calls f.operator()<T>(table) for each message with a table of the log.
 template <class F>

@@ -43,8 +43,10 @@ TEST_F(Keys, AsTheyAreMadeNothingIsWrong) {
 TEST_F(Keys, NobodyElseCanReadThem) {
   for (const fs::path& folder : {team.robot(1), team.authority()}) {
     EXPECT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
-    for (const auto& entry : fs::directory_iterator{folder})
-      EXPECT_EQ(fs::status(entry).permissions(), fs::perms::owner_read | fs::perms::owner_write) << entry;
+    for (const auto& entry : fs::recursive_directory_iterator{folder})
+      EXPECT_EQ(fs::status(entry).permissions(),
+                entry.is_directory() ? fs::perms::owner_all : fs::perms::owner_read | fs::perms::owner_write)
+          << entry;
   }
   fs::permissions(team.robot(1) / "kicker_driver.key", fs::perms::group_read, fs::perm_options::add);
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("kicker_driver.key: somebody else than its owner may read")));
@@ -74,8 +76,26 @@ TEST_F(Keys, ARevokedNodeIsAStrangerToItsRobotAndNoOtherRobotChanges) {
   EXPECT_THAT(team.keys().nodes(1), ElementsAre("kicker_driver"));
   EXPECT_EQ(read_text(team.robot(2) / "kick_decision.pem"), other);
   EXPECT_THAT(faults(), IsEmpty());
-  team.keys().revoke_robot(2);
+  const Certificate on_team = read_certificate(team.robot(2) / "team" / "team_bus.pem");
+  team.keys().revoke_robot(2, kWeek);
   EXPECT_THAT(team.keys().robots(), ElementsAre(1));
+  EXPECT_FALSE(is_signed_by(on_team, read_certificate(team.robot(1) / "team" / "identity_ca.pem")));
+  EXPECT_THAT(faults(), IsEmpty());
+}
+
+TEST_F(Keys, AllHaveOneAuthorityOnTheTeamsBusWhichIsOfNoUseOnARobotsOwn) {
+  team.keys().issue(0, usual_nodes(0), kWeek);
+  EXPECT_THAT(team.keys().nodes(0), ElementsAre("recorder", "refbox", "team_link"));
+  EXPECT_THAT(faults(), IsEmpty());
+  const Certificate of_team = read_certificate(team.robot(0) / "team" / "identity_ca.pem");
+  for (const std::uint32_t robot_id : {0u, 1u, 2u}) {
+    const Certificate on_team = read_certificate(team.robot(robot_id) / "team" / "team_bus.pem");
+    EXPECT_TRUE(is_signed_by(on_team, of_team));
+    EXPECT_FALSE(is_signed_by(on_team, read_certificate(team.robot(robot_id) / "identity_ca.pem")));
+    EXPECT_FALSE(is_signed_by(read_certificate(team.robot(1) / "kick_decision.pem"), of_team));
+  }
+  fs::remove(team.robot(2) / "team" / "team_bus.p7s");
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("team_bus.p7s: cannot be read")));
 }
 
 TEST_F(Keys, ANodeOfAnotherRobotIsAStranger) {
@@ -84,7 +104,7 @@ TEST_F(Keys, ANodeOfAnotherRobotIsAStranger) {
   for (const char* ending : {".pem", ".key", ".p7s"})
     fs::copy_file(team.robot(2) / (std::string("kick_decision") + ending),
                   team.robot(1) / (std::string("kick_decision") + ending), fs::copy_options::overwrite_existing);
-  EXPECT_THAT(faults(), Contains(HasSubstr("is not signed by the robot's identity authority")));
+  EXPECT_THAT(faults(), Contains(HasSubstr("is not signed by the identity authority beside it")));
   EXPECT_THAT(faults(),
               Contains(HasSubstr("is of O=Trivela,CN=kick_decision.2, must be of O=Trivela,CN=kick_decision.1")));
 }

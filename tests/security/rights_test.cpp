@@ -69,6 +69,10 @@ TEST(Rights, AreWhatTheContractsTableSays) {
     for (const std::string& topic : rights.publish) granted[topic].writers.insert(rights.node);
     for (const std::string& topic : rights.subscribe) granted[topic].readers.insert(rights.node);
   }
+  for (const std::uint32_t machine : {0u, 1u}) {
+    for (const std::string& topic : rights_on_team_bus(machine).publish) granted[topic].writers.insert("team_link");
+    for (const std::string& topic : rights_on_team_bus(machine).subscribe) granted[topic].readers.insert("team_link");
+  }
   const auto written = contract();
   ASSERT_GT(written.size(), 20u);
   for (const auto& [topic, row] : written) {
@@ -92,6 +96,14 @@ TEST(Rights, AnOrderIsWrittenByTheDecisionNodesAlone) {
     for (const std::string& topic : rights.publish)
       if (topic == "kick_order") writers.push_back(rights.node);
   EXPECT_THAT(writers, ElementsAre("kick_decision", "kick_decision_second"));
+}
+
+TEST(Rights, OnTheTeamsBusTheBaseAloneSaysTheReferee) {
+  EXPECT_THAT(rights_on_team_bus(0).publish, ElementsAre("team_state", "referee"));
+  for (const std::uint32_t robot_id : {1u, 255u})
+    EXPECT_THAT(rights_on_team_bus(robot_id).publish, ElementsAre("team_state"));
+  for (const Rights& rights : all_rights())
+    EXPECT_NE(rights.node, rights_on_team_bus(1).node) << "permissions of the one bus would hold on the other";
 }
 
 TEST(Rights, PermissionsNameTheNodeItsTopicsAndItsWeekAndDenyTheRest) {

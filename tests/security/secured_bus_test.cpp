@@ -131,6 +131,79 @@ TEST_F(SecuredBus, AKeyThatOthersMayReadIsRefused) {
   EXPECT_THROW(as("vision", team), bus::Error);
 }
 
+/// The bus between the machines: the base says the referee, a robot hears it, others try to be heard too.
+class SecuredTeamBus : public SecuredBus {
+ protected:
+  SecuredTeamBus() {
+    team.keys().issue(0, {"team_link"}, week());
+    team.keys().issue(1, {"team_link", "refbox"}, week());
+    team.keys().issue(2, {"team_link"}, week());
+  }
+  DomainConfig on_team(std::uint32_t robot_id) { return on_team(team, robot_id); }
+  DomainConfig on_team(const TeamKeys& keys, std::uint32_t robot_id) {
+    return bus::secured(wire.member(), keys.robot(robot_id) / "team", "team_bus");
+  }
+
+  static msg::Referee word(std::uint32_t command_counter) {
+    msg::Referee word{};
+    word.command_counter = command_counter;
+    return word;
+  }
+
+  /// What robot 2 hears while the attacker says "666" from before anybody else was there, up to the base's own word.
+  std::vector<std::uint32_t> heard_beside(const DomainConfig& attacker) {
+    bus::Writer<msg::Referee> forged{bus::Participant(attacker)};
+    bus::Reader<msg::Referee> robot{bus::Participant(on_team(2))};
+    forged.write(word(666));
+    bus::Writer<msg::Referee> base{bus::Participant(on_team(0))};
+    EXPECT_TRUE(base.wait_for_readers(1, kPlenty));
+    EXPECT_TRUE(robot.wait_for_writers(1, kPlenty));
+    forged.write(word(666));
+    base.write(word(1));
+    std::vector<std::uint32_t> heard;
+    while (heard.empty() || heard.back() != 1) {
+      if (!robot.wait(kPlenty)) break;
+      robot.take([&](const msg::Referee& word, const auto&) { heard.push_back(word.command_counter); });
+    }
+    EXPECT_EQ(forged.readers(), 0u);
+    return heard;
+  }
+};
+
+TEST_F(SecuredTeamBus, TheBaseIsHeardAndNobodyWithoutACertificate) {
+  EXPECT_THAT(heard_beside(wire.member()), ElementsAre(1));
+}
+
+TEST_F(SecuredTeamBus, TheBaseOfAnotherTeamIsNotHeard) {
+  const TeamKeys strangers;
+  strangers.keys().issue(0, {"team_link"}, week());
+  EXPECT_THAT(heard_beside(on_team(strangers, 0)), ElementsAre(1));
+}
+
+TEST_F(SecuredTeamBus, ARobotsOwnRefboxIsAStrangerThere) {
+  EXPECT_THAT(heard_beside(as("refbox", team)), ElementsAre(1));
+}
+
+TEST_F(SecuredTeamBus, ARobotMaySayItsStateAndNoReferee) {
+  const bus::Participant robot(on_team(1));
+  EXPECT_NO_THROW(bus::Writer<msg::TeamState>{robot});
+  EXPECT_NO_THROW(bus::Reader<msg::Referee>{robot});
+  EXPECT_THROW(bus::Writer<msg::Referee>{robot}, bus::Error);
+  EXPECT_THROW(bus::Writer<msg::KickOrder>{robot}, bus::Error);
+}
+
+TEST_F(SecuredTeamBus, PermissionsOfTheRobotsOwnBusAreOfNoUseThere) {
+  // On its own bus a team_link says the referee's word.
+  fs::copy_file(team.robot(1) / "team_link.p7s", team.robot(1) / "team" / "team_bus.p7s",
+                fs::copy_options::overwrite_existing);
+  EXPECT_THROW(bus::Participant(on_team(1)), bus::Error);
+}
+
+TEST_F(SecuredTeamBus, PermissionsThatItSignedForItselfLetItNotEvenJoin) {
+  sign_for_itself(team.robot(1) / "team", "team_bus");
+  EXPECT_THROW(bus::Participant(on_team(1)), bus::Error);
+}
+
 // Why one authority for both is refused: CVE-2023-24011. Should this fail, the installed Cyclone is mended.
 TEST_F(SecuredBus, WithOneAuthorityForBothDebiansCycloneTakesWhatANodeSignedForItself) {
   const fs::path folder = team.robot(1);

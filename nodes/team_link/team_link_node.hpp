@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "nodes/runtime/node_context.hpp"
+#include "nodes/team_link/team_member.hpp"
+#include "robot/team/team_book.hpp"
+#include "robot/team/team_summary.hpp"
+
+namespace trivela::nodes {
+
+/// The one node of a machine that is on the team's bus too. Out goes `team_state`, and of the base its `referee`; in
+/// come a robot's `referee`, where it is the base's, and `team_heard`, for the record and for who tells the referee
+/// box. On its own machine's bus it looks on and is waited for by nobody.
+class TeamLinkNode {
+ public:
+  static constexpr std::chrono::milliseconds kPeriod{100};
+
+  /// Throws std::runtime_error beside another referee of the robot.
+  TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_bus);
+  bus::Node& node() { return node_; }
+
+ private:
+  struct OfRobot {
+    std::shared_ptr<bus::Mailbox<msg::WorldState>> world;
+    std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker;
+    std::shared_ptr<bus::Mailbox<msg::KickDecision>> decision;
+    std::shared_ptr<bus::Mailbox<msg::Referee>> referee;
+    std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision;
+    std::shared_ptr<bus::Mailbox<msg::DriveCommand>> drive;
+  };
+
+  void listen_to_robot();
+  void listen_to_referee();
+  void say_state();
+  msg::TeamSummary summary();
+  void hear(const TeamMember::HeardWord& heard);
+  void hear(const msg::TeamState& state, std::int64_t t_ns);
+  void hear(const msg::Referee& word, std::int64_t t_ns);
+  void note_alarms(std::uint8_t other, std::uint32_t alarms);
+  void note_twin();
+
+  NodeContext& context_;
+  const bool base_;
+  const std::uint8_t own_;
+  bus::Node node_;
+  bus::Output<msg::TeamHeard> heard_out_;
+  std::optional<bus::Output<msg::Referee>> referee_out_;
+  OfRobot robot_;
+  std::mutex mutex_;  // of what follows
+  robot::TeamBook book_;
+  robot::LastWord<msg::Referee> referee_;  // of the base
+  std::array<std::uint32_t, 256> alarms_{};
+  std::int64_t twin_told_ns_ = 0;
+  std::optional<TeamMember> member_;
+};
+
+/// The domain of the team's bus by the settings; with keys, as the identity that this machine has there.
+/// Throws std::runtime_error naming the setting that is missing or wrong, bus::Error.
+bus::DomainConfig team_domain(const config::Settings& settings, const std::string& keys);
+
+}  // namespace trivela::nodes

@@ -1,0 +1,123 @@
+#include "nodes/team_link/team_member.hpp"
+
+#include <fmt/core.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "bus/executor.hpp"
+#include "nodes/team_link/interface_address.hpp"
+
+namespace trivela::nodes {
+namespace {
+
+constexpr std::chrono::milliseconds kGlance{200};  // how often the interface is looked at
+constexpr std::chrono::seconds kPause{1};          // before it is tried again
+constexpr std::chrono::seconds kShortestPatience{15};
+constexpr std::chrono::seconds kLongestPatience{120};
+
+}  // namespace
+
+TeamMember::TeamMember(const NodeContext& context, bus::DomainConfig domain, std::uint8_t own, bool referee)
+    : context_(context),
+      domain_(std::move(domain)),
+      owner_(fmt::format("team_link/{}", own)),
+      listens_to_referee_(referee),
+      patience_(kShortestPatience),
+      thread_([this] { run(); }) {}
+
+TeamMember::~TeamMember() {
+  ends_.request();
+  thread_.join();
+}
+
+/// Where no interface is named, none is looked after: the configuration says all.
+std::optional<std::string> TeamMember::address() const {
+  const std::string& interface = context_.settings.team_link.interface;
+  return interface.empty() ? std::optional<std::string>{""} : interface_address(interface);
+}
+
+void TeamMember::note_obstacle(const std::string& obstacle) {
+  if (obstacle == obstacle_) return;
+  obstacle_ = obstacle;
+  if (!obstacle.empty()) context_.logger->warn("not on the team's bus: {}", obstacle);
+}
+
+void TeamMember::run() {
+  pthread_setname_np(pthread_self(), "team_member");
+  while (!ends_.requested()) {
+    const auto address = this->address();
+    if (!address) {
+      note_obstacle(fmt::format("{} has no address", context_.settings.team_link.interface));
+      ends_.wait_until(Clock::now() + kGlance);
+      continue;
+    }
+    try {
+      be_member(*address);
+    } catch (const std::exception& error) {
+      note_obstacle(error.what());
+    }
+    if (!ends_.requested()) ends_.wait_until(Clock::now() + kPause);
+  }
+}
+
+void TeamMember::be_member(const std::string& address) {
+  const bus::Participant participant{domain_};
+  bus::Node node{participant, "team_bus"};
+  bus::WriterOptions as_us;
+  as_us.owner = owner_;
+  const auto state = node.writer<msg::TeamState>(as_us);
+  std::optional<bus::Output<msg::Referee>> referee;
+  if (context_.settings.team_link.base) referee.emplace(node.writer<msg::Referee>(as_us));
+  listen(node);
+  node.on_device(
+      "machine", [this](std::chrono::nanoseconds timeout) { return said_.next(timeout); },
+      [&](const Word& word) {
+        if (const auto* const of_us = std::get_if<msg::TeamState>(&word)) return state.write(*of_us);
+        if (referee) referee->write(std::get<msg::Referee>(word));
+      },
+      bus::writes<msg::TeamState, msg::Referee>());
+  bus::Stop over;
+  node.every(kGlance, "interface", [&] { look_after(address, over); });
+  last_heard_ = Clock::now();
+  said_.clear();
+  note_obstacle("");
+  context_.logger->info("on the team's bus, domain {}{}", domain_.domain_id,
+                        address.empty() ? "" : fmt::format(", by {}", address));
+  bus::Executor{bus::Executor::kListener, over, {&node}}.run();
+}
+
+void TeamMember::listen(bus::Node& node) {
+  // Best effort: the next state is worth more than the last, and nobody acknowledges thirty of them ten times a second.
+  bus::ReaderOptions newest;
+  newest.observer = true;
+  node.on<msg::TeamState>(
+      [this](const msg::TeamState& state) {
+        last_heard_ = Clock::now();
+        heard_.put({state, context_.steady_ns()});
+      },
+      {}, newest);
+  if (listens_to_referee_)
+    node.on<msg::Referee>([this](const msg::Referee& word) { heard_.put({word, context_.steady_ns()}); });
+}
+
+void TeamMember::look_after(const std::string& address, bus::Stop& over) {
+  if (ends_.requested()) return over.request();
+  const auto now = this->address();
+  if (now != address) {
+    context_.logger->warn("{} {}: leaves the team's bus", context_.settings.team_link.interface,
+                          now ? "has another address, " + *now : "has lost its address");
+    return over.request();
+  }
+  const auto silent = Clock::now() - last_heard_.load();
+  if (silent < kGlance) patience_ = kShortestPatience;
+  if (silent < patience_) return;
+  context_.logger->info("nobody is heard on the team's bus for {} s: joins it anew",
+                        std::chrono::duration_cast<std::chrono::seconds>(silent).count());
+  patience_ = std::min<Clock::duration>(2 * patience_, kLongestPatience);
+  over.request();
+}
+
+}  // namespace trivela::nodes

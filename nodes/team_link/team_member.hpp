@@ -1,0 +1,66 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
+
+#include "bus/domain.hpp"
+#include "bus/node.hpp"
+#include "nodes/runtime/node_context.hpp"
+#include "nodes/team_link/handover.hpp"
+
+namespace trivela::nodes {
+
+/// A machine's membership of the team's bus, in threads of its own. It begins when the interface has an address, ends
+/// with it and begins anew with the next; also where nothing is heard for long, since a multicast group may forget a
+/// member. What is said meanwhile is not said. Nothing that happens to it is an error of the node.
+class TeamMember {
+ public:
+  /// What is said on the team's bus.
+  using Word = std::variant<msg::TeamState, msg::Referee>;
+
+  /// A word with the instant at which it came, by this machine's clock.
+  struct HeardWord {
+    Word word;
+    std::int64_t t_ns;
+  };
+
+  /// `domain`: of the team's bus. `own`: the participant's number. `referee`: listens to it. The context outlives it.
+  TeamMember(const NodeContext& context, bus::DomainConfig domain, std::uint8_t own, bool referee);
+  TeamMember(const TeamMember&) = delete;
+  TeamMember& operator=(const TeamMember&) = delete;
+  ~TeamMember();
+
+  void say(Word word) { said_.put(std::move(word)); }
+
+  /// What others said next, waiting no longer than the timeout.
+  std::optional<HeardWord> next(std::chrono::nanoseconds timeout) { return heard_.next(timeout); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void run();
+  void be_member(const std::string& address);
+  void listen(bus::Node& node);
+  void look_after(const std::string& address, bus::Stop& over);
+  std::optional<std::string> address() const;
+  void note_obstacle(const std::string& obstacle);
+
+  const NodeContext& context_;
+  const bus::DomainConfig domain_;
+  const std::string owner_;
+  const bool listens_to_referee_;
+  Handover<Word> said_;
+  Handover<HeardWord> heard_;
+  std::atomic<Clock::time_point> last_heard_{Clock::time_point{}};
+  Clock::duration patience_;
+  std::string obstacle_;  // that was told last
+  bus::Stop ends_;        // with the object
+  std::thread thread_;
+};
+
+}  // namespace trivela::nodes
