@@ -35,7 +35,7 @@ class TeamMember {
   TeamMember& operator=(const TeamMember&) = delete;
   ~TeamMember();
 
-  void say(Word word) { said_.put(std::move(word)); }
+  void say(const Word& word) { said_.put(word); }
 
   /// What others said next, waiting no longer than the timeout.
   std::optional<HeardWord> next(std::chrono::nanoseconds timeout) { return heard_.next(timeout); }
