@@ -72,8 +72,8 @@ int run_export(const ExportFlags& flags) {
       return !signals.stop_requested();
     };
     if (!flags.mcap.empty())
-      say(told(flags.mcap, export_mcap(reader, flags.plan, flags.mcap, fmt::format("trivela {}", config::software_version()),
-                                       progress)));
+      say(told(flags.mcap, export_mcap(reader, flags.plan, flags.mcap,
+                                       fmt::format("trivela {}", config::software_version()), progress)));
     if (!flags.csv.empty()) say(told(flags.csv, export_csv(reader, flags.plan, flags.csv, progress)));
   } catch (const evaluator::BadExport& bad) {
     throw UsageError{bad.what()};
@@ -96,7 +96,8 @@ void add_export(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<ExportFlags>();
   verb->add_option("log", flags->log, "Match log of any version")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
-  verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")->type_name("FILE");
+  verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")
+      ->type_name("FILE");
   verb->add_option("--stream", flags->plan.streams, "Only these, such as kick_decisions,kick_outcomes")->delimiter(',');
   verb->add_option("--session", flags->plan.sessions, "Only sessions whose uuid begins so")->delimiter(',');
   verb->add_flag("--force", flags->force, "Overwrite what is there");

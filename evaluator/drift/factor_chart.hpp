@@ -15,9 +15,9 @@ struct ChartRule {
 };
 
 /// A two-sided CUSUM (Page 1954) of residuals whose mean and spread are not known beforehand: each is judged by those
-/// before it, then joins them. An increment is the logarithm of the likelihood ratio of a mean that has moved by `shift`
-/// to one that has not; with known parameters the mean run length without a change is at least e^limit a side (Lorden
-/// 1971). Of a residual that is only known to be at most x the likelihood is that of all below.
+/// before it, then joins them. An increment is the logarithm of the likelihood ratio of a mean that has moved by
+/// `shift` to one that has not; with known parameters the mean run length without a change is at least e^limit a side
+/// (Lorden 1971). Of a residual that is only known to be at most x the likelihood is that of all below.
 class FactorChart {
  public:
   explicit FactorChart(const ChartRule& rule) : rule_(rule) {}

@@ -77,7 +77,8 @@ Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_l
   Watch watch;
   watch.limit_s = arguments.limit_s;
   watch.progress = [&](std::size_t done, const Fault& fault) {
-    bar.show(static_cast<double>(done), static_cast<double>(faults.size()), "faults", fmt::format("{:<60}", text(fault)));
+    bar.show(static_cast<double>(done), static_cast<double>(faults.size()), "faults",
+             fmt::format("{:<60}", text(fault)));
   };
   watch.look = [&] {
     if (inbox.stop_requested()) throw std::runtime_error{"interrupted"};
