@@ -141,7 +141,7 @@ class McapExport {
     for (std::size_t i = 0; i < sessions_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) mixed = mixed || meet(sessions_[i], sessions_[j]);
     if (mixed)
-      for (ExportedSession& s : sessions_) s.prefix = "/session_" + s.session.uuid.substr(0, 8);
+      for (ExportedSession& s : sessions_) s.prefix = "/session_" + s.session.uuid;
     for (ExportedPart& part : parts_) {
       part.prefix = part.of->prefix + (part.robot.empty() ? "/log" : "/" + part.robot);
       part.topic = part.prefix + "/" + part.table->name;

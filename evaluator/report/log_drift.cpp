@@ -31,7 +31,7 @@ struct Row {
   WatchedKick kick;
 };
 
-std::vector<Row> rows_of(const log::Reader& reader, const SessionPlaces& fresh) {
+std::vector<Row> watched_rows(const log::Reader& reader, const SessionPlaces& fresh) {
   std::vector<Row> rows;
   reader.query(
       kWatchedKicksSql,
@@ -73,7 +73,7 @@ DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
   SessionBook book;
   for (const std::filesystem::path& path : logs) {
     const log::Reader reader{path};
-    for (Row& row : rows_of(reader, book.add(reader, path.string()))) rows.push_back(std::move(row));
+    for (Row& row : watched_rows(reader, book.add(reader, path.string()))) rows.push_back(std::move(row));
   }
   book.settle();
   DriftReport report{.robots = {}, .remarks = book.remarks()};
