@@ -6,6 +6,7 @@
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/policy_comparison.hpp"
 #include "evaluator/report/simulated.hpp"
+#include "evaluator/stats/test_plan.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {

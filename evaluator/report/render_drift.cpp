@@ -43,9 +43,9 @@ std::string told(const RobotDrift& robot) {
   return text;
 }
 
-Json json_of(const Shift& shift) { return {{"value", shift.value}, {"standard_error", shift.se}}; }
+Json shift_json(const Shift& shift) { return {{"value", shift.value}, {"standard_error", shift.se}}; }
 
-Json json_of(const RobotDrift& robot, const Drift& drift) {
+Json drift_json(const RobotDrift& robot, const Drift& drift) {
   const DriftKick& kick = robot.kicks[drift.changed];
   return {{"kind", drift.kind == DriftKind::kElevation ? "elevation" : "exit_speed"},
           {"kick", drift.changed + 1},
@@ -53,8 +53,8 @@ Json json_of(const RobotDrift& robot, const Drift& drift) {
           {"session", kick.session},
           {"utc_ns", kick.utc_ns},
           {"found_with_kick", drift.found + 1},
-          {"ln_speed", json_of(drift.factor)},
-          {"ln_speed_of_exit_speeds", drift.speed ? json_of(*drift.speed) : Json()},
+          {"ln_speed", shift_json(drift.factor)},
+          {"ln_speed_of_exit_speeds", drift.speed ? shift_json(*drift.speed) : Json()},
           {"height_m", drift.height_m},
           {"multiply_speeds_by", drift.kind == DriftKind::kElevation ? Json() : Json(std::exp(drift.factor.value))},
           {"correction", correction_of(drift)}};
@@ -79,7 +79,7 @@ std::string to_json(const DriftReport& report) {
   Json robots = Json::array();
   for (const RobotDrift& robot : report.robots) {
     Json drifts = Json::array();
-    for (const Drift& drift : robot.story.drifts) drifts.push_back(json_of(robot, drift));
+    for (const Drift& drift : robot.story.drifts) drifts.push_back(drift_json(robot, drift));
     const DriftLevel& now = robot.story.level;
     robots.push_back({{"robot", robot.robot_id},
                       {"simulated", robot.simulated},
@@ -89,9 +89,9 @@ std::string to_json(const DriftReport& report) {
                       {"level",
                        {{"from_kick", now.from + 1},
                         {"heights", now.heights},
-                        {"ln_speed_by_heights", json_of(now.height)},
+                        {"ln_speed_by_heights", shift_json(now.height)},
                         {"exit_speeds", now.speeds},
-                        {"ln_speed_by_exit_speeds", json_of(now.speed)}}}});
+                        {"ln_speed_by_exit_speeds", shift_json(now.speed)}}}});
   }
   return json_text(Json{{"robots", robots}, {"remarks", report.remarks}});
 }
