@@ -19,7 +19,8 @@ inline unsigned team_discovery_interval_s(const Team& team) { return team.team.g
 /// radio has to cut, discovery by the team's group, or by the addresses of robots, base and team.peers.
 std::string team_bus_xml(const Team& team, const std::string& interface);
 
-/// What crosses the air, in bits per second with the headers of IP and UDP. An estimate: nobody has measured it.
+/// What crosses the air, in bits per second with the headers of IP and UDP. An estimate; docs/team.md has what was
+/// measured.
 struct AirEstimate {
   double referee_bps = 0.0;
   double state_bps = 0.0;

@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <sched.h>
 #include <signal.h>
-#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -125,7 +124,7 @@ void TeamOnAir::start() {
       set(fmt::format("team_link.referee={}", plays == Plays::kTeamReferee || plays == Plays::kNothing));
       if (plays == Plays::kInLockstep) {
         set("run.lockstep=true");
-        set("simulator.max_possessions=6");
+        set("simulator.max_possessions=4");
       }
     }
     start_process(machine, "trivela-team_link", flags);

@@ -69,7 +69,7 @@ class TeamOnAir {
   /// The cable of a host that is no machine of the team, on the same hub.
   const NetworkHost& stranger() const { return hosts_.back(); }
 
-  /// Whether `condition` came to hold, asked again whenever a file of the folder changes, within `patience`.
+  /// Whether `condition` came to hold, asked ten times a second, within `patience`.
   bool wait_for(std::chrono::seconds patience, const std::function<bool()>& condition);
   /// Waits so long while everything goes on.
   void pass(std::chrono::milliseconds length) const;
