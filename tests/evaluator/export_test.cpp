@@ -238,7 +238,7 @@ TEST(RowMessages, AreCdrAsWrittenByHand) {
       "\0\0\0\0\0\0\0\0"
       "\1\0\0\0"
       "\3\0\0\0hi\0",
-      51);
+      55);
   EXPECT_EQ(cdr.bytes(), wanted);
   mcap::write_row(cdr, stream,
                   std::vector<log::Value>{
