@@ -12,7 +12,8 @@
 namespace trivela::cli {
 
 void add_drift(CLI::App& app, int& exit_code) {
-  auto* const verb = app.add_subcommand("drift", "Say whether a robot's kicker changed, at which kick, and by how much");
+  auto* const verb =
+      app.add_subcommand("drift", "Say whether a robot's kicker changed, at which kick, and by how much");
   verb->footer(
       "Exit speeds and crossing heights are compared with what the robot predicted, by CUSUM; the robot's own numbers\n"
       "alone are used. A robot's kicks go on from log to log, in the order of their time; a simulated session is a\n"

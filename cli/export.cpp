@@ -33,8 +33,8 @@ void require_folder(const std::string& flag, const fs::path& folder, bool force)
     throw UsageError{fmt::format("{} {} is a file, no folder", flag, folder.string())};
   if (there && !force && !fs::is_empty(folder, unknown))
     throw UsageError{
-        fmt::format("{} {} is not empty: choose another folder, or --force overwrites its files of the same names", flag,
-                    folder.string())};
+        fmt::format("{} {} is not empty: choose another folder, or --force overwrites its files of the same names",
+                    flag, folder.string())};
   const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
   require_writable(flag, plain.string() + ".new");
   if (there) require_writable(flag, plain / ".new");
@@ -43,9 +43,11 @@ void require_folder(const std::string& flag, const fs::path& folder, bool force)
 void require_file(const std::string& flag, const fs::path& file, bool force) {
   std::error_code unknown;
   const bool there = fs::exists(fs::symlink_status(file, unknown));
-  if (there && !fs::is_regular_file(file, unknown)) throw UsageError{fmt::format("{} {} is no file", flag, file.string())};
+  if (there && !fs::is_regular_file(file, unknown))
+    throw UsageError{fmt::format("{} {} is no file", flag, file.string())};
   if (there && !force)
-    throw UsageError{fmt::format("{} {} exists already: choose another, or --force overwrites it", flag, file.string())};
+    throw UsageError{
+        fmt::format("{} {} exists already: choose another, or --force overwrites it", flag, file.string())};
   require_writable(flag, file);
   require_writable(flag, file.string() + ".new");
 }
@@ -70,8 +72,8 @@ int run_export(const ExportFlags& flags) {
       return !signals.stop_requested();
     };
     if (!flags.mcap.empty())
-      say(told(flags.mcap, export_mcap(reader, flags.plan, flags.mcap, fmt::format("trivela {}", config::software_version()),
-                                       progress)));
+      say(told(flags.mcap, export_mcap(reader, flags.plan, flags.mcap,
+                                       fmt::format("trivela {}", config::software_version()), progress)));
     if (!flags.csv.empty()) say(told(flags.csv, export_csv(reader, flags.plan, flags.csv, progress)));
   } catch (const evaluator::BadExport& bad) {
     throw UsageError{bad.what()};
@@ -94,7 +96,8 @@ void add_export(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<ExportFlags>();
   verb->add_option("log", flags->log, "Match log of any version")->required();
   verb->add_option("--csv", flags->csv, "New folder: a CSV file a stream")->type_name("FOLDER");
-  verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")->type_name("FILE");
+  verb->add_option("--mcap", flags->mcap, "New file: all streams in time, with what a 3D view shows")
+      ->type_name("FILE");
   verb->add_option("--stream", flags->plan.streams, "Only these, such as kick_decisions,kick_outcomes")->delimiter(',');
   verb->add_option("--session", flags->plan.sessions, "Only sessions whose uuid begins so")->delimiter(',');
   verb->add_flag("--force", flags->force, "Overwrite what is there");

@@ -35,8 +35,8 @@ const std::vector<Group>& groups() {
       {"Calibrate", {cli::add_scan, cli::add_lob, cli::add_calibrate}},
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
       {"After a match",
-       {cli::add_collect, cli::add_merge, cli::add_report, cli::add_drift, cli::add_query, cli::add_export, cli::add_import, cli::add_replay,
-        cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
+       {cli::add_collect, cli::add_merge, cli::add_report, cli::add_drift, cli::add_query, cli::add_export,
+        cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_migrate}},
       {"On the robot",
        {cli::add_team, cli::add_top, cli::add_doctor, cli::add_hardware, cli::add_solve, cli::add_align,
         cli::add_predict, cli::add_refbox, cli::add_emulate, cli::add_keys}}};

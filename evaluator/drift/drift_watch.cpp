@@ -71,8 +71,8 @@ std::optional<Shift> shift_at(Readings all, std::size_t kick, double sd) {
   return Shift{second.mean - first.mean, std::sqrt(pooled * (1.0 / n + 1.0 / m))};
 }
 
-/// The most likely place of the change: that of the greatest n m / (n + m) (mean after - mean before)^2. What is at most
-/// something counts as its expectation below that.
+/// The most likely place of the change: that of the greatest n m / (n + m) (mean after - mean before)^2. What is at
+/// most something counts as its expectation below that.
 std::size_t change_in(Readings all, double sd) {
   const Normal normal = fit(all, sd);
   const double spread = std::sqrt(normal.variance);
@@ -180,8 +180,7 @@ std::string words_of(const Drift& drift) {
 }
 
 std::string correction_of(const Drift& drift) {
-  if (drift.kind == DriftKind::kElevation)
-    return "measure exit_angle_deg anew: trivela calibrate table";
+  if (drift.kind == DriftKind::kElevation) return "measure exit_angle_deg anew: trivela calibrate table";
   return fmt::format("multiply exit_speeds_mps of its [table] by {:.3f}, or measure it anew: trivela calibrate table",
                      std::exp(drift.factor.value));
 }

@@ -6,18 +6,18 @@ namespace trivela::evaluator {
 
 /// How a chart judges.
 struct ChartRule {
-  double shift = 0.025;       ///< change of the mean that it is made for, either way
-  double limit = 5.0;         ///< nats: it alarms above
-  double expected_sd = 0.03;  ///< of one residual, before there are any; counts as so many residuals:
-  double expected_weight = 4.0;
-  int quiet = 6;      ///< first residuals, which make the mean and are not judged
+  double shift = 0.03;         ///< change of the mean that it is made for, either way
+  double limit = 5.5;          ///< nats: it alarms above
+  double expected_sd = 0.025;  ///< of one residual, before there are any; counts as so many residuals:
+  double expected_weight = 10.0;
+  int quiet = 10;     ///< first residuals, which make the mean and are not judged
   double clip = 3.5;  ///< standard deviations: one residual counts as no farther off
 };
 
 /// A two-sided CUSUM (Page 1954) of residuals whose mean and spread are not known beforehand: each is judged by those
-/// before it, then joins them. An increment is the logarithm of the likelihood ratio of a mean that has moved by `shift`
-/// to one that has not; with known parameters the mean run length without a change is at least e^limit a side (Lorden
-/// 1971). Of a residual that is only known to be at most x the likelihood is that of all below.
+/// before it, then joins them. An increment is the logarithm of the likelihood ratio of a mean that has moved by
+/// `shift` to one that has not; with known parameters the mean run length without a change is at least e^limit a side
+/// (Lorden 1971). Of a residual that is only known to be at most x the likelihood is that of all below.
 class FactorChart {
  public:
   explicit FactorChart(const ChartRule& rule) : rule_(rule) {}

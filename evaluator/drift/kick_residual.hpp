@@ -13,13 +13,13 @@ struct WatchedKick {
   std::int64_t t_ns = 0;  ///< of the decision
   kicking::Pose robot{};  ///< at the decision, in F
   kicking::Twist twist{};
-  double lead_s = 0.0;                           ///< from the decision to the expected release
-  double goal_y_m = 0.0;                         ///< where it crosses
+  double lead_s = 0.0;                            ///< from the decision to the expected release
+  double goal_y_m = 0.0;                          ///< where it crosses
   double x_m = 0.0, z_m = 0.0, t_flight_s = 0.0;  ///< predicted crossing and flight
-  bool seen_to_the_line = false;                 ///< not blocked, outcome known
-  bool bounced = false;                          ///< it touched the floor before the line
-  std::optional<double> z_cross_m{};             ///< observed
-  std::optional<double> exit_speed_mps{};        ///< observed, of the ball over ground
+  bool seen_to_the_line = false;                  ///< not blocked, outcome known
+  bool bounced = false;                           ///< it touched the floor before the line
+  std::optional<double> z_cross_m{};              ///< observed
+  std::optional<double> exit_speed_mps{};         ///< observed, of the ball over ground
 };
 
 /// By how much a kick was stronger than predicted, measured twice: 0.03 is 3 % more speed out of the kicker. It is ln f

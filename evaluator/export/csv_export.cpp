@@ -95,12 +95,11 @@ ExportedRows export_csv(const log::Reader& reader, const ExportPlan& plan, const
     std::vector<std::string> columns;
     for (const log::StreamColumn& column : table.columns) columns.push_back(column.name);
     CsvFile file(draft.path() / (table.name + ".csv"), columns);
-    reader.query(
-        fmt::format("SELECT {} FROM {}{} ORDER BY {}", fmt::join(columns, ", "), table.name, where, table.key),
-        [&](std::span<const log::Value> row) {
-          file.add(row);
-          pace.row();
-        });
+    reader.query(fmt::format("SELECT {} FROM {}{} ORDER BY {}", fmt::join(columns, ", "), table.name, where, table.key),
+                 [&](std::span<const log::Value> row) {
+                   file.add(row);
+                   pace.row();
+                 });
     if (const std::int64_t n = file.finish(); n > 0) rows[table.name] = n;
   }
   draft.keep();

@@ -40,7 +40,8 @@ std::vector<log::RecordedSession> sessions_of(const ExportPlan& plan, const log:
       if (session.uuid.starts_with(begin) && is_new) chosen.push_back(session);
     }
     if (chosen.size() == before)
-      throw BadExport(fmt::format("no session begins with \"{}\"; trivela query DB 'SELECT uuid FROM sessions'", begin));
+      throw BadExport(
+          fmt::format("no session begins with \"{}\"; trivela query DB 'SELECT uuid FROM sessions'", begin));
   }
   return chosen;
 }

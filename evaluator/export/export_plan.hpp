@@ -47,7 +47,9 @@ class ExportPace {
 /// While it lives, everything that is read of a log is of one instant: it may grow meanwhile.
 class Snapshot {
  public:
-  explicit Snapshot(const log::Reader& reader) : reader_(reader) { reader_.query("BEGIN", [](auto) {}); }
+  explicit Snapshot(const log::Reader& reader) : reader_(reader) {
+    reader_.query("BEGIN", [](auto) {});
+  }
   Snapshot(const Snapshot&) = delete;
   Snapshot& operator=(const Snapshot&) = delete;
   ~Snapshot();

@@ -47,9 +47,9 @@ struct ExportedSession {
   /// A log may say anything: no instant is out of range.
   static std::int64_t sum(std::int64_t a, std::int64_t b) {
     std::int64_t result = 0;
-    return __builtin_add_overflow(a, b, &result) ? (a < 0 ? std::numeric_limits<std::int64_t>::min()
-                                                          : std::numeric_limits<std::int64_t>::max())
-                                                 : result;
+    return __builtin_add_overflow(a, b, &result)
+               ? (a < 0 ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max())
+               : result;
   }
 };
 
@@ -89,8 +89,9 @@ class McapExport {
   void read_sessions(const ExportPlan& plan) {
     const auto chosen = sessions_of(plan, reader_);
     if (chosen.size() > kMostSessionsOfMcap)
-      throw BadExport(fmt::format("{} sessions are too many for one MCAP file, which has {} at most: choose by --session",
-                                  chosen.size(), kMostSessionsOfMcap));
+      throw BadExport(
+          fmt::format("{} sessions are too many for one MCAP file, which has {} at most: choose by --session",
+                      chosen.size(), kMostSessionsOfMcap));
     for (const log::RecordedSession& session : chosen) {
       ExportedSession& of = sessions_.emplace_back();
       of.session = reader_.whole(session);

@@ -16,9 +16,9 @@ namespace {
 class Cursor {
  public:
   Cursor(SQLite::Database& database, const TimedPart& part)
-      : statement_(database, fmt::format("SELECT {} FROM {} WHERE session_id = ?{} ORDER BY {}",
-                                         fmt::join(part.columns, ", "), part.table,
-                                         part.robot_id ? " AND robot_id = ?" : "", part.key)),
+      : statement_(database,
+                   fmt::format("SELECT {} FROM {} WHERE session_id = ?{} ORDER BY {}", fmt::join(part.columns, ", "),
+                               part.table, part.robot_id ? " AND robot_id = ?" : "", part.key)),
         row_(part.columns.size()) {
     statement_.bind(1, part.session_id);
     if (part.robot_id) statement_.bind(2, *part.robot_id);

@@ -206,11 +206,8 @@ std::string Writer::summary(std::uint64_t start, std::string& offsets) const {
     if (records.empty()) return;
     const std::uint64_t at = start + all.size();
     for (const std::string& record : records) all += record;
-    offsets += Content{}
-                   .put(static_cast<std::uint8_t>(opcode))
-                   .put(at)
-                   .put(start + all.size() - at)
-                   .as_record(kSummaryOffset);
+    offsets +=
+        Content{}.put(static_cast<std::uint8_t>(opcode)).put(at).put(start + all.size() - at).as_record(kSummaryOffset);
   };
   group(kSchema, schemas_);
   group(kChannel, channels_);

@@ -58,10 +58,10 @@ class Writer {
   std::filesystem::path path_;
   std::ofstream out_;
   std::uint64_t written_B_ = 0;
-  std::uint32_t crc_ = 0;  // of what was written so far
-  std::vector<std::string> schemas_, channels_;            // their records
-  std::map<std::string, std::uint16_t> schema_numbers_;    // from 1, by name
-  std::vector<std::uint64_t> counts_;                      // messages by channel
+  std::uint32_t crc_ = 0;                                // of what was written so far
+  std::vector<std::string> schemas_, channels_;          // their records
+  std::map<std::string, std::uint16_t> schema_numbers_;  // from 1, by name
+  std::vector<std::uint64_t> counts_;                    // messages by channel
   std::uint64_t start_ns_ = 0, end_ns_ = 0, messages_ = 0;
 
   std::string chunk_;  // records of the chunk under way

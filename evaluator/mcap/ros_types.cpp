@@ -87,18 +87,18 @@ void put_marker(Cdr& cdr, const Header& header, const Marker& marker) {
   put_numbers(cdr, {centre.x(), centre.y(), centre.z(), 0.0, 0.0, 0.0, 1.0});
   put_numbers(cdr, {marker.size_m, thick_m, thick_m});
   for (const float part : marker.colour) cdr.put(part);
-  cdr.put(std::int32_t{0});   // lifetime: until another takes its place
+  cdr.put(std::int32_t{0});  // lifetime: until another takes its place
   cdr.put(std::uint32_t{0});
-  cdr.put(false);             // frame_locked
+  cdr.put(false);  // frame_locked
   cdr.put_length(is_sphere ? 0 : marker.places.size());
   if (!is_sphere)
     for (const Eigen::Vector3d& place : marker.places) put_numbers(cdr, {place.x(), place.y(), place.z()});
-  cdr.put_length(0);   // colors
-  cdr.put_text("");    // texture_resource
+  cdr.put_length(0);    // colors
+  cdr.put_text("");     // texture_resource
   put_header(cdr, {});  // texture
   cdr.put_text("");
   cdr.put_length(0);
-  cdr.put_length(0);  // uv_coordinates
+  cdr.put_length(0);                             // uv_coordinates
   for (int i = 0; i < 3; ++i) cdr.put_text("");  // text, mesh_resource, mesh_file.filename
   cdr.put_length(0);
   cdr.put(false);  // mesh_use_embedded_materials
@@ -113,7 +113,8 @@ Schema standard_schema(std::string_view type) {
   std::vector<const Definition*> rest;
   add_types_of(schema.text, rest);
   for (const Definition* const definition : rest)
-    schema.text += std::string(80, '=') + "\nMSG: " + std::string(definition->type) + "\n" + std::string(definition->text);
+    schema.text +=
+        std::string(80, '=') + "\nMSG: " + std::string(definition->type) + "\n" + std::string(definition->text);
   return schema;
 }
 

@@ -40,7 +40,7 @@ struct Marker {
   Type type = kSphere;
   bool is_there = true;  ///< false: what was there by that name goes
   Colour colour{};
-  double size_m = 0.1;                   ///< diameter, or width of the lines
+  double size_m = 0.1;                    ///< diameter, or width of the lines
   std::vector<Eigen::Vector3d> places{};  ///< centre of a sphere, or both ends of each line
 };
 

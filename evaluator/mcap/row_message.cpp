@@ -98,8 +98,7 @@ Schema schema_of(const log::StreamTable& table) {
   for (const StreamColumn& column : table.columns) {
     for (std::size_t i = 0; i < column.labels.size(); ++i)
       text += fmt::format("uint8 {}_{}={}\n", upper(column.name), upper(column.labels[i]), i);
-    if (!column.labels.empty())
-      text += fmt::format("uint8 {}_OTHER_LABEL={}\n", upper(column.name), kOtherLabel);
+    if (!column.labels.empty()) text += fmt::format("uint8 {}_OTHER_LABEL={}\n", upper(column.name), kOtherLabel);
     if (says_whether_there(column)) text += fmt::format("bool has_{}\n", column.name);
     text += fmt::format("{} {}  # {}\n", type_of(column.kind), column.name, column.meaning);
   }

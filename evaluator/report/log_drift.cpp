@@ -95,9 +95,8 @@ DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
     }
     robot.story = drifts_of(residuals);
   }
-  std::ranges::stable_sort(report.robots, {}, [](const RobotDrift& robot) {
-    return std::pair(robot.robot_id, robot.kicks.front().utc_ns);
-  });
+  std::ranges::stable_sort(
+      report.robots, {}, [](const RobotDrift& robot) { return std::pair(robot.robot_id, robot.kicks.front().utc_ns); });
   return report;
 }
 

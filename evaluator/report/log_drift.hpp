@@ -27,8 +27,8 @@ struct RobotDrift {
 };
 
 struct DriftReport {
-  std::vector<RobotDrift> robots;     ///< by robot and time
-  std::vector<std::string> remarks;   ///< on what does not count
+  std::vector<RobotDrift> robots;    ///< by robot and time
+  std::vector<std::string> remarks;  ///< on what does not count
   bool found() const;
 };
 

@@ -1,5 +1,5 @@
-// What `trivela export` writes: CSV against SQLite, bit for bit; names and members of the messages; what is left when it
-// is stopped.
+// What `trivela export` writes: CSV against SQLite, bit for bit; names and members of the messages; what is left when
+// it is stopped.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
@@ -226,9 +226,9 @@ TEST(RowMessages, AreCdrAsWrittenByHand) {
             "# toys\nint64 session_id  # a\nbool on  # b\nfloat64 x_m  # c\nbool has_end_t_ns\nint64 end_t_ns  # d\n"
             "uint8 KIND_SOFT=0\nuint8 KIND_HARD=1\nuint8 KIND_OTHER_LABEL=255\nuint8 kind  # e\nstring name  # f\n");
   mcap::Cdr cdr;
-  mcap::write_row(cdr, stream,
-                  std::vector<log::Value>{std::int64_t{258}, std::int64_t{1}, 1.0, {}, std::string("hard"),
-                                          std::string("hi")});
+  mcap::write_row(
+      cdr, stream,
+      std::vector<log::Value>{std::int64_t{258}, std::int64_t{1}, 1.0, {}, std::string("hard"), std::string("hi")});
   const std::string wanted(
       "\0\1\0\0"
       "\2\1\0\0\0\0\0\0"
@@ -238,11 +238,11 @@ TEST(RowMessages, AreCdrAsWrittenByHand) {
       "\0\0\0\0\0\0\0\0"
       "\1\0\0\0"
       "\3\0\0\0hi\0",
-      51);
+      55);
   EXPECT_EQ(cdr.bytes(), wanted);
   mcap::write_row(cdr, stream,
-                  std::vector<log::Value>{std::int64_t{0}, std::int64_t{0}, {}, std::int64_t{5}, std::string("new"),
-                                          std::string()});
+                  std::vector<log::Value>{
+                      std::int64_t{0}, std::int64_t{0}, {}, std::int64_t{5}, std::string("new"), std::string()});
   EXPECT_EQ(static_cast<unsigned char>(cdr.bytes()[4 + 40]), mcap::kOtherLabel);
   EXPECT_THROW(mcap::write_row(cdr, stream, std::vector<log::Value>(6)), log::WrongCell);
 }
@@ -260,7 +260,8 @@ TEST_F(Export, RowsOfSeveralRobotsAreOneSequenceInTime) {
   EXPECT_THAT(reader.robots_in("kick_orders", reader.sessions().front().session_id), testing::ElementsAre(1, 2, 3));
   std::vector<log::TimedPart> parts;
   for (const int robot : {3, 1, 2})
-    parts.push_back({"kick_orders", {"t_ns"}, "session_id, robot_id, seq", reader.sessions().front().session_id, robot});
+    parts.push_back(
+        {"kick_orders", {"t_ns"}, "session_id, robot_id, seq", reader.sessions().front().session_id, robot});
   std::vector<std::int64_t> instants;
   reader.for_each_row_in_time(
       parts, [](std::size_t, std::span<const log::Value> row) { return std::get<std::int64_t>(row[0]); },
