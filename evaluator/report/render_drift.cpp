@@ -39,7 +39,8 @@ std::string told(const RobotDrift& robot) {
                         utc(kick.utc_ns), kick.kick_id, words_of(drift), drift.found + 1);
     text += fmt::format("    {}\n", correction_of(drift));
   }
-  text += fmt::format("  {}: {}\n", robot.story.drifts.empty() ? "no change" : "since then", level_now(robot.story.level));
+  text +=
+      fmt::format("  {}: {}\n", robot.story.drifts.empty() ? "no change" : "since then", level_now(robot.story.level));
   return text;
 }
 
