@@ -159,6 +159,7 @@ void create_tables(SQLite::Database& database) {
   database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
                             kMatchLog.version));
   database.exec(match_schema());
+  database.exec("ANALYZE");  // its table now, while the schema lies in front: of a file that was cut the schema is read
 }
 
 void create_book(SQLite::Database& database, const StudyRow& study) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "evaluator/metrics/falling_instants.sql.hpp"
-#include "evaluator/metrics/wrong_tallies.sql.hpp"
 #include "evaluator/report/log_findings.hpp"
 #include "kicking/geometry/time.hpp"
 
@@ -82,22 +81,6 @@ std::vector<LogFinding> clock_findings(const log::Reader& reader) {
   }
   if (findings.empty()) findings.push_back({"clock", Health::kOk, "no clock jumped", ""});
   return findings;
-}
-
-LogFinding tally_finding(const log::Reader& reader) {
-  std::int64_t wrong = 0, tallies = 0;
-  std::string first;
-  reader.query("SELECT count(*) FROM session_tallies", [&](std::int64_t rows) { tallies = rows; });
-  if (tallies == 0) return {"tallies", Health::kOk, "nobody counted the decisions when they were recorded", ""};
-  reader.query(kWrongTalliesSql, [&](std::int64_t session_id, int robot_id, const std::string& policy,
-                                     bool /*in_charge*/, std::int64_t decisions, std::optional<std::int64_t> tallied) {
-    if (++wrong == 1)
-      first = fmt::format("{} of robot {} in session {} decided {} times, the tally says {}", policy, robot_id,
-                          session_id, decisions, tallied ? fmt::format("{}", *tallied) : "nothing");
-  });
-  if (wrong == 0) return {"tallies", Health::kOk, fmt::format("{} are what the rows say", tallies), ""};
-  return {"tallies", Health::kBad, fmt::format("{} are not what the rows say: {}", wrong, first),
-          "DELETE FROM session_tallies; what reads them counts the rows then"};
 }
 
 }  // namespace trivela::evaluator

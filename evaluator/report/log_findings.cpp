@@ -111,6 +111,7 @@ std::string advice_on(const std::string& why) {
   if (says("this program reads version")) return "read it with the Trivela that wrote it, or a newer one";
   if (says("is not a match log") || says("there is no match log") || says("is a folder"))
     return "match logs are SQLite files that a recorder or trivela simulate has written";
+  if (says("does not count its rows")) return "trivela merge NEW.db LOG counts them anew";
   if (says("index")) return "drop the index; labels and notes need none";
   return "trivela merge NEW.db LOG takes what can be read, other recorders' logs the rest; copy the file again if it "
          "was copied";
@@ -142,8 +143,6 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
           for (LogFinding& found : clock_findings(reader)) findings.push_back(std::move(found));
         },
         findings);
-    look(
-        "tallies", [&] { findings.push_back(tally_finding(reader)); }, findings);
   } catch (const std::exception& error) {
     findings.push_back({"file", Health::kBad, error.what(), advice_on(error.what())});
     if (fs::is_regular_file(path)) look_at_wal(path, findings);

@@ -34,7 +34,4 @@ std::vector<LogFinding> compare_logs(const std::vector<std::filesystem::path>& p
 /// that is another one in the session that goes on. For examine_log().
 std::vector<LogFinding> clock_findings(const log::Reader& reader);
 
-/// Tallies that are not what the rows say. For examine_log().
-LogFinding tally_finding(const log::Reader& reader);
-
 }  // namespace trivela::evaluator

@@ -170,7 +170,8 @@ TEST_F(Export, AnEmptyLogIsAFileWithItsSessionAlone) {
   }
   const log::Reader reader(path());
   EXPECT_THAT(export_mcap(reader, {}, path("log.mcap"), "test"),
-              testing::ElementsAre(testing::Pair("session_policies", 2), testing::Pair("sessions", 1)));
+              testing::ElementsAre(testing::Pair("session_policies", 2), testing::Pair("sessions", 1),
+                                   testing::Pair("tallied_sessions", 1)));
 }
 
 TEST(StreamTables, AreTheSchemasOwn) {

@@ -238,7 +238,7 @@ TEST_F(Labels, KicksAreCalledByRobotAndNumber) {
   const auto kicks = named_kicks(Reader(path()));
   EXPECT_EQ(kick_called(kicks, "1:3", "").kick_id, 3);
   EXPECT_EQ(kick_called(kicks, "3", "").kick_id, 3);
-  EXPECT_EQ(kick_called(kicks, "1:3", "00000000").kick_id, 3);
+  EXPECT_EQ(kick_called(kicks, "1:3", "10000000").kick_id, 3);
   EXPECT_TRUE(kick_called(kicks, "4", "").unknown());
   const auto refused = [&](const std::string& name, const std::string& of) {
     return why_refused([&] { kick_called(kicks, name, of); });

@@ -72,6 +72,7 @@ class Merge : public LogTest {
     SQLite::Database database(log.string());
     std::map<std::string, std::vector<std::string>> rows;
     for (const std::string& table : log::tables_of(database)) {
+      if (table.starts_with("sqlite_")) continue;  // what the library knows of its tables
       SQLite::Statement query(database, "SELECT * FROM " + table);
       while (query.executeStep()) {
         std::string row;
@@ -120,7 +121,8 @@ TEST_F(Merge, OfTheMergedLogAndItsPartsIsTheSameLog) {
   const Path one = robot_log("one.db", 1, 5, 3), two = robot_log("two.db", 2, 2, 7);
   merged({one, two});
   const log::Merged again = merged({one, path("merged.db"), two, two}, "again.db");
-  EXPECT_EQ(rows_of_all(path("again.db")), rows_of_all(path("merged.db")));
+  const auto rows = rows_of_all(path("again.db"));
+  for (const auto& [table, wanted] : rows_of_all(path("merged.db"))) EXPECT_EQ(rows.at(table), wanted) << table;
   EXPECT_THAT(said(again, "again.db").missing, IsEmpty());
 }
 
@@ -191,13 +193,12 @@ TEST_F(Merge, TakesWhatPeopleSaidOfEveryFileAndIsTheSameAgain) {
   };
   say(robot, "over", 1000);
   say(base, "post", 2000);
-  exec(robot, "INSERT INTO order_tallies SELECT session_id, 1, 0, 0, 0, 0, 0 FROM sessions");
   const log::Merged result = merged({robot, base});
   EXPECT_THAT(said(result).conflicts, ElementsAre("kick 1:1 (label): robot.db says over, base.db says post"));
   const auto rows = rows_of_all(path("merged.db"));
   EXPECT_EQ(rows.at("labels").size(), 2u);
   EXPECT_EQ(rows.at("notes").size(), 2u);
-  EXPECT_EQ(rows.at("order_tallies").size(), 1u);
+  EXPECT_EQ(rows.at("tallied_sessions").size(), 2u);
   EXPECT_EQ(make_report(Reader(path("merged.db"))).policies.at(0).of("post"), 1) << "the latest holds";
   merged({path("merged.db"), base, robot, path("merged.db")}, "again.db");
   EXPECT_EQ(rows_of_all(path("again.db")), rows);

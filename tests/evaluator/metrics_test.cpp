@@ -82,7 +82,7 @@ void write_surroundings(MatchLog& match) {
   writer.silence({"odometry", 1, 12 * kSecond_ns, 13 * kSecond_ns});
 }
 
-/// A label of the first kick, and a tally that is not what the rows say.
+/// A label of the first kick.
 void say_afterwards(const std::filesystem::path& path) {
   Int session_id = 0, t_ns = 0;
   log::Reader(path).query("SELECT session_id, t_ns FROM kicks WHERE kick_id = 1", [&](Int of, Int at) {
@@ -90,8 +90,6 @@ void say_afterwards(const std::filesystem::path& path) {
     t_ns = at;
   });
   log::Additions(path).add(log::Label{session_id, 1, 1, t_ns, "on_target", "Ada", "video 12:34"}, kSecond_ns);
-  SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
-      .exec("INSERT INTO session_tallies VALUES (" + std::to_string(session_id) + ", 1, 'stopped', 1, 4, 5, 0, 0, 5)");
 }
 
 /// A match in which every metric finds something.
