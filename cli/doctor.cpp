@@ -125,8 +125,7 @@ int examine(const DoctorFlags& flags) {
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand(
-      "doctor", "Say what is wrong with match logs or this machine's network, and what to do about it");
+  auto* verb = app.add_subcommand("doctor", "Say what is wrong with logs or this machine's network, and what to do");
   auto flags = std::make_shared<DoctorFlags>();
   verb->footer(
       "Of logs: their rows against their digests, sessions that were never closed, gaps, a -wal left behind, a match\n"

@@ -72,7 +72,7 @@ int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> 
 
 void add_note(CLI::App& app, int& exit_code) {
   auto* const verb =
-      app.add_subcommand("note", "Say in a log which match it is, against whom and where, and what is worth knowing");
+      app.add_subcommand("note", "Say in a log which match it is, against whom, where, and what to know");
   verb->footer(
       "Each is a row of its own with who and when; nothing is changed or removed. Of match, opponent and venue the\n"
       "latest holds, notes stand beside each other; the report shows what holds. Without anything to say: what was "

@@ -30,7 +30,7 @@ std::vector<log::StreamTable> tables_of(const ExportPlan& plan) {
 }
 
 std::vector<log::RecordedSession> sessions_of(const ExportPlan& plan, const log::Reader& reader) {
-  const auto all = reader.sessions();
+  auto all = reader.sessions();
   if (plan.sessions.empty()) return all;
   std::vector<log::RecordedSession> chosen;
   for (const std::string& begin : plan.sessions) {

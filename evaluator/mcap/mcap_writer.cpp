@@ -111,7 +111,7 @@ std::uint16_t Writer::add_channel(const std::string& topic, const Schema& schema
 
 void Writer::write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t t_ns, std::string_view message) {
   chunk_index_.at(channel).emplace_back(t_ns, chunk_.size());
-  chunk_ += kMessage;  // by hand: it is done once a row
+  chunk_.push_back(static_cast<char>(kMessage));  // by hand: it is done once a row
   append(chunk_, std::uint64_t{sizeof(channel) + sizeof(sequence) + 2 * sizeof(t_ns) + message.size()});
   append(chunk_, channel);
   append(chunk_, sequence);
@@ -130,15 +130,21 @@ void Writer::write(std::uint16_t channel, std::uint32_t sequence, std::uint64_t 
 
 void Writer::end_chunk() {
   if (chunk_.empty()) return;
-  const std::uint64_t offset = written_B_, records_B = chunk_.size();
+  const std::uint64_t offset = written_B_;
+  const std::uint64_t record_bytes = chunk_.size();
   Content head;
-  head.put(chunk_start_ns_).put(chunk_end_ns_).put(records_B).put(crc_after(0, chunk_)).put_text("").put(records_B);
+  head.put(chunk_start_ns_)
+      .put(chunk_end_ns_)
+      .put(record_bytes)
+      .put(crc_after(0, chunk_))
+      .put_text("")
+      .put(record_bytes);
   std::string record = head.as_record(kChunk);
-  const std::uint64_t length = record.size() - 9 + records_B;
+  const std::uint64_t length = record.size() - 9 + record_bytes;
   std::memcpy(record.data() + 1, &length, sizeof(length));
   pour(record);
   pour(chunk_);
-  ChunkIndex index{chunk_start_ns_, chunk_end_ns_, offset, written_B_ - offset, records_B, {}, 0};
+  ChunkIndex index{chunk_start_ns_, chunk_end_ns_, offset, written_B_ - offset, record_bytes, {}, 0};
   const std::uint64_t indexes_at = written_B_;
   for (std::size_t i = 0; i < chunk_index_.size(); ++i) {
     auto& entries = chunk_index_[i];
@@ -195,8 +201,8 @@ std::string Writer::summary(std::uint64_t start, std::string& offsets) const {
                          .put_array(indexes)
                          .put(c.indexes_B)
                          .put_text("")
-                         .put(c.records_B)
-                         .put(c.records_B)
+                         .put(c.record_bytes)
+                         .put(c.record_bytes)
                          .as_record(kChunkIndex));
   }
   for (const MetadataIndex& m : metadata_)

@@ -163,10 +163,13 @@ by('here').addEventListener('click', () => setVideo(by('video').currentTime));
 document.addEventListener('keydown', (event) => {
   const writes = event.target.closest('input:not([type="checkbox"]), select, video');
   if (writes || !by('keys').checked || event.ctrlKey || event.altKey || event.metaKey) return;
+  const button = document.querySelector(`#outcomes [data-key="${CSS.escape(event.key)}"]:enabled`);
   if (event.key === 'n') step(true);
   else if (event.key === 'p') step(false);
   else if (event.key === 'w' && !by('withdraw').disabled) say(null);
-  else document.querySelector(`#outcomes [data-key="${CSS.escape(event.key)}"]:enabled`)?.click();
+  else if (button) button.click();
+  else return;
+  event.preventDefault();  // no letter for the field that may have the focus now
 });
 
 async function begin() {

@@ -42,7 +42,8 @@ TEST(Replay, GivesTheDecisionsOfTheMatchAgainAndOtherOnesWithAnotherPolicy) {
     tables.push_back(difference.substr(0, difference.find(',')));
   }
   std::erase(tables, "sqlite_stat1");  // SQLite's own counts of rows, where it makes some
-  EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "losses", "sessions", "digests"));
+  EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "possession_tallies", "losses",
+                                           "sessions", "digests"));
   EXPECT_EQ(number_of(Reader{folder / "moving.db"}, "SELECT count(*) FROM kick_decisions WHERE policy = 'stopped'"), 0);
 
   EXPECT_EQ(replayed.sessions()[0].replays_uuid, original.sessions()[0].uuid);
