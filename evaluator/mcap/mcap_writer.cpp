@@ -201,8 +201,8 @@ std::string Writer::summary(std::uint64_t start, std::string& offsets) const {
                          .put_array(indexes)
                          .put(c.indexes_B)
                          .put_text("")
-                         .put(c.record_bytes)
-                         .put(c.record_bytes)
+                         .put(c.records_B)
+                         .put(c.records_B)
                          .as_record(kChunkIndex));
   }
   for (const MetadataIndex& m : metadata_)

@@ -207,7 +207,7 @@ TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
   const Ran again = ran(folder, study, {"--tallies", "book.db"});
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.errors, HasSubstr("matches are in book.db already"));
-  ASSERT_EQ(ran(folder, study, {"--tallies", "whole.db", "--jobs", "2"}).exit_code, 0);
+  ASSERT_EQ(ran(folder, study, {"--tallies", "whole.db"}).exit_code, 0);
   const auto whole = book(folder, "whole.db");
   EXPECT_LT(kept.size(), whole.size());
   EXPECT_EQ(book(folder, "book.db"), whole);

@@ -120,13 +120,13 @@ TEST_F(Interop, EachFieldOfADecisionIsReadAsItWasWritten) {
   EXPECT_THAT(peer->said(), HasSubstr(text_of(decision)));
 }
 
-TEST_F(Interop, ADecisionAsItIsIsRefusedForItsRepresentation) {
+// Fast DDS 2.9 knows one representation of data and does not look at which a writer offers: hence the copy.
+TEST_F(Interop, ADecisionAsItIsIsMatchedWhateverItsRepresentation) {
   bus::Writer<msg::KickDecision> decisions{participant};
   peer.emplace(TRIVELA_BINARY_DIR "/tests/fastdds_peer", std::vector{std::to_string(domain)});
   ASSERT_TRUE(peer->says("kick_decision as it is: ")) << peer->said();
   ASSERT_TRUE(peer->says("\n"));
-  EXPECT_THAT(peer->said(), HasSubstr("kick_decision as it is: another data representation\n"))
-      << "where it matches, no copy is needed any more";
+  EXPECT_THAT(peer->said(), HasSubstr("kick_decision as it is: matched\n"));
 }
 
 TEST_F(Interop, TheNodeDecidesOnAWorldOfAnotherVendorAndIsReadByIt) {

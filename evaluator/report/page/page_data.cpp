@@ -218,7 +218,7 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
     });
   }
   std::ranges::sort(data.shadows);
-  data.shadows.erase(std::ranges::unique(data.shadows).begin(), data.shadows.end());
+  data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
   held.fill(data);
   std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
     return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
