@@ -47,7 +47,7 @@ inline void require_new(const std::string& flag, const std::filesystem::path& pa
   const bool taken = std::filesystem::exists(path, unknown) && !(std::filesystem::is_regular_file(path, unknown) &&
                                                                  std::filesystem::file_size(path, unknown) == 0);
   if (taken)
-    throw UsageError{
+    throw std::runtime_error{
         fmt::format("{} {} exists already and is never overwritten; choose another file", flag, path.string())};
   require_writable(flag, path);
 }

@@ -8,6 +8,7 @@
 #include "cli/import/match_rows.hpp"
 #include "cli/import/refbox_report.hpp"
 #include "cli/import/subcommands.hpp"
+#include "cli/launch/log_claim.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/text/printable.hpp"
@@ -71,7 +72,7 @@ std::string write_log(const imports::BoxLogs& logs, const RefboxArguments& argum
 }
 
 int import_refbox(const RefboxArguments& arguments) {
-  if (!arguments.out.empty()) require_new("--out", arguments.out);
+  if (!arguments.out.empty()) const LogClaim before_anything_is_read(arguments.out);
   const imports::BoxLogs logs = imports::read_box_logs({arguments.files.begin(), arguments.files.end()});
   const RefboxSummary summary = summary_of(logs);
   if (arguments.json) {
