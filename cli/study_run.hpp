@@ -49,8 +49,8 @@ class StudyRun {
  private:
   const Study& study_;
   std::string verb_;
+  SignalInbox signals_;  // before the book, which a stop must not leave behind, and the threads
   evaluator::log::TallyBook book_;
-  SignalInbox signals_;  // before the threads, which must not be interrupted
   ProgressBar bar_;
   bool knows_all_;         // how many matches of arms it will play
   double expected_ = 0.0;  // of those that are not in the book; where nobody knows: of this step

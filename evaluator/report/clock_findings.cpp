@@ -74,6 +74,7 @@ std::vector<LogFinding> clock_findings(const log::Reader& reader) {
   find_measured_steps(reader, jumps);
   find_utc_steps(reader, jumps);
   std::vector<LogFinding> findings;
+  findings.reserve(jumps.size() + 1);
   for (const std::string& jump : jumps) {
     findings.push_back({"clock", Health::kDoubtful, jump,
                         "times across the jump cannot be compared; let a time service set the clock before the match "

@@ -30,11 +30,11 @@ void add_finding(Findings& findings, const char* check, const std::vector<std::s
 
 void look_at_wal(const fs::path& path, Findings& findings) {
   std::error_code none;
-  const auto size_B = fs::file_size(log::beside(path, "-wal"), none);
+  const auto bytes = fs::file_size(log::beside(path, "-wal"), none);
   if (none) return findings.push_back({"-wal", Health::kOk, "none is left behind", ""});
   findings.push_back({"-wal", Health::kDoubtful,
                       fmt::format("{} of {} bytes lies beside it: its recorder runs, or was killed",
-                                  log::beside(path, "-wal").filename().string(), size_B),
+                                  log::beside(path, "-wal").filename().string(), bytes),
                       "copy both files together, never the log alone; trivela merge makes one file of the two"});
 }
 

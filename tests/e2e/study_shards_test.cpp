@@ -147,8 +147,11 @@ Ran stopped(const Folder& folder, const Words& study, const std::string& book_fi
   words.insert(words.end(), {"--tallies", book_file});
   Program program{"trivela", words, folder.path()};
   EXPECT_TRUE(wait_for_change(folder.path(), program.watch(), [&] {
-    std::error_code missing;
-    return std::filesystem::file_size(folder / book_file, missing) > 40'000 && !missing;
+    try {
+      return SQLite::Database((folder / book_file).string()).execAndGet("SELECT count(*) FROM tallies").getInt64() > 0;
+    } catch (const SQLite::Exception&) {
+      return false;  // it is not there yet, or being written
+    }
   }));
   program.signal(SIGINT);
   Ran result{.exit_code = program.wait(), .output = {}, .errors = program.errors()};
