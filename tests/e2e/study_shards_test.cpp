@@ -147,11 +147,8 @@ Ran stopped(const Folder& folder, const Words& study, const std::string& book_fi
   words.insert(words.end(), {"--tallies", book_file});
   Program program{"trivela", words, folder.path()};
   EXPECT_TRUE(wait_for_change(folder.path(), program.watch(), [&] {
-    try {
-      return SQLite::Database((folder / book_file).string()).execAndGet("SELECT count(*) FROM tallies").getInt64() > 0;
-    } catch (const SQLite::Exception&) {
-      return false;  // it is not there yet, or being written
-    }
+    std::error_code missing;  // of some 110 kB it has no match, of 220 kB all
+    return std::filesystem::file_size(folder / book_file, missing) > 130'000 && !missing;
   }));
   program.signal(SIGINT);
   Ran result{.exit_code = program.wait(), .output = {}, .errors = program.errors()};
