@@ -1,5 +1,8 @@
 #include "pages/monitor/robot_view.hpp"
 
+#include <bit>
+#include <type_traits>
+
 namespace trivela::pages {
 
 namespace {
@@ -8,8 +11,8 @@ constexpr std::int64_t kDecisionAge_ns = 300'000'000;  // one a cycle, with the 
 
 }  // namespace
 
-const char* words_of(msg::DecisionReason reason) {
-  switch (reason) {
+const char* words_of(const msg::DecisionReason& reason) {
+  switch (std::bit_cast<std::underlying_type_t<msg::DecisionReason>>(reason)) {  // of another program it may be any
     case msg::REASON_FIRE:
       return "every condition holds";
     case msg::REASON_NOT_PLAYING:

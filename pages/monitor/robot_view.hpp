@@ -51,6 +51,6 @@ const msg::KickDecision* recent_fire(const RobotView& robot, std::int64_t now_ns
 Why why_of(const RobotView& robot, std::int64_t now_ns);
 
 /// A reason as a part of a sentence: "the two segments do not meet".
-const char* words_of(msg::DecisionReason reason);
+const char* words_of(const msg::DecisionReason& reason);
 
 }  // namespace trivela::pages

@@ -16,17 +16,20 @@ std::int64_t drift_ns(std::int64_t span_ns) {
 
 void ClockExchange::add(Ways& ways, const Way& way) {
   const auto known = [&](const Way& w) { return w.passage.sent_t_ns == way.passage.sent_t_ns; };
-  if (!is_instant(way.passage.sent_t_ns) || !is_instant(way.passage.heard_t_ns)) return;
   if (std::ranges::any_of(ways, known)) return;
   ways.push_back(way);
   if (ways.size() > kMost) ways.pop_front();
 }
 
 void ClockExchange::heard(const Passage& theirs) {
+  if (!is_instant(theirs.sent_t_ns) || !is_instant(theirs.heard_t_ns)) return;
   add(theirs_, {theirs.heard_t_ns, theirs.heard_t_ns - theirs.sent_t_ns, theirs});
 }
 
-void ClockExchange::told(const Passage& ours) { add(ours_, {ours.sent_t_ns, ours.heard_t_ns - ours.sent_t_ns, ours}); }
+void ClockExchange::told(const Passage& ours) {
+  if (!is_instant(ours.sent_t_ns) || !is_instant(ours.heard_t_ns)) return;
+  add(ours_, {ours.sent_t_ns, ours.heard_t_ns - ours.sent_t_ns, ours});
+}
 
 const ClockExchange::Way* ClockExchange::best(const Ways& ways, std::int64_t now_ns) {
   const Way* best = nullptr;
