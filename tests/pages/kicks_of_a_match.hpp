@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 
 #include "idl/messages.hpp"
 #include "idl/none.hpp"
@@ -17,7 +18,7 @@ inline msg::KickDecision decision(std::uint8_t robot_id, std::int64_t kick_id, m
   decision.seq = seq;
   decision.t_ns = t_ns;
   decision.kick_id = kick_id;
-  decision.policy = policy;
+  std::memcpy(&decision.policy, &policy, sizeof(policy));  // as it comes over the bus: it may be none
   decision.fire = kick_id != 0;
   decision.reason = kick_id != 0 ? msg::REASON_FIRE : msg::REASON_NOT_ALIGNED;
   decision.y_m = 4.0;
