@@ -128,30 +128,44 @@ config::Settings settings_of(const MatchFlags& flags) {
   return settings;
 }
 
+int play(const MatchFlags& flags, bool secured, bool paced) {
+  if (flags.halves.empty() && flags.random.empty()) throw UsageError{"--half or --random is required"};
+  if (flags.devices == kEmulated && paced)
+    throw UsageError{"--pace: against emulated devices a match is played in real time"};
+  config::Settings settings = settings_of(flags);
+  const auto keys = secured ? secure_children(flags.keys, settings.run.robot_id) : nullptr;
+  const WatchFlags* const page = flags.watch ? &flags.page : nullptr;
+  return flags.devices == kEmulated ? record_emulated(std::move(settings), flags.domain, flags.out, page)
+                                    : record_lockstep("simulator", std::move(settings), flags.domain, flags.out, page);
+}
+
+/// What is played: by whom, how long, with which world.
+void add_play_flags(CLI::App& verb, MatchFlags& flags) {
+  auto* half = verb.add_option("--half", flags.halves, "policy in charge of a half, one --half each")
+                   ->expected(1)
+                   ->check(CLI::IsMember(half_policies()))
+                   ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option("--random", flags.random,
+                  "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
+      ->excludes(half);
+  verb.add_flag("--paired-halves", flags.paired_halves,
+                "the same possessions in every half; otherwise each has its own")
+      ->needs(half);
+  verb.add_option("--minutes", flags.minutes, "length of a half")->check(between(0.01, 1000.0))->capture_default_str();
+  verb.add_option("--seed", flags.seed, "same seed, same match")->check(seeds())->capture_default_str();
+  verb.add_option("--devices", flags.devices,
+                  "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
+                  "else an ioBoard) at a line and a referee box on TCP, in real time")
+      ->check(CLI::IsMember({"sim", kEmulated}))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_match(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("match", "Play a simulated match with real node processes and record it");
   auto flags = std::make_shared<MatchFlags>();
-  auto* half = verb->add_option("--half", flags->halves, "policy in charge of a half, one --half each")
-                   ->expected(1)
-                   ->check(CLI::IsMember(half_policies()))
-                   ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  verb->add_option("--random", flags->random,
-                   "policies such as stopped,moving,predictive: one half, one of them drawn for each possession")
-      ->excludes(half);
-  verb->add_flag("--paired-halves", flags->paired_halves,
-                 "the same possessions in every half; otherwise each has its own")
-      ->needs(half);
-  verb->add_option("--minutes", flags->minutes, "length of a half")
-      ->check(between(0.01, 1000.0))
-      ->capture_default_str();
-  verb->add_option("--seed", flags->seed, "same seed, same match")->check(seeds())->capture_default_str();
-  verb->add_option("--devices", flags->devices,
-                   "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "
-                   "else an ioBoard) at a line and a referee box on TCP, in real time")
-      ->check(CLI::IsMember({"sim", kEmulated}))
-      ->capture_default_str();
+  add_play_flags(*verb, *flags);
   verb->add_option("--domain", flags->domain, "DDS domain; default: drawn, with a discovery tag of its own")
       ->check(CLI::Range(0, 100));
   verb->add_option("--out", flags->out, "match log, must not exist")->capture_default_str();
@@ -177,17 +191,8 @@ void add_match(CLI::App& app, int& exit_code) {
           ->needs(watch)
           ->capture_default_str();
   for (CLI::Option* option : add_watch_flags(*verb, flags->page)) option->needs(watch);
-  verb->callback([flags, secure, pace, &exit_code] {
-    if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
-    if (flags->devices == kEmulated && pace->count() > 0)
-      throw UsageError{"--pace: against emulated devices a match is played in real time"};
-    config::Settings settings = settings_of(*flags);
-    const auto keys = secure->count() == 0 ? nullptr : secure_children(flags->keys, settings.run.robot_id);
-    const WatchFlags* const page = flags->watch ? &flags->page : nullptr;
-    exit_code = flags->devices == kEmulated
-                    ? record_emulated(std::move(settings), flags->domain, flags->out, page)
-                    : record_lockstep("simulator", std::move(settings), flags->domain, flags->out, page);
-  });
+  verb->callback(
+      [flags, secure, pace, &exit_code] { exit_code = play(*flags, secure->count() > 0, pace->count() > 0); });
 }
 
 }  // namespace trivela::cli

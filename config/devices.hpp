@@ -1,20 +1,33 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-/// Devices as a file names them: a variant of backends, which hal/open.hpp opens. A backend with settings of its own
-/// lists them in `fields`; they stand in the table that has its name, beside the device's key.
+namespace trivela::hal {
+class Kicker;
+class Wheels;
+struct Owner;
+enum class WheelsUse;
+}  // namespace trivela::hal
+
+/// Devices as a file names them: a variant of backends, which hal/open.hpp opens by the functions that each declares as
+/// its friends; their bodies stand with the backend. One with settings of its own lists them in `fields`; they stand in
+/// the table that has its name, beside the device's key.
 namespace trivela::config {
+
+struct Hal;
 
 /// Behind a bridge on the bus, of which the simulator is one (idl/README.md); once called sim.
 struct BusDevice {
   static constexpr std::string_view kName = "bus";
   static constexpr bool kInLockstep = true;  ///< its samples may be of simulated time
+  friend std::unique_ptr<hal::Kicker> kicker_of(const BusDevice&, const Hal&, const hal::Owner&);
+  friend std::unique_ptr<hal::Wheels> wheels_of(const BusDevice&, const Hal&, const hal::Owner&, hal::WheelsUse);
 };
 
 /// The simulator's laser, over the bus.
@@ -27,23 +40,29 @@ struct SimDevice {
 struct ReplayDevice {
   static constexpr std::string_view kName = "replay";
   static constexpr bool kInLockstep = true;
+  friend std::unique_ptr<hal::Kicker> kicker_of(const ReplayDevice&, const Hal&, const hal::Owner&);
+  friend std::unique_ptr<hal::Wheels> wheels_of(const ReplayDevice&, const Hal&, const hal::Owner&, hal::WheelsUse);
 };
 
 /// The Falcons' ioBoard on a serial line (docs/devices/ioboard.md).
 struct IoBoardDevice {
   static constexpr std::string_view kName = "ioboard";
+  static constexpr std::string_view kUnarmed = "the in-play or the software-on switch is open";
   std::string port = "/dev/ttyUSB0";
   double pulse_us_per_power = 128.0;    ///< the coil's pulse for one unit of the table's set-points
   std::optional<std::uint8_t> lever{};  ///< height, 0 home to 205; none: the table's (Robot::lever), if it says one
   double charge_time_s = 3.0;           ///< from empty to full (assumed): the board does not say its charge
+  friend std::unique_ptr<hal::Kicker> kicker_of(const IoBoardDevice&, const Hal&, const hal::Owner&);
 };
 
 /// A ReKick board on a CAN bus (docs/devices/rekick.md).
 struct ReKickDevice {
   static constexpr std::string_view kName = "rekick";
+  static constexpr std::string_view kUnarmed = "the kicker's supply is off";
   std::string port = "can0";                ///< an interface, or the path of an emulator's socket
   double pulse_us_per_power = 100.0 / 3.0;  ///< of the coil: set-points in percent, as those of its public host
   std::uint16_t max_voltage_v = 330;        ///< that it charges to
+  friend std::unique_ptr<hal::Kicker> kicker_of(const ReKickDevice&, const Hal&, const hal::Owner&);
 };
 
 /// A base whose drives follow CiA 402 on a CAN bus (docs/devices/cia402.md).
@@ -60,6 +79,7 @@ struct Cia402Device {
   std::uint8_t master = 127;                       ///< the node number of this computer
   double heartbeat_s = 0.2;  ///< so long after our last heartbeat, or a drive's, its wheel is stopped
   double cycle_s = 0.01;     ///< of set-points and samples
+  friend std::unique_ptr<hal::Wheels> wheels_of(const Cia402Device&, const Hal&, const hal::Owner&, hal::WheelsUse);
 };
 
 /// An Xsens MTi on a serial line, in place of the gyro of the wheels' device (docs/devices/mti.md).
@@ -114,6 +134,26 @@ bool plays_in_lockstep(const std::variant<Backends...>& device) {
   return std::visit(
       []<class Backend>(const Backend&) {
         return requires { Backend::kInLockstep; };
+      },
+      device);
+}
+
+/// What stands in the way of firing where the backend says that it is not armed.
+inline std::string_view unarmed_by(const KickerDevice& device) {
+  return std::visit(
+      []<class Backend>(const Backend&) -> std::string_view {
+        if constexpr (requires { Backend::kUnarmed; }) return Backend::kUnarmed;
+        return "the arm switch is open";
+      },
+      device);
+}
+
+/// From empty to full, of a board whose charge is modelled from its opening on; 0: it is measured.
+inline double modelled_charge_s(const KickerDevice& device) {
+  return std::visit(
+      [](const auto& backend) {
+        if constexpr (requires { backend.charge_time_s; }) return backend.charge_time_s;
+        return 0.0;
       },
       device);
 }

@@ -7,37 +7,16 @@
 #include <string>
 #include <utility>
 
-#include "hal/board/board_kicker.hpp"
-#include "hal/bus/bus_kicker.hpp"
-#include "hal/bus/bus_wheels.hpp"
-#include "hal/can/can_line.hpp"
-#include "hal/cia402/cia402_wheels.hpp"
 #include "hal/gyro_wheels.hpp"
-#include "hal/ioboard/io_board.hpp"
 #include "hal/line/line.hpp"
 #include "hal/mti/mti.hpp"
-#include "hal/rekick/rekick.hpp"
-#include "hal/replay/replay_kicker.hpp"
-#include "hal/replay/replay_wheels.hpp"
 #include "hal/scip/scip_range_finder.hpp"
 #include "hal/sim/sim_range_finder.hpp"
 
 namespace trivela::hal {
 namespace {
 
-using config::BusDevice, config::Cia402Device, config::Hal, config::IoBoardDevice, config::ReKickDevice,
-    config::ReplayDevice, config::ScipDevice, config::SimDevice;
-
-std::unique_ptr<Wheels> wheels(const BusDevice&, const Hal&, const Owner& owner, WheelsUse) {
-  return std::make_unique<BusWheels>(owner.participant, owner.robot_id);
-}
-std::unique_ptr<Wheels> wheels(const ReplayDevice&, const Hal& devices, const Owner& owner, WheelsUse) {
-  return std::make_unique<ReplayWheels>(ReplayLog::open(devices.replay_log, owner.robot_id));
-}
-
-std::unique_ptr<Wheels> wheels(const Cia402Device& drives, const Hal&, const Owner& owner, WheelsUse use) {
-  return std::make_unique<cia402::Cia402Wheels>(can::can_line(drives.port), drives, owner.base, use);
-}
+using config::Hal, config::ScipDevice, config::SimDevice;
 
 /// Whether the port's other end is a program.
 bool is_pseudo_terminal(const std::string& port) {
@@ -53,20 +32,6 @@ std::unique_ptr<Gyro> gyro_of(const config::MtiDevice& gyro) {
 bool is_emulated(const config::WheelsGyro&) { return false; }
 bool is_emulated(const config::MtiDevice& gyro) { return is_pseudo_terminal(gyro.port); }
 
-std::unique_ptr<Kicker> kicker(const BusDevice&, const Hal&, const Owner& owner) {
-  return std::make_unique<BusKicker>(owner.participant, owner.robot_id);
-}
-std::unique_ptr<Kicker> kicker(const ReplayDevice&, const Hal& devices, const Owner& owner) {
-  return std::make_unique<ReplayKicker>(ReplayLog::open(devices.replay_log, owner.robot_id));
-}
-
-std::unique_ptr<Kicker> kicker(const IoBoardDevice& board, const Hal&, const Owner&) {
-  return std::make_unique<BoardKicker>(std::make_unique<ioboard::IoBoard>(serial_line(board.port), board));
-}
-std::unique_ptr<Kicker> kicker(const ReKickDevice& board, const Hal&, const Owner&) {
-  return std::make_unique<BoardKicker>(std::make_unique<rekick::ReKick>(can::can_line(board.port), board));
-}
-
 std::unique_ptr<RangeFinder> range_finder(const SimDevice&, const Owner& owner) {
   return std::make_unique<SimRangeFinder>(owner.participant, owner.robot_id);
 }
@@ -77,7 +42,8 @@ std::unique_ptr<RangeFinder> range_finder(const ScipDevice& scanner, const Owner
 }  // namespace
 
 std::unique_ptr<Wheels> open_wheels(const Hal& devices, const Owner& owner, WheelsUse use) {
-  auto opened = std::visit([&](const auto& backend) { return wheels(backend, devices, owner, use); }, devices.wheels);
+  auto opened =
+      std::visit([&](const auto& backend) { return wheels_of(backend, devices, owner, use); }, devices.wheels);
   auto gyro = open_gyro(devices.gyro);
   if (!gyro) return opened;
   const bool emulated = std::visit([](const auto& backend) { return is_emulated(backend); }, devices.gyro);
@@ -89,7 +55,7 @@ std::unique_ptr<Gyro> open_gyro(const config::GyroDevice& device) {
 }
 
 std::unique_ptr<Kicker> open_kicker(const Hal& devices, const Owner& owner) {
-  return std::visit([&](const auto& backend) { return kicker(backend, devices, owner); }, devices.kicker);
+  return std::visit([&](const auto& backend) { return kicker_of(backend, devices, owner); }, devices.kicker);
 }
 
 std::unique_ptr<RangeFinder> open_range_finder(const config::RangeFinderDevice& device, const Owner& owner) {

@@ -55,12 +55,6 @@ bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::Kick
   return true;
 }
 
-/// From empty to full, of a board whose charge is modelled from its opening on.
-std::chrono::duration<double> charging_time(const config::KickerDevice& device) {
-  const auto* const board = std::get_if<config::IoBoardDevice>(&device);
-  return std::chrono::duration<double>{board == nullptr ? 0.0 : board->charge_time_s};
-}
-
 bool sound(const hal::KickerSample& sample) { return sample.fault == hal::KickerFault::kNone; }
 
 int not_fired(const std::string& why) {
@@ -93,20 +87,13 @@ int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder&
   return kDone;
 }
 
-/// What stands in the way of firing where `armed` is false, by what the board's backend makes it of.
-std::string open_switch(const config::KickerDevice& device) {
-  if (std::holds_alternative<config::IoBoardDevice>(device)) return "the in-play or the software-on switch is open";
-  if (std::holds_alternative<config::ReKickDevice>(device)) return "the kicker's supply is off";
-  return "the arm switch is open";
-}
-
 }  // namespace
 
 std::string refused_at_once(const hal::KickerSample& sample, const config::KickerDevice& device,
                             const std::string& status) {
   if (!sound(sample))
     return fmt::format("refused, fault; {}{}{}", kicker_text(sample), status.empty() ? "" : "; ", status);
-  return sample.armed ? "" : fmt::format("refused, unarmed: {}; {}", open_switch(device), kicker_text(sample));
+  return sample.armed ? "" : fmt::format("refused, unarmed: {}; {}", config::unarmed_by(device), kicker_text(sample));
 }
 
 int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const config::Robot& robot, Person& person,
@@ -128,7 +115,8 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                   "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
                   kicker_text(*newest), powers.min, robot.name));
   if (!person.confirms("kick")) return not_fired("not confirmed");
-  const std::chrono::duration<double> patience = kKickerPatience + charging_time(settings.hal.kicker);
+  const std::chrono::duration<double> patience =
+      kKickerPatience + std::chrono::duration<double>{config::modelled_charge_s(settings.hal.kicker)};
   say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", patience.count()));
   std::fflush(stdout);
   kicker.charge(hal::ChargeWord::kUp);

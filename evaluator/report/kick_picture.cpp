@@ -155,7 +155,7 @@ class Above {
     const Point along = kicking::direction(flight_.release.heading_rad - flight_.alpha_rad);
     const Point t = (target - centre).normalized(), right(t.y(), -t.x());
     const double length =
-        std::min((alignment.distance_m + 0.3) / std::max(along.dot(t), 0.1), picture_.segments.reach_m);
+        std::min((alignment.centre_distance_m + 0.3) / std::max(along.dot(t), 0.1), picture_.segments.reach_m);
     return line("c3 d1", {centre, centre + length * along}) +
            line("c4 wide", {target - alignment.left_m * right, target + alignment.right_m * right});
   }

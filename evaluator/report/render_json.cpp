@@ -107,6 +107,13 @@ Json labels_json(const LabelQuality& labels, const std::vector<std::string>& goa
   return {{"by_sightings", rows}, {"goal_warnings", goal_warnings}};
 }
 
+Json unclosed_json(const UnclosedKick& kick) {
+  return {{"session_id", kick.session_id},   {"robot_id", kick.robot_id},
+          {"kick_id", kick.kick_id},         {"t_ns", kick.t_ns},
+          {"policy", kick.policy},           {"has_order", kick.has_order},
+          {"has_receipt", kick.has_receipt}, {"has_outcome", kick.has_outcome}};
+}
+
 Json quality_json(const Report& report) {
   Json quality = {{"data_lost", report.data_lost()},
                   {"rows_missing", report.rows_missing()},
@@ -118,16 +125,7 @@ Json quality_json(const Report& report) {
                   {"silences", Json::array()},
                   {"unrecorded_orders", Json::array()}};
   for (const log::Loss& loss : report.losses) quality["streams"].push_back(loss_json(loss));
-  for (const UnclosedKick& kick : report.unclosed_kicks) {
-    quality["unclosed_kicks"].push_back({{"session_id", kick.session_id},
-                                         {"robot_id", kick.robot_id},
-                                         {"kick_id", kick.kick_id},
-                                         {"t_ns", kick.t_ns},
-                                         {"policy", kick.policy},
-                                         {"has_order", kick.has_order},
-                                         {"has_receipt", kick.has_receipt},
-                                         {"has_outcome", kick.has_outcome}});
-  }
+  for (const UnclosedKick& kick : report.unclosed_kicks) quality["unclosed_kicks"].push_back(unclosed_json(kick));
   for (const RefusedOrders& refused : report.refused_orders) {
     quality["refused_orders"].push_back(
         {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});

@@ -83,7 +83,7 @@ class Game {
     if (oracle_) truth = match_.true_state();
     if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
       commands.drive = chain.drive().twist;
-      note_assignment(chain);
+      note_assignment(chain, decision->in_charge);
       if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
         record_->decisions.push_back(chain.record());
       if (decision->order) commands.fire = send(*decision, chain);
@@ -139,7 +139,7 @@ class Game {
     }
     if (!receipt.accepted) return std::nullopt;
     for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
-    const kicking::Judgement& judgement = decision.in_charge.judgement;
+    const kicking::Judgement& judgement = decision.judgement;
     const msg::WorldState& world = chain.world();
     PlayedKick kick;
     kick.distance_m = judgement.distance_m;
@@ -153,19 +153,18 @@ class Game {
     kick.predicted = judgement.predicted;
     played_.possessions.back().kick = kick;
     played_.possessions.back().policy = decision.in_charge.policy;
-    played_.possessions.back().assignment_probability = decision.assignment_probability;
+    played_.possessions.back().assignment_probability = decision.in_charge.probability;
     kick_ids_.back() = receipt.kick_id;
     return sim::Fire{receipt.fired_t_ns, receipt.kick_id, receipt.power};
   }
 
   /// Who is in charge is known from the first decision in play. A robot may lose the ball and have it again in one of
   /// the simulator's possessions: what counts there is whom it put in charge first.
-  void note_assignment(const RobotChain& chain) {
+  void note_assignment(const RobotChain& chain, const robot::PolicyChance& chance) {
     const msg::WorldState& world = chain.world();
     const std::pair assigned{robot_id_, world.possession_id};
     if (assigned_ == assigned || !world.possession || !world.playing) return;
     assigned_ = assigned;
-    const robot::PolicyChance chance = chain.decider().assignment().in_charge(world.half, world.possession_id);
     if (!noted_) {
       noted_ = true;
       played_.possessions.back().policy = chance.policy;

@@ -46,7 +46,7 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   decider_.hear(referee);
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
-  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.in_charge.judgement.drive, sensors.t_ns);
+  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.judgement.drive, sensors.t_ns);
   drive_ = arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession});
   return &decision;
 }

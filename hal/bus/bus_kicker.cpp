@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "hal/bus/bus_streams.hpp"
+#include "hal/open.hpp"
 #include "idl/none.hpp"
 
 namespace trivela::hal {
@@ -97,3 +98,11 @@ void BusKicker::write_charge(ChargeWord word) {
 }
 
 }  // namespace trivela::hal
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Kicker> kicker_of(const BusDevice&, const Hal&, const hal::Owner& owner) {
+  return std::make_unique<hal::BusKicker>(owner.participant, owner.robot_id);
+}
+
+}  // namespace trivela::config

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "hal/bus/bus_streams.hpp"
+#include "hal/open.hpp"
 #include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 
@@ -62,3 +63,11 @@ void BusWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
 }
 
 }  // namespace trivela::hal
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Wheels> wheels_of(const BusDevice&, const Hal&, const hal::Owner& owner, hal::WheelsUse) {
+  return std::make_unique<hal::BusWheels>(owner.participant, owner.robot_id);
+}
+
+}  // namespace trivela::config

@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hal/can/can_line.hpp"
+#include "hal/cia402/cia402_wheels.hpp"
+#include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::cia402 {
@@ -207,3 +210,12 @@ std::string Drives::status() const {
 }
 
 }  // namespace trivela::hal::cia402
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Wheels> wheels_of(const Cia402Device& drives, const Hal&, const hal::Owner& owner,
+                                       hal::WheelsUse use) {
+  return std::make_unique<hal::cia402::Cia402Wheels>(hal::can::can_line(drives.port), drives, owner.base, use);
+}
+
+}  // namespace trivela::config

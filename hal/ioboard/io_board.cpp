@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hal/board/board_kicker.hpp"
+#include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::ioboard {
@@ -207,3 +209,12 @@ double IoBoard::charge(std::int64_t now_ns) const {
 }
 
 }  // namespace trivela::hal::ioboard
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Kicker> kicker_of(const IoBoardDevice& board, const Hal&, const hal::Owner&) {
+  return std::make_unique<hal::BoardKicker>(
+      std::make_unique<hal::ioboard::IoBoard>(hal::serial_line(board.port), board));
+}
+
+}  // namespace trivela::config

@@ -6,6 +6,9 @@
 #include <array>
 #include <utility>
 
+#include "hal/board/board_kicker.hpp"
+#include "hal/can/can_line.hpp"
+#include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal::rekick {
@@ -160,3 +163,12 @@ void ReKick::say_link_fault(std::int64_t now_ns) {
 }
 
 }  // namespace trivela::hal::rekick
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Kicker> kicker_of(const ReKickDevice& board, const Hal&, const hal::Owner&) {
+  return std::make_unique<hal::BoardKicker>(
+      std::make_unique<hal::rekick::ReKick>(hal::can::can_line(board.port), board));
+}
+
+}  // namespace trivela::config

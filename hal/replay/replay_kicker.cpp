@@ -1,5 +1,6 @@
 #include "hal/replay/replay_kicker.hpp"
 
+#include "hal/open.hpp"
 #include "idl/none.hpp"
 
 namespace trivela::hal {
@@ -26,3 +27,11 @@ void ReplayKicker::withdraw(std::int64_t kick_id) {
 }
 
 }  // namespace trivela::hal
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Kicker> kicker_of(const ReplayDevice&, const Hal& devices, const hal::Owner& owner) {
+  return std::make_unique<hal::ReplayKicker>(hal::ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+}  // namespace trivela::config

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hal/open.hpp"
 #include "idl/none.hpp"
 
 namespace trivela::hal {
@@ -32,3 +33,12 @@ void ReplayWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
 }
 
 }  // namespace trivela::hal
+
+namespace trivela::config {
+
+std::unique_ptr<hal::Wheels> wheels_of(const ReplayDevice&, const Hal& devices, const hal::Owner& owner,
+                                       hal::WheelsUse) {
+  return std::make_unique<hal::ReplayWheels>(hal::ReplayLog::open(devices.replay_log, owner.robot_id));
+}
+
+}  // namespace trivela::config

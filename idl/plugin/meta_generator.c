@@ -90,6 +90,26 @@ static idl_retcode_t emit_enum(const idl_pstate_t* pstate, bool revisit, const i
   return IDL_RETCODE_OK;
 }
 
+// What a struct says of its topic.
+static idl_retcode_t emit_topic(const idl_pstate_t* pstate, FILE* out, const idl_struct_t* type) {
+  const char* topic = annotation_text(&type->node, "topic_name");
+  const char* profile = annotation_text(&type->node, "profile");
+  const char* period = annotation_text(&type->node, "period");
+  if (topic == NULL || profile == NULL || *profile == '\0') {
+    idl_error(pstate, idl_location(&type->node), "%s needs @topic_name and @profile, or @nested",
+              idl_identifier(&type->node));
+    return IDL_RETCODE_SEMANTIC_ERROR;
+  }
+  fprintf(out, "  static constexpr std::string_view topic = \"%s\";\n", topic);
+  fprintf(out, "  static constexpr Profile profile = Profile::k%c%s;\n", toupper((unsigned char)profile[0]),
+          profile + 1);
+  fprintf(out, "  static constexpr double period_s = %s;\n", period ? period : "0");
+  fputs("  static const dds_topic_descriptor_t& descriptor() { return ", out);
+  print_c_name(out, &type->node);
+  fputs("_desc; }\n", out);
+  return IDL_RETCODE_OK;
+}
+
 static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const idl_path_t* path, const void* node,
                                  void* user_data) {
   (void)revisit, (void)path;
@@ -131,20 +151,8 @@ static idl_retcode_t emit_struct(const idl_pstate_t* pstate, bool revisit, const
   }
   fputs("  }\n", out);
   if (!type->nested.value) {
-    const char* topic = annotation_text(&type->node, "topic_name");
-    const char* profile = annotation_text(&type->node, "profile");
-    const char* period = annotation_text(&type->node, "period");
-    if (topic == NULL || profile == NULL || *profile == '\0') {
-      idl_error(pstate, idl_location(node), "%s needs @topic_name and @profile, or @nested", idl_identifier(node));
-      return IDL_RETCODE_SEMANTIC_ERROR;
-    }
-    fprintf(out, "  static constexpr std::string_view topic = \"%s\";\n", topic);
-    fprintf(out, "  static constexpr Profile profile = Profile::k%c%s;\n", toupper((unsigned char)profile[0]),
-            profile + 1);
-    fprintf(out, "  static constexpr double period_s = %s;\n", period ? period : "0");
-    fputs("  static const dds_topic_descriptor_t& descriptor() { return ", out);
-    print_c_name(out, node);
-    fputs("_desc; }\n", out);
+    const idl_retcode_t written = emit_topic(pstate, out, type);
+    if (written != IDL_RETCODE_OK) return written;
   }
   fputs("};\n", out);
   return IDL_RETCODE_OK;

@@ -23,7 +23,7 @@ struct AlignmentRule {
 /// The alignment condition at one instant.
 struct Alignment {
   bool aligned = false;
-  double distance_m = 0.0;  ///< robot centre to target
+  double centre_distance_m = 0.0;  ///< robot centre to target
   std::optional<double>
       offset_right_m;   ///< where S1 meets the line of S2, right of the target; none: it does not, ahead
   double left_m = 0.0;  ///< reach of S2 to the left of the target

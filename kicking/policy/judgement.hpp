@@ -22,13 +22,6 @@ inline Judgement describe(const PolicyConfig& config, const Goal& goal, const Sh
   return judgement;
 }
 
-inline void set_alignment(Judgement& judgement, const Alignment& alignment) {
-  judgement.aligned = alignment.aligned;
-  judgement.offset_right_m = alignment.offset_right_m;
-  judgement.left_m = alignment.left_m;
-  judgement.right_m = alignment.right_m;
-}
-
 /// How far the robot may still go with the ball that it took at memory.taken_m. However it turns, the ball is at most
 /// ball_offset_m farther from there than its centre: radius = carry_limit_m - carry_margin_m - ball_offset_m.
 inline CarryReach carry_reach(const PolicyConfig& config, const RobotModel& robot, const PossessionMemory& memory) {

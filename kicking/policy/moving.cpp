@@ -41,8 +41,8 @@ Judgement judge_moving(const PolicyConfig& config, const RobotModel& robot, cons
   const Direction expected = expected_direction(config, robot, input, shot, v_kick_mps);
   judgement.alpha_rad = expected.alpha_rad;
   judgement.beta_rad = expected.beta_rad;
-  set_alignment(judgement, align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target,
-                                 config.alignment));
+  judgement.alignment() =
+      align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target, config.alignment);
 
   const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
   const double wanted_heading = bearing({expected.start.x_m, expected.start.y_m}, target) + expected.alpha_rad;

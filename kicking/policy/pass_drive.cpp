@@ -30,7 +30,7 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
   const Shot shot = drive_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
-  set_alignment(judgement, align(input.pose, 0.0, 0.0, 0.0, target, config.alignment));
+  judgement.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
   judgement.drive.omega_radps = turn_rate_for(-wrap_angle(input.pose.heading_rad), config.stopped_turn_gain_hz, config);
 
   const Eigen::Vector2d position(input.pose.x_m, input.pose.y_m);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "kicking/alignment/alignment.hpp"
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
@@ -61,7 +62,7 @@ struct PolicyInput {
 };
 
 /// One decision with every number behind it.
-struct Judgement {
+struct Judgement : Alignment {
   bool fire = false;
   Reason reason = Reason::kNotPlaying;
   double target_x_m = 0.0;  ///< aim point in F
@@ -73,14 +74,12 @@ struct Judgement {
   std::optional<double> power;       ///< set-point, fractional
   double alpha_rad = 0.0;            ///< right positive
   double beta_rad = 0.0;             ///< with the sign of omega
-  bool aligned = false;
-  std::optional<double> offset_right_m;
-  double left_m = 0.0;
-  double right_m = 0.0;
   std::optional<PredictedCrossing> predicted;  ///< of an order that goes out now
   std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
   double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
   Twist drive{};                      ///< command until the next cycle, in R
+
+  Alignment& alignment() { return *this; }
 };
 
 /// A number of the predicted crossing.

@@ -39,7 +39,7 @@ Judgement judge_stopped(const PolicyConfig& config, const RobotModel& robot, con
   const Shot shot = stopped_shot(config, robot, goal, input);
   Judgement judgement = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
-  set_alignment(judgement, align(input.pose, 0.0, 0.0, 0.0, target, config.alignment));
+  judgement.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
 
   const double error = wrap_angle(bearing({input.pose.x_m, input.pose.y_m}, target) - input.pose.heading_rad);
   judgement.drive.omega_radps = turn_rate_for(error, config.stopped_turn_gain_hz, config);

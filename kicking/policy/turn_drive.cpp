@@ -56,8 +56,7 @@ Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, 
   AlignmentRule rule = config.alignment;
   rule.half_width_m = 0.0;  // the allowed error is all that there is
   judgement.beta_rad = sense * allowed_rad(drive, progress);
-  const Alignment alignment = align(input.pose, 0.0, judgement.beta_rad, omega_radps, target, rule);
-  set_alignment(judgement, alignment);
+  judgement.alignment() = align(input.pose, 0.0, judgement.beta_rad, omega_radps, target, rule);
 
   if (!progress.passing) {
     const double start_rad = bearing({input.pose.x_m, input.pose.y_m}, target) - sense * drive.turn_lead_rad;
@@ -71,14 +70,15 @@ Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, 
   }
   judgement.drive.omega_radps = omega_radps;
   // How far the pointing line still has to go to the target's middle.
-  const double to_go_m = alignment.offset_right_m ? sense * *alignment.offset_right_m : HUGE_VAL;
+  const double to_go_m = judgement.offset_right_m ? sense * *judgement.offset_right_m : HUGE_VAL;
   const double allowed_m = sense > 0.0 ? judgement.right_m : judgement.left_m;
   const double late_m = allowed_m - to_go_m;
-  judgement.aligned = late_m >= 0.0 && late_m <= kFewCycles * config.cycle_s * std::abs(omega_radps) * 2.0 *
-                                                     alignment.distance_m;  // at 45 degrees the line moves at 2 d omega
+  judgement.aligned =
+      late_m >= 0.0 && late_m <= kFewCycles * config.cycle_s * std::abs(omega_radps) * 2.0 *
+                                     judgement.centre_distance_m;  // at 45 degrees the line moves at 2 d omega
   judgement.reason = Reason::kNotAligned;
   if (judgement.aligned) judgement.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
-  if (late_m > alignment.distance_m) progress.passing = false;
+  if (late_m > judgement.centre_distance_m) progress.passing = false;
   return judgement;
 }
 

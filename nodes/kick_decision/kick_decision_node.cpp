@@ -114,12 +114,12 @@ void KickDecisionNode::say(const msg::WorldState& world, const msg::KickerStatus
                            const robot::CycleDecision& decision) {
   if (decision.order) order_out_.write(*decision.order);
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
-  drive(world, decision.in_charge.judgement);
+  drive(world, decision.judgement);
   if (!decision.order) return;
   say_unobserved();
   context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
                         kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
-                        decision.in_charge.judgement.distance_m);
+                        decision.judgement.distance_m);
 }
 
 bus::ReaderOptions KickDecisionNode::count_observers() {

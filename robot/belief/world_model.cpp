@@ -43,15 +43,6 @@ void WorldModel::vision(const msg::VisionFrame& frame) {
   }
 }
 
-void WorldModel::filter_velocity(const msg::Odometry& odometry) {
-  const double dt_s = kicking::seconds(odometry.t_ns - twist_t_ns_);
-  const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);
-  twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
-  twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
-  twist_.omega_radps += gain * (odometry.omega_radps - twist_.omega_radps);
-  twist_t_ns_ = odometry.t_ns;
-}
-
 std::uint32_t WorldModel::count(std::int64_t t_ns, const msg::Referee& word, bool possession) {
   return possessions_.see({.t_ns = t_ns,
                            .half = word.half,
@@ -93,7 +84,12 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
                                    const msg::Referee* referee, const msg::KickerStatus* kicker) {
   const bool believed = sound(odometry);
   if (believed) {
-    filter_velocity(odometry);
+    const double dt_s = kicking::seconds(odometry.t_ns - twist_t_ns_);
+    const double gain = dt_s <= 0.0 ? 1.0 : velocity_decay_.gain(dt_s);
+    twist_.vx_mps += gain * (odometry.vx_mps - twist_.vx_mps);
+    twist_.vy_mps += gain * (odometry.vy_mps - twist_.vy_mps);
+    twist_.omega_radps += gain * (odometry.omega_radps - twist_.omega_radps);
+    twist_t_ns_ = odometry.t_ns;
     pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
                   odometry.var_heading_rad2);
   }

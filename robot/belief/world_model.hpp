@@ -38,7 +38,6 @@ class WorldModel {
                          const msg::KickerStatus* kicker = nullptr);
 
  private:
-  void filter_velocity(const msg::Odometry& odometry);
   std::uint32_t count(std::int64_t t_ns, const msg::Referee& word, bool possession);
   void describe_ball(const kicking::TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
 

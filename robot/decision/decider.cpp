@@ -19,7 +19,13 @@ using kicking::PolicyName;
 static_assert(std::ranges::count_if(kicking::kPolicyFacts, &kicking::PolicyFacts::rides_along) <=
                   static_cast<std::ptrdiff_t>(std::tuple_size_v<decltype(CycleDecision::shadows)>),
               "the wire carries no more shadows");
-static_assert(std::is_trivially_destructible_v<Judged>, "decide() writes over the last cycle's");
+static_assert(std::ranges::none_of(kicking::kPolicyFacts,
+                                   [](const kicking::PolicyFacts& facts) {
+                                     return facts.rides_along && facts.needs_truth();
+                                   }),
+              "the truth is for who is in charge");
+static_assert(std::is_trivially_destructible_v<Shadow> && std::is_trivially_destructible_v<kicking::Judgement>,
+              "decide() writes over the last cycle's");
 
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
@@ -47,45 +53,47 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
   }
 }
 
-kicking::Judgement Decider::judge(PolicyName policy, const kicking::PolicyInput& input,
-                                  const kicking::PolicyInput* truth) {
-  kicking::PolicyMemory& memory = memory_[static_cast<std::size_t>(policy)];
-  if (!facts(policy).needs_truth()) return kicking::judge(policy, policy_, model_, goal_, input, memory);
-  assert(oracle_ && truth != nullptr);
-  return kicking::judge(policy, oracle_->policy, oracle_->model, goal_, *truth, memory);
-}
-
-/// Possessions are numbered anew in each half; a policy that was not asked in between must not take one for another.
-void Decider::begin_half(std::uint8_t half) {
-  if (half_ == half) return;
+/// Who is in charge of the robot's possession. They are numbered anew in each half; a policy that was not asked in
+/// between must not take one for another.
+void Decider::begin_possession(std::uint8_t half, std::uint32_t possession_id) {
+  if (half_ == half && possession_id_ == possession_id) return;
+  if (half_ != half) {
+    for (kicking::PolicyMemory& memory : memory_)
+      std::visit([](kicking::PossessionMemory& any) { any.possession_id.reset(); }, memory);
+  }
   half_ = half;
-  for (kicking::PolicyMemory& memory : memory_)
-    std::visit([](kicking::PossessionMemory& any) { any.possession_id.reset(); }, memory);
+  possession_id_ = possession_id;
+  decision_.in_charge = assignment_.in_charge(half, possession_id);
 }
 
 const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
                                      const std::optional<msg::KickOutcome>& outcome, const kicking::PolicyInput* truth,
                                      double world_age_s) {
-  begin_half(world.half);
+  begin_possession(world.half, world.possession_id);
   kicking::PolicyInput input = policy_input(world, kicker);
   input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
   if (const auto seen = last_kick(outcome)) input.last_kick = seen;
   input.set_piece_left_s = set_piece_.left_s(world);
-  const PolicyChance chosen = assignment_.in_charge(world.half, world.possession_id);
+  const PolicyName policy = decision_.in_charge.policy;
+  const bool told = facts(policy).needs_truth();
+  assert(!told || (oracle_ && truth != nullptr));
+  const auto memory = [&](PolicyName of) -> kicking::PolicyMemory& { return memory_[static_cast<std::size_t>(of)]; };
   // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.
-  new (&decision_.in_charge) Judged{chosen.policy, judge(chosen.policy, input, truth)};
-  decision_.assignment_probability = chosen.probability;
+  new (&decision_.judgement)
+      kicking::Judgement(kicking::judge(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
+                                        told ? *truth : input, memory(policy)));
   decision_.shadow_count = 0;
-  for (const PolicyName policy : shadows_) {
-    if (policy == chosen.policy) continue;
-    new (&decision_.shadows[decision_.shadow_count++]) Judged{policy, judge(policy, input, truth)};
+  for (const PolicyName shadow : shadows_) {
+    if (shadow == policy) continue;
+    new (&decision_.shadows[decision_.shadow_count++])
+        Shadow{shadow, kicking::judge(shadow, policy_, model_, goal_, input, memory(shadow))};
   }
   decision_.order.reset();
-  const bool fire = decision_.in_charge.judgement.fire;
+  const bool fire = decision_.judgement.fire;
   said_ = world.possession || fire;  // the oracle alone may fire where the robot sees no ball
   if (!said_) return decision_;
   ++decisions_;
-  if (fire) decision_.order = order(world, decision_.in_charge.judgement);
+  if (fire) decision_.order = order(world, decision_.judgement);
   return decision_;
 }
 
@@ -102,11 +110,11 @@ void Decider::unsay() {
 }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
-  msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.in_charge.judgement);
+  msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.judgement);
   out.robot_id = robot_id_;
   out.seq = decisions_;
   out.kick_id = decision_.order ? decision_.order->kick_id : 0;
-  out.assignment_probability = decision_.assignment_probability;
+  out.assignment_probability = decision_.in_charge.probability;
   for (std::size_t i = 0; i < decision_.shadow_count; ++i)
     out.shadows[i] = shadow_message(decision_.shadows[i].policy, decision_.shadows[i].judgement);
   out.shadow_count = static_cast<std::uint8_t>(decision_.shadow_count);

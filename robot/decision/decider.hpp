@@ -14,12 +14,6 @@
 
 namespace trivela::robot {
 
-/// What one policy says of a cycle.
-struct Judged {
-  kicking::PolicyName policy{};
-  kicking::Judgement judgement;
-};
-
 /// What the oracle decides by in place of the robot's settings and model.
 struct OracleSeat {
   kicking::PolicyConfig policy;
@@ -33,11 +27,17 @@ struct DeciderSettings {
   const kicking::Goal& goal;
 };
 
+/// What a policy that rides along says of a cycle.
+struct Shadow {
+  kicking::PolicyName policy{};
+  kicking::Judgement judgement;
+};
+
 /// What was decided in a cycle.
 struct CycleDecision {
-  Judged in_charge;
-  double assignment_probability = 1.0;
-  std::array<Judged, 4> shadows{};  ///< as many as the wire carries
+  PolicyChance in_charge;           ///< of the possession
+  kicking::Judgement judgement;     ///< of the policy in charge
+  std::array<Shadow, 4> shadows{};  ///< as many as the wire carries
   std::size_t shadow_count = 0;
   std::optional<msg::KickOrder> order;
 };
@@ -75,9 +75,7 @@ class Decider {
   const PolicyAssignment& assignment() const { return assignment_; }
 
  private:
-  kicking::Judgement judge(kicking::PolicyName policy, const kicking::PolicyInput& input,
-                           const kicking::PolicyInput* truth);
-  void begin_half(std::uint8_t half);
+  void begin_possession(std::uint8_t half, std::uint32_t possession_id);
   std::optional<kicking::SeenKick> last_kick(const std::optional<msg::KickOutcome>& outcome) const;
   msg::KickOrder order(const msg::WorldState& world, const kicking::Judgement& judgement);
 
@@ -94,6 +92,7 @@ class Decider {
   CycleDecision decision_;
   std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
   std::optional<std::uint8_t> half_;
+  std::uint32_t possession_id_ = 0;  // of half_
   msg::KickOrder last_order_{}, order_before_{};
   std::uint32_t last_order_possession_id_ = 0, possession_before_id_ = 0;
   std::uint32_t orders_ = 0;

@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::robot {
+namespace {
+
+constexpr double msg::Odometry::*kWheels[]{&msg::Odometry::wheel_0_radps, &msg::Odometry::wheel_1_radps,
+                                           &msg::Odometry::wheel_2_radps, &msg::Odometry::wheel_3_radps};
+
+}  // namespace
 
 std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sample) {
   constexpr double kFastest_radps = 1e3;  // beyond any motor; what came of more would stay in the pose
@@ -24,43 +31,30 @@ std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sampl
     twist.omega_radps = (twist.omega_radps * var_gyro + *sample.gyro_radps * var_omega) / (var_gyro + var_omega);
     var_omega = var_omega * var_gyro / (var_gyro + var_omega);
   }
-  const kicking::Twist mean{0.5 * (twist_.vx_mps + twist.vx_mps), 0.5 * (twist_.vy_mps + twist.vy_mps),
-                            0.5 * (twist_.omega_radps + twist.omega_radps)};
-  twist_ = twist;
+  const kicking::Twist mean{0.5 * (now_.vx_mps + twist.vx_mps), 0.5 * (now_.vy_mps + twist.vy_mps),
+                            0.5 * (now_.omega_radps + twist.omega_radps)};
   if (last_t_ns_) {
     const double dt_s = kicking::seconds(sample.t_ns - *last_t_ns_);
     pose_ = kicking::advance(pose_, mean, dt_s);
     const double path_m2 = (mean.vx_mps * mean.vx_mps + mean.vy_mps * mean.vy_mps) * dt_s * dt_s;
     const double turn_rad = mean.omega_radps * dt_s;
-    var_position_m2_ += noise_.drift_ratio * noise_.drift_ratio * path_m2 + var_v_m2ps2() * dt_s * dt_s;
-    var_heading_rad2_ += std::pow(noise_.heading_drift_ratio * turn_rad, 2) + var_omega * dt_s * dt_s;
+    now_.var_position_m2 += noise_.drift_ratio * noise_.drift_ratio * path_m2 + var_v_m2ps2() * dt_s * dt_s;
+    now_.var_heading_rad2 += std::pow(noise_.heading_drift_ratio * turn_rad, 2) + var_omega * dt_s * dt_s;
   }
+  now_.t_ns = sample.t_ns;
   last_t_ns_ = sample.t_ns;
-  return message(sample, var_omega);
-}
-
-msg::Odometry WheelOdometry::message(const hal::WheelSample& sample, double var_omega_rad2ps2) const {
-  const auto wheel = [&](int i) {
-    return i < sample.wheel_count ? sample.wheel_radps[static_cast<std::size_t>(i)] : msg::kNone;
-  };
-  msg::Odometry out{};
-  out.t_ns = sample.t_ns;
-  out.wheel_0_radps = wheel(0);
-  out.wheel_1_radps = wheel(1);
-  out.wheel_2_radps = wheel(2);
-  out.wheel_3_radps = wheel(3);
-  out.gyro_radps = msg::wire_of(sample.gyro_radps);
-  out.vx_mps = twist_.vx_mps;
-  out.vy_mps = twist_.vy_mps;
-  out.omega_radps = twist_.omega_radps;
-  out.x_m = pose_.x_m;
-  out.y_m = pose_.y_m;
-  out.heading_rad = kicking::wrap_angle(pose_.heading_rad);
-  out.var_v_m2ps2 = var_v_m2ps2();
-  out.var_omega_rad2ps2 = var_omega_rad2ps2;
-  out.var_position_m2 = var_position_m2_;
-  out.var_heading_rad2 = var_heading_rad2_;
-  return out;
+  for (std::size_t i = 0; i < std::size(kWheels); ++i)
+    now_.*kWheels[i] = i < wheel_radps.size() ? wheel_radps[i] : msg::kNone;
+  now_.gyro_radps = msg::wire_of(sample.gyro_radps);
+  now_.vx_mps = twist.vx_mps;
+  now_.vy_mps = twist.vy_mps;
+  now_.omega_radps = twist.omega_radps;
+  now_.x_m = pose_.x_m;
+  now_.y_m = pose_.y_m;
+  now_.heading_rad = kicking::wrap_angle(pose_.heading_rad);
+  now_.var_v_m2ps2 = var_v_m2ps2();
+  now_.var_omega_rad2ps2 = var_omega;
+  return now_;
 }
 
 }  // namespace trivela::robot

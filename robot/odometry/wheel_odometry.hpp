@@ -30,16 +30,13 @@ class WheelOdometry {
 
  private:
   double var_v_m2ps2() const { return std::max(variance_.x(), variance_.y()); }
-  msg::Odometry message(const hal::WheelSample& sample, double var_omega_rad2ps2) const;
 
   kicking::OmniKinematics kinematics_;
   config::Odometry noise_;
   Eigen::Vector3d variance_;  // of a twist by wheels alone
   std::optional<std::int64_t> last_t_ns_;
-  kicking::Twist twist_{};
-  kicking::Pose pose_{};  // in the frame where it started
-  double var_position_m2_ = 0.0;
-  double var_heading_rad2_ = 0.0;
+  kicking::Pose pose_{};  // in the frame where it started, its heading not wrapped
+  msg::Odometry now_{};   // the last estimate
 };
 
 }  // namespace trivela::robot

@@ -38,7 +38,7 @@ TEST(Alignment, AgreesWithTheVectors) {
     SCOPED_TRACE(row.text("name"));
     const Alignment alignment = align_row(row);
     EXPECT_EQ(alignment.aligned, row.flag("aligned"));
-    EXPECT_NEAR(alignment.distance_m, row.number("distance"), 1e-6);
+    EXPECT_NEAR(alignment.centre_distance_m, row.number("distance"), 1e-6);
     EXPECT_NEAR(alignment.left_m, row.number("left_len"), 1e-6);
     EXPECT_NEAR(alignment.right_m, row.number("right_len"), 1e-6);
     if (row.has("offset_right_m")) {

@@ -106,8 +106,7 @@ double number_of(kicking::Reason reason) { return to_wire(reason); }
 kicking::Judgement whole_judgement() {
   kicking::Judgement j;
   double next = 100.0;
-  const auto set = [&](auto kicking::Judgement::*part) {
-    using Part = std::remove_reference_t<decltype(j.*part)>;
+  const auto set = [&]<class Of, class Part>(Part Of::*part) {
     if constexpr (std::is_same_v<Part, bool>) j.*part = true;
     if constexpr (std::is_same_v<Part, kicking::Reason>) j.*part = kicking::Reason::kWaiting;
     if constexpr (std::is_convertible_v<double, Part> && !std::is_same_v<Part, bool>) j.*part = ++next;
