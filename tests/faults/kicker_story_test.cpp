@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/evaluator/log_fixture.hpp"
+
 namespace trivela::faults {
 namespace {
 
@@ -52,6 +54,20 @@ TEST(KickerStory, APulseWhileTheGameStandsIsTold) {
   EXPECT_THAT(judge_pulses(stopped).complaints, ElementsAre(HasSubstr("while the game stands")));
   stopped.playing[1001 * kMsOfTest_ns] = true;
   EXPECT_THAT(judge_pulses(stopped).complaints, IsEmpty()) << "it starts at that moment";
+}
+
+class KicksOfALog : public evaluator::LogTest {};
+
+TEST_F(KicksOfALog, AKickWithoutAReceiptIsCoveredByTheDriversOwnSilenceAlone) {
+  {
+    evaluator::log::Writer writer{path(), session(), options()};
+    writer.silence({"kicker_status", 1, 1000 * kMsOfTest_ns, 1300 * kMsOfTest_ns});
+    writer.silence({"odometry", 1, 1000 * kMsOfTest_ns, 3000 * kMsOfTest_ns});
+  }
+  const auto kick = [](std::int64_t t_ms) { return FireSeen{t_ms * kMsOfTest_ns, t_ms * kMsOfTest_ns, 7, false}; };
+  EXPECT_THAT(unlogged({kick(1010)}, path()), IsEmpty());
+  EXPECT_THAT(unlogged({kick(1400)}, path()), ElementsAre("kick 7 was neither logged nor in a counted gap"));
+  EXPECT_THAT(unlogged({kick(990)}, path()), testing::SizeIs(1));
 }
 
 }  // namespace
