@@ -26,7 +26,7 @@ RobotChain::RobotChain(const config::Settings& settings, const config::Robot& ro
       model_(settings.world_state, robot.model.ball_offset_m),
       decider_({settings.kick_decision, settings.policy, settings.goal}, robot_.model, robot_id, session,
                std::move(oracle)),
-      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id),
+      desk_(settings.kicker_driver, settings.run.cycle_s, robot.model, robot_id, robot::DecisionNode::kThere),
       arbiter_(settings.kick_decision.drive, settings.odometry) {}
 
 const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const msg::Referee& referee,

@@ -77,7 +77,7 @@ void EmulatedLine::run() {
     if (cable_wanted_ != cable_) change_cable();
     receive();
     const std::int64_t now_ns = emulated_now_ns();
-    if (cable_ && device_.next_ns() <= now_ns) say(device_.tick(now_ns));
+    if (device_.next_ns() <= now_ns) say(device_.tick(now_ns));  // also while nobody can hear it
     send();
     changed_.notify_all();
     wait_for_events(lock);
@@ -134,7 +134,7 @@ void EmulatedLine::wait_for_events(std::unique_lock<std::mutex>& lock) {
   std::array<pollfd, 3> polled{{{wake_.get(), POLLIN, 0},
                                 {cable_ ? socket_->listener() : -1, POLLIN, 0},
                                 {cable_ ? socket_->client() : -1, events, 0}}};
-  const std::int64_t left_ns = cable_ ? device_.next_ns() - emulated_now_ns() : kLongestWait_ns;
+  const std::int64_t left_ns = device_.next_ns() - emulated_now_ns();
   const timespec time_out{0, std::clamp<std::int64_t>(left_ns, 0, kLongestWait_ns)};
   lock.unlock();
   ::ppoll(polled.data(), polled.size(), &time_out, nullptr);

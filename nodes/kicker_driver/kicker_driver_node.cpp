@@ -24,7 +24,8 @@ std::vector<std::string> decision_owners(const NodeContext& context) {
 KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker)
     : context_(context),
       kicker_(std::move(kicker)),
-      desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id()),
+      desk_(context.settings.kicker_driver, context.settings.run.cycle_s, context.robot.model, context.robot_id(),
+            context.settings.run.lockstep ? robot::DecisionNode::kThere : robot::DecisionNode::kUnheard),
       own_decisions_(decision_owners(context)),
       node_(context.participant, "kicker_driver", context.robot_id()),
       status_out_(node_.writer<msg::KickerStatus>()),
@@ -119,17 +120,23 @@ void KickerDriverNode::tell_charge() {
   kicker_->charge(desk_.charge_word());
 }
 
-/// A decision node that has gone takes the charge with it. It says `drive` every cycle; that its writer of orders is
+/// A decision node that has gone takes the charge with it, and before it was heard there is none. It says `drive` every
+/// cycle; that its writer of orders is
 /// alive would be no sign: one that has lapsed once stays so until it orders again, and nobody orders of a driver that
 /// is off.
 void KickerDriverNode::look_for_decision() {
   if (context_.settings.run.lockstep) return;
   constexpr std::int64_t kLost_ns = 200'000'000;
   const std::int64_t heard_ns = decision_heard_ns_;
-  const bool lost = heard_ns != 0 && context_.steady_ns() - heard_ns > kLost_ns;
-  if (lost && !decision_lost_) context_.logger->warn("the decision node is gone: the capacitor is to be emptied");
-  decision_lost_ = lost;
-  desk_.decision_node(!lost, now_t_ns());
+  robot::DecisionNode known = robot::DecisionNode::kUnheard;
+  if (heard_ns != 0) {
+    const bool lost = context_.steady_ns() - heard_ns > kLost_ns;
+    known = lost ? robot::DecisionNode::kLost : robot::DecisionNode::kThere;
+  }
+  if (known == robot::DecisionNode::kLost && decision_ != known)
+    context_.logger->warn("the decision node is gone: the capacitor is to be emptied");
+  decision_ = known;
+  desk_.decision_node(known, now_t_ns());
 }
 
 /// In lockstep the cycle's word; in real time the last one, for as long as it counts.
@@ -184,6 +191,7 @@ bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) const {
 void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {
   const bool real_time = !context_.settings.run.lockstep;
   const std::int64_t received_ns = real_time ? context_.steady_ns() : 0;
+  if (by == robot::OrderBy::kOwnDecision) decision_heard_ns_ = context_.steady_ns();
   const std::lock_guard lock{mutex_};
   if (real_time) desk_.referee(referee_says({}));
   msg::KickReceipt receipt = desk_.answer(order, now_t_ns(), by);

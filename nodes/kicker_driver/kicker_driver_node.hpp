@@ -50,7 +50,7 @@ class KickerDriverNode {
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
   bool clock_differs_ = false;
-  bool decision_lost_ = false;
+  robot::DecisionNode decision_ = robot::DecisionNode::kUnheard;
   std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
   std::string link_said_;
   robot::LoopWatch loop_;

@@ -42,6 +42,7 @@ EmulatedDevices::EmulatedDevices(const config::Settings& settings, const kicking
     : logger_(std::move(logger)),
       kicker_(hal::emulated_kicker(playable(settings).hal.kicker)),
       base_(hal::emulated_wheels(settings.hal.wheels, base)),
+      gyro_(hal::emulated_gyro(settings.hal.gyro)),
       box_(box_of(settings.refbox)),
       voice_(our_team(settings.refbox)) {}
 
@@ -49,6 +50,7 @@ std::vector<std::string> EmulatedDevices::settings() const {
   std::vector<std::string> lines{"refbox.host=\"127.0.0.1\"", fmt::format("refbox.port={}", box_.port())};
   if (kicker_) lines.push_back(kicker_->setting());
   if (base_) lines.push_back(base_->setting());
+  if (gyro_) lines.push_back(gyro_->setting());
   return lines;
 }
 
@@ -64,6 +66,7 @@ bool EmulatedDevices::wait_for_nodes(const bus::Stop& stop) {
 void EmulatedDevices::show(const sim::Sensors& sensors) {
   say(voice_.hear(sensors.referee));
   if (base_) base_->show(sensors.wheels.wheel_radps);
+  if (gyro_) gyro_->show(sensors.wheels.gyro_radps);
   if (kicker_) kicker_->show(sensors.kicker.charge, sensors.kicker.armed);
 }
 

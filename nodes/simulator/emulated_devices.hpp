@@ -11,6 +11,7 @@
 #include "config/settings.hpp"
 #include "hal/board/emulated_kicker.hpp"
 #include "hal/cia402/emulated_wheels.hpp"
+#include "hal/mti/emulated_gyro.hpp"
 #include "hal/refbox/emulated_box.hpp"
 #include "hal/refbox/referee_voice.hpp"
 #include "sim/sensors.hpp"
@@ -18,9 +19,9 @@
 namespace trivela::nodes {
 
 /// What the nodes of a robot meet in place of the simulator's topics where simulator.devices = "emulated": the board
-/// that hal.kicker names and the drives that hal.wheels names, at their ends of their lines, and a referee box on a TCP
-/// port. Each pulse and each word of the box is
-/// logged at level info with its instant.
+/// that hal.kicker names, the drives that hal.wheels names and the gyro that hal.gyro names, at their ends of their
+/// lines, and a referee box on a TCP port. Each pulse and each word of the box is logged at level info with its
+/// instant.
 class EmulatedDevices {
  public:
   /// Throws std::runtime_error where the settings have no such devices, naming the key, and where the system refuses.
@@ -40,7 +41,8 @@ class EmulatedDevices {
   /// The base has drives: its wheels are not on the bus.
   bool has_drives() const { return base_ != nullptr; }
 
-  /// What the world has come to: the drives measure its wheels, the board stands so, and the box says what is new.
+  /// What the world has come to: the drives measure its wheels, the gyro its turn rate, the
+  /// board stands so, and the box says what is new.
   void show(const sim::Sensors& sensors);
 
   /// What the drives are told; only where there are any.
@@ -58,6 +60,7 @@ class EmulatedDevices {
   std::shared_ptr<spdlog::logger> logger_;
   std::unique_ptr<hal::EmulatedKicker> kicker_;  // none: on the bus
   std::unique_ptr<hal::EmulatedWheels> base_;    // none: on the bus
+  std::unique_ptr<hal::EmulatedGyro> gyro_;      // none: the wheels' own
   hal::refbox::EmulatedBox box_;
   hal::refbox::RefereeVoice voice_;
 };

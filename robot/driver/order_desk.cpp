@@ -16,9 +16,10 @@ kicking::Range power_range(const kicking::EffectiveTable& table) { return {table
 }  // namespace
 
 OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
-                     std::uint8_t robot_id)
+                     std::uint8_t robot_id, DecisionNode decision)
     : gate_(settings, power_range(model.table), cycle_s),
       voltage_(settings.voltage_rise_v, settings.voltage_rise_s),
+      decision_(decision),
       delay_ns_(kicking::nanoseconds(model.delay_s)),
       robot_id_(robot_id) {}
 
@@ -52,8 +53,9 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
 void OrderDesk::advance(std::int64_t now_t_ns) {
   const bool sound = gate_.sound(now_t_ns);
   happened(over_voltage_ ? KickerEvent::kOverVoltage : sound ? KickerEvent::kSound : KickerEvent::kFault);
-  if (!decision_there_) happened(KickerEvent::kDecisionLost);
-  happened(gate_.armed() && decision_there_ ? KickerEvent::kArmed : KickerEvent::kDisarmed);
+  if (decision_ == DecisionNode::kLost) happened(KickerEvent::kDecisionLost);
+  const bool armed = gate_.armed() && decision_ == DecisionNode::kThere;
+  happened(armed ? KickerEvent::kArmed : KickerEvent::kDisarmed);
   if (!gate_.under_way(now_t_ns)) happened(KickerEvent::kShotOver);
   if (gate_.rested(now_t_ns)) happened(KickerEvent::kRested);
   // A stop or a fault soon after a shot leads past cooling: what is armed again has to rest all the same.
@@ -61,8 +63,8 @@ void OrderDesk::advance(std::int64_t now_t_ns) {
   happened(gate_.charged() && at_rest ? KickerEvent::kCharged : KickerEvent::kUncharged);
 }
 
-void OrderDesk::decision_node(bool there, std::int64_t now_t_ns) {
-  decision_there_ = there;
+void OrderDesk::decision_node(DecisionNode known, std::int64_t now_t_ns) {
+  decision_ = known;
   advance(now_t_ns);
 }
 
@@ -72,7 +74,7 @@ hal::ChargeWord OrderDesk::end() {
 }
 
 msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
-  if (by == OrderBy::kOwnDecision) decision_there_ = true;
+  if (by == OrderBy::kOwnDecision) decision_ = DecisionNode::kThere;
   advance(now_t_ns);
   const msg::Refusal refusal = gate_.judge(order, now_t_ns, by);
   msg::KickReceipt receipt{};

@@ -12,14 +12,18 @@
 
 namespace trivela::robot {
 
+/// The robot's own decision node, as the driver knows it. Before it was heard nothing is charged, and nothing emptied.
+enum class DecisionNode : std::uint8_t { kUnheard, kThere, kLost };
+
 /// The kicker's driver without bus and device: samples and the referee's word in, statuses out; orders in, receipts
 /// out; and what the capacitor shall do. The OrderGate judges orders, by the same facts that move the state machine:
 /// none is accepted but in STATE_READY. Whoever owns it fires what it accepts. Every now_t_ns is of the clock that the
 /// samples' and orders' t_ns are of, and never falls behind it: the steady clock, in lockstep the sample's.
 class OrderDesk {
  public:
+  /// `decision`: what is known of the decision node at first.
   OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
-            std::uint8_t robot_id);
+            std::uint8_t robot_id, DecisionNode decision = DecisionNode::kUnheard);
 
   msg::KickerStatus status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns);
 
@@ -27,8 +31,8 @@ class OrderDesk {
   /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
   msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by);
 
-  /// Whether the decision node is there; until somebody says otherwise it is. To be followed by charge_word().
-  void decision_node(bool there, std::int64_t now_t_ns);
+  /// What is known of the decision node by now; an order of it says that it is there. To be followed by charge_word().
+  void decision_node(DecisionNode known, std::int64_t now_t_ns);
 
   /// What the capacitor shall do by now.
   hal::ChargeWord charge_word() const { return stand_.word; }
@@ -56,7 +60,7 @@ class OrderDesk {
   KickerStand stand_;
   VoltageWatch voltage_;
   bool over_voltage_ = false;
-  bool decision_there_ = true;
+  DecisionNode decision_;
   std::int64_t delay_ns_;
   std::uint8_t robot_id_;
   std::uint64_t statuses_ = 0;

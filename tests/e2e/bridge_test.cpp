@@ -44,6 +44,12 @@ config::Settings settings_for(const Folder& folder) {
 
 bus::ReaderOptions everything() { return {.period = {}, .keep_all = true, .on_liveliness = {}}; }
 
+/// As the robot's own decision node.
+bus::WriterOptions own_decision() {
+  return {
+      .period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = bus::owner_of_robot("kick_decision", 1)};
+}
+
 class BehindABridge : public testing::Test {
  protected:
   BehindABridge() { std::ofstream{folder_ / "nodes.toml"} << config::to_toml_text(settings_); }
@@ -124,10 +130,8 @@ class Driven : public BehindABridge {
 
  private:
   bus::Writer<msg::Referee> referee_{participant_};
-  bus::Writer<msg::DriveCommand> drive_{participant_};
-  bus::Writer<msg::KickOrder> order_{
-      participant_,
-      {.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = bus::owner_of_robot("kick_decision", 1)}};
+  bus::Writer<msg::DriveCommand> drive_{participant_, own_decision()};
+  bus::Writer<msg::KickOrder> order_{participant_, own_decision()};
   bus::Reader<msg::KickerStatus> status_{participant_};
   bus::Reader<msg::Odometry> odometry_{participant_, everything()};
   bus::Reader<msg::KickReceipt> receipt_{participant_, everything()};
@@ -173,12 +177,13 @@ TEST_F(Driven, ItMovesKicksOnceAtTheInstantAndIsNotedAsAProgram) {
 /// A bridge whose board can be told to charge and to empty itself.
 class Charged : public BehindABridge {
  protected:
-  /// Says that the switch is closed, the game on and the capacitor half full, until it is told `word`; false: it is
-  /// not.
-  bool says_until_told(msg::ChargeWord word) {
-    const auto deadline = Clock::now() + kPatience;
+  /// Says that the switch is closed, the game on and the capacitor half full, and where there is one, what the decision
+  /// node says; until it is told `word`. False: it is not, for so long.
+  bool says_until_told(msg::ChargeWord word, std::chrono::nanoseconds at_most = kPatience) {
+    const auto deadline = Clock::now() + at_most;
     for (std::optional<msg::ChargeWord> told; told != word;) {
       if (Clock::now() > deadline) return false;
+      if (decision_) drive();
       msg::Referee referee{};
       msg::DeviceKicker board{};
       referee.robot_id = board.robot_id = 1;
@@ -195,7 +200,19 @@ class Charged : public BehindABridge {
     return true;
   }
 
+  void decide() { decision_.emplace(participant_, own_decision()); }
+  void fall_silent() { decision_.reset(); }
+
  private:
+  void drive() {
+    msg::DriveCommand command{};
+    command.robot_id = 1;
+    command.seq = ++seq_;
+    command.t_ns = steady_ns();
+    decision_->write(command);
+  }
+
+  std::optional<bus::Writer<msg::DriveCommand>> decision_;  // none: there is no decision node
   bus::Writer<msg::Referee> referee_{participant_};
   bus::Writer<msg::DeviceKicker> board_{participant_};
   bus::Reader<msg::DeviceCharge> charge_{participant_};  // as any bridge has it: keeps the last
@@ -203,11 +220,34 @@ class Charged : public BehindABridge {
 };
 
 TEST_F(Charged, ItIsToldToEmptyItselfByADriverThatIsAskedToStop) {
+  decide();
   start("kicker_driver");
   ASSERT_TRUE(says_until_told(msg::CHARGE_UP)) << program("kicker_driver").errors();
   program("kicker_driver").signal(SIGTERM);
   EXPECT_TRUE(says_until_told(msg::CHARGE_EMPTY));
   EXPECT_EQ(program("kicker_driver").wait(), 0);
+}
+
+// 0.2 s, and the cycle of a sample.
+TEST_F(Charged, ItIsToldToEmptyItselfWhenTheDecisionNodeFallsSilent) {
+  decide();
+  start("kicker_driver");
+  ASSERT_TRUE(says_until_told(msg::CHARGE_UP)) << program("kicker_driver").errors();
+  fall_silent();
+  const auto since = Clock::now();
+  EXPECT_TRUE(says_until_told(msg::CHARGE_EMPTY)) << program("kicker_driver").errors();
+  EXPECT_LT(Clock::now() - since, std::chrono::milliseconds{500}) << "and what a busy machine adds";
+  EXPECT_THAT(program("kicker_driver").errors(), HasSubstr("the decision node is gone"));
+  decide();
+  EXPECT_TRUE(says_until_told(msg::CHARGE_UP)) << "it is back";
+}
+
+TEST_F(Charged, ItIsNotToldToChargeBeforeADecisionNodeWasHeard) {
+  start("kicker_driver");
+  ASSERT_TRUE(says_until_told(msg::CHARGE_HOLD)) << program("kicker_driver").errors();
+  EXPECT_FALSE(says_until_told(msg::CHARGE_UP, std::chrono::seconds{1}));
+  decide();
+  EXPECT_TRUE(says_until_told(msg::CHARGE_UP)) << program("kicker_driver").errors();
 }
 
 TEST_F(BehindABridge, VisionAndGoalCameraAreHeard) {

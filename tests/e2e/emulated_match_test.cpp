@@ -1,11 +1,13 @@
-// `trivela match --devices emulated`: a whole match through an emulated ioBoard and an emulated referee box, beside the
-// same match on the bus in lockstep. What the emulators log of themselves is the witness.
+// `trivela match --devices emulated`: whole matches through an emulated referee box and emulated devices, an ioBoard
+// alone, or a ReKick, drives and a gyro, beside the same match on the bus in lockstep. What the emulators log of
+// themselves is the witness.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <regex>
 
@@ -54,40 +56,61 @@ std::vector<std::smatch> matches_of(const std::string& text, const std::string& 
   return {std::sregex_iterator{text.begin(), text.end(), regex}, std::sregex_iterator{}};
 }
 
-/// The two matches, played once for all tests.
-class EmulatedMatch : public testing::Test {
+/// Devices that a match is played over.
+struct Devices {
+  std::string name;
+  std::vector<std::string> settings;
+  double power_ms = 0.0;       ///< of the pulse, for a unit of power
+  double resolution_ms = 0.0;  ///< of a pulse
+};
+
+/// The ioBoard measures no charge; its model, which holds back a kick soon after another, is left out.
+Devices ioboard() { return {"ioboard", {"hal.ioboard.charge_time_s=0"}, 0.128, 0.128}; }
+Devices rekick_on_drives() {
+  return {
+      "rekick_cia402_mti", {"hal.kicker=\"rekick\"", "hal.wheels=\"cia402\"", "hal.gyro=\"mti\""}, 0.1 / 3.0, 0.001};
+}
+
+/// The matches, played once for all tests.
+class EmulatedMatch : public testing::TestWithParam<Devices> {
  protected:
+  struct Match {
+    int code = 0;
+    std::string said;
+  };
   struct Played {
     Folder folder;
-    std::string said;
-    int simulated = 0;
-    int emulated = 0;
+    std::map<std::string, Match> matches;
   };
 
   static void SetUpTestSuite() {
     played_.emplace();
     std::ofstream{played_->folder / "undisturbed.toml"} << config::to_toml_text(undisturbed());
-    played_->simulated = play("simulated.db", {}).wait();
-    // The ioBoard measures no charge; its model, which holds back a kick soon after another, is left out.
-    Program match = play("emulated.db", {"--devices", "emulated", "--set", "hal.ioboard.charge_time_s=0"});
-    played_->emulated = match.wait();
-    played_->said = match.errors();
+    play("simulated", {});
+    for (const Devices& devices : {ioboard(), rekick_on_drives()}) {
+      std::vector<std::string> words{"--devices", "emulated"};
+      for (const std::string& setting : devices.settings) words.insert(words.end(), {"--set", setting});
+      play(devices.name, words);
+    }
   }
   static void TearDownTestSuite() { played_.reset(); }
 
-  static Program play(const std::string& log, const std::vector<std::string>& more) {
+  static void play(const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> words{"match", "--half", "stopped", "--half", "moving", "--minutes", "2", "--seed", "1"};
     for (const std::string& setting :
          {fmt::format("simulator.max_possessions={}", kPossessions), std::string{"run.scenario=\"undisturbed.toml\""}})
       words.insert(words.end(), {"--set", setting});
-    words.insert(words.end(), {"--log-level", "info", "--out", log});
+    words.insert(words.end(), {"--log-level", "info", "--out", name + ".db"});
     words.insert(words.end(), more.begin(), more.end());
-    return Program{"trivela", words, played_->folder.path()};
+    Program match{"trivela", words, played_->folder.path()};
+    const int code = match.wait();
+    played_->matches[name] = {code, match.errors()};
   }
+  static const std::string& said() { return played_->matches.at(GetParam().name).said; }
 
   void SetUp() override {
-    ASSERT_EQ(played_->simulated, 0);
-    ASSERT_EQ(played_->emulated, 0) << played_->said;
+    ASSERT_EQ(played_->matches.at("simulated").code, 0);
+    ASSERT_EQ(played_->matches.at(GetParam().name).code, 0) << said();
   }
 
   static Reader log(const std::string& name) { return Reader{played_->folder / (name + ".db")}; }
@@ -95,14 +118,14 @@ class EmulatedMatch : public testing::Test {
   /// What the board has done.
   static std::vector<Pulse> pulses() {
     std::vector<Pulse> all;
-    for (const auto& line : matches_of(played_->said, "pulse of ([0-9.]+) ms at ([0-9]+) ns"))
+    for (const auto& line : matches_of(said(), "pulse of ([0-9.]+) ms at ([0-9]+) ns"))
       all.push_back({std::stoll(line[2]), std::stod(line[1])});
     return all;
   }
   /// What the box has said.
   static std::vector<BoxWord> words() {
     std::vector<BoxWord> all;
-    for (const auto& line : matches_of(played_->said, "([A-Z_]+) said by the box at ([0-9]+) ns"))
+    for (const auto& line : matches_of(said(), "([A-Z_]+) said by the box at ([0-9]+) ns"))
       all.push_back({std::stoll(line[2]), line[1]});
     return all;
   }
@@ -124,56 +147,56 @@ class EmulatedMatch : public testing::Test {
 };
 std::optional<EmulatedMatch::Played> EmulatedMatch::played_;
 
-TEST_F(EmulatedMatch, EveryPossessionIsKickedAndItsTruthRecorded) {
-  const Reader match = log("emulated");
+TEST_P(EmulatedMatch, EveryPossessionIsKickedAndItsTruthRecorded) {
+  const Reader match = log(GetParam().name);
   EXPECT_EQ(number_of(match, "SELECT count(*) FROM possession_truths WHERE ending = 'kicked'"), 2 * kPossessions);
-  EXPECT_EQ(kicks("emulated").size(), std::size_t{2 * kPossessions}) << "a truth's kick is that of its receipt";
+  EXPECT_EQ(kicks(GetParam().name).size(), std::size_t{2 * kPossessions}) << "a truth's kick is that of its receipt";
   EXPECT_EQ(number_of(match, "SELECT count(*) FROM kick_truths"), 2 * kPossessions);
   EXPECT_EQ(number_of(match, "SELECT count(*) FROM kick_outcomes"), 2 * kPossessions);
   EXPECT_EQ(number_of(match, "SELECT simulated FROM sessions"), 1);
   EXPECT_EQ(number_of(match, "SELECT count(*) FROM kicks WHERE (half = 1) <> (policy = 'stopped')"), 0)
       << "the halves are those of the box";
   EXPECT_THAT(losses_of(match), IsEmpty());
-  EXPECT_THAT(loose_ends_of(played_->folder / "emulated.db"), IsEmpty());
+  EXPECT_THAT(loose_ends_of(played_->folder / (GetParam().name + ".db")), IsEmpty());
 }
 
-TEST_F(EmulatedMatch, EachPulseOfTheBoardHasOneAcceptedReceiptAndEachReceiptOnePulse) {
+TEST_P(EmulatedMatch, EachPulseOfTheBoardHasOneAcceptedReceiptAndEachReceiptOnePulse) {
   const auto fired = pulses();
   const auto receipts =
-      rows_of(log("emulated"),
+      rows_of(log(GetParam().name),
               "SELECT fired_t_ns, power FROM kick_receipts AS r WHERE accepted AND NOT EXISTS (SELECT 1 "
               "FROM kick_receipts AS o WHERE o.kick_id = r.kick_id AND NOT o.accepted) "
               "ORDER BY fired_t_ns");
-  ASSERT_EQ(fired.size(), receipts.size()) << played_->said;
+  ASSERT_EQ(fired.size(), receipts.size()) << said();
   ASSERT_GE(fired.size(), std::size_t{2 * kPossessions});
   constexpr std::int64_t kOldest_ns = 100'000'000;  // a shot that waited for longer is not sent
-  constexpr double kUnit_ms = 0.128;                // of a pulse, and by default of a set-point
   for (std::size_t i = 0; i < fired.size(); ++i) {
     const auto fired_t_ns = std::get<std::int64_t>(receipts[i][0]);
     EXPECT_GE(fired[i].t_ns, fired_t_ns) << "no pulse before its instant";
     EXPECT_LT(fired[i].t_ns, fired_t_ns + kOldest_ns);
-    EXPECT_NEAR(fired[i].length_ms, kUnit_ms * std::get<double>(receipts[i][1]), 0.501 * kUnit_ms);
+    EXPECT_NEAR(fired[i].length_ms, GetParam().power_ms * std::get<double>(receipts[i][1]),
+                0.501 * GetParam().resolution_ms);
   }
 }
 
 // A STOP takes its way through the refbox node and the driver; an order that was judged before lives for
 // kicker_driver.max_order_age_s.
-TEST_F(EmulatedMatch, NothingIsKickedWhileTheBoxHasStoppedTheGame) {
+TEST_P(EmulatedMatch, NothingIsKickedWhileTheBoxHasStoppedTheGame) {
   constexpr std::int64_t kOrderAge_ns = 100'000'000;
-  const auto said = words();
-  const auto count = [&](const std::string& word) { return std::ranges::count(said, word, &BoxWord::word); };
+  const auto all = words();
+  const auto count = [&](const std::string& word) { return std::ranges::count(all, word, &BoxWord::word); };
   EXPECT_EQ(count("START"), 2 * kPossessions);
   EXPECT_EQ(count("STOP"), 2 * kPossessions + 1) << "and one at the end";
   EXPECT_EQ(count("SECOND_HALF"), 1);
   for (const Pulse& pulse : pulses()) {
     bool playing = false;
-    for (const BoxWord& word : said) {
+    for (const BoxWord& word : all) {
       if (word.word == "START" && word.t_ns <= pulse.t_ns) playing = true;
       if (word.word == "STOP" && word.t_ns + kOrderAge_ns <= pulse.t_ns) playing = false;
     }
     EXPECT_TRUE(playing) << "pulse at " << pulse.t_ns << " ns";
   }
-  EXPECT_EQ(number_of(log("emulated"), "SELECT max(goals_own) FROM referee"), count("GOAL"));
+  EXPECT_EQ(number_of(log(GetParam().name), "SELECT max(goals_own) FROM referee"), count("GOAL"));
 }
 
 /// The middle one.
@@ -186,11 +209,11 @@ double median(std::vector<double> values) {
 // nothing takes time; here START may reach the decision a cycle later, and what it orders takes its way. So most kicks
 // come within two cycles of the simulated ones, and the robot has moved so far; that holds for the median also where a
 // busy machine holds one of them up.
-TEST_F(EmulatedMatch, KicksAsOnTheBusButForTheDelayOfTheLines) {
+TEST_P(EmulatedMatch, KicksAsOnTheBusButForTheDelayOfTheLines) {
   constexpr double kTwoCycles_s = 0.04;
   constexpr double kUnit = 1.0;  // set-points that one unit of the board's pulse is of
   const std::vector<Kick> on_the_bus = kicks("simulated");
-  const std::vector<Kick> emulated = kicks("emulated");
+  const std::vector<Kick> emulated = kicks(GetParam().name);
   ASSERT_EQ(on_the_bus.size(), std::size_t{2 * kPossessions});
   ASSERT_EQ(emulated.size(), on_the_bus.size());
   std::vector<double> later_s, more_power;
@@ -203,6 +226,17 @@ TEST_F(EmulatedMatch, KicksAsOnTheBusButForTheDelayOfTheLines) {
   EXPECT_LE(median(later_s), kTwoCycles_s);
   EXPECT_LE(median(more_power), kUnit);
 }
+
+// Drives measure no turn rate: what stands there is the gyro's.
+TEST_P(EmulatedMatch, TheGyrosTurnRateReachesOdometry) {
+  const Reader match = log(GetParam().name);
+  EXPECT_GT(number_of(match, "SELECT sum(gyro_radps IS NOT NULL) > 0.5 * count(*) FROM odometry"), 0);
+  EXPECT_GT(number_of(match, "SELECT max(abs(gyro_radps)) > 0.5 FROM odometry"), 0) << "the robot has turned";
+  EXPECT_GT(number_of(match, "SELECT avg(abs(gyro_radps - omega_radps)) < 0.1 FROM odometry"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Over, EmulatedMatch, testing::Values(ioboard(), rekick_on_drives()),
+                         [](const auto& of) { return of.param.name; });
 
 TEST(EmulatedMatchUsage, ABoxHasNoWordsForAFifthHalf) {
   const Folder folder;

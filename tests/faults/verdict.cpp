@@ -38,6 +38,17 @@ std::size_t unrecovered(const Verdict& verdict) {
       std::count_if(verdict.trials.begin(), verdict.trials.end(), [](const Trial& trial) { return !trial.recovered; }));
 }
 
+bool forges(const Trial& trial) { return trial.fault.kind == FaultKind::kGarble; }
+
+/// Recovered from, but later than it may take.
+bool slow(const Trial& trial) { return trial.recovered && trial.streams_s > time_for_streams_s(trial.fault); }
+
+std::size_t slow_trials(const Verdict& verdict, bool forged) {
+  return static_cast<std::size_t>(
+      std::count_if(verdict.trials.begin(), verdict.trials.end(),
+                    [forged](const Trial& trial) { return forges(trial) == forged && slow(trial); }));
+}
+
 bool hits(const Fault& fault, std::size_t node) { return fault.node == node || fault.other == node; }
 
 /// Row of a node: how many faults of each kind, and how long it took to be whole.
@@ -77,9 +88,11 @@ std::string circumstances(const Verdict& verdict, std::int64_t at_ns) {
 bool Verdict::clean() const {
   return findings.empty() && logged.lost.empty() && unreadable.empty() &&
          std::all_of(trials.begin(), trials.end(), [](const Trial& trial) {
-           return trial.recovered && trial.complaint.empty() && trial.crashed.empty();
+           return trial.recovered && !slow(trial) && trial.complaint.empty() && trial.crashed.empty();
          });
 }
+
+double time_for_streams_s(const Fault& fault) { return fault.kind == FaultKind::kGarble ? 4.0 : 2.0; }
 
 Times times_of(std::vector<double> values_s) {
   if (values_s.empty()) return {std::nan(""), std::nan("")};
@@ -124,6 +137,8 @@ std::string counts_text(const Verdict& verdict) {
   out += fmt::format("  fires closer than the minimum interval      {:>6}\n", too_soon(verdict));
   out += fmt::format("  kicks neither in a log nor in a counted gap {:>6}\n", verdict.logged.lost.size());
   out += fmt::format("  faults that were not recovered from         {:>6}\n", unrecovered(verdict));
+  out += fmt::format("  topics heard later than 2 s after a fault   {:>6}\n", slow_trials(verdict, false));
+  out += fmt::format("  ... later than 4 s after forged packets     {:>6}\n", slow_trials(verdict, true));
   return out;
 }
 
@@ -138,6 +153,9 @@ std::string findings_text(const Verdict& verdict) {
   }
   if (told < verdict.findings.size())
     out += fmt::format("  ... and {} more (--json has all)\n", verdict.findings.size() - told);
+  for (const Trial& trial : verdict.trials)
+    if (slow(trial))
+      out += fmt::format("  \"{}\": topics heard after {:.2f} s alone\n", text(trial.fault), trial.streams_s);
   for (const FireSeen& fire : verdict.logged.lost)
     out += fmt::format("  kick {} is in no log; {}\n", fire.kick_id, circumstances(verdict, fire.arrival_ns));
   for (const std::string& log : verdict.unreadable) out += fmt::format("  {}\n", log);
@@ -170,6 +188,8 @@ nlohmann::json json(const Verdict& verdict) {
                      {"fires_too_soon", too_soon(verdict)},
                      {"kicks_lost", verdict.logged.lost.size()},
                      {"not_recovered", unrecovered(verdict)},
+                     {"streams_slower_than_2_s", slow_trials(verdict, false)},
+                     {"streams_slower_than_4_s_after_forged_packets", slow_trials(verdict, true)},
                      {"clean", verdict.clean()}};
   for (std::size_t node = 0; node < kNodes.size(); ++node) {
     const NodeRow row = row_of(verdict, node);

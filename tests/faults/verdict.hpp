@@ -24,9 +24,13 @@ struct Verdict {
   HubCounts frames;
   double took_s = 0.0;
 
-  /// No fire that should not have been, none lost, every fault recovered from, nothing to complain of.
+  /// No fire that should not have been, none lost, every fault recovered from in time, nothing to complain of.
   bool clean() const;
 };
+
+/// In how many seconds after the fault's end every periodic topic has to be heard again: 2; after forged packets 4, in
+/// which a reader that they made deaf is made anew (docs/decisions/0017-mutated-packets.md).
+double time_for_streams_s(const Fault& fault);
 
 /// Median and worst of times, NaN where there are none.
 struct Times {

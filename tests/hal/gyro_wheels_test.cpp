@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "hal/gyro_wheels.hpp"
+#include "hal/mti/emulated_gyro.hpp"
 #include "hal/mti/emulated_mti.hpp"
 #include "hal/mti/mti.hpp"
 #include "tests/hal/board_on_a_line.hpp"
@@ -107,6 +108,29 @@ TEST_F(MtiOnALine, ALostOneIsSaidAndHeardAgain) {
   EXPECT_NE(gyro_.status().find("no gyro at"), std::string::npos) << gyro_.status();
   emulator_.line().plug();
   EXPECT_TRUE(until([&] { return gyro_.status().ends_with(": MTi"); })) << gyro_.status();
+}
+
+// In the samples of wheels, as odometry takes them.
+TEST(EmulatedGyro, TheTurnRateOfTheWorldIsWhatItsHostReadsWhicheverWayUpItIs) {
+  for (const bool upside_down : {false, true}) {
+    config::MtiDevice host{.upside_down = upside_down};
+    const auto world = emulated_gyro(host);
+    const std::string setting = world->setting();
+    ASSERT_TRUE(setting.starts_with("hal.mti.port=\""));
+    host.port = setting.substr(setting.find('"') + 1, setting.size() - setting.find('"') - 2);
+    WheelSample said{.wheel_count = 3, .wheel_radps = {1, 2, 3}, .gyro_radps = {}};
+    GyroWheels wheels{std::make_unique<ToldBase>(said), std::make_unique<mti::MtiGyro>(serial_line(host.port), host)};
+    world->show(-1.75);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    std::optional<double> read;
+    while (read != -1.75 && std::chrono::steady_clock::now() < end) {
+      said.t_ns = tests::steady_ns();
+      read = wheels.read({})->gyro_radps;
+      std::this_thread::yield();
+    }
+    EXPECT_EQ(read, -1.75) << wheels.status();
+  }
+  EXPECT_EQ(emulated_gyro(config::WheelsGyro{}), nullptr);
 }
 
 }  // namespace

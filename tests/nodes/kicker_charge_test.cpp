@@ -19,6 +19,7 @@ class KickerCharge : public NodeTest {
     node.emplace(context, fake_kicker());
     running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
     referee.expect_reader();
+    decision.expect_reader();
   }
   msg::KickerStatus sample(double charge, double voltage_v) {
     clock_ns = t_ns += 20'000'000;
@@ -26,6 +27,7 @@ class KickerCharge : public NodeTest {
     word.t_ns = t_ns;
     word.playing = true;
     referee(word);
+    if (decides) decision({});
     kicker->put({.t_ns = t_ns, .charge = charge, .armed = true, .voltage_v = voltage_v});
     return status.nth(++samples);
   }
@@ -39,8 +41,10 @@ class KickerCharge : public NodeTest {
 
   std::int64_t t_ns = 1'000'000'000;
   std::size_t samples = 0;
+  bool decides = true;  // a decision node is there
   Heard<msg::KickerStatus> status{participant};
   Says<msg::Referee> referee{participant};
+  Says<msg::DriveCommand> decision{participant, 1, "kick_decision/1"};
   std::optional<KickerDriverNode> node;
   std::optional<Running> running;
 };
@@ -57,10 +61,9 @@ TEST_F(KickerCharge, IsToldWithEachSampleAndToEmptyWhenTheProgramEnds) {
 }
 
 TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
-  Says<msg::DriveCommand> decision{participant, 1, "kick_decision/1"};
+  decides = false;
   Says<msg::DriveCommand> stranger{participant, 1, "somebody"};
   start();
-  decision.expect_reader();
   stranger.expect_reader();
   const auto drives = [](Says<msg::DriveCommand>& who, msg::KickerState wanted) {
     return [&who, wanted](const msg::KickerStatus& said) {
@@ -73,6 +76,17 @@ TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
   EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
   EXPECT_TRUE(log_lines->wait_for("the decision node is gone"));
   EXPECT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0)) << "it is back";
+}
+
+TEST_F(KickerCharge, IsNotToldToChargeBeforeADecisionNodeWasHeard) {
+  decides = false;
+  start();
+  ASSERT_TRUE(goes_on_until([](const auto& s) { return s.armed; }, 0.2, 100.0));
+  EXPECT_EQ(sample(1.0, 300.0).state, msg::STATE_OFF);
+  EXPECT_EQ(kicker->told, ChargeWord::kHold);
+  decides = true;
+  EXPECT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_READY; }, 1.0, 300.0));
+  EXPECT_EQ(kicker->told, ChargeWord::kUp);
 }
 
 TEST_F(KickerCharge, EndsWhereTheVoltageDoesNotRise) {

@@ -30,6 +30,7 @@ class KickerDriverNodeTest : public NodeTest {
     word.t_ns = t_ns;
     word.playing = playing;
     (*referee)(word);
+    drive({});  // the decision node is there
   }
   msg::KickOrder wish(std::int64_t kick_id, double power = 30.0) const {
     msg::KickOrder out{};
@@ -58,6 +59,7 @@ class KickerDriverNodeTest : public NodeTest {
   Heard<msg::KickerStatus> status{participant};
   Heard<msg::KickReceipt> receipt{participant};
   Says<msg::KickOrder> order{participant, 1, "kick_decision/1"};
+  Says<msg::DriveCommand> drive{participant, 1, "kick_decision/1"};
   std::optional<Says<msg::Referee>> referee{std::in_place, participant};
   std::optional<KickerDriverNode> node;
   std::optional<Running> running;

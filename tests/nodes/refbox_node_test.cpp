@@ -108,6 +108,15 @@ TEST_F(RefboxNodeTest, RepeatsWhatItSaid) {
   EXPECT_GT(Clock::now() - began, std::chrono::milliseconds{500}) << "not more often than it is told to";
 }
 
+TEST_F(RefboxNodeTest, RepeatsItAtLeastEveryTenthOfASecond) {
+  start();
+  const std::uint64_t first = wait_for([](const msg::Referee&) { return true; }).seq;
+  const auto began = Clock::now();
+  wait_for([first](const msg::Referee& word) { return word.seq >= first + 30; });
+  EXPECT_LT(Clock::now() - began, std::chrono::milliseconds{4500})
+      << "30 words in 3 s, and half as much for a busy machine";
+}
+
 TEST_F(RefboxNodeTest, ALostConnectionStopsWithinHalfASecondUntilANewStart) {
   for (const BoxFault fault : {BoxFault::kClose, BoxFault::kReset}) {
     if (!node) start();
@@ -124,12 +133,18 @@ TEST_F(RefboxNodeTest, ALostConnectionStopsWithinHalfASecondUntilANewStart) {
   EXPECT_TRUE(log_lines->wait_for("is lost: "));
 }
 
-TEST_F(RefboxNodeTest, ABoxThatAcknowledgesNothingMoreStopsTheGame) {
+// What the box is told is longer than its deaf kernel has room for: the next object, a period later, is the first that
+// waits.
+TEST_F(RefboxNodeTest, ABoxThatAcknowledgesNothingMoreStopsTheGameWithinHalfASecond) {
+  context.settings.refbox.intention = std::string(20'000, 'i');
   start();
   say(CommandKind::kStart);
   wait_for_play(true);
+  const auto before = Clock::now();
   box.act(BoxFault::kDeaf);
   wait_for_play(false);
+  const std::chrono::duration<double> period{context.settings.refbox.period_s};
+  EXPECT_LT(Clock::now() - before, std::chrono::milliseconds{500} + period);
 }
 
 TEST_F(RefboxNodeTest, TheBoxsSilenceStopsNothing) {

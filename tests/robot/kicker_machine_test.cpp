@@ -180,7 +180,7 @@ class DeskOfSomeCapabilities : public testing::TestWithParam<int> {
     return desk.answer(wish, now_ns, OrderBy::kOwnDecision).refusal;
   }
 
-  OrderDesk desk{{}, 0.02, {}, 1};
+  OrderDesk desk{{}, 0.02, {}, 1, DecisionNode::kThere};
   std::int64_t now_ns = 0;
 };
 
@@ -212,12 +212,22 @@ TEST_P(DeskOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCool
 TEST_P(DeskOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds) {
   at(1000, 1.0, 300.0);
   EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
-  desk.decision_node(false, now_ns);
+  desk.decision_node(DecisionNode::kLost, now_ns);
   EXPECT_EQ(desk.charge_word(), ChargeWord::kEmpty);
   EXPECT_EQ(at(1020, 0.9, 290.0).state, msg::STATE_OFF);
-  desk.decision_node(true, now_ns);
+  desk.decision_node(DecisionNode::kThere, now_ns);
   EXPECT_EQ(at(1040, 1.0, 300.0).state, msg::STATE_READY);
   EXPECT_EQ(desk.end(), ChargeWord::kEmpty);
+}
+
+TEST_P(DeskOfSomeCapabilities, IsNotChargedBeforeADecisionNodeWasHeard) {
+  desk = OrderDesk{{}, 0.02, {}, 1};
+  EXPECT_EQ(at(1000, 1.0, 300.0).state, msg::STATE_OFF);
+  EXPECT_EQ(desk.charge_word(), ChargeWord::kHold);
+  desk.decision_node(DecisionNode::kUnheard, now_ns);
+  EXPECT_EQ(desk.charge_word(), ChargeWord::kHold) << "what never came is not missed";
+  desk.decision_node(DecisionNode::kThere, now_ns);
+  EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
 }
 
 TEST_P(DeskOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
@@ -258,7 +268,7 @@ TEST(OrderDesk, AcceptsNoOrderButInReady) {
   std::mt19937 random(5);
   config::KickerDriver settings;
   settings.min_interval_s = 0.02;
-  OrderDesk desk{settings, 0.02, {}, 1};
+  OrderDesk desk{settings, 0.02, {}, 1, DecisionNode::kThere};
   std::int64_t now_ns = 0;
   int accepted = 0;
   for (std::int64_t id = 1; id < 20'000; ++id) {
