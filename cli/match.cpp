@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/launch/record_emulated.hpp"
@@ -35,7 +36,7 @@ struct MatchFlags {
   std::vector<std::string> halves;
   std::string random;
   bool paired_halves = false;
-  double minutes = 5.0;
+  std::optional<double> minutes;
   std::int64_t seed = 1;
   std::string devices = "sim";
   int domain = -1;
@@ -111,8 +112,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   if (flags.watch) lines.push_back(fmt::format("simulator.pace = {:.17e}", flags.pace));
   for (std::string line :
        {fmt::format("simulator.halves = {}", std::max<std::size_t>(flags.halves.size(), 1)),
-        fmt::format("kick_decision.assignment_seed = {}", flags.seed),
-        fmt::format("simulator.half_minutes = {:.17e}", flags.minutes), fmt::format("simulator.seed = {}", flags.seed),
+        fmt::format("kick_decision.assignment_seed = {}", flags.seed), fmt::format("simulator.seed = {}", flags.seed),
         fmt::format("run.log_level = \"{}\"", flags.log_level)})
     lines.push_back(std::move(line));
   refuse_settings_of_flags(flags.overrides);
@@ -123,6 +123,7 @@ config::Settings settings_of(const MatchFlags& flags) {
   if (const auto contradiction = config::field_contradiction(scenario, settings))
     throw config::Error{fmt::format("{}: {}", settings.run.scenario, *contradiction)};
   settings = config::on_field_of(scenario, std::move(settings));
+  settings.simulator.half_minutes = flags.minutes.value_or(scenario.referee.half_minutes);
   nodes::scenario_of(settings);
   config::robot_for(config::load_robot(settings.run.robot), settings);
   return settings;
@@ -151,7 +152,8 @@ void add_play_flags(CLI::App& verb, MatchFlags& flags) {
   verb.add_flag("--paired-halves", flags.paired_halves,
                 "the same possessions in every half; otherwise each has its own")
       ->needs(half);
-  verb.add_option("--minutes", flags.minutes, "length of a half")->check(between(0.01, 1000.0))->capture_default_str();
+  verb.add_option("--minutes", flags.minutes, "length of a half; default: the scenario's, referee.half_minutes")
+      ->check(between(0.01, 1000.0));
   verb.add_option("--seed", flags.seed, "same seed, same match")->check(seeds())->capture_default_str();
   verb.add_option("--devices", flags.devices,
                   "sim: on the bus, as fast as the nodes answer; emulated: the kicker's board (hal.kicker, "

@@ -52,6 +52,10 @@ void override_scenario(sim::Scenario& scenario, const std::string& line, const s
     throw Error{fmt::format("{} {}: {}: {}", called, line, problem->key, problem->why)};
 }
 
+double half_minutes(const Simulator& settings, const sim::Scenario& scenario) {
+  return settings.half_minutes > 0.0 ? settings.half_minutes : scenario.referee.half_minutes;
+}
+
 std::string to_toml_text(const sim::Scenario& scenario) { return to_toml(scenario); }
 
 }  // namespace trivela::config

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "config/settings.hpp"
 #include "sim/scenario.hpp"
 
 namespace trivela::config {
@@ -14,6 +15,9 @@ sim::Scenario load_scenario(const std::filesystem::path& path);
 /// Sets what a line of TOML names, e.g. "keeper.reaction_s = 0.15". Throws Error naming the line's key and value
 /// after what the line is `called`; also where the scenario could no longer be played.
 void override_scenario(sim::Scenario& scenario, const std::string& line, const std::string& called = "scenario");
+
+/// Length of a half: the settings', where they say one, else the scenario's.
+double half_minutes(const Simulator& settings, const sim::Scenario& scenario);
 
 /// Every value of the scenario as TOML that load_scenario() reads back.
 std::string to_toml_text(const sim::Scenario& scenario);

@@ -299,7 +299,7 @@ template <class V>
 void fields(V& v, Simulator& s) {
   v("seed", s.seed, Range{0, 9e15});
   v("halves", s.halves, Range{1, 255});
-  v("half_minutes", s.half_minutes, Range{0.01, 1000.0});
+  v("half_minutes", s.half_minutes, Range{0.0, 1000.0});
   v("max_possessions", s.max_possessions, Range{0, 1000000});
   v("paired_halves", s.paired_halves);
   v("pace", s.pace, Range{0.0, 1000.0});

@@ -73,6 +73,7 @@ struct Match::State {
     ending.reset();
     const kicking::Draws draws{seed, situation()};
     opportunity = draw_opportunity(scenario, draws);
+    if (scenario.referee.set_pieces) opportunity.velocity = {};  // who takes it stands
     world.place(opportunity, speed_scale_now(opportunity.robot), draws);
     sensors.begin(draws);
     laser.begin(draws);
@@ -100,7 +101,13 @@ struct Match::State {
     world.start_play(opportunity);
     const double free_s = challenger().time_until_s(scenario.opponent.dispute_distance_m);
     dispute_t_ns = instant_after(play_t_ns, free_s);
-    whistle_t_ns = instant_after(play_t_ns, opportunity.whistle_s);
+    whistle_t_ns = instant_after(play_t_ns, std::min(opportunity.whistle_s, set_piece_s()));
+  }
+
+  /// Within which a set piece has to be taken [s].
+  double set_piece_s() const {
+    const bool limited = scenario.referee.set_pieces && scenario.rules.set_piece_s > 0.0;
+    return limited ? scenario.rules.set_piece_s : std::numeric_limits<double>::infinity();
   }
 
   const OpponentBody& challenger() const { return world.opponents().first_at(scenario.opponent.dispute_distance_m); }
@@ -213,7 +220,8 @@ struct Match::State {
   }
 
   RefereeWord word() const {
-    RefereeWord said{half, phase == Phase::kPlay, possession_id, goals, commands, {}};
+    RefereeWord said{half, phase == Phase::kPlay, possession_id, goals, commands, {}, false};
+    said.set_piece = scenario.referee.set_pieces && phase == Phase::kStop;
     if (half_play_t_ns) said.half_s = kicking::seconds(world.t_ns() - *half_play_t_ns);
     return said;
   }

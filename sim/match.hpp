@@ -18,7 +18,9 @@ namespace trivela::sim {
 /// ends with a kick (when the ball crossed, was blocked, came to rest or flew for `flight_limit_s`), with a dispute
 /// (an opponent is at the ball), with the referee's whistle or with the time limit, which a ball carried over a field
 /// line counts as. A coil
-/// energised before the end of a possession wins: its ball leaves first.
+/// energised before the end of a possession wins: its ball leaves first. With `referee.set_pieces` the robot does not
+/// gain the ball on the run: each possession is a set piece of ours, announced in its stop, and the referee whistles
+/// where it is not taken in time.
 ///
 /// Possession n of a half depends on (seed, half, n) alone, so that every policy meets the same poses, opponents and
 /// noise: the draws of one role never shift another's. Each half has possessions of its own, unless the halves are

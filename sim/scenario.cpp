@@ -85,6 +85,8 @@ std::optional<Problem> first_problem(const Scenario& scenario) {
   if (auto problem = whole("kicker.drop_after_kicks", scenario.kicker.drop_after_kicks)) return problem;
   if (auto problem = whole("defenders.count", scenario.defenders.count)) return problem;
   if (auto problem = team_problem(scenario.team)) return problem;
+  if (scenario.referee.set_pieces && p.stop_s <= 0.0)
+    return Problem{"referee.set_pieces", "a set piece is announced while play is stopped, and possession.stop_s is 0"};
   const std::size_t wheels = scenario.robot.wheel_angles_rad.size();
   if (wheels != 3 && wheels != 4) {
     return Problem{"robot.wheel_angles_rad", fmt::format("{} wheels where 3 or 4 are known", wheels)};

@@ -131,6 +131,9 @@ struct Defenders {
 /// The referee.
 struct Referee {
   double stops_per_min = 0.5;  ///< whistles in a minute of carrying the ball; assumption
+  double half_minutes = 5.0;   ///< length of a half where nobody says another; a choice, the paper's have 15
+  bool set_pieces = false;     ///< each possession is a set piece of ours: it is announced in the stop before it, the
+                               ///< robot stands, and who has not kicked within rules.set_piece_s is stopped
 };
 
 /// Our robots. One of them, drawn for each possession, gains the ball.

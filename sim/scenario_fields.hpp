@@ -141,6 +141,8 @@ void fields(V& v, Defenders& d) {
 template <class V>
 void fields(V& v, Referee& r) {
   v("stops_per_min", r.stops_per_min, Range{0.0, 60.0});
+  v("half_minutes", r.half_minutes, Range{0.01, 1000.0});
+  v("set_pieces", r.set_pieces);
 }
 
 template <class V>

@@ -56,6 +56,7 @@ struct RefereeWord {
   std::uint32_t goals = 0;          ///< ours; the opponents only defend
   std::uint32_t commands = 0;       ///< how often play was stopped or started
   std::optional<double> half_s;     ///< since the first start of play in the half
+  bool set_piece = false;           ///< the next start of play is a set piece of ours
 };
 
 /// Which samples a caller wants. Those it leaves out cost nothing; the others are the same bits with or without them.

@@ -154,8 +154,8 @@ std::vector<BoxStep> read_box_log(std::string_view text, const std::string& name
     const auto said = ms ? logged(line, teams) : std::nullopt;
     if (!said) continue;
     if (!first_ms) first_ms = ms;
-    const double at_s = static_cast<double>(*ms - *first_ms) * 1e-3;
-    steps.push_back({std::max(at_s, steps.empty() ? 0.0 : steps.back().at_s), *said});  // a clock may be set back
+    const double at_s = (static_cast<double>(*ms) - static_cast<double>(*first_ms)) * 1e-3;  // no time overflows
+    steps.push_back({std::max(at_s, steps.empty() ? 0.0 : steps.back().at_s), *said});       // a clock may be set back
   }
   if (steps.empty()) throw std::runtime_error{fmt::format("{} holds no command of a referee box", name)};
   return steps;

@@ -85,6 +85,8 @@ msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word) {
   out.playing = word.playing;
   out.possession_id = word.possession_id;
   out.stage = stage_of(word.half);
+  if (word.set_piece) out.restart = word.possession_id == 1 ? msg::RESTART_KICKOFF : msg::RESTART_FREEKICK;
+  out.ours = word.set_piece;
   out.goals_own =
       static_cast<std::uint16_t>(std::min(word.goals, std::uint32_t{std::numeric_limits<std::uint16_t>::max()}));
   out.command_counter = word.commands;

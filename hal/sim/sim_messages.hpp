@@ -12,7 +12,7 @@ msg::DeviceWheels wheels_message(const sim::Sensors& sensors);
 msg::DeviceKicker kicker_message(const sim::Sensors& sensors);
 msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame);
 msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame);
-/// No set piece is ever announced: each possession is gained on the run.
+/// A set piece of ours is announced as the kick-off for a half's first possession, as a free kick for each further one.
 msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word);
 msg::SimScan scan_message(const kicking::lob::Scan& scan, const kicking::lob::ScanGeometry& geometry);
 msg::KickTruth truth_message(const sim::KickTruth& truth);

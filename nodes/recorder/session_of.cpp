@@ -44,6 +44,13 @@ std::vector<evaluator::log::HalfPolicy> policies_of(const config::KickDecision& 
   return policies;
 }
 
+/// Length of a half; none: the scenario says it, and its file is not on this machine.
+std::optional<double> minutes_of_half(const config::Settings& settings) {
+  if (settings.simulator.half_minutes > 0.0) return settings.simulator.half_minutes;
+  if (!std::filesystem::exists(settings.run.scenario)) return std::nullopt;
+  return config::half_minutes(settings.simulator, config::load_scenario(settings.run.scenario));
+}
+
 }  // namespace
 
 evaluator::log::Simulation simulation_of(const config::Settings& settings) {
@@ -52,7 +59,9 @@ evaluator::log::Simulation simulation_of(const config::Settings& settings) {
                                    .scenario = std::filesystem::path{settings.run.scenario}.stem().string(),
                                    .paired_halves = simulator.paired_halves};
   // A half that may end with its possessions has no length that anybody could know.
-  if (simulator.max_possessions == 0) world.planned_s = simulator.halves * simulator.half_minutes * 60.0;
+  if (simulator.max_possessions > 0) return world;
+  const std::optional<double> minutes = minutes_of_half(settings);
+  if (minutes) world.planned_s = simulator.halves * *minutes * 60.0;
   return world;
 }
 

@@ -24,7 +24,7 @@ sim::Match match_of(const sim::Scenario& scenario, const config::Simulator& sett
   return sim::Match{scenario,
                     static_cast<std::uint64_t>(settings.seed),
                     static_cast<int>(settings.halves),
-                    settings.half_minutes,
+                    config::half_minutes(settings, scenario),
                     settings.max_possessions,
                     settings.paired_halves};
 }
@@ -264,7 +264,8 @@ void SimulatorNode::publish_truth(const sim::StepEvents& events) {
 }
 
 void SimulatorNode::report_progress() {
-  const double total_s = context_.settings.simulator.halves * context_.settings.simulator.half_minutes * 60.0;
+  const double total_s =
+      context_.settings.simulator.halves * config::half_minutes(context_.settings.simulator, scenario_) * 60.0;
   progress_.say(played_s(), total_s, match_.done());
 }
 

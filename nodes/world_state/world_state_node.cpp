@@ -9,6 +9,8 @@ WorldStateNode::WorldStateNode(NodeContext& context)
     : context_(context),
       model_(context.settings.world_state, context.robot.model.ball_offset_m),
       field_watch_(context.settings.goal.y_m, context.settings.field.side_line_x_m),
+      goal_watch_(context.settings.goal),
+      reach_watch_(context.settings.goal.y_m, context.settings.field.side_line_x_m),
       node_(context.participant, "world_state", context.robot_id()),
       world_out_(node_.writer<msg::WorldState>()),
       vision_(node_.stores<msg::VisionFrame>()),
@@ -38,7 +40,16 @@ void WorldStateNode::on_odometry(const msg::Odometry& odometry) {
   world.robot_id = context_.robot_id();
   world.seq = ++seq_;
   world_out_.write(world);
+  warn_of_contradictions(world, referee ? &*referee : nullptr);
+}
+
+/// Where the belief does not fit the settings' field. In lockstep the simulated world has the same field, and nobody is
+/// to be told that its possessions keep off the lines.
+void WorldStateNode::warn_of_contradictions(const msg::WorldState& world, const msg::Referee* referee) {
   for (const std::string& sentence : field_watch_.see(world)) context_.logger->warn("{}", sentence);
+  if (const auto sentence = goal_watch_.see(world, referee)) context_.logger->warn("{}", *sentence);
+  if (context_.settings.run.lockstep) return;
+  if (const auto sentence = reach_watch_.see(world)) context_.logger->warn("{}", *sentence);
 }
 
 /// In real time the word is the last one that came, however long ago.

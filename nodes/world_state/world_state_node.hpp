@@ -2,6 +2,8 @@
 
 #include "nodes/runtime/node_context.hpp"
 #include "robot/belief/field_watch.hpp"
+#include "robot/belief/goal_watch.hpp"
+#include "robot/belief/reach_watch.hpp"
 #include "robot/belief/world_model.hpp"
 #include "robot/watch/referee_watch.hpp"
 
@@ -17,10 +19,13 @@ class WorldStateNode {
  private:
   void on_odometry(const msg::Odometry& odometry);
   void trust_no_silence(std::optional<msg::Referee>& word);
+  void warn_of_contradictions(const msg::WorldState& world, const msg::Referee* referee);
 
   NodeContext& context_;
   robot::WorldModel model_;
   robot::FieldWatch field_watch_;
+  robot::GoalWatch goal_watch_;
+  robot::ReachWatch reach_watch_;
   bus::Node node_;
   bus::Output<msg::WorldState> world_out_;
   std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;

@@ -1,7 +1,7 @@
 // What part of a core the drives of a base take: the backend cia402 over a SOCK_SEQPACKET socket in place of a CAN bus,
 // set-points and samples at a rate, emulated drives in a process of their own, which is not counted.
 //
-//     wheels_bench [--drives N] [--hz RATE] [--seconds S]
+//     wheels_bench [--drives N] [--hz RATE] [--seconds S] [--goals]
 #include <CLI/CLI.hpp>
 
 #include <fmt/core.h>
@@ -70,9 +70,11 @@ int main(int argc, char** argv) {
   CLI::App app{"What part of a core the drives take"};
   int count = 4;
   double rate_hz = 200.0, span_s = 10.0;
+  bool goals = false;
   app.add_option("--drives", count)->check(CLI::Range(3, 4))->capture_default_str();
   app.add_option("--hz", rate_hz, "of set-points and samples")->check(CLI::Range(20.0, 500.0))->capture_default_str();
   app.add_option("--seconds", span_s)->check(CLI::Range(1.0, 3600.0))->capture_default_str();
+  app.add_flag("--goals", goals, "exit 3 unless it is less than 10 % of a core, at 95 % of the rate or more");
   CLI11_PARSE(app, argc, argv);
 
   const Drives drives{count};
@@ -96,7 +98,12 @@ int main(int argc, char** argv) {
     samples += sample ? 1 : 0;
   }
   const double passed_s = std::chrono::duration<double>(steady_clock::now() - begin).count();
+  const double sampled_hz = static_cast<double>(samples) / passed_s;
+  const double part_percent = 100.0 * (processor_s() - before_s) / passed_s;
   fmt::print(
       "{} drives, {:.1f} samples and set-points a second: {:.2f} % of a core (SOCK_SEQPACKET, no CAN controller)\n",
-      count, static_cast<double>(samples) / passed_s, 100.0 * (processor_s() - before_s) / passed_s);
+      count, sampled_hz, part_percent);
+  if (!goals || (part_percent < 10.0 && sampled_hz > 0.95 * rate_hz)) return 0;
+  fmt::print(stderr, "wheels_bench: the goal is less than 10 % of a core at {:g} Hz\n", rate_hz);
+  return 3;
 }

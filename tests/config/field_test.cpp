@@ -52,6 +52,15 @@ TEST(Field, OnlyWhatSomebodyAskedForContradicts) {
   EXPECT_THAT(field_contradiction(msl_2026(), settings).value_or(""), HasSubstr("goal.height_m = 1.3"));
 }
 
+TEST(Field, AHalfIsAsLongAsTheScenarioHasItUnlessTheSettingsSayOtherwise) {
+  EXPECT_EQ(msl_2026().referee.half_minutes, 15.0);
+  Simulator settings;
+  settings.half_minutes = 0.0;
+  EXPECT_EQ(half_minutes(settings, msl_2026()), 15.0);
+  settings.half_minutes = 2.5;
+  EXPECT_EQ(half_minutes(settings, msl_2026()), 2.5);
+}
+
 const std::string kFields = TRIVELA_SOURCE_DIR "/config/fields/";
 
 class FieldFileTest : public testing::Test {

@@ -1,12 +1,17 @@
-// `trivela calibrate run --in field`, rehearsed in the simulator by somebody at a pseudo-terminal.
+// `trivela calibrate run --in field` by somebody at a pseudo-terminal: rehearsed in the simulator, and a drive in real
+// time by the nodes of a robot, whose bridge, vision, cameras and scanner are the simulator.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <signal.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <memory>
+#include <random>
 
 #include "tests/e2e/folder.hpp"
+#include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
 
@@ -69,6 +74,36 @@ TEST_F(CalibrateInField, ASecondStartGoesOnWhereTheFirstOneEnded) {
   EXPECT_THAT(third->output(), HasSubstr("1_standing_2: what was recorded of an earlier start is kept"));
   EXPECT_TRUE(exists("1_standing_2.partial-1.scenario.toml"));
   EXPECT_FALSE(exists("newcomer.toml"));
+}
+
+// Two set-points, two kicks each.
+TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
+  std::random_device random;
+  std::ofstream{folder_ / "robot.toml"} << fmt::format(
+      "[run]\nlockstep = false\nscenario = \"{}/config/scenarios/calibration.toml\"\n\n[domain]\ndomain_id = {}\n"
+      "tag = \"evening-{}-{:08x}\"\n\n[policy.test_drive]\npowers = [25.0, 35.0]\n",
+      TRIVELA_SOURCE_DIR, 1 + random() % 100, getpid(), random());
+  Program bridge{"trivela-simulator", {"--config", "robot.toml"}, folder_.path()};
+  Program evening{"trivela",
+                  {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer", "--out-dir",
+                   "drives", "--kicks", "2", "--lobs", "2"},
+                  folder_.path(),
+                  [this] { person_.become_input(); }};
+  answer(evening, "Standing kicks: ball to goal line, m [6.000]: ", "12");
+  answer(evening, "m [4.000]: ", "");
+  answer(evening, "m [0.050]: ", "");
+  answer(evening, "leave for today: ", "", "1_standing\n");
+  answer(evening, "leave for today: ", "q", "1_standing_2\n");
+  EXPECT_EQ(evening.wait(), 1);
+  EXPECT_THAT(evening.output(), HasSubstr("kick 4 of 4, set-point 35.00"));
+  EXPECT_THAT(evening.output(), Not(HasSubstr("A REHEARSAL")));
+  bridge.signal(SIGTERM);
+  EXPECT_EQ(bridge.wait(), 0) << bridge.errors();
+  EXPECT_TRUE(exists("1_standing.scans.db")) << "the scanner's record";
+  const Reader log{folder_ / "drives" / "1_standing.db"};
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM kick_receipts WHERE accepted"), 4);
+  EXPECT_EQ(number_of(log, "SELECT count(DISTINCT power) FROM kick_receipts WHERE accepted"), 2);
+  EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_truths"), 3) << "which the world let fly";
 }
 
 TEST_F(CalibrateInField, WhatMakesNoSenseIsRefusedBeforeAnybodyIsAsked) {

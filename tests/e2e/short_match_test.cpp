@@ -52,6 +52,19 @@ TEST_F(ShortMatch, WithBallTheDecisionDrivesAndKicksAndElseTheTeamWouldDrive) {
             0);
 }
 
+TEST_F(ShortMatch, WithoutMinutesAHalfIsAsLongAsTheScenarioHasIt) {
+  sim::Scenario world;
+  world.referee.half_minutes = 0.05;
+  std::ofstream{folder_ / "short.toml"} << config::to_toml_text(world);
+  Program match{
+      "trivela",
+      {"match", "--half", "moving", "--half", "stopped", "--out", "match.db", "--set", "run.scenario=\"short.toml\""},
+      folder_.path()};
+  EXPECT_EQ(match.wait(), 0) << match.errors();
+  const Reader log{folder_ / "match.db"};
+  EXPECT_EQ(number_of(log, "SELECT CAST(round(planned_s) AS INTEGER) FROM sessions"), 6) << "two halves of 3 s";
+}
+
 // The robot gets the ball behind the middle line, 11 m from the goal, and carries it ahead.
 TEST_F(ShortMatch, OnTheFieldOf2026NothingIsKickedFromTheOwnHalf) {
   sim::Scenario world =

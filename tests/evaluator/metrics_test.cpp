@@ -166,6 +166,30 @@ TEST_P(MetricOfTheKnownMatch, IsItsTable) {
 INSTANTIATE_TEST_SUITE_P(Each, MetricOfTheKnownMatch, testing::ValuesIn(metrics().begin(), metrics().end()),
                          [](const auto& of) { return std::string(of.param.name); });
 
+class CarriedKicks : public LogTest {
+ protected:
+  std::string by_the_rule(const std::string& carry_limit_m) {
+    log::Session ruled = session();
+    ruled.config_toml =
+        "### settings\n[rules]\ncarry_limit_m = " + carry_limit_m + "\n\n### robot\nball_offset_m = 0.27\n";
+    write_known_match(path(), ruled, options());
+    const std::string said = answer(log::Reader(path()), std::string(metric("carried_kicks")->sql));
+    return said.substr(said.find('\n') + 1);
+  }
+};
+
+TEST_F(CarriedKicks, BeyondTheSessionsLimitAreTooFar) {
+  EXPECT_EQ(by_the_rule("0.4"), "8192,1,99,moving,on_target,0.5,0.4,1\n");
+}
+
+TEST_F(CarriedKicks, WithinTheSessionsLimitAreNot) {
+  EXPECT_EQ(by_the_rule("3.0"), "8192,1,99,moving,on_target,0.5,3,0\n");
+}
+
+TEST_F(CarriedKicks, OfRulesWithoutALimitAreNeverTooFar) {
+  EXPECT_EQ(by_the_rule("0.0"), "8192,1,99,moving,on_target,0.5,NULL,0\n");
+}
+
 TEST(Metrics, SayTheirColumnsInTheirHead) {
   EXPECT_GE(metrics().size(), 17u);
   for (const Metric& metric : metrics()) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "config/installation.hpp"
@@ -174,6 +175,26 @@ TEST(PlayMatch, NoPolicyBreaksTheRulesThatItPlaysBy) {
     for (const PlayedPossession& possession : match.possessions)
       EXPECT_NE(possession.ending, sim::PossessionEnd::kStopped) << kicking::name(policy) << possession.possession_id;
     for (const msg::KickTruth& kick : record.kick_truths) EXPECT_GT(kick.release_y_m, 0.0) << kicking::name(policy);
+  }
+}
+
+TEST(PlayMatch, ASetPieceIsTakenBeforeItsTimeIsOver) {
+  sim::Scenario scenario;
+  scenario.referee.set_pieces = true;
+  scenario.referee.stops_per_min = 0.0;
+  scenario.rules.set_piece_s = 7.0;
+  scenario.opponent.distance_median_m = 30.0;  // nobody hurries the robot but the referee
+  scenario.opponent.distance_sigma_ln = 0.0;
+  scenario.possession.time_limit_s = 30.0;
+  for (const PolicyName policy : {PolicyName::kStopped, PolicyName::kMoving, PolicyName::kPredictive}) {
+    MatchRecord record;
+    const PlayedMatch match = play_match(scenario, arm(policy), 1, 0, kPossessions, {}, &record);
+    EXPECT_GT(kicks(match), static_cast<int>(kPossessions) * 9 / 10) << kicking::name(policy);
+    std::map<std::uint32_t, std::int64_t> started_t_ns;
+    for (const msg::PossessionTruth& truth : record.possession_truths)
+      started_t_ns[truth.possession_id] = truth.start_t_ns;
+    for (const msg::KickTruth& kick : record.kick_truths)
+      EXPECT_LE(kick.release_t_ns - started_t_ns.at(kick.possession_id), 7'100'000'000) << kicking::name(policy);
   }
 }
 

@@ -86,6 +86,13 @@ TEST(BoxLog, OfObjectsHasItsTeamsByTheirGroups) {
   EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kCorner, {}, {}}));
 }
 
+TEST(BoxLog, TimesFarApartAreASpanLikeAnyOther) {
+  const auto steps = read_box_log("-9223372036854775808,a,b,START\n9223372036854775807,a,b,STOP\n", "d.msl");
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_EQ(steps[0].at_s, 0.0);
+  EXPECT_NEAR(steps[1].at_s, 1.8446744073709552e16, 1e3);
+}
+
 TEST(BoxLog, WithoutACommandIsNone) {
   for (const char* const text : {"", "hello\n", "1,2,3\n", ",,,s\n", "1,,,", "9223372036854775808,,,s,"}) {
     EXPECT_THROW(read_box_log(text, "c.msl"), std::runtime_error) << text;

@@ -62,6 +62,14 @@ TEST(RefereeWord, AGoalIsABallOnTargetThatNobodySaved) {
   }
 }
 
+TEST(RefereeMessage, AnnouncesASetPieceOfOursAsAKickOffAndThenAsFreeKicks) {
+  RefereeWord word{.half = 2, .possession_id = 1, .half_s = {}, .set_piece = true};
+  EXPECT_EQ(hal::referee_message(7, word).restart, msg::RESTART_KICKOFF);
+  EXPECT_TRUE(hal::referee_message(7, word).ours);
+  word.possession_id = 2;
+  EXPECT_EQ(hal::referee_message(7, word).restart, msg::RESTART_FREEKICK);
+}
+
 TEST(RefereeMessage, SaysTheStageOfTheHalfAndAnnouncesNothing) {
   const RefereeWord word{.half = 2, .playing = true, .possession_id = 9, .goals = 3, .commands = 4, .half_s = 1.5};
   const msg::Referee message = hal::referee_message(7, word);

@@ -30,6 +30,12 @@ TEST_F(SessionOf, SaysHowLongASimulatedMatchIsToLast) {
   EXPECT_EQ(simulation_of(context.settings).planned_s, 300.0) << "in real time, too";
   context.settings.simulator.max_possessions = 10;
   EXPECT_FALSE(simulation_of(context.settings).planned_s) << "a half may end with its possessions";
+  context.settings.simulator.max_possessions = 0;
+  context.settings.simulator.half_minutes = 0.0;
+  context.settings.run.scenario = TRIVELA_SOURCE_DIR "/config/scenarios/msl_2026.toml";
+  EXPECT_EQ(simulation_of(context.settings).planned_s, 1800.0) << "halves of the scenario's length";
+  context.settings.run.scenario = "none.toml";
+  EXPECT_FALSE(simulation_of(context.settings).planned_s) << "which nobody knows without its file";
 }
 
 TEST_F(SessionOf, SaysWhetherTheHalvesArePaired) {

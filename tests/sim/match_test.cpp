@@ -225,6 +225,40 @@ TEST(Match, TheRefereeStopsAPossessionButNoBallInTheAir) {
   }
 }
 
+TEST(Match, ASetPieceIsAnnouncedInItsStopAndTakenByARobotThatStands) {
+  Scenario s = alone();
+  s.referee.set_pieces = true;
+  const Record record = play(s, 5, 1, 0.5, idle);
+  std::set<std::uint32_t> announced;
+  for (const Sensors& now : record.sensors) {
+    EXPECT_FALSE(now.referee.set_piece && now.referee.playing);
+    if (now.referee.set_piece) announced.insert(now.referee.possession_id);
+  }
+  EXPECT_EQ(announced.size(), record.possessions.size()) << "each";
+  EXPECT_FALSE(record.sensors.back().referee.set_piece) << "nothing follows the half's last stop";
+  Match match{s, 5, 1, 0.5};
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_NEAR(match.true_state().twist.vy_mps, 0.0, 1e-12) << "cycle " << i;
+    match.step({});
+  }
+}
+
+TEST(Match, ASetPieceThatIsNotTakenInTimeIsWhistledAndOneThatIsGoesOn) {
+  Scenario s = alone();
+  s.referee.set_pieces = true;
+  s.rules.set_piece_s = 2.0;
+  const Record waited = play(s, 5, 1, 0.5, idle);
+  ASSERT_GT(waited.possessions.size(), 5u);
+  for (const auto& p : waited.possessions) {
+    EXPECT_EQ(p.ending, PossessionEnd::kStopped);
+    EXPECT_EQ(p.t_ns - p.start_t_ns, 2'000'000'000);
+  }
+  for (const auto& p : play(s, 5, 1, 0.5, fire_at_once(30)).possessions) EXPECT_EQ(p.ending, PossessionEnd::kKicked);
+  s.referee.set_pieces = false;
+  for (const auto& p : play(s, 5, 1, 0.5, idle).possessions)
+    EXPECT_NE(p.ending, PossessionEnd::kStopped) << "the ball was gained on the run";
+}
+
 TEST(Match, EachPossessionBelongsToOneRobotOfTheTeamWithItsOwnKicker) {
   Scenario s = alone();
   s.kicker.speed_sd_ratio = s.kicker.delay_sd_s = s.kicker.direction_sd_rad = s.kicker.drift_sd_ratio = 0.0;

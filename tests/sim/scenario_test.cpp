@@ -30,6 +30,11 @@ TEST(Scenario, NamesTheKeyAndTheValueThatIsImpossible) {
   EXPECT_EQ(key_of([](Scenario& s) { s.possession.speed_min_mps = 3.0; }), "possession.speed_min_mps");
   EXPECT_EQ(key_of([](Scenario& s) { s.robot.wheel_angles_rad.resize(5); }), "robot.wheel_angles_rad");
   EXPECT_EQ(key_of([](Scenario& s) { s.opponent.count = 2.5; }), "opponent.count");
+  EXPECT_EQ(key_of([](Scenario& s) {
+              s.referee.set_pieces = true;
+              s.possession.stop_s = 0.0;
+            }),
+            "referee.set_pieces");
   EXPECT_EQ(key_of([](Scenario& s) { s.opponent.count = 6.0; }), "opponent.count");
   EXPECT_EQ(key_of([](Scenario& s) { s.team.robots = 0.0; }), "team.robots");
   EXPECT_EQ(key_of([](Scenario& s) { s.team.speed_scale_ratios = {1.0, 1.0}; }), "team.speed_scale_ratios");
@@ -68,7 +73,7 @@ TEST(Scenario, ListsEveryMemberWithItsUnit) {
   for (const auto& key : seen.keys) {
     if (key == "drag_coefficient" || key == "powers" || key == "recharge_per_s" || key == "enabled" || key == "count" ||
         key == "stops_per_min" || key == "opponents_half_only" || key == "robots" || key == "speed_scale_ratios" ||
-        key == "drop_after_kicks")
+        key == "drop_after_kicks" || key == "half_minutes" || key == "set_pieces")
       continue;
     EXPECT_TRUE(units.contains(std::string_view{key}.substr(key.rfind('_') + 1))) << key;
   }
