@@ -143,7 +143,8 @@ Readings gather(const Subject& subject) {
     readings.probe_error = multicast.error.empty() ? unicast.error : multicast.error;
   }
   read_machine(readings);
-  count_members(subject.domain, readings);
+  // Cyclone 0.10 ends its threads by a datagram to itself: a participant that cannot hear itself could not leave.
+  if (readings.unicast != Probe::kLost) count_members(subject.domain, readings);
   for (const std::string& peer : subject.peers) readings.peers.push_back(probe_peer(peer));
   return readings;
 }

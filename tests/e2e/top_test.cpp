@@ -42,8 +42,8 @@ class Robot {
   /// A team of which this robot is the first: team.toml in the folder.
   void describe_team() const {
     std::ofstream{folder / "team.toml"} << fmt::format(
-        "[team]\nname = \"{}\"\nnumber = 39\nnetwork = \"127.0.0.0/8\"\ninterface = \"lo\"\ngroup = "
-        "\"224.16.32.39\"\nlogs = \"/var/lib/trivela\"\n[domains]\nrobot = {}\nteam = {}\n[[robot]]\nnumber = 1\n"
+        "[team]\nname = \"{}\"\nnumber = 39\nnetwork = \"127.0.0.0/8\"\ninterface = \"lo\"\nlogs = "
+        "\"/var/lib/trivela\"\n[domains]\nrobot = {}\nteam = {}\n[[robot]]\nnumber = 1\n"
         "address = \"127.0.0.1\"\nrobot = \"{}/config/robots/cambada_1.toml\"\n[base]\naddress = \"127.0.0.2\"\n",
         team_, domain_, domain_ == "7" ? 8 : 7, TRIVELA_SOURCE_DIR);
   }
@@ -177,7 +177,8 @@ TEST(Top, ListensBetweenTheMachinesWithCyclonesFileOfTheTeam) {
   Program configured{
       "trivela", {"team", "configure", "team.toml", "--robot", "1", "--out", "own"}, robot.folder.path()};
   ASSERT_EQ(configured.wait(), 0) << configured.errors();
-  const Program link{"trivela-team_link", {"--config", "own/settings.toml"}, robot.folder.path()};
+  const Program link{
+      "trivela-team_link", {"--config", "own/settings.toml", "--set", "team_link.referee=false"}, robot.folder.path()};
   const auto top = robot.top_of_team({"--dds", "own/team_bus.xml"});
   EXPECT_TRUE(wait_for_change(robot.folder.path(), top->watch(), [&] { return received(*top, "team_state") > 10; }))
       << top->errors() << link.errors();

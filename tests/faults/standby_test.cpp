@@ -65,7 +65,10 @@ void expect_each_possession_kicked_once(const RealTimeStack& stack) {
             0)
       << "a kick that was ordered was lost";
   const std::int64_t kicked = count(stack, "SELECT count(*) FROM possession_truths WHERE ending = 'kicked'");
-  EXPECT_EQ(count(stack, "SELECT count(*) FROM kick_receipts WHERE accepted = 1"), kicked);
+  EXPECT_EQ(count(stack, R"(SELECT count(*) FROM kick_receipts WHERE accepted = 1 AND t_ns <
+    (SELECT max(t_ns) FROM possession_truths))"),
+            kicked)
+      << "but for the last one's, when the match ended with the ball on its way";
   fmt::print("{} possessions kicked, {} played\n", kicked, count(stack, "SELECT count(*) FROM possession_truths"));
   expect_drives_throughout(stack);
 }
