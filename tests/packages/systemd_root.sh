@@ -47,7 +47,13 @@ end() {
   local process
   for process in $(first) "$booted"; do kill -KILL "$process" 2>/dev/null || true; done
   wait "$booted" 2>/dev/null || true
-  find "${groups[@]}" -depth -type d -exec rmdir {} \; 2>/dev/null || true
+  # They are empty when the last process has gone.
+  local group
+  for _ in {1..100}; do
+    for group in "${groups[@]}"; do [[ ! -d $group ]] || find "$group" -depth -type d -exec rmdir {} \; 2>/dev/null || true; done
+    [[ -n $(find "${groups[@]}" -maxdepth 0 2>/dev/null) ]] || break
+    sleep 0.1
+  done
   finish
 }
 trap end EXIT
@@ -56,12 +62,12 @@ there() { nsenter -t "$(first)" --mount --pid --uts --ipc --net --cgroup chroot 
 # until_ok WHAT COMMAND...: within half a minute.
 until_ok() {
   local what=$1 n; shift
-  for n in {1..300}; do "$@" && return 0; kill -0 "$booted" 2>/dev/null || break; read -rt 0.1 <> <(:) || true; done
+  for n in {1..300}; do "$@" && return 0; kill -0 "$booted" 2>/dev/null || break; sleep 0.1; done
   there journalctl --no-pager -n 20 >&2 || tail "$root/boot.log" >&2
   stop "$what"
 }
 is_up() { there systemctl is-active --quiet basic.target 2>/dev/null; }
-for _ in {1..150}; do is_up && break; kill -0 "$booted" 2>/dev/null || break; read -rt 0.1 <> <(:) || true; done
+for _ in {1..150}; do is_up && break; kill -0 "$booted" 2>/dev/null || break; sleep 0.1; done
 is_up || { tail -n 3 "$root/boot.log"; skip "systemd does not come up in namespaces here"; }
 
 say "systemctl start trivela.target"
