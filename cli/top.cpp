@@ -12,11 +12,14 @@
 #include "cli/number_checks.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
+#include "cli/sound_team.hpp"
 #include "cli/top/listening.hpp"
 #include "cli/top/rendering.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
 #include "config/settings.hpp"
+#include "config/team_settings.hpp"
+#include "nodes/runtime/node_flags.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 namespace trivela::cli {
@@ -26,6 +29,9 @@ struct TopFlags {
   std::string config = config::shipped("default.toml").string();
   std::optional<std::uint32_t> domain;
   std::string tag;
+  std::string dds;
+  std::string team;
+  std::string keys;
   std::optional<int> robot;
   bool once = false;
   bool json = false;
@@ -52,15 +58,40 @@ class Redrawn {
   ~Redrawn() { fmt::print("\x1b[?7h"); }
 };
 
-int show_bus(const TopFlags& flags) {
+/// What the team's file says: of --dds the domain between its machines, else the bus of a robot or of the base.
+void look_at_team(const TopFlags& flags, config::Settings& settings) {
+  const config::Team team = sound_team(flags.team);
+  if (!flags.dds.empty()) {
+    settings.domain.domain_id = team.domains.team;
+    return;
+  }
+  const auto number = static_cast<std::uint32_t>(flags.robot.value_or(0));
+  const config::TeamRobot* const robot = team.robot(number);
+  if (flags.robot && robot == nullptr)
+    throw UsageError{fmt::format("--robot {}: {} has no such robot", number, flags.team)};
+  settings = robot == nullptr ? config::settings_of_base(team) : config::settings_of(team, *robot);
+}
+
+/// Where the flags look. Throws UsageError for those that go against each other.
+config::Settings looked_at(const TopFlags& flags) {
+  if (!flags.dds.empty() && !flags.keys.empty())
+    throw UsageError{"--dds with --secure: between the machines team_link alone has an identity, nobody can look on"};
   config::Settings settings = config::load_settings(flags.config);
+  if (flags.robot) settings.run.robot_id = static_cast<std::uint32_t>(*flags.robot);
+  if (!flags.team.empty()) look_at_team(flags, settings);
   if (flags.domain) settings.domain.domain_id = *flags.domain;
   if (!flags.tag.empty()) settings.domain.tag = flags.tag;
+  if (!flags.dds.empty()) settings.domain.dds_file = flags.dds;
+  return settings;
+}
+
+int show_bus(const TopFlags& flags) {
+  const config::Settings settings = looked_at(flags);
   bus::Stop stop;
   const bus::StopOnSignals signals{stop};
   std::optional<std::uint8_t> robot;
   if (flags.robot) robot = static_cast<std::uint8_t>(*flags.robot);
-  Listening listening{nodes::domain_of(settings.domain), robot};
+  Listening listening{nodes::domain_of(settings, flags.keys, "monitor"), robot};
   const std::chrono::duration<double> interval{flags.interval_s};
   std::optional<Redrawn> terminal;
   if (!flags.once && !flags.json && ::isatty(STDOUT_FILENO) != 0) terminal.emplace();
@@ -99,6 +130,17 @@ void add_top(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--domain", flags->domain, "DDS domain instead of the configuration's")->check(CLI::Range(0, 100));
   verb->add_option("--tag", flags->tag, "discovery tag instead of the configuration's");
+  verb->add_option(
+          "--dds", flags->dds,
+          "Cyclone's configuration of the bus instead, such as a team_bus.xml of trivela team: the bus between "
+          "the machines, in the domain that --team says")
+      ->check(readable_file());
+  verb->add_option("--team", flags->team,
+                   "team.toml that says domain and tag: this machine's own bus, with --robot that robot's, else the "
+                   "base's; with --dds the domain between the machines")
+      ->check(readable_file());
+  verb->add_option("--secure", flags->keys, "folder of the team's keys with a monitor's in robot_N (trivela keys)")
+      ->envname(nodes::kKeysVariable);
   verb->add_option("--robot", flags->robot, "this robot's samples and writers only")->check(CLI::Range(1, 255));
   verb->add_flag("--once", flags->once, "show one interval and end");
   verb->add_flag("--json", flags->json, "JSON, a line an interval");

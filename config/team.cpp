@@ -20,6 +20,7 @@ void fields(V& v, TeamFields& t) {
   v("peers", t.peers);
   v("settings", t.settings);
   v("logs", t.logs);
+  v("keys", t.keys);
   v("budget_bps", t.budget_bps, Range{10'000, 100'000'000});
 }
 

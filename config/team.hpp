@@ -27,6 +27,7 @@ struct TeamFields {
   std::vector<std::string> peers;        ///< without a group: who is asked beside robots and base
   std::string settings;                  ///< file that every machine's settings begin with; empty: the defaults
   std::string logs;                      ///< folder of the recorders on the robots
+  std::string keys;                      ///< folder of the keys on each machine; empty: the buses are not secured
   std::uint32_t budget_bps = 1'000'000;  ///< of all machines together; the league's monitor alarms at 2.2 Mbit/s
   Lines lines;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 #include "config/error.hpp"
 #include "config/ipv4.hpp"
@@ -48,8 +49,19 @@ class TeamCheck {
           fmt::format("team.name = \"{}\": must be 1 to {} of A-Z a-z 0-9 . _ -, for tags and names of logs", t.name,
                       kLongestTeamName));
     }
-    if (t.logs.empty() || t.logs.front() != '/')
-      add(t.lines, "logs", fmt::format("team.logs = \"{}\": must be a whole path on the robots", t.logs));
+    check_folder("logs", t.logs);
+    if (!t.keys.empty()) check_folder("keys", t.keys);
+  }
+
+  /// On the machines, where the units see no homes.
+  void check_folder(const char* key, const std::string& folder) {
+    const auto wrong = [&](const char* why) {
+      add(team_.team.lines, key, fmt::format("team.{} = \"{}\": {}", key, folder, why));
+    };
+    if (!folder.starts_with('/')) return wrong("must be a whole path on the robots");
+    const std::string path = std::filesystem::path{folder}.lexically_normal().string() + "/";
+    for (const char* const home : {"/home/", "/root/", "/run/user/"})
+      if (path.starts_with(home)) wrong("lies in a home, which the nodes' units do not see (ProtectHome)");
   }
 
   void check_network() {

@@ -1,6 +1,11 @@
 #include "config/team_files.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "config/error.hpp"
 #include "config/team_bus.hpp"
@@ -11,14 +16,27 @@ namespace {
 
 constexpr const char* kTeamBus = "team_bus.xml";
 
+/// Those of the decision path, with their SCHED_FIFO priority: what keeps the devices safe goes before what computes,
+/// and the second decision node before a first that hangs in a loop.
+constexpr std::pair<std::string_view, int> kRealtime[]{
+    {"odometry", 50}, {"kicker_driver", 50}, {"world_state", 40}, {"kick_decision", 40}, {"kick_decision_second", 41}};
+
+std::vector<std::string> nodes_of(const Settings& settings, bool base) {
+  if (base) return {"recorder", "team_link", "refbox"};
+  std::vector<std::string> nodes{"recorder",      "team_link",     "odometry",     "world_state",
+                                 "kick_decision", "kicker_driver", "shot_observer"};
+  if (settings.kick_decision.standby) nodes.insert(nodes.begin() + 5, "kick_decision_second");
+  return nodes;
+}
+
 /// KEY="value", as sh and systemd both read it.
-std::string env_line(const char* key, const std::string& value) {
+std::string env_line(const std::string& key, const std::string& value) {
   if (value.find_first_of("\"\\$`\n") != std::string::npos)
     throw Error{fmt::format("robot.env: {} = \"{}\": no path with \" \\ $ ` or a line's end", key, value)};
   return fmt::format("{}=\"{}\"\n", key, value);
 }
 
-std::string env_text(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder,
+std::string env_text(const Team& team, const std::vector<std::string>& nodes, const std::filesystem::path& folder,
                      const std::filesystem::path& shipped_folder, const std::string& tag) {
   std::string text;
   if (!shipped_folder.empty()) text += env_line("TRIVELA_CONFIG", shipped_folder.string());
@@ -27,11 +45,19 @@ std::string env_text(const Team& team, const TeamRobot* robot, const std::filesy
   if (!shipped_folder.empty())
     text += env_line("CYCLONEDDS_URI", "file://" + (shipped_folder / "cyclonedds/loopback.xml").string());
   text += env_line("TRIVELA_TAG", tag);
-  if (robot == nullptr) return text + env_line("TRIVELA_NODES", "recorder team_link refbox");
-  text +=
-      env_line("TRIVELA_NODES", "recorder team_link odometry world_state kick_decision kicker_driver shot_observer");
-  text += env_line("TRIVELA_FLAGS_odometry", "--realtime 50");
-  return text + env_line("TRIVELA_FLAGS_kicker_driver", "--realtime 50");
+  if (!team.team.keys.empty()) text += env_line("TRIVELA_SECURITY", team.team.keys);
+  text += env_line("TRIVELA_NODES", fmt::format("{}", fmt::join(nodes, " ")));
+  for (const auto& [node, priority] : kRealtime)
+    if (std::ranges::find(nodes, node) != nodes.end())
+      text += env_line(fmt::format("TRIVELA_FLAGS_{}", node), fmt::format("--realtime {}", priority));
+  return text;
+}
+
+/// A drop-in of trivela.target: whoever starts it starts these.
+std::string target_text(const std::vector<std::string>& nodes) {
+  std::string text = "[Unit]\n";
+  for (const std::string& node : nodes) text += fmt::format("Wants=trivela@{}.service\n", node);
+  return text;
 }
 
 Settings settings_in(const Team& team, const TeamRobot* robot, const std::filesystem::path& folder) {
@@ -48,10 +74,12 @@ std::vector<TeamFile> team_files(const Team& team, const TeamRobot* robot, const
                                  const std::filesystem::path& shipped_folder) {
   const std::filesystem::path whole = std::filesystem::absolute(folder).lexically_normal();
   const Settings settings = settings_in(team, robot, whole);
+  const std::vector<std::string> nodes = nodes_of(settings, robot == nullptr);
   const std::string interface = robot == nullptr ? team.interface_of_base() : team.interface_of(*robot);
   return {{"settings.toml", to_short_toml_text(settings, {"run.robot_id", "run.robot", "domain.domain_id"})},
           {kTeamBus, team_bus_xml(team, interface)},
-          {"robot.env", env_text(team, robot, whole, shipped_folder, settings.domain.tag)}};
+          {"robot.env", env_text(team, nodes, whole, shipped_folder, settings.domain.tag)},
+          {"trivela.target.conf", target_text(nodes)}};
 }
 
 }  // namespace trivela::config

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <string_view>
 
 #include "idl/messages.hpp"
 
@@ -40,7 +41,10 @@ Listening::Listening(const bus::DomainConfig& domain, std::optional<std::uint8_t
   bus::for_each_message([this]<class T>() {
     board_.add(std::string{bus::meta<T>::topic}, profile_text(bus::meta<T>::profile), bus::meta<T>::period_s);
   });
-  bus::for_each_message([this]<class T>() {
+  // On a secured bus what the simulator says of itself is nobody's to see (security/rights.hpp).
+  const bool secured = domain.xml.find("<Security>") != std::string::npos;
+  bus::for_each_message([this, secured]<class T>() {
+    if (secured && std::string_view{bus::meta<T>::topic}.starts_with("sim/")) return;
     ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, [this](const T& sample, const auto& info) {
       monitor::Heard heard{.writer = info.writer,
                            .seq = {},

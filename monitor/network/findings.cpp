@@ -114,6 +114,10 @@ Finding clock_finding(const Readings& readings) {
 
 Finding domain_finding(const Readings& readings) {
   const std::string check = "domain";
+  if (!readings.members && readings.join_error.empty())
+    return {check, Verdict::kWarn,
+            fmt::format("{}: not joined, since a node that cannot hear itself cannot leave", readings.domain_id),
+            "let its own datagrams in first"};
   if (!readings.members)
     return {check, Verdict::kBad, fmt::format("{} cannot be joined: {}", readings.domain_id, readings.join_error),
             "put the DDS configuration right"};

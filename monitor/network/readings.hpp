@@ -48,8 +48,8 @@ struct Readings {
   int year = 0;
   int build_year = 0;
   bool clock_synchronised = false;
-  std::optional<std::size_t> members;  ///< of the domain; none: it could not be joined
-  std::string join_error;
+  std::optional<std::size_t> members;  ///< of the domain; none: it was not joined
+  std::string join_error;              ///< why it could not be; empty: nobody tried
   std::vector<Peer> peers;
   std::size_t busy_ports = 0;    ///< of the domain, on this machine
   unsigned ephemeral_first = 0;  ///< net.ipv4.ip_local_port_range

@@ -62,12 +62,13 @@ TEST_F(TeamVerb, CheckSaysEverythingThatIsWrongWithItsLine) {
         run({"check", team()});
       },
       testing::ThrowsMessage<std::runtime_error>(
-          AllOf(HasSubstr("team.toml:32: base.adress"), HasSubstr("address"), HasSubstr("10.0.0.1"))));
+          AllOf(HasSubstr("team.toml:33: base.adress"), HasSubstr("address"), HasSubstr("10.0.0.1"))));
 }
 
 TEST_F(TeamVerb, ConfigureWritesOnceAndNeverOverWhatWasEdited) {
   EXPECT_EQ(run(configure()), kDone);
-  EXPECT_THAT(said, AllOf(HasSubstr("settings.toml"), HasSubstr("team_bus.xml"), HasSubstr("robot.env")));
+  EXPECT_THAT(said, AllOf(HasSubstr("settings.toml"), HasSubstr("team_bus.xml"), HasSubstr("robot.env"),
+                          HasSubstr("trivela.target.conf")));
   EXPECT_EQ(config::load_settings(folder / "out" / "settings.toml").run.robot_id, 2U);
   EXPECT_EQ(run(configure()), kDone);
   EXPECT_THAT(said, HasSubstr("nothing to write"));

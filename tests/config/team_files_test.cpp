@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "config/error.hpp"
@@ -99,6 +100,68 @@ TEST(TeamFiles, TheEnvironmentNamesWhatTheLauncherReads) {
   EXPECT_THAT(base, Not(HasSubstr("TRIVELA_CONFIG")));
 }
 
+/// The folder holds what a robot's settings say beside the team's.
+std::vector<TeamFile> files_with_settings(Team team, const std::string& settings) {
+  const WrittenFile written{settings};
+  team.team.settings = written.path().string();
+  return team_files(team, team.robot(1), "/here", "/etc/trivela");
+}
+
+TEST(TeamFiles, TheTargetStartsTheNodesThatTheLauncherDoes) {
+  const Team team = five_robots();
+  for (const TeamRobot* const robot : {team.robot(1), static_cast<const TeamRobot*>(nullptr)}) {
+    const auto files = team_files(team, robot, "/here", "");
+    const std::string env = text_in(files, "robot.env");
+    std::string meant = "[Unit]\n";
+    const auto begin = env.find("TRIVELA_NODES=\"") + 15;
+    std::istringstream nodes{env.substr(begin, env.find('"', begin) - begin)};
+    for (std::string node; nodes >> node;) meant += "Wants=trivela@" + node + ".service\n";
+    EXPECT_EQ(text_in(files, "trivela.target.conf"), meant);
+    EXPECT_THAT(meant, HasSubstr("trivela@team_link.service"));
+  }
+}
+
+TEST(TeamFiles, TheSecondDecisionNodeIsStartedWhereItStandsBy) {
+  const Team team = five_robots();
+  for (const char* const name : {"robot.env", "trivela.target.conf"}) {
+    EXPECT_THAT(text_in(team_files(team, team.robot(1), "/here", ""), name), Not(HasSubstr("kick_decision_second")));
+    EXPECT_THAT(text_in(files_with_settings(team, "[kick_decision]\nstandby = true\n"), name),
+                HasSubstr("kick_decision_second"));
+  }
+}
+
+TEST(TeamFiles, EveryNodeOfTheDecisionPathIsInRealTimeAndNoOther) {
+  const Team team = five_robots();
+  const std::string env = text_in(files_with_settings(team, "[kick_decision]\nstandby = true\n"), "robot.env");
+  for (const char* const flags :
+       {"odometry=\"--realtime 50\"", "kicker_driver=\"--realtime 50\"", "world_state=\"--realtime 40\"",
+        "kick_decision=\"--realtime 40\"", "kick_decision_second=\"--realtime 41\""})
+    EXPECT_THAT(env, HasSubstr(std::string{"TRIVELA_FLAGS_"} + flags + "\n"));
+  for (const char* const node : {"recorder", "team_link", "shot_observer"})
+    EXPECT_THAT(env, Not(HasSubstr(std::string{"TRIVELA_FLAGS_"} + node)));
+  EXPECT_THAT(text_in(team_files(team, nullptr, "/here", ""), "robot.env"), Not(HasSubstr("TRIVELA_FLAGS")));
+}
+
+TEST(TeamFiles, TheFolderOfKeysIsToldToTheNodes) {
+  Team team = five_robots();
+  EXPECT_THAT(text_in(team_files(team, team.robot(1), "/here", ""), "robot.env"), Not(HasSubstr("TRIVELA_SECURITY")));
+  team.team.keys = "/etc/trivela/keys";
+  for (const TeamRobot* const robot : {team.robot(1), static_cast<const TeamRobot*>(nullptr)})
+    EXPECT_THAT(text_in(team_files(team, robot, "/here", ""), "robot.env"),
+                HasSubstr("TRIVELA_SECURITY=\"/etc/trivela/keys\"\n"));
+}
+
+TEST(TeamFiles, AFolderThatTheUnitsDoNotSeeIsAFindingAtItsLine) {
+  Team team = five_robots();
+  team.team.keys = "/home/team/keys";
+  team.team.logs = "/var/../root";
+  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:10: team.logs = \"/var/../root\""),
+                                               HasSubstr("example.toml:11: team.keys = \"/home/team/keys\"")));
+  team.team.keys = "keys";
+  team.team.logs = "/homeless";
+  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("team.keys = \"keys\": must be a whole path")));
+}
+
 TEST(TeamFiles, APathThatAShellWouldReadOtherwiseIsRefused) {
   const Team team = five_robots();
   EXPECT_THROW(team_files(team, nullptr, "/here/$HOME", ""), Error);
@@ -133,7 +196,7 @@ TEST(TeamBus, FiveRobotsAndABaseKeepTheDefaultBudgetByGroupAndByPeers) {
 TEST(TeamBus, MoreThanTheBudgetIsAFindingAtItsLine) {
   Team team = five_robots();
   team.team.budget_bps = 900'000;
-  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:11: team.budget_bps = 900000")));
+  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:12: team.budget_bps = 900000")));
 }
 
 TEST(TeamReader, EveryUnknownKeyAndWrongTypeIsSaidWithItsLine) {

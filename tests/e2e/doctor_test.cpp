@@ -100,6 +100,7 @@ TEST_F(Doctor, FindsAFirewallThatSwallows) {
   EXPECT_EQ(verdict("multicast"), "bad");
   EXPECT_EQ(verdict("own address"), "bad");
   EXPECT_THAT(value("firewall"), HasSubstr("udp dport 22650-22899 drop"));
+  EXPECT_THAT(value("domain"), HasSubstr("not joined")) << "it would never have left";
 }
 
 TEST_F(Doctor, WantsToKnowWhatToExamine) {

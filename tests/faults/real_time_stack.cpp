@@ -38,10 +38,10 @@ RealTimeStack::RealTimeStack(double minutes, bool standby) : settings_(settings_
     start(node);
   if (settings_.kick_decision.standby) start("kick_decision_second");
   for (const auto& [node, program] : programs_) {
-    if (!e2e::wait_for_change(folder_.path(), program.watch(), [&] { return !program.errors().empty(); }))
+    if (!e2e::wait_for_change(folder_.path(), program->watch(), [&] { return !program->errors().empty(); }))
       throw std::runtime_error{node + " says nothing"};
   }
-  const auto& recorder = programs_.front().second;
+  const e2e::Program& recorder = *programs_.front().second;
   if (!e2e::wait_for_change(folder_.path(), recorder.watch(), [&] { return exists(log()); }))
     throw std::runtime_error{"no log: " + recorder.errors()};
   start("simulator");
@@ -56,15 +56,24 @@ RealTimeStack::RealTimeStack(double minutes, bool standby) : settings_(settings_
     throw std::runtime_error{"nothing is recorded: " + recorder.errors()};
 }
 
-void RealTimeStack::start(const std::string& node) {
-  programs_.emplace_back(
-      std::piecewise_construct, std::forward_as_tuple(node),
-      std::forward_as_tuple("trivela-" + node, std::vector<std::string>{"--config", "nodes.toml"}, folder_.path()));
+void RealTimeStack::start(const std::string& node) { programs_.emplace_back(node, new_program(node)); }
+
+std::unique_ptr<e2e::Program> RealTimeStack::new_program(const std::string& node) const {
+  return std::make_unique<e2e::Program>("trivela-" + node, std::vector<std::string>{"--config", "nodes.toml"},
+                                        folder_.path());
+}
+
+void RealTimeStack::restart(const std::string& name) {
+  for (auto& [known, program] : programs_) {
+    if (known != name) continue;
+    program.reset();
+    program = new_program(name);
+  }
 }
 
 const e2e::Program& RealTimeStack::program(const std::string& name) const {
   for (const auto& [known, program] : programs_)
-    if (known == name) return program;
+    if (known == name) return *program;
   throw std::out_of_range{"no program " + name};
 }
 
@@ -77,8 +86,8 @@ void RealTimeStack::signal(const std::string& name, int number) const { program(
 std::string RealTimeStack::casualties() {
   std::string found;
   for (auto& [node, program] : programs_) {
-    if (program.watch().ended(std::chrono::milliseconds{0}))
-      found += fmt::format("{} ended with {}: {}\n", node, program.wait(), last_of(program.errors()));
+    if (program->watch().ended(std::chrono::milliseconds{0}))
+      found += fmt::format("{} ended with {}: {}\n", node, program->wait(), last_of(program->errors()));
   }
   return found;
 }
@@ -87,8 +96,8 @@ std::map<std::string, int> RealTimeStack::stop() {
   std::map<std::string, int> codes;
   while (!programs_.empty()) {
     auto& [node, program] = programs_.back();
-    program.signal(SIGTERM);
-    codes[node] = program.wait();
+    program->signal(SIGTERM);
+    codes[node] = program->wait();
     programs_.pop_back();
   }
   return codes;
@@ -96,7 +105,7 @@ std::map<std::string, int> RealTimeStack::stop() {
 
 std::map<std::string, std::size_t> RealTimeStack::said() const {
   std::map<std::string, std::size_t> bytes;
-  for (const auto& [node, program] : programs_) bytes[node] = program.errors().size();
+  for (const auto& [node, program] : programs_) bytes[node] = program->errors().size();
   return bytes;
 }
 

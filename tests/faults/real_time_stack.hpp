@@ -1,10 +1,12 @@
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "config/settings.hpp"
 #include "tests/e2e/folder.hpp"
@@ -35,6 +37,9 @@ class RealTimeStack {
   /// Sends a program a signal.
   void signal(const std::string& program, int number) const;
 
+  /// Starts a program anew that has ended.
+  void restart(const std::string& program);
+
   /// Those that have ended, with how and what they said last.
   std::string casualties();
 
@@ -49,11 +54,12 @@ class RealTimeStack {
 
  private:
   void start(const std::string& node);
+  std::unique_ptr<e2e::Program> new_program(const std::string& node) const;
   const e2e::Program& program(const std::string& name) const;
 
   e2e::Folder folder_;
   config::Settings settings_;
-  std::deque<std::pair<std::string, e2e::Program>> programs_;
+  std::vector<std::pair<std::string, std::unique_ptr<e2e::Program>>> programs_;
 };
 
 /// Of a log: the longest run of world states, from the first drive command on, that no drive command answers.

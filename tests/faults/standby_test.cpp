@@ -46,11 +46,30 @@ void expect_drives_throughout(const RealTimeStack& stack) {
   EXPECT_LE(most, kMostWorlds);
 }
 
+/// Of the possessions that were played: each that ended with a kick had one, each that a kick was ordered in and that
+/// went on long enough for it ended with one.
 void expect_each_possession_kicked_once(const RealTimeStack& stack) {
   EXPECT_EQ(count(stack, R"(
     SELECT count(*) FROM (SELECT count(DISTINCT kick_id) AS n FROM kicks WHERE accepted = 1 GROUP BY half, possession_id)
     WHERE n > 1)"),
             0);
+  EXPECT_EQ(count(stack, R"(
+    SELECT count(*) FROM possession_truths AS p WHERE 1 <> (SELECT count(*) FROM kick_truths AS k WHERE k.t_ns BETWEEN
+    p.start_t_ns AND p.t_ns) AND p.ending = 'kicked')"),
+            0)
+      << "possessions that ended with a kick";
+  // An order takes a cycle and its device's delay; after half a second without an answer nobody will answer it.
+  EXPECT_EQ(count(stack, R"(
+    SELECT count(*) FROM possession_truths AS p WHERE p.ending <> 'kicked' AND p.ending <> 'stopped' AND EXISTS (SELECT *
+    FROM kick_orders AS o WHERE o.t_ns BETWEEN p.start_t_ns AND p.t_ns - 500000000))"),
+            0)
+      << "a kick that was ordered was lost";
+  const std::int64_t kicked = count(stack, "SELECT count(*) FROM possession_truths WHERE ending = 'kicked'");
+  EXPECT_EQ(count(stack, R"(SELECT count(*) FROM kick_receipts WHERE accepted = 1 AND t_ns <
+    (SELECT max(t_ns) FROM possession_truths))"),
+            kicked)
+      << "but for the last one's, when the match ended with the ball on its way";
+  fmt::print("{} possessions kicked, {} played\n", kicked, count(stack, "SELECT count(*) FROM possession_truths"));
   expect_drives_throughout(stack);
 }
 

@@ -132,6 +132,7 @@ TEST(NetworkFindings, KnowWhoIsThere) {
   readings.members = 0;
   expect(readings, "domain", Verdict::kWarn, "0 participants");
   readings.members.reset();
+  expect(readings, "domain", Verdict::kWarn, "not joined");
   readings.join_error = "no free port";
   expect(readings, "domain", Verdict::kBad, "no free port");
   readings.peers = {{"robot2", PeerState::kThere}, {"robot3", PeerState::kSilent}, {"robot9", PeerState::kUnknownName}};

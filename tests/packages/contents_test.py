@@ -31,7 +31,7 @@ class Contents(unittest.TestCase):
     @staticmethod
     def list(deb):
         lines = [line.split(maxsplit=5) for line in output("dpkg-deb", "-c", deb).splitlines()]
-        return {line[5][1:]: line[0] for line in lines if not line[0].startswith("d")}
+        return {line[5][1:].split(" -> ")[0]: line[0] for line in lines if not line[0].startswith("d")}
 
     def field(self, name, field):
         return output("dpkg-deb", "-f", self.debs[name], field).strip()
@@ -42,7 +42,8 @@ class Contents(unittest.TestCase):
         nodes.add("/usr/bin/trivela-kick_decision_second")  # the same node in another role
         shipped = {f"/etc/trivela/{path.relative_to(ROOT / 'config')}" for ending in ("toml", "xml", "csv", "nft")
                    for path in (ROOT / "config").rglob(f"*.{ending}")}
-        units = {"/usr/lib/systemd/system/trivela@.service", "/usr/lib/systemd/system/trivela.target", "/usr/lib/udev/rules.d/60-trivela.rules"}
+        units = {"/usr/lib/systemd/system/trivela@.service", "/usr/lib/systemd/system/trivela.target",
+                 "/usr/lib/systemd/system/trivela.target.d/team.conf", "/usr/lib/udev/rules.d/60-trivela.rules"}
         self.assertEqual(set(self.files["robot"]), nodes | shipped | units | {
             "/usr/bin/trivela-launch", "/etc/trivela/robot.env", "/usr/share/man/man8/trivela-nodes.8.gz"})
         self.assertEqual(set(self.files["base"]), {
@@ -63,7 +64,8 @@ class Contents(unittest.TestCase):
     def test_rights_and_owners_are_debians(self):
         for files in self.files.values():
             for file, rights in files.items():
-                self.assertEqual(rights, "-rwxr-xr-x" if file.startswith("/usr/bin/") else "-rw-r--r--", file)
+                meant = "lrwxrwxrwx" if file.endswith("/team.conf") else "-rwxr-xr-x" if file.startswith("/usr/bin/") else "-rw-r--r--"
+                self.assertEqual(rights, meant, file)
         self.assertNotIn("Permission", output("dpkg-deb", "-I", self.debs["robot"]))
 
     def test_versions_and_dependencies(self):
@@ -82,12 +84,42 @@ class Contents(unittest.TestCase):
             self.assertIn(f"\n{line}\n", unit)
         if not shutil.which("systemd-analyze"):
             return
-        root = self.folder / "root"
-        subprocess.run(["dpkg-deb", "-x", self.debs["robot"], root], check=True)
-        unit = root / "usr/lib/systemd/system/trivela@odometry.service"
-        unit.symlink_to("trivela@.service")
-        said = subprocess.run(["systemd-analyze", "verify", f"--root={root}", "--man=no", "trivela@odometry.service"], capture_output=True, text=True).stderr
+        said = self.verified(self.unpacked("root"), "trivela@odometry.service")
         self.assertFalse([line for line in said.splitlines() if "trivela@" in line and re.search("Unknown|Failed to parse|ignoring", line)], said)
+
+    def unpacked(self, name):
+        """A root with the robot's package and an instance of each node's unit."""
+        root = self.folder / name
+        subprocess.run(["dpkg-deb", "-x", self.debs["robot"], root], check=True)
+        for program in root.glob("usr/bin/trivela-*"):
+            (root / f"usr/lib/systemd/system/trivela@{program.name.removeprefix('trivela-')}.service").symlink_to("trivela@.service")
+        return root
+
+    @staticmethod
+    def verified(root, unit):
+        return subprocess.run(["systemd-analyze", "verify", f"--root={root}", "--man=no", unit], capture_output=True, text=True).stderr
+
+    def test_the_target_starts_what_team_configure_wrote(self):
+        root = self.unpacked("configured")
+        link = root / "usr/lib/systemd/system/trivela.target.d/team.conf"
+        self.assertFalse(link.exists(), "before the team was described it leads nowhere")
+        before = self.verified(root, "trivela.target") if shutil.which("systemd-analyze") else ""
+        self.assertNotIn("team.conf", before)
+        for which in (["--robot", "1"], ["--base"]):
+            out = root / "etc/trivela/team"
+            subprocess.run([BUILD / "trivela", "team", "configure", root / "etc/trivela/teams/example.toml", *which, "--out", out, "--force"],
+                           check=True, capture_output=True)
+            nodes = re.search(r'^TRIVELA_NODES="(.*)"$', (out / "robot.env").read_text(), re.M)[1].split()
+            wanted = re.findall(r"^Wants=(.*)$", link.read_text(), re.M)
+            self.assertEqual(wanted, [f"trivela@{node}.service" for node in nodes])
+            for unit in wanted:
+                self.assertTrue((root / "usr/lib/systemd/system" / unit).exists(), unit)
+        if not shutil.which("systemd-analyze"):
+            return
+        self.assertNotIn("team.conf", self.verified(root, "trivela.target"))
+        # That systemd reads it through the link: what it does not know in it, it says.
+        (out / "trivela.target.conf").write_text("[Unit]\nNoSuchKey=1\n")
+        self.assertIn("team.conf:2", self.verified(root, "trivela.target"))
 
 
 if __name__ == "__main__":
