@@ -24,8 +24,8 @@ struct Domain {
 
 namespace {
 
-/// Opens Cyclone's sockets. It binds those that receive to every address, also where its only interface is the loopback:
-/// then anybody on the network could send to them, past the interface that was named.
+/// Opens Cyclone's sockets. It binds those that receive to every address, also where its only interface is the
+/// loopback: then anybody on the network could send to them, past the interface that was named.
 Entity open_domain(const DomainConfig& config, const std::string& about) {
   const bool alone = loopback_alone(config.xml);
   const std::set<int> before = alone ? open_to_all() : std::set<int>{};

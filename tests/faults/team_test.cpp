@@ -1,20 +1,17 @@
 // A team of robots and a base, each a host of its own, over an air that loses, delays and reorders: what becomes of the
-// referee's word, of the clocks and of the record. More of it by hand: TRIVELA_TEAM_ROBOTS, TRIVELA_TEAM_OUTAGE_S,
-// TRIVELA_TEAM_FLOOD_S; TRIVELA_TEAM_PEERS=1: without a group.
+// referee's word, of the clocks and of the record. More of it by hand: TRIVELA_TEAM_ROBOTS, TRIVELA_TEAM_OUTAGE_S;
+// TRIVELA_TEAM_PEERS=1: without a group.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 
 #include <cmath>
-#include <cstdlib>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
-#include "tests/faults/air_flood.hpp"
 #include "tests/faults/air_meter.hpp"
+#include "tests/faults/air_test.hpp"
 #include "tests/faults/team_on_air.hpp"
-#include "tests/security/key_fixture.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -30,12 +27,7 @@ using testing::Le;
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kS = 1'000'000'000;
 const Way kAir{.delay = milliseconds{1}, .jitter = milliseconds{20}, .drop = 0.1};
-constexpr seconds kPatience{120};
-
-double by_hand(const char* variable, double otherwise) {
-  const char* const text = std::getenv(variable);
-  return text == nullptr ? otherwise : std::atof(text);
-}
+constexpr seconds kPatience = kAirPatience;
 
 /// `trivela` with these arguments, in the folder; what it said goes to `said`.
 int trivela(const fs::path& folder, std::vector<std::string> arguments, std::string& said) {
@@ -45,33 +37,7 @@ int trivela(const fs::path& folder, std::vector<std::string> arguments, std::str
   return code;
 }
 
-class TeamOnAirTest : public testing::Test {
- protected:
-  void SetUp() override {
-    const std::string network = NetworkHost::obstacle(), clock = clock_obstacle();
-    if (!network.empty()) GTEST_SKIP() << "no network namespaces here: " << network;
-    if (!clock.empty()) GTEST_SKIP() << clock << " here";
-  }
-
-  TeamPlan plan() const {
-    TeamPlan plan;
-    plan.folder = folder.path();
-    plan.script = "0.1 FIRST_HALF\n0.3 START\n100000 STOP\n";
-    return plan;
-  }
-
-  e2e::Folder folder;
-};
-
-/// Cycles from the instant on in which the robot thought that the game was on, or not.
-std::int64_t cycles(const std::vector<fs::path>& logs, bool playing, std::int64_t from_t_ns) {
-  return number_in(logs, fmt::format("SELECT count(*) FROM world_states WHERE playing = {} AND t_ns > {}",
-                                     playing ? 1 : 0, from_t_ns));
-}
-
-std::int64_t last_instant(const std::vector<fs::path>& logs) {
-  return number_in(logs, "SELECT max(t_ns) FROM world_states");
-}
+class TeamOnAirTest : public AirTest {};
 
 /// How far UTC by the sessions' clocks differs between machines whose clocks are ahead by so much.
 std::int64_t spread_of_clocks(const e2e::Reader& merged, const std::vector<std::int64_t>& ahead_ns) {
@@ -261,69 +227,6 @@ TEST_F(TeamOnAirTest, FiveRobotsAndABaseTakeLessThanAMegabitASecond) {
       << "30 ways, ten times a second where the machine keeps up";
   EXPECT_GT(air.of(AirKind::kReferee).frames / length_s, 30) << "5 ways";
   EXPECT_LE(air.longest, 1400 + 42) << "no message is cut";
-  team.stop();
-}
-
-TEST_F(TeamOnAirTest, AFloodOfReplayedBrokenAndInventedPacketsChangesNoWordOfASecuredTeam) {
-  security::TeamKeys keys;
-  const auto week = security::days_from(security::this_second(), 9);
-  for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
-  TeamPlan plan = this->plan();
-  plan.robots = {Plays::kNothing, Plays::kNothing};
-  plan.keys = keys.keys().path();
-  TeamOnAir team{plan};
-  team.start();
-  const auto words = [&](const std::string& where) {
-    return number_in(team.logs(1), "SELECT count(*) FROM referee WHERE " + where);
-  };
-  ASSERT_TRUE(team.wait_for(kPatience, [&] { return words("playing = 1") > 50; }))
-      << team.casualties() << team.said(1, "trivela-team_link") << team.said(0, "trivela-team_link");
-  const std::int64_t before = number_in(team.logs(1), "SELECT max(t_ns) FROM referee");
-  const auto memory = [&](std::size_t machine) {
-    return resident_bytes(team.process(machine, "trivela-team_link").pid());
-  };
-  const std::int64_t memory_before = memory(1);
-  int ended = 0;
-  const auto look = [&] {
-    for (const std::size_t machine : {0u, 1u, 2u}) {
-      if (!team.process(machine, "trivela-team_link").ended()) continue;
-      ++ended;  // as systemd and the launcher do
-      team.restart(machine, "trivela-team_link");
-    }
-  };
-  std::uint64_t sent = 0;
-  std::int64_t memory_most = 0;
-  {
-    const AirFlood flood{team.stranger(),
-                         {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
-                         7400 + 250 * 43,
-                         team.hub().overheard(),
-                         1};
-    const auto end = std::chrono::steady_clock::now() +
-                     milliseconds{static_cast<std::int64_t>(by_hand("TRIVELA_TEAM_FLOOD_S", 5) * 1e3)};
-    while (std::chrono::steady_clock::now() < end) {
-      team.pass(milliseconds{200});
-      look();
-      memory_most = std::max(memory_most, memory(1));
-    }
-    sent = flood.sent();
-  }
-  const std::int64_t after = number_in(team.logs(1), "SELECT max(t_ns) FROM referee");
-  const bool heard_again = team.wait_for(kPatience, [&] {
-    look();
-    return words(fmt::format("playing = 1 AND t_ns > {}", after + 2 * kS)) > 10;
-  });
-  fmt::print("{} packets; team_link ended {} times; memory {} MB, at most {} MB\n", sent, ended, memory_before >> 20,
-             memory_most >> 20);
-  EXPECT_TRUE(heard_again) << team.said(1, "trivela-team_link");
-  EXPECT_GT(sent, 1000u);
-  EXPECT_EQ(words(fmt::format("playing = 0 AND t_ns > {}", before)), 0)
-      << "a word from before the START was heard again";
-  EXPECT_EQ(words(fmt::format(
-                "command_counter <> (SELECT command_counter FROM referee WHERE t_ns = {0}) AND t_ns > {0}", before)),
-            0);
-  EXPECT_LT(memory_most, memory_before + (std::int64_t{64} << 20));
-  EXPECT_EQ(team.casualties(), "");
   team.stop();
 }
 
