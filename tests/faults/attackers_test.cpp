@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <functional>
 
+#include "bus/domain.hpp"
+#include "bus/writer.hpp"
 #include "config/team.hpp"
+#include "idl/messages.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/faults/air_flood.hpp"
 #include "tests/faults/air_test.hpp"
@@ -46,6 +49,20 @@ class Attackers : public AirTest {
     team->start();
     ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, 0) > 100; }))
         << team->casualties() << team->said(1, "trivela-simulator");
+  }
+
+  /// A base with the referee's word and two robots, all with keys, their links started by the launcher.
+  void start_team() {
+    const auto week = security::days_from(security::this_second(), 9);
+    for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
+    TeamPlan plan = this->plan();
+    plan.robots = {Plays::kNothing, Plays::kNothing};
+    plan.keys = keys.keys().path();
+    plan.link_launched = true;
+    team = std::make_unique<TeamOnAir>(plan);
+    team->start();
+    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return rows("referee WHERE playing = 1") > 50; }))
+        << team->casualties() << team->said(1, "team_link") << team->said(0, "team_link");
   }
 
   std::int64_t rows(const std::string& sql) const { return number_in(team->logs(1), "SELECT count(*) FROM " + sql); }
@@ -102,9 +119,22 @@ struct Memory {
     return *std::max_element(bytes.begin() + static_cast<std::ptrdiff_t>(from),
                              bytes.begin() + static_cast<std::ptrdiff_t>(to));
   }
-  /// By how much more than in the first half of the flood it was in the second.
-  std::int64_t growth() const {
-    return bytes.size() < 2 ? 0 : most(bytes.size() / 2, bytes.size()) - most(0, bytes.size() / 2);
+  /// In MB, the greatest of each tenth of the flood.
+  std::string course() const {
+    std::string text;
+    for (std::size_t tenth = 0; tenth < 10; ++tenth) {
+      const std::size_t from = bytes.size() * tenth / 10, to = bytes.size() * (tenth + 1) / 10;
+      if (from < to) text += fmt::format(" {}", most(from, to) >> 20);
+    }
+    return text;
+  }
+  /// Whether the second half of the flood added little, or less than the first, as where what is invented is forgotten
+  /// again.
+  bool settles() const {
+    constexpr std::int64_t kLittle = std::int64_t{16} << 20;
+    const std::size_t half = bytes.size() / 2;
+    const std::int64_t first = most(0, half) - bytes.front(), second = most(half, bytes.size()) - most(0, half);
+    return second < std::max(kLittle, first);
   }
 };
 
@@ -120,8 +150,6 @@ void during_flood(const TeamOnAir& team, const std::function<void()>& look) {
   }
 }
 
-constexpr std::int64_t kSteady = std::int64_t{16} << 20;  // a plateau's bound, for the second half of a flood
-
 TEST_F(Attackers, AFloodOnTheLoopbackOfARobotWithKeysNeitherGrowsItsNodesNorOrdersAKick) {
   ASSERT_NO_FATAL_FAILURE(kick_off(true));
   Wiretap tap{team->host(1)};
@@ -136,9 +164,8 @@ TEST_F(Attackers, AFloodOnTheLoopbackOfARobotWithKeysNeitherGrowsItsNodesNorOrde
     EXPECT_GT(flood.sent(), 1000u);
   }
   for (const auto& [node, samples] : memory) {
-    fmt::print("{}: at most {} MB, second half {:+} MB\n", node, samples.most(0, samples.bytes.size()) >> 20,
-               samples.growth() >> 20);
-    EXPECT_LT(samples.growth(), kSteady) << node;
+    fmt::print("{}: MB by tenth of the flood{}\n", node, samples.course());
+    EXPECT_TRUE(samples.settles()) << node;
   }
   EXPECT_EQ(team->casualties(), "");
   EXPECT_TRUE(plays_on());
@@ -146,6 +173,33 @@ TEST_F(Attackers, AFloodOnTheLoopbackOfARobotWithKeysNeitherGrowsItsNodesNorOrde
   EXPECT_EQ(rows("kick_orders WHERE kick_id NOT IN (SELECT kick_id FROM kick_decisions)"), 0);
   EXPECT_EQ(rows("(SELECT kick_id FROM kick_receipts WHERE accepted = 1 GROUP BY kick_id HAVING count(*) > 1)"), 0)
       << "an order said again was fired again";
+}
+
+TEST_F(Attackers, WhoHasNoIdentityOfTheTeamIsHeardByNobodyOnItsNetwork) {
+  ASSERT_NO_FATAL_FAILURE(start_team());
+  const security::TeamKeys others;
+  others.keys().issue(0, {"team_link"}, security::days_from(security::this_second(), 9));
+  // What each has besides: the team's own configuration.
+  const bus::DomainConfig plain = bus::from_file(config::TeamDomains{}.team, folder / "machine_1" / "team_bus.xml");
+  const std::map<std::string, bus::DomainConfig> attackers{
+      {"nobody's", plain},
+      {"another team's base", bus::secured(plain, others.robot(0) / "team", "team_bus")},
+      {"a robot's own team_link, by its identity of the robot's bus", bus::secured(plain, keys.robot(1), "team_link")}};
+  for (const auto& [name, domain] : attackers)
+    on_host(team->stranger(), [&] {
+      bus::Writer<msg::Referee> forged{bus::Participant{domain}};
+      for (int time = 0; time < 30; ++time) {
+        msg::Referee word{};
+        word.command_counter = 666;
+        word.robot_id = 0;
+        forged.write(word);
+        team->pass(milliseconds{100});
+      }
+      EXPECT_EQ(forged.readers(), 0u) << name;
+    });
+  EXPECT_EQ(rows("referee WHERE command_counter = 666"), 0);
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
 }
 
 /// A secured team whose links are started by the launcher, and what became of them.
@@ -190,17 +244,8 @@ class LaunchedLinks {
 };
 
 TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkThatEndsIsBackWithinTwoSeconds) {
-  const auto week = security::days_from(security::this_second(), 9);
-  for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
-  TeamPlan plan = this->plan();
-  plan.robots = {Plays::kNothing, Plays::kNothing};
-  plan.keys = keys.keys().path();
-  plan.link_launched = true;
-  team = std::make_unique<TeamOnAir>(plan);
-  team->start();
+  ASSERT_NO_FATAL_FAILURE(start_team());
   const auto words = [&](const std::string& where) { return rows("referee WHERE " + where); };
-  ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return words("playing = 1") > 50; }))
-      << team->casualties() << team->said(1, "team_link") << team->said(0, "team_link");
   const std::int64_t before = number_in(team->logs(1), "SELECT max(t_ns) FROM referee");
   LaunchedLinks links{*team};
   Memory memory;
@@ -212,12 +257,12 @@ TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkTha
       links.look(&flood);
       memory.bytes.push_back(resident_bytes(links.of(1)));
     });
-    fmt::print("{} packets; team_link ended {} times; memory at most {} MB, second half {:+} MB\n", flood.sent(),
-               links.ended, memory.most(0, memory.bytes.size()) >> 20, memory.growth() >> 20);
+    fmt::print("{} packets; team_link ended {} times; MB by tenth of the flood{}\n", flood.sent(), links.ended,
+               memory.course());
     EXPECT_GT(flood.sent(), 1000u);
   }
   if (links.ended == 0) {
-    EXPECT_LT(memory.growth(), kSteady);
+    EXPECT_TRUE(memory.settles());
   }
   EXPECT_LT(links.back_after_crash(1), seconds{2});
   const std::int64_t after = number_in(team->logs(1), "SELECT max(t_ns) FROM referee");

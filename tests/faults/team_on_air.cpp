@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGrace{30};
-const std::vector<std::string> kChain{"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
 
 const std::string kLink = "trivela-team_link";
 
@@ -65,6 +64,9 @@ config::Team team_of(const TeamPlan& plan) {
 }
 
 }  // namespace
+
+const std::vector<std::string> kChain{"trivela-odometry", "trivela-world_state", "trivela-kick_decision",
+                                      "trivela-kicker_driver", "trivela-shot_observer"};
 
 std::string clock_obstacle() {
   constexpr int kNewTime = 0x80;  // CLONE_NEWTIME
@@ -145,7 +147,7 @@ void TeamOnAir::start() {
       set(fmt::format("team_link.referee={}", plays == Plays::kTeamReferee || plays == Plays::kNothing));
       if (plays == Plays::kInLockstep) {
         set("run.lockstep=true");
-        set("simulator.max_possessions=4");
+        set("simulator.max_possessions=30");
       }
     }
     start_process(machine, "trivela-team_link", flags);
@@ -156,7 +158,7 @@ void TeamOnAir::start() {
       start_process(0, "trivela-refbox", flags);
     }
     if (plays == Plays::kNothing) continue;
-    for (const std::string& node : kChain) start_process(machine, "trivela-" + node, flags);
+    for (const std::string& node : kChain) start_process(machine, node, flags);
     start_process(machine, "trivela-simulator", flags);
   }
 }

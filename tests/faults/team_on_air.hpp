@@ -96,6 +96,9 @@ class TeamOnAir {
   std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> arguments_;
 };
 
+/// The nodes of a robot's chain, as programs.
+extern const std::vector<std::string> kChain;
+
 /// The first number of a query over the newest log of a machine; 0 where there is none yet, or it cannot be read now.
 std::int64_t number_in(const std::vector<std::filesystem::path>& logs, const std::string& sql);
 
