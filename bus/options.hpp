@@ -12,8 +12,10 @@ namespace trivela::bus {
 struct WriterOptions {
   /// Nominal period; a state topic then promises a deadline of three of them.
   std::optional<std::chrono::nanoseconds> period = {};
-  /// Order topics: how long the writer counts as alive after its last write or assert_liveliness().
-  std::chrono::nanoseconds lease = std::chrono::milliseconds(100);
+  /// How long the writer counts as alive: of an order topic after its last write or assert_liveliness(), 100 ms where
+  /// nothing is said; of all others after its process' last sign of life, a second. The shortest one decides how often
+  /// the process gives one to each other process.
+  std::optional<std::chrono::nanoseconds> lease = {};
   /// Order topics: of several live writers of one robot only the strongest is heard (hot standby).
   std::int32_t strength = 0;
   /// Who writes, e.g. "kicker_driver/1": other_writer_exists() looks for it, and readers are told it with each sample.

@@ -6,9 +6,12 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
 
 #include "bus/cyclone.hpp"
 #include "bus/hearing.hpp"
+#include "bus/own_sockets.hpp"
 #include "bus/process.hpp"
 
 namespace trivela::bus {
@@ -21,6 +24,18 @@ struct Domain {
 
 namespace {
 
+/// Opens Cyclone's sockets. It binds those that receive to every address, also where its only interface is the
+/// loopback: then anybody on the network could send to them, past the interface that was named.
+Entity open_domain(const DomainConfig& config, const std::string& about) {
+  const bool alone = loopback_alone(config.xml);
+  const std::set<int> before = alone ? open_to_all() : std::set<int>{};
+  Entity entity{checked(dds_create_domain(config.domain_id, config.xml.c_str()), "dds_create_domain", about)};
+  if (!alone) return entity;
+  for (const int socket : open_to_all())
+    if (!before.contains(socket)) hear_loopback_alone(socket);
+  return entity;
+}
+
 std::shared_ptr<const Domain> join(const DomainConfig& config) {
   static std::mutex mutex;
   static std::map<std::uint32_t, std::weak_ptr<const Domain>> domains;
@@ -32,9 +47,7 @@ std::shared_ptr<const Domain> join(const DomainConfig& config) {
   }
   auto domain = std::make_shared<Domain>();
   domain->config = config;
-  if (!config.xml.empty())
-    domain->entity =
-        Entity(checked(dds_create_domain(config.domain_id, config.xml.c_str()), "dds_create_domain", about));
+  if (!config.xml.empty()) domain->entity = open_domain(config, about);
   domains[config.domain_id] = domain;
   return domain;
 }

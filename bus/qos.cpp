@@ -55,10 +55,11 @@ Qos profile_qos(Profile profile, std::optional<std::chrono::nanoseconds> period)
 Qos writer_qos(Profile profile, const WriterOptions& options) {
   Qos qos = profile_qos(profile, options.period);
   if (profile == Profile::kOrder) {
-    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, options.lease.count());
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC,
+                        options.lease ? options.lease->count() : kOrderLease);
     dds_qset_ownership_strength(qos.get(), options.strength);
   } else {
-    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kAutomaticLease);
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, options.lease ? options.lease->count() : kAutomaticLease);
   }
   // A writer that goes away has not unsaid what it said.
   dds_qset_writer_data_lifecycle(qos.get(), false);

@@ -18,8 +18,10 @@ using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
 
 /// How many samples of each robot an event topic keeps.
 inline constexpr std::int32_t kEventDepth = 50;
-/// After this long without a sign of life a writer of a state or event topic is gone.
+/// After this long without a sign of life a writer of a state or event topic is gone, unless it says otherwise.
 inline constexpr dds_duration_t kAutomaticLease = DDS_SECS(1);
+/// The same without an order or the word that it is still there, of an order topic.
+inline constexpr dds_duration_t kOrderLease = DDS_MSECS(100);
 
 Qos writer_qos(Profile profile, const WriterOptions& options);
 Qos reader_qos(Profile profile, const ReaderOptions& options);

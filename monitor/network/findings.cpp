@@ -139,6 +139,21 @@ Finding ports_finding(const Readings& readings) {
           "take a domain of 0 to 100, or move net.ipv4.ip_local_port_range"};
 }
 
+Finding own_bus_finding(const Readings& readings) {
+  const std::string check = "own bus";
+  const Ports ports = ports_of(readings.domain_id);
+  if (!readings.loopback_alone)
+    return {check, Verdict::kOk, fmt::format("domain {} is not confined to the loopback", readings.domain_id), ""};
+  if (!readings.open_ports)
+    return {check, Verdict::kOk, "the kernel does not say which sockets hear other interfaces", ""};
+  if (readings.open_ports->empty())
+    return {check, Verdict::kOk, fmt::format("no socket of domain {} hears another interface", readings.domain_id), ""};
+  return {check, Verdict::kWarn,
+          fmt::format("reached from other machines: UDP {}", fmt::join(*readings.open_ports, ", ")),
+          fmt::format("a program that is not Trivela's has them open; load config/network/trivela.nft with own = {}-{}",
+                      ports.first, ports.last)};
+}
+
 Finding peer_finding(const Peer& peer) {
   const std::string check = fmt::format("peer {}", peer.name);
   switch (peer.state) {
@@ -169,7 +184,8 @@ Finding realtime_finding(const Readings& readings) {
 std::vector<Finding> findings_of(const Readings& readings) {
   std::vector<Finding> all{interface_finding(readings), multicast_finding(readings), unicast_finding(readings),
                            firewall_finding(readings),  buffers_finding(readings),   clock_finding(readings),
-                           ports_finding(readings),     domain_finding(readings),    realtime_finding(readings)};
+                           ports_finding(readings),     domain_finding(readings),    own_bus_finding(readings),
+                           realtime_finding(readings)};
   for (const Peer& peer : readings.peers) all.push_back(peer_finding(peer));
   return all;
 }

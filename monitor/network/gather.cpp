@@ -20,6 +20,8 @@
 #include <thread>
 
 #include "bus/census.hpp"
+#include "bus/own_sockets.hpp"
+#include "monitor/network/open_ports.hpp"
 #include "monitor/network/probes.hpp"
 
 namespace trivela::monitor::network {
@@ -134,6 +136,8 @@ Readings gather(const Subject& subject) {
   if (std::smatch match; std::regex_search(xml, match, kGroup)) readings.group = match[1];
   const Ports ports = ports_of(readings.domain_id);
   readings.busy_ports = busy_ports(ports);
+  readings.loopback_alone = bus::loopback_alone(xml);
+  readings.open_ports = open_ports(ports);
   const Interface* const one = chosen(readings);
   if (one != nullptr && one->up && !one->addresses.empty()) {
     const Probed multicast = probe_multicast(one->addresses.front(), readings.group, ports.first);

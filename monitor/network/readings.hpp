@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,10 @@ struct Readings {
   std::optional<std::size_t> members;  ///< of the domain; none: it was not joined
   std::string join_error;              ///< why it could not be; empty: nobody tried
   std::vector<Peer> peers;
-  std::size_t busy_ports = 0;    ///< of the domain, on this machine
+  std::size_t busy_ports = 0;   ///< of the domain, on this machine
+  bool loopback_alone = false;  ///< the domain's configuration names the loopback and no other interface
+  /// Of the domain, where a socket of this machine hears every interface; none: the kernel does not say.
+  std::optional<std::set<unsigned>> open_ports;
   unsigned ephemeral_first = 0;  ///< net.ipv4.ip_local_port_range
   unsigned ephemeral_last = 0;
   std::optional<std::string> ruleset;  ///< nft list ruleset; none: there is no nft, or it may not be read

@@ -17,6 +17,8 @@ constexpr std::chrono::milliseconds kGlance{200};  // how often the interface is
 constexpr std::chrono::seconds kPause{1};          // before it is tried again
 constexpr std::chrono::seconds kShortestPatience{15};
 constexpr std::chrono::seconds kLongestPatience{120};
+// Thirty signs of life a second of it, between six machines, were a seventh of all that crosses the air.
+constexpr std::chrono::seconds kLease{5};
 
 }  // namespace
 
@@ -68,6 +70,7 @@ void TeamMember::be_member(const std::string& address) {
   bus::Node node{participant, "team_bus"};
   bus::WriterOptions as_us;
   as_us.owner = owner_;
+  as_us.lease = kLease;
   const auto state = node.writer<msg::TeamState>(as_us);
   std::optional<bus::Output<msg::Referee>> referee;
   if (context_.settings.team_link.base) referee.emplace(node.writer<msg::Referee>(as_us));

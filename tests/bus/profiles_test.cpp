@@ -10,6 +10,7 @@ namespace trivela::bus {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::seconds;
 
 // The QoS that Cyclone gave an entity.
 Qos qos_of(dds_entity_t entity) {
@@ -66,6 +67,11 @@ TEST_F(Profiles, StateWithAPeriodHasADeadlineOfThree) {
             DDS_MSECS(60));
   EXPECT_EQ(facts_of(Reader<msg::WorldState>(participant_, {.period = milliseconds(20)}).handle()).deadline,
             DDS_MSECS(60));
+}
+
+TEST_F(Profiles, AWriterOfAStateIsGoneAfterASecondUnlessItSaysOtherwise) {
+  EXPECT_EQ(facts_of(Writer<msg::WorldState>(participant_).handle()).lease, DDS_SECS(1));
+  EXPECT_EQ(facts_of(Writer<msg::WorldState>(participant_, {.lease = seconds(5)}).handle()).lease, DDS_SECS(5));
 }
 
 TEST_F(Profiles, OrderIsExclusiveWithManualLiveliness) {

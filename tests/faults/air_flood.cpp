@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <sched.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -38,9 +39,20 @@ std::int64_t resident_bytes(int pid) {
   return statm >> pages >> resident ? resident * sysconf(_SC_PAGESIZE) : 0;
 }
 
-AirFlood::AirFlood(const NetworkHost& host, std::vector<std::string> targets, std::uint16_t first_port,
-                   Packets overheard, std::uint64_t seed)
-    : targets_(std::move(targets)), first_port_(first_port), overheard_(std::move(overheard)), random_(seed) {
+void keep_packets(const std::filesystem::path& file, const std::string& heading, const Packets& packets) {
+  std::ofstream out{file};
+  out << heading << '\n';
+  for (const auto& packet : packets) out << fmt::format("{:02x}\n", fmt::join(packet, ""));
+}
+
+AirFlood::AirFlood(const NetworkHost& host, std::vector<std::string> targets, std::uint32_t domain_id,
+                   std::uint16_t participants, Packets overheard, std::uint64_t seed)
+    : targets_(std::move(targets)), overheard_(std::move(overheard)), random_(seed) {
+  constexpr std::uint16_t kFirst = 7400, kOfDomain = 250, kOfParticipants = 10;  // RTPS 9.6.2.1
+  const auto first = static_cast<std::uint16_t>(kFirst + kOfDomain * domain_id);
+  ports_ = {first, static_cast<std::uint16_t>(first + 1)};
+  for (std::uint16_t port = 0; port < 2 * participants; ++port)
+    ports_.push_back(static_cast<std::uint16_t>(first + kOfParticipants + port));
   thread_ = std::thread{[this, network = host.network()] {
     if (setns(network, CLONE_NEWNET) != 0) return;
     socket_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -52,6 +64,11 @@ AirFlood::AirFlood(const NetworkHost& host, std::vector<std::string> targets, st
 AirFlood::~AirFlood() {
   stop_ = true;
   thread_.join();
+}
+
+Packets AirFlood::last() const {
+  const std::lock_guard lock{mutex_};
+  return {last_.begin(), last_.end()};
 }
 
 std::vector<std::uint8_t> AirFlood::next() {
@@ -89,9 +106,14 @@ std::vector<std::uint8_t> AirFlood::next() {
 void AirFlood::run() {
   while (!stop_) {
     const std::vector<std::uint8_t> packet = next();
+    {
+      const std::lock_guard lock{mutex_};
+      last_.push_back(packet);
+      if (last_.size() > kRemembered) last_.pop_front();
+    }
     for (const std::string& target : targets_)
-      for (const std::uint16_t port : {0, 1, 10, 11}) {
-        const sockaddr_in to = address_of(target, static_cast<std::uint16_t>(first_port_ + port));
+      for (const std::uint16_t port : ports_) {
+        const sockaddr_in to = address_of(target, port);
         if (sendto(socket_, packet.data(), packet.size(), MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&to),
                    sizeof to) > 0)
           ++sent_;

@@ -2,12 +2,16 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <mutex>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/faults/network_host.hpp"
+#include "tests/faults/wiretap.hpp"
 
 namespace trivela::faults {
 
@@ -16,27 +20,34 @@ namespace trivela::faults {
 /// announcement of a participant that is not there. It never waits.
 class AirFlood {
  public:
-  using Packets = std::vector<std::vector<std::uint8_t>>;
+  /// Packets that it remembers.
+  static constexpr std::size_t kRemembered = 256;
 
-  /// `targets`: addresses; `first_port`: of the DDS domain. Begins at once.
-  AirFlood(const NetworkHost& host, std::vector<std::string> targets, std::uint16_t first_port, Packets overheard,
-           std::uint64_t seed);
+  /// `targets`: addresses, of which each domain's ports of discovery and of so many participants are sent to. Begins at
+  /// once.
+  AirFlood(const NetworkHost& host, std::vector<std::string> targets, std::uint32_t domain_id,
+           std::uint16_t participants, Packets overheard, std::uint64_t seed);
   AirFlood(const AirFlood&) = delete;
   AirFlood& operator=(const AirFlood&) = delete;
   ~AirFlood();
 
   std::uint64_t sent() const { return sent_; }
 
+  /// The last kRemembered packets, each once however many ports it went to, the newest last.
+  Packets last() const;
+
  private:
   void run();
   std::vector<std::uint8_t> next();
 
   const std::vector<std::string> targets_;
-  const std::uint16_t first_port_;
+  std::vector<std::uint16_t> ports_;
   const Packets overheard_;
   std::mt19937_64 random_;
   std::uint64_t turn_ = 0;
   int socket_ = -1;
+  mutable std::mutex mutex_;
+  std::deque<std::vector<std::uint8_t>> last_;  // under the mutex
   std::atomic<bool> stop_ = false;
   std::atomic<std::uint64_t> sent_ = 0;
   std::thread thread_;
@@ -44,5 +55,8 @@ class AirFlood {
 
 /// Resident memory of a process in bytes; 0: it is gone.
 std::int64_t resident_bytes(int pid);
+
+/// Packets as lines of hexadecimal digits behind `heading`, for the search of the one that ended a node.
+void keep_packets(const std::filesystem::path& file, const std::string& heading, const Packets& packets);
 
 }  // namespace trivela::faults

@@ -38,6 +38,14 @@ double AirMeter::bytes() const {
   return sum;
 }
 
+double AirMeter::frames() const {
+  double sum = 0;
+  for (const Count& count : counts) sum += count.frames;
+  return sum;
+}
+
+double AirMeter::ethernet_bytes() const { return bytes() + frames() * kEthernetHeader; }
+
 AirMeter AirMeter::operator-(const AirMeter& before) const {
   AirMeter rest = *this;
   for (std::size_t kind = 0; kind < kAirKinds; ++kind) {
@@ -54,12 +62,10 @@ std::string air_table(const AirMeter& meter, double length_s) {
   const auto line = [&](const char* name, double frames, double bytes) {
     text += fmt::format("{:<18}{:>10.1f}{:>10.1f}\n", name, frames / length_s, bytes * 8e-3 / length_s);
   };
-  double frames = 0;
-  for (std::size_t kind = 0; kind < kAirKinds; ++kind) {
+  for (std::size_t kind = 0; kind < kAirKinds; ++kind)
     line(kNames[kind], meter.counts[kind].frames, meter.counts[kind].bytes);
-    frames += meter.counts[kind].frames;
-  }
-  line("sum", frames, meter.bytes());
+  line("sum", meter.frames(), meter.bytes());
+  line("with Ethernet", meter.frames(), meter.ethernet_bytes());
   return text;
 }
 

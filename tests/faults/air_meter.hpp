@@ -31,10 +31,13 @@ struct AirMeter {
   void count(std::span<std::uint8_t> frame);
   const Count& of(AirKind kind) const { return counts[static_cast<std::size_t>(kind)]; }
   double bytes() const;
+  double frames() const;
+  /// The same with Ethernet's headers, 14 bytes a frame.
+  double ethernet_bytes() const;
   AirMeter operator-(const AirMeter& before) const;
 };
 
-/// By kind: frames and kbit a second, and their sum.
+/// By kind: frames and kbit a second, their sum, and that with Ethernet's headers.
 std::string air_table(const AirMeter& meter, double length_s);
 
 }  // namespace trivela::faults

@@ -118,17 +118,12 @@ NetworkHost::~NetworkHost() {
   }
 }
 
-namespace {
-
-/// Does it on the host: in a thread, to which a namespace belongs.
-void on_host(int network, const auto& act) {
+void on_host(const NetworkHost& host, const std::function<void()>& act) {
   std::exception_ptr failure;
   std::thread{[&] {
     try {
-      checked(setns(network, CLONE_NEWNET), "setns");
-      const int socket = checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), "socket");
-      act(socket);
-      close(socket);
+      checked(setns(host.network(), CLONE_NEWNET), "setns");
+      act();
     } catch (...) {
       failure = std::current_exception();
     }
@@ -136,10 +131,28 @@ void on_host(int network, const auto& act) {
   if (failure) std::rethrow_exception(failure);
 }
 
+namespace {
+
+void with_socket(const NetworkHost& host, const auto& act) {
+  on_host(host, [&] {
+    const int socket = checked(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0), "socket");
+    act(socket);
+    close(socket);
+  });
+}
+
 }  // namespace
 
+void NetworkHost::lose_interface() const {
+  with_socket(*this, [](int socket) {
+    ifreq request = request_for("tap0");
+    request.ifr_flags = 0;
+    checked(ioctl(socket, SIOCSIFFLAGS, &request), "tap0 down");
+  });
+}
+
 void NetworkHost::lose_address() const {
-  on_host(network_, [](int socket) {
+  with_socket(*this, [](int socket) {
     ifreq request = request_for("tap0");
     request.ifr_addr = inet("0.0.0.0");
     checked(ioctl(socket, SIOCSIFADDR, &request), "no address");
@@ -147,7 +160,7 @@ void NetworkHost::lose_address() const {
 }
 
 void NetworkHost::give_address() const {
-  on_host(network_, [this](int socket) {
+  with_socket(*this, [this](int socket) {
     give_address_to(socket, "tap0", number_);
     bring_up(socket, "tap0");
   });

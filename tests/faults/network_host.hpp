@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace trivela::faults {
@@ -23,6 +24,10 @@ class NetworkHost {
   void lose_address() const;
   void give_address() const;
 
+  /// Takes the interface down, with its address, and up again.
+  void lose_interface() const;
+  void give_interface() const { give_address(); }
+
   /// The end of the cable: a read is a frame that the host sends, a write one that it receives. Does not block.
   int cable() const { return cable_; }
 
@@ -34,5 +39,9 @@ class NetworkHost {
   int cable_ = -1;
   int network_ = -1;
 };
+
+/// Does it on the host, in a thread of its own, to which a namespace belongs: sockets made there, and threads begun
+/// there, stay on the host. Throws what it throws.
+void on_host(const NetworkHost& host, const std::function<void()>& act);
 
 }  // namespace trivela::faults

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "config/team_files.hpp"
+#include "config/team_settings.hpp"
 #include "tests/e2e/program.hpp"
 
 namespace trivela::faults {
@@ -20,7 +21,25 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGrace{30};
-const std::vector<std::string> kChain{"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
+
+const std::string kLink = "trivela-team_link";
+
+/// The launcher instead of team_link with these arguments: --config FILE, then flags.
+void launch(const fs::path& folder, const std::vector<std::string>& arguments, ProcessPlan& plan) {
+  const fs::path programs = folder / "programs";
+  fs::create_directories(programs);
+  // It looks for the nodes beside itself.
+  fs::copy_file(TRIVELA_SOURCE_DIR "/packaging/trivela-launch", programs / "trivela-launch",
+                fs::copy_options::overwrite_existing);
+  if (!fs::exists(programs / kLink)) fs::create_symlink(plan.program, programs / kLink);
+  std::string flags;
+  for (std::size_t i = 2; i < arguments.size(); ++i) flags += arguments[i] + " ";
+  std::ofstream{folder / "link.env"} << fmt::format(
+      "TRIVELA_NODES=team_link\nTRIVELA_SETTINGS={}\nTRIVELA_FOLDER={}\nTRIVELA_FLAGS_team_link=\"{}\"\n",
+      arguments.at(1), folder.string(), flags);
+  plan.program = programs / "trivela-launch";
+  plan.arguments = {(folder / "link.env").string()};
+}
 
 std::uint8_t number_of(std::size_t machine) { return static_cast<std::uint8_t>(machine == 0 ? 100 : machine); }
 std::string address_of(std::size_t machine) { return fmt::format("10.77.0.{}", number_of(machine)); }
@@ -45,6 +64,9 @@ config::Team team_of(const TeamPlan& plan) {
 }
 
 }  // namespace
+
+const std::vector<std::string> kChain{"trivela-odometry", "trivela-world_state", "trivela-kick_decision",
+                                      "trivela-kicker_driver", "trivela-shot_observer"};
 
 std::string clock_obstacle() {
   constexpr int kNewTime = 0x80;  // CLONE_NEWTIME
@@ -101,6 +123,7 @@ ProcessPlan TeamOnAir::plan_of(std::size_t machine, const std::string& node) con
 void TeamOnAir::start_process(std::size_t machine, const std::string& node, std::vector<std::string> arguments) {
   ProcessPlan plan = plan_of(machine, node);
   plan.arguments = arguments;
+  if (plan_.link_launched && node == kLink) launch(folder_of(machine), arguments, plan);
   arguments_[{machine, node}] = std::move(arguments);
   auto& process = processes_[{machine, node}];
   process.reset();
@@ -124,7 +147,7 @@ void TeamOnAir::start() {
       set(fmt::format("team_link.referee={}", plays == Plays::kTeamReferee || plays == Plays::kNothing));
       if (plays == Plays::kInLockstep) {
         set("run.lockstep=true");
-        set("simulator.max_possessions=4");
+        set("simulator.max_possessions=30");
       }
     }
     start_process(machine, "trivela-team_link", flags);
@@ -135,7 +158,7 @@ void TeamOnAir::start() {
       start_process(0, "trivela-refbox", flags);
     }
     if (plays == Plays::kNothing) continue;
-    for (const std::string& node : kChain) start_process(machine, "trivela-" + node, flags);
+    for (const std::string& node : kChain) start_process(machine, node, flags);
     start_process(machine, "trivela-simulator", flags);
   }
 }
@@ -166,6 +189,19 @@ void TeamOnAir::cut(std::size_t machine) {
     if (other != machine) ways[{machine, other}] = ways[{other, machine}] = Way{.drop = 1.0};
   hub_->set(std::move(ways));
 }
+
+int TeamOnAir::link(std::size_t machine) const {
+  const std::string settings = (folder_of(machine) / "settings.toml").string();
+  for (const auto& entry : fs::directory_iterator{"/proc"}) {
+    const std::string command = e2e::text_of(entry.path() / "cmdline");  // words behind each of which stands a zero
+    const std::string_view program = std::string_view{command}.substr(0, command.find('\0'));
+    if (program.ends_with(kLink) && command.find(settings) != std::string::npos)
+      return std::stoi(entry.path().filename().string());
+  }
+  return 0;
+}
+
+std::string TeamOnAir::tag(std::size_t machine) const { return config::tag_of(team_, team_.robots.at(machine - 1)); }
 
 std::string TeamOnAir::casualties() {
   std::string found;

@@ -33,6 +33,7 @@ struct TeamPlan {
   std::string script;                  ///< of the base's emulated referee box (hal/refbox/box_script.hpp)
   bool by_group = true;                ///< discovery by multicast, else peers
   std::filesystem::path keys;          ///< of a secured team; empty: none
+  bool link_launched = false;          ///< every team_link by packaging/trivela-launch, which starts it again
   std::uint64_t seed = 1;
 };
 
@@ -56,9 +57,13 @@ class TeamOnAir {
   /// By ioctl on the machine's interface.
   void lose_address(std::size_t machine) { hosts_[machine].lose_address(); }
   void give_address(std::size_t machine) { hosts_[machine].give_address(); }
+  void lose_interface(std::size_t machine) { hosts_[machine].lose_interface(); }
+  void give_interface(std::size_t machine) { hosts_[machine].give_interface(); }
 
   NodeProcess& process(std::size_t machine, const std::string& node) { return *processes_.at({machine, node}); }
   void restart(std::size_t machine, const std::string& node);
+  /// The process id of a machine's team_link, by whomever it was started; 0: there is none now.
+  int link(std::size_t machine) const;
 
   /// Those that ended, each with its machine.
   std::string casualties();
@@ -66,6 +71,9 @@ class TeamOnAir {
   std::vector<std::filesystem::path> logs(std::size_t machine) const;
   std::string said(std::size_t machine, const std::string& node) const;
   const Hub& hub() const { return *hub_; }
+  const NetworkHost& host(std::size_t machine) const { return hosts_[machine]; }
+  /// The tag of a robot's own bus, whose domain is team.domain's 42.
+  std::string tag(std::size_t machine) const;
   /// The cable of a host that is no machine of the team, on the same hub.
   const NetworkHost& stranger() const { return hosts_.back(); }
 
@@ -87,6 +95,9 @@ class TeamOnAir {
   std::map<std::pair<std::size_t, std::string>, std::unique_ptr<NodeProcess>> processes_;
   std::map<std::pair<std::size_t, std::string>, std::vector<std::string>> arguments_;
 };
+
+/// The nodes of a robot's chain, as programs.
+extern const std::vector<std::string> kChain;
 
 /// The first number of a query over the newest log of a machine; 0 where there is none yet, or it cannot be read now.
 std::int64_t number_in(const std::vector<std::filesystem::path>& logs, const std::string& sql);

@@ -1,10 +1,14 @@
 #include "monitor/network/findings.hpp"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 
 #include "monitor/network/gather.hpp"
+#include "monitor/network/open_ports.hpp"
 
 namespace trivela::monitor::network {
 namespace {
@@ -74,6 +78,43 @@ TEST(NetworkFindings, SeeThatAnInterfaceIsDownOrHasNoAddress) {
   expect(readings, "multicast", Verdict::kWarn, "not tried");
   readings.wanted_interface.clear();
   expect(readings, "interface", Verdict::kBad, "none but loopback");
+}
+
+TEST(NetworkFindings, NameThePortsOfAnOwnBusThatOtherMachinesReach) {
+  Readings readings = healthy();
+  readings.domain_id = 42;
+  readings.open_ports = {17910, 17911};
+  expect(readings, "own bus", Verdict::kOk, "domain 42 is not confined to the loopback");
+  readings.loopback_alone = true;
+  expect(readings, "own bus", Verdict::kWarn, "UDP 17910, 17911");
+  EXPECT_THAT(finding(readings, "own bus").advice, HasSubstr("own = 17900-18149"));
+  readings.open_ports = std::set<unsigned>{};
+  expect(readings, "own bus", Verdict::kOk, "no socket of domain 42");
+  readings.open_ports.reset();
+  expect(readings, "own bus", Verdict::kOk, "does not say");
+}
+
+TEST(OpenPorts, AreThoseOfSocketsThatHearEveryInterface) {
+  constexpr unsigned kFirst = 32500;
+  const Ports ports{kFirst, kFirst + 9};
+  const auto bound = [](unsigned port, std::uint32_t address, bool to_loopback) {
+    const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (to_loopback) {
+      EXPECT_EQ(setsockopt(descriptor, SOL_SOCKET, SO_BINDTODEVICE, "lo", 2), 0);
+    }
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    own.sin_port = htons(static_cast<std::uint16_t>(port));
+    own.sin_addr.s_addr = htonl(address);
+    EXPECT_EQ(bind(descriptor, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
+    return descriptor;
+  };
+  const int sockets[] = {bound(kFirst, INADDR_ANY, false), bound(kFirst + 1, INADDR_ANY, true),
+                         bound(kFirst + 2, INADDR_LOOPBACK, false)};
+  const auto open = open_ports(ports);
+  for (const int descriptor : sockets) close(descriptor);
+  if (!open) GTEST_SKIP() << "the kernel does not say";
+  EXPECT_THAT(*open, ElementsAre(kFirst));
 }
 
 TEST(NetworkFindings, SeeWhatBecomesOfMulticast) {

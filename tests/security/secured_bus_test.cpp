@@ -253,29 +253,48 @@ class Tap {
   int socket_;
 };
 
-/// One order from a decision to a driver, whose kick_id are the eight bytes.
-void send(const DomainConfig& decision, const DomainConfig& driver, std::int64_t bytes) {
-  bus::Reader<msg::KickOrder> reader{bus::Participant(driver)};
-  bus::Writer<msg::KickOrder> writer{bus::Participant(decision)};
-  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty));
-  writer.write(order(bytes));
-  ASSERT_TRUE(reader.wait(kPlenty));
+/// A sample from one to the other whose t_ns are bytes of text; whether these were to be read on the wire.
+template <bus::Message T>
+bool readable(const DomainConfig& from, const DomainConfig& to) {
+  constexpr std::int64_t kBytes = 0x6c6f'6769'6f54'7254;
+  Tap wiretap;
+  bus::Reader<T> reader{bus::Participant(to)};
+  bus::Writer<T> writer{bus::Participant(from)};
+  EXPECT_TRUE(writer.wait_for_readers(1, kPlenty));
+  T sample{};
+  sample.robot_id = 1;
+  sample.t_ns = kBytes;
+  writer.write(sample);
+  EXPECT_TRUE(reader.wait(kPlenty));
+  return wiretap.saw({reinterpret_cast<const char*>(&kBytes), sizeof kBytes});
 }
 
-TEST_F(SecuredBus, AnOrderCannotBeReadOnTheWireButWhoMayDoWhatCan) {
-  constexpr std::int64_t kBytes = 0x6c6f'6769'6f54'7254;
-  const std::string_view bytes(reinterpret_cast<const char*>(&kBytes), sizeof kBytes);
-  auto wiretap = std::make_unique<Tap>();
-  if (!wiretap->permitted()) GTEST_SKIP() << "listening to the loopback needs CAP_NET_RAW";
-  send(as("kick_decision", team), as("kicker_driver", team), kBytes);
-  EXPECT_FALSE(wiretap->saw(bytes));
-  wiretap = std::make_unique<Tap>();
-  send(as("kick_decision", team), as("kicker_driver", team), kBytes);
-  EXPECT_TRUE(wiretap->saw("<topic>kick_order</topic>")) << "permissions travel in clear in the handshake";
+TEST_F(SecuredBus, OrderAndStatusCannotBeReadOnTheWire) {
+  if (!Tap{}.permitted()) GTEST_SKIP() << "listening to the loopback needs CAP_NET_RAW";
+  team.keys().issue(1, {"kick_decision", "kicker_driver", "recorder"}, week());
+  EXPECT_FALSE(readable<msg::KickOrder>(as("kick_decision", team), as("kicker_driver", team)));
+  EXPECT_FALSE(readable<msg::KickerStatus>(as("kicker_driver", team), as("recorder", team)));
   SharedWire clear;
-  wiretap = std::make_unique<Tap>();
-  send(clear.member(), clear.member(), kBytes);
-  EXPECT_TRUE(wiretap->saw(bytes)) << "without security it is there";
+  EXPECT_TRUE(readable<msg::KickOrder>(clear.member(), clear.member())) << "without security it is there";
+  EXPECT_TRUE(readable<msg::KickerStatus>(clear.member(), clear.member()));
+}
+
+TEST_F(SecuredTeamBus, RefereeAndStateCannotBeReadOnTheWire) {
+  if (!Tap{}.permitted()) GTEST_SKIP() << "listening to the loopback needs CAP_NET_RAW";
+  EXPECT_FALSE(readable<msg::Referee>(on_team(0), on_team(1)));
+  EXPECT_FALSE(readable<msg::TeamState>(on_team(1), on_team(2)));
+  SharedWire clear;
+  EXPECT_TRUE(readable<msg::Referee>(clear.member(), clear.member()));
+  EXPECT_TRUE(readable<msg::TeamState>(clear.member(), clear.member()));
+}
+
+TEST_F(SecuredBus, WhoMayDoWhatTravelsInClearInTheHandshake) {
+  Tap wiretap;
+  if (!wiretap.permitted()) GTEST_SKIP() << "listening to the loopback needs CAP_NET_RAW";
+  const bus::Reader<msg::KickOrder> reader{bus::Participant(as("kicker_driver", team))};
+  const bus::Writer<msg::KickOrder> writer{bus::Participant(as("kick_decision", team))};
+  ASSERT_TRUE(writer.wait_for_readers(1, kPlenty));
+  EXPECT_TRUE(wiretap.saw("<topic>kick_order</topic>"));
 }
 
 }  // namespace

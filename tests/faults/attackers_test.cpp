@@ -1,0 +1,283 @@
+// Attackers beside a robot that plays: on a machine of their own on the team's network, and on the robot's loopback.
+// By hand, longer: TRIVELA_TEAM_FLOOD_S. TRIVELA_TEAM_FLOOD_KEEP=FOLDER has the last packets where a node ended.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "bus/domain.hpp"
+#include "bus/writer.hpp"
+#include "config/team.hpp"
+#include "idl/messages.hpp"
+#include "tests/e2e/log_rows.hpp"
+#include "tests/faults/air_flood.hpp"
+#include "tests/faults/air_test.hpp"
+#include "tests/faults/impostor.hpp"
+#include "tests/security/key_fixture.hpp"
+
+namespace trivela::faults {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t kS = 1'000'000'000;
+const std::vector<std::string> kNodes{"trivela-odometry",      "trivela-world_state",   "trivela-kick_decision",
+                                      "trivela-kicker_driver", "trivela-shot_observer", "trivela-recorder",
+                                      "trivela-team_link"};
+
+/// A robot that plays with its own referee, with keys and without.
+class Attackers : public AirTest {
+ protected:
+  /// `keys`: the robot's nodes and those of its simulated world have them.
+  void kick_off(bool with_keys) {
+    TeamPlan plan = this->plan();
+    plan.robots = {Plays::kOwnReferee};
+    if (with_keys) {
+      const auto week = security::days_from(security::this_second(), 9);
+      std::vector<std::string> nodes = security::usual_nodes(1);
+      if (std::ranges::find(nodes, "simulator") == nodes.end()) nodes.emplace_back("simulator");
+      keys.keys().issue(0, security::usual_nodes(0), week);
+      keys.keys().issue(1, nodes, week);
+      plan.keys = keys.keys().path();
+    }
+    team = std::make_unique<TeamOnAir>(plan);
+    team->start();
+    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, 0) > 100; }))
+        << team->casualties() << team->said(1, "trivela-simulator");
+  }
+
+  /// A base with the referee's word and two robots, all with keys, their links started by the launcher.
+  void start_team() {
+    const auto week = security::days_from(security::this_second(), 9);
+    for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
+    TeamPlan plan = this->plan();
+    plan.robots = {Plays::kNothing, Plays::kNothing};
+    plan.keys = keys.keys().path();
+    plan.link_launched = true;
+    team = std::make_unique<TeamOnAir>(plan);
+    team->start();
+    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return rows("referee WHERE playing = 1") > 50; }))
+        << team->casualties() << team->said(1, "team_link") << team->said(0, "team_link");
+  }
+
+  std::int64_t rows(const std::string& sql) const { return number_in(team->logs(1), "SELECT count(*) FROM " + sql); }
+
+  /// Orders of the impostor's that any node of the robot took for orders, and answers to them.
+  std::int64_t heard() const {
+    const auto forged = fmt::format("WHERE kick_id BETWEEN {} AND {}", kForgedKick, kForgedKick + kForgedKicks - 1);
+    return rows("kick_orders " + forged) + rows("kick_receipts " + forged);
+  }
+
+  /// It plays on: cycles after now.
+  bool plays_on() {
+    const std::int64_t now = last_instant(team->logs(1));
+    return team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, now) > 50; });
+  }
+
+  void send(const NetworkHost& host, const std::string& address, const Packets& packets) {
+    send_to_domain(host, address, config::TeamDomains{}.robot, packets);
+    team->pass(seconds{1});  // the recorder writes what it has every 200 ms
+  }
+
+  security::TeamKeys keys;
+  std::unique_ptr<TeamOnAir> team;
+};
+
+TEST_F(Attackers, OrdersForgedOnAnotherMachineReachARobotThatHasNoKeysFromItsOwnLoopbackAlone) {
+  ASSERT_NO_FATAL_FAILURE(kick_off(false));
+  const Packets forged = forged_orders(team->stranger(), config::TeamDomains{}.robot, team->tag(1));
+  send(team->stranger(), "10.77.0.1", forged);
+  EXPECT_EQ(heard(), 0);
+  EXPECT_TRUE(plays_on());
+  send(team->host(1), "127.0.0.1", forged);
+  EXPECT_GT(heard(), 0) << "the packets are as good as a robot's own";
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
+}
+
+TEST_F(Attackers, OrdersForgedOnTheLoopbackOfARobotWithKeysAreHeardByNobody) {
+  ASSERT_NO_FATAL_FAILURE(kick_off(true));
+  const Packets forged = forged_orders(team->stranger(), config::TeamDomains{}.robot, team->tag(1));
+  send(team->stranger(), "10.77.0.1", forged);
+  send(team->host(1), "127.0.0.1", forged);
+  EXPECT_EQ(heard(), 0);
+  EXPECT_TRUE(plays_on());
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
+}
+
+/// Resident memory of a process, sampled while it is flooded.
+struct Memory {
+  std::vector<std::int64_t> bytes;
+
+  std::int64_t most(std::size_t from, std::size_t to) const {
+    return *std::max_element(bytes.begin() + static_cast<std::ptrdiff_t>(from),
+                             bytes.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+  /// In MB, the greatest of each tenth of the flood.
+  std::string course() const {
+    std::string text;
+    for (std::size_t tenth = 0; tenth < 10; ++tenth) {
+      const std::size_t from = bytes.size() * tenth / 10, to = bytes.size() * (tenth + 1) / 10;
+      if (from < to) text += fmt::format(" {}", most(from, to) >> 20);
+    }
+    return text;
+  }
+  /// Whether the second half of the flood added little, or less than the first, as where what is invented is forgotten
+  /// again.
+  bool settles() const {
+    constexpr std::int64_t kLittle = std::int64_t{16} << 20;
+    const std::size_t half = bytes.size() / 2;
+    const std::int64_t first = most(0, half) - bytes.front(), second = most(half, bytes.size()) - most(0, half);
+    return second < std::max(kLittle, first);
+  }
+};
+
+milliseconds flood_length() {
+  return milliseconds{static_cast<std::int64_t>(by_hand("TRIVELA_TEAM_FLOOD_S", 10) * 1e3)};
+}
+
+/// Five times a second for the length of a flood.
+void during_flood(const TeamOnAir& team, const std::function<void()>& look) {
+  for (const auto end = Clock::now() + flood_length(); Clock::now() < end;) {
+    team.pass(milliseconds{200});
+    look();
+  }
+}
+
+TEST_F(Attackers, AFloodOnTheLoopbackOfARobotWithKeysNeitherGrowsItsNodesNorOrdersAKick) {
+  ASSERT_NO_FATAL_FAILURE(kick_off(true));
+  Wiretap tap{team->host(1)};
+  team->pass(seconds{3});
+  std::map<std::string, Memory> memory;
+  {
+    const AirFlood flood{team->host(1), {"127.0.0.1"}, config::TeamDomains{}.robot, 10, tap.take(), 1};
+    during_flood(*team, [&] {
+      for (const std::string& node : kNodes) memory[node].bytes.push_back(resident_bytes(team->process(1, node).pid()));
+    });
+    fmt::print("{} packets\n", flood.sent());
+    EXPECT_GT(flood.sent(), 1000u);
+  }
+  for (const auto& [node, samples] : memory) {
+    fmt::print("{}: MB by tenth of the flood{}\n", node, samples.course());
+    EXPECT_TRUE(samples.settles()) << node;
+  }
+  EXPECT_EQ(team->casualties(), "");
+  EXPECT_TRUE(plays_on());
+  team->stop();
+  EXPECT_EQ(rows("kick_orders WHERE kick_id NOT IN (SELECT kick_id FROM kick_decisions)"), 0);
+  EXPECT_EQ(rows("(SELECT kick_id FROM kick_receipts WHERE accepted = 1 GROUP BY kick_id HAVING count(*) > 1)"), 0)
+      << "an order said again was fired again";
+}
+
+TEST_F(Attackers, WhoHasNoIdentityOfTheTeamIsHeardByNobodyOnItsNetwork) {
+  ASSERT_NO_FATAL_FAILURE(start_team());
+  const security::TeamKeys others;
+  others.keys().issue(0, {"team_link"}, security::days_from(security::this_second(), 9));
+  // What each has besides: the team's own configuration.
+  const bus::DomainConfig plain = bus::from_file(config::TeamDomains{}.team, folder / "machine_1" / "team_bus.xml");
+  const std::map<std::string, bus::DomainConfig> attackers{
+      {"nobody's", plain},
+      {"another team's base", bus::secured(plain, others.robot(0) / "team", "team_bus")},
+      {"a robot's own team_link, by its identity of the robot's bus", bus::secured(plain, keys.robot(1), "team_link")}};
+  for (const auto& [name, domain] : attackers)
+    on_host(team->stranger(), [&] {
+      bus::Writer<msg::Referee> forged{bus::Participant{domain}};
+      for (int time = 0; time < 30; ++time) {
+        msg::Referee word{};
+        word.command_counter = 666;
+        word.robot_id = 0;
+        forged.write(word);
+        team->pass(milliseconds{100});
+      }
+      EXPECT_EQ(forged.readers(), 0u) << name;
+    });
+  EXPECT_EQ(rows("referee WHERE command_counter = 666"), 0);
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
+}
+
+/// A secured team whose links are started by the launcher, and what became of them.
+class LaunchedLinks {
+ public:
+  explicit LaunchedLinks(TeamOnAir& team) : team_(team) {
+    for (std::size_t machine = 0; machine < links_.size(); ++machine) links_[machine] = team_.link(machine);
+  }
+
+  /// Notes those that ended, with what the flood sent last, and those that are back.
+  void look(const AirFlood* flood) {
+    for (std::size_t machine = 0; machine < links_.size(); ++machine) {
+      const int now = team_.link(machine);
+      if (now == links_[machine] || now == 0) continue;
+      ++ended;
+      if (const char* const keep = std::getenv("TRIVELA_TEAM_FLOOD_KEEP"); keep != nullptr && flood != nullptr)
+        keep_packets(fs::path{keep} / fmt::format("flood_{}.txt", ended),
+                     fmt::format("machine {}\n{}", machine, team_.said(machine, "team_link")), flood->last());
+      links_[machine] = now;
+    }
+  }
+
+  /// Ends the link as a crash does; how long it takes the launcher until it runs again.
+  milliseconds back_after_crash(std::size_t machine) {
+    const auto began = Clock::now();
+    kill(links_[machine], SIGSEGV);
+    if (!team_.wait_for(kAirPatience, [&] {
+          const int now = team_.link(machine);
+          return now != 0 && now != links_[machine];
+        }))
+      return milliseconds::max();
+    links_[machine] = team_.link(machine);
+    return std::chrono::duration_cast<milliseconds>(Clock::now() - began);
+  }
+
+  int of(std::size_t machine) const { return links_[machine]; }
+  int ended = 0;
+
+ private:
+  TeamOnAir& team_;
+  std::array<int, 3> links_{};
+};
+
+TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkThatEndsIsBackWithinTwoSeconds) {
+  ASSERT_NO_FATAL_FAILURE(start_team());
+  const auto words = [&](const std::string& where) { return rows("referee WHERE " + where); };
+  const std::int64_t before = number_in(team->logs(1), "SELECT max(t_ns) FROM referee");
+  LaunchedLinks links{*team};
+  Memory memory;
+  {
+    const AirFlood flood{team->stranger(),           {"10.77.0.100", "10.77.0.1", "10.77.0.2", "224.16.32.39"},
+                         config::TeamDomains{}.team, 1,
+                         team->hub().overheard(),    1};
+    during_flood(*team, [&] {
+      links.look(&flood);
+      memory.bytes.push_back(resident_bytes(links.of(1)));
+    });
+    fmt::print("{} packets; team_link ended {} times; MB by tenth of the flood{}\n", flood.sent(), links.ended,
+               memory.course());
+    EXPECT_GT(flood.sent(), 1000u);
+  }
+  if (links.ended == 0) {
+    EXPECT_TRUE(memory.settles());
+  }
+  EXPECT_LT(links.back_after_crash(1), seconds{2});
+  const std::int64_t after = number_in(team->logs(1), "SELECT max(t_ns) FROM referee");
+  EXPECT_TRUE(team->wait_for(kAirPatience, [&] {
+    links.look(nullptr);
+    return words(fmt::format("playing = 1 AND t_ns > {}", after + 2 * kS)) > 10;
+  })) << team->said(1, "team_link");
+  EXPECT_EQ(words(fmt::format("playing = 0 AND t_ns > {}", before)), 0) << "a word from before the START came again";
+  EXPECT_EQ(words(fmt::format(
+                "command_counter <> (SELECT command_counter FROM referee WHERE t_ns = {0}) AND t_ns > {0}", before)),
+            0);
+  EXPECT_EQ(rows("kick_orders") + rows("kick_receipts"), 0) << "nothing fires";
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
+}
+
+}  // namespace
+}  // namespace trivela::faults
