@@ -28,8 +28,8 @@ std::string env_text(const Team& team, const TeamRobot* robot, const std::filesy
     text += env_line("CYCLONEDDS_URI", "file://" + (shipped_folder / "cyclonedds/loopback.xml").string());
   text += env_line("TRIVELA_TAG", tag);
   if (robot == nullptr) return text + env_line("TRIVELA_NODES", "recorder team_link refbox");
-  text +=
-      env_line("TRIVELA_NODES", "recorder team_link odometry world_state kick_decision kicker_driver shot_observer");
+  text += env_line("TRIVELA_NODES",
+                   "recorder team_link odometry world_state kick_decision kicker_driver shot_observer kicker_drift");
   text += env_line("TRIVELA_FLAGS_odometry", "--realtime 50");
   return text + env_line("TRIVELA_FLAGS_kicker_driver", "--realtime 50");
 }
