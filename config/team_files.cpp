@@ -23,8 +23,8 @@ constexpr std::pair<std::string_view, int> kRealtime[]{
 
 std::vector<std::string> nodes_of(const Settings& settings, bool base) {
   if (base) return {"recorder", "team_link", "refbox"};
-  std::vector<std::string> nodes{"recorder",      "team_link",     "odometry",     "world_state",
-                                 "kick_decision", "kicker_driver", "shot_observer"};
+  std::vector<std::string> nodes{"recorder",      "team_link",     "odometry",      "world_state",
+                                 "kick_decision", "kicker_driver", "shot_observer", "kicker_drift"};
   if (settings.kick_decision.standby) nodes.insert(nodes.begin() + 5, "kick_decision_second");
   return nodes;
 }

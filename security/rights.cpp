@@ -55,6 +55,7 @@ std::vector<Rights> of_the_chain() {
       {"kicker_driver", these<KickerStatus, KickReceipt, DeviceFire, DeviceCharge, DeviceEmulated, StepDone>(),
        topics(nodes::KickerDriverInputs{})},
       {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},
+      {"kicker_drift", these<KickerDrift>(), topics(nodes::KickerDriftInputs{})},
       {"recorder", these<StepDone>(), recorded(), true, true},
       {"scan_recorder", these<DeviceEmulated, StepDone>(), topics(nodes::ScanRecorderInputs{})},
       {"refbox", these<Referee, DeviceEmulated>(), these<WorldState, TeamHeard>(), true, true},

@@ -61,17 +61,17 @@ ValuesOfKeys values_of(const std::filesystem::path& path) {
   return values;
 }
 
+// Sessions first, settings before robots and the world.
+int place_of_part(const std::string& part) { return part == "sessions" ? 0 : part == "settings" ? 1 : 2; }
+
+}  // namespace
+
 std::string shown_values(const std::vector<std::string>& values) {
   if (values.empty()) return "none";
   const auto first = std::span(values).first(std::min(values.size(), kMostValues));
   return fmt::format("{}{}", fmt::join(first, ", "),
                      values.size() > kMostValues ? fmt::format(" and {} more", values.size() - kMostValues) : "");
 }
-
-// Sessions first, settings before robots and the world.
-int place_of_part(const std::string& part) { return part == "sessions" ? 0 : part == "settings" ? 1 : 2; }
-
-}  // namespace
 
 std::vector<LogDifference> log_differences(std::span<const std::filesystem::path> logs) {
   std::vector<ValuesOfKeys> of_logs;

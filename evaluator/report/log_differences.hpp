@@ -20,6 +20,9 @@ struct LogDifference {
 /// scenario, seeds, policies, robots. Throws std::runtime_error where a log cannot be read.
 std::vector<LogDifference> log_differences(std::span<const std::filesystem::path> logs);
 
+/// A log's values of a key: "2.5, 3.0 and 4 more"; "none".
+std::string shown_values(const std::vector<std::string>& values);
+
 /// A line for each, at most `most` of them: "settings policy.keep_off_m: 2.5 in a.db; 3.0 in b.db"; where there is
 /// none, that.
 std::string differences_text(const std::vector<LogDifference>& differences, std::span<const std::string> logs,

@@ -31,7 +31,7 @@ struct Row {
   WatchedKick kick;
 };
 
-std::vector<Row> watched_rows(const log::Reader& reader, const SessionPlaces& fresh) {
+std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const SessionPlaces& fresh) {
   std::vector<Row> rows;
   reader.query(
       kWatchedKicksSql,
@@ -43,7 +43,8 @@ std::vector<Row> watched_rows(const log::Reader& reader, const SessionPlaces& fr
           std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
         const auto session = fresh.find(session_id);
         if (session == fresh.end()) return;
-        Row& row = rows.emplace_back(Row{session->second, robot_id, simulated, {uuid, kick_id, utc_ns}, {}});
+        Row& row =
+            rows.emplace_back(Row{session->second, robot_id, simulated, {log, session_id, uuid, kick_id, utc_ns}, {}});
         row.kick = {.kick_id = kick_id,
                     .t_ns = t_ns,
                     .robot = {x_m, y_m, heading_rad},
@@ -62,31 +63,32 @@ std::vector<Row> watched_rows(const log::Reader& reader, const SessionPlaces& fr
   return rows;
 }
 
-}  // namespace
-
-bool DriftReport::found() const {
-  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.story.drifts.empty(); });
-}
-
-DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
-  std::vector<Row> rows;
-  SessionBook book;
-  for (const std::filesystem::path& path : logs) {
-    const log::Reader reader{path};
-    for (Row& row : watched_rows(reader, book.add(reader, path.string()))) rows.push_back(std::move(row));
+/// The kicks of all logs, each once, and what became of their kickers.
+class DriftBook {
+ public:
+  void add(const log::Reader& reader, const std::string& name) {
+    for (Row& row : watched_rows(reader, logs_++, book_.add(reader, name))) rows_.push_back(std::move(row));
   }
-  book.settle();
-  DriftReport report{.robots = {}, .remarks = book.remarks()};
-  report.remarks.insert(report.remarks.end(), book.not_counted().begin(), book.not_counted().end());
-  std::erase_if(rows, [&](const Row& row) { return !book.counts(row.session, row.robot_id, row.at.kick_id); });
-  std::ranges::stable_sort(rows, {}, [](const Row& row) { return std::pair(row.at.utc_ns, row.at.kick_id); });
-  using Series = std::pair<int, std::string>;  // robot; session where it is one by itself
-  std::map<Series, std::vector<const Row*>> series;
-  for (const Row& row : rows) series[{row.robot_id, row.simulated ? row.at.session : ""}].push_back(&row);
-  for (const auto& [of, kicks] : series) {
-    RobotDrift& robot = report.robots.emplace_back();
-    robot.robot_id = of.first;
-    robot.simulated = !of.second.empty();
+
+  DriftReport tell() {
+    book_.settle();
+    DriftReport report{.robots = {}, .remarks = book_.remarks()};
+    report.remarks.insert(report.remarks.end(), book_.not_counted().begin(), book_.not_counted().end());
+    std::erase_if(rows_, [&](const Row& row) { return !book_.counts(row.session, row.robot_id, row.at.kick_id); });
+    std::ranges::stable_sort(rows_, {}, [](const Row& row) { return std::pair(row.at.utc_ns, row.at.kick_id); });
+    using Series = std::pair<int, std::string>;  // robot; session where it is one by itself
+    std::map<Series, std::vector<const Row*>> series;
+    for (const Row& row : rows_) series[{row.robot_id, row.simulated ? row.at.session : ""}].push_back(&row);
+    for (const auto& [of, kicks] : series) report.robots.push_back(story_of(of.first, kicks));
+    std::ranges::stable_sort(report.robots, {}, [](const RobotDrift& robot) {
+      return std::pair(robot.robot_id, robot.kicks.front().utc_ns);
+    });
+    return report;
+  }
+
+ private:
+  static RobotDrift story_of(int robot_id, const std::vector<const Row*>& kicks) {
+    RobotDrift robot{.robot_id = robot_id, .simulated = kicks.front()->simulated};
     std::vector<KickResidual> residuals;
     for (const Row* const row : kicks) {
       if (robot.kicks.empty() || robot.kicks.back().session != row->at.session) ++robot.sessions;
@@ -94,10 +96,30 @@ DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
       residuals.push_back(residual_of(row->kick));
     }
     robot.story = drifts_of(residuals);
+    return robot;
   }
-  std::ranges::stable_sort(
-      report.robots, {}, [](const RobotDrift& robot) { return std::pair(robot.robot_id, robot.kicks.front().utc_ns); });
-  return report;
+
+  std::size_t logs_ = 0;
+  std::vector<Row> rows_;
+  SessionBook book_;
+};
+
+}  // namespace
+
+bool DriftReport::found() const {
+  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.story.drifts.empty(); });
+}
+
+DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
+  DriftBook book;
+  for (const std::filesystem::path& path : logs) book.add(log::Reader{path}, path.string());
+  return book.tell();
+}
+
+DriftReport drift_in(std::span<const OpenLog> logs) {
+  DriftBook book;
+  for (const OpenLog& log : logs) book.add(*log.reader, log.name);
+  return book.tell();
 }
 
 }  // namespace trivela::evaluator

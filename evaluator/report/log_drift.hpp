@@ -2,15 +2,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "evaluator/drift/drift_watch.hpp"
+#include "evaluator/report/log_opportunities.hpp"
 
 namespace trivela::evaluator {
 
 /// Where a kick of a story stands.
 struct DriftKick {
+  std::size_t log = 0;  ///< place among the logs
+  std::int64_t session_id = 0;
   std::string session;  ///< its uuid
   std::int64_t kick_id = 0;
   std::int64_t utc_ns = 0;
@@ -34,6 +38,13 @@ struct DriftReport {
 
 /// The kicks of match logs, each once, as drifts_of() judges them. Throws std::runtime_error as log::Reader does.
 DriftReport drift_in(const std::vector<std::filesystem::path>& logs);
+
+/// The same of open logs.
+DriftReport drift_in(std::span<const OpenLog> logs);
+
+/// What holds since the last change, in % of what the robot's own table says: "above its table by 0.8 % of speed
+/// (standard error 0.2, 201 heights)".
+std::string level_words(const DriftLevel& level);
 
 std::string to_text(const DriftReport& report);
 std::string to_json(const DriftReport& report);

@@ -23,14 +23,6 @@ std::string head_of(const RobotDrift& robot) {
                      robot.simulated ? fmt::format(" {}", robot.kicks.front().session) : "");
 }
 
-/// What holds now: the speed out of the heights, in % of what the robot's own table says.
-std::string level_now(const DriftLevel& level) {
-  if (level.heights < 2) return "too few heights to tell its level";
-  return fmt::format("{} its table by {:.1f} % of speed (standard error {:.1f}, {} heights)",
-                     level.height.value < 0.0 ? "below" : "above", 100.0 * std::abs(std::expm1(level.height.value)),
-                     100.0 * level.height.se, level.heights);
-}
-
 std::string told(const RobotDrift& robot) {
   std::string text = head_of(robot) + "\n";
   for (const Drift& drift : robot.story.drifts) {
@@ -39,8 +31,8 @@ std::string told(const RobotDrift& robot) {
                         utc(kick.utc_ns), kick.kick_id, words_of(drift), drift.found + 1);
     text += fmt::format("    {}\n", correction_of(drift));
   }
-  text +=
-      fmt::format("  {}: {}\n", robot.story.drifts.empty() ? "no change" : "since then", level_now(robot.story.level));
+  text += fmt::format("  {}: {}\n", robot.story.drifts.empty() ? "no change" : "since then",
+                      level_words(robot.story.level));
   return text;
 }
 
@@ -62,6 +54,13 @@ Json drift_json(const RobotDrift& robot, const Drift& drift) {
 }
 
 }  // namespace
+
+std::string level_words(const DriftLevel& level) {
+  if (level.heights < 2) return "too few heights to tell its level";
+  return fmt::format("{} its table by {:.1f} % of speed (standard error {:.1f}, {} heights)",
+                     level.height.value < 0.0 ? "below" : "above", 100.0 * std::abs(std::expm1(level.height.value)),
+                     100.0 * level.height.se, level.heights);
+}
 
 std::string to_text(const DriftReport& report) {
   std::string text;

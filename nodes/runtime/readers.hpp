@@ -26,9 +26,12 @@ using KickerDriverInputs = Inputs<msg::DeviceKicker, msg::KickOrder, msg::Refere
 using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;
 using ScanRecorderInputs = Inputs<msg::SimScan, msg::KickReceipt>;  // where it is enabled
 
-/// What the recorder leaves out: the devices' own, and what is on the team's bus alone.
+/// Looked on at: nobody waits for the node that watches the kicker.
+using KickerDriftInputs = Inputs<msg::KickDecision, msg::KickReceipt, msg::KickOutcome>;
+
+/// What the recorder leaves out: the devices' own, what is on the team's bus alone, and what the log says itself.
 using NotRecorded = Inputs<msg::DeviceWheels, msg::DeviceGyro, msg::DeviceDrive, msg::DeviceKicker, msg::DeviceFire,
-                           msg::DeviceCharge, msg::SimScan, msg::StepDone, msg::TeamState>;
+                           msg::DeviceCharge, msg::SimScan, msg::StepDone, msg::TeamState, msg::KickerDrift>;
 
 /// How many nodes of a match read T.
 template <bus::Message T>

@@ -1,7 +1,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
 
+#include "evaluator/drift/drift_watch.hpp"
 #include "pages/monitor/match_scene.hpp"
 
 namespace trivela::pages {
@@ -56,6 +60,27 @@ void note_kickers(const SceneState& state, std::int64_t now_ns, Alarms& alarms) 
   }
 }
 
+// The change as `trivela drift` words it; what has no size comes from another program.
+std::string words_of(const msg::KickerDrift& said) {
+  const auto kind = std::bit_cast<std::underlying_type_t<msg::DriftKind>>(said.kind);
+  evaluator::Drift drift{
+      .kind = kind == msg::DRIFT_ELEVATION ? evaluator::DriftKind::kElevation : evaluator::DriftKind::kExitSpeed,
+      .factor = {std::log(said.factor), said.factor_se},
+      .height_m = said.height_m};
+  const bool sized = said.factor > 0.0 && std::isfinite(drift.factor.value) && drift.factor.value != 0.0;
+  if (!sized) return "by how much is not said";
+  return fmt::format("{}; {}", evaluator::words_of(drift), evaluator::correction_of(drift));
+}
+
+void note_drifts(const SceneState& state, Alarms& alarms) {
+  for (const auto& [id, robot] : state.robots) {
+    const auto& said = robot.drift.sample;
+    if (!said || said->changes == 0) continue;
+    alarms[fmt::format("{}/drift", id)] =
+        fmt::format("robot {}: its kicker changed at kick {}: {}", id, said->changed_kick_id, words_of(*said));
+  }
+}
+
 void note_kicks(const SceneState& state, std::int64_t now_ns, Alarms& alarms) {
   const LedgerNow now = ledger_now(state, now_ns);
   const auto last = state.kicks.latest(kLastKicks);
@@ -73,6 +98,7 @@ Alarms alarms_of(const SceneState& state, std::int64_t now_ns) {
   Alarms alarms;
   note_silences(state, alarms);
   note_kickers(state, now_ns, alarms);
+  note_drifts(state, alarms);
   note_kicks(state, now_ns, alarms);
   for (const auto& [stream, messages] : state.streams.missed_lately(now_ns)) {
     const auto& [id, topic] = stream;

@@ -21,6 +21,12 @@ constexpr int kFramesACensus = 25;  // discovery is as slow
 
 std::int64_t clock_ns() { return std::chrono::nanoseconds{Clock::now().time_since_epoch()}.count(); }
 
+// What holds until it is said otherwise, and is not repeated for who opens the page later.
+template <bus::Message T>
+constexpr bool is_said_once() {
+  return std::is_same_v<T, msg::DeviceEmulated> || std::is_same_v<T, msg::KickerDrift>;
+}
+
 bus::Participant join(const bus::DomainConfig& domain, bool lockstep) {
   return lockstep ? bus::Participant{domain} : bus::Participant{domain, bus::RealTime{}};
 }
@@ -48,7 +54,7 @@ MatchFeed::MatchFeed(const bus::DomainConfig& domain, bool lockstep, SceneSettin
         const std::lock_guard lock{mutex_};
         scene_.hear(sample, info.writer, clock_ns());
       };
-      ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, hear, std::is_same_v<T, msg::DeviceEmulated>));
+      ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, hear, is_said_once<T>()));
     }
   });
   thread_ = std::thread([this] { publish(); });

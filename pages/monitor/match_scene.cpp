@@ -58,6 +58,10 @@ void MatchScene::take(const msg::KickReceipt& receipt, std::int64_t now_ns) { st
 
 void MatchScene::take(const msg::KickOutcome& outcome, std::int64_t now_ns) { state_.kicks.hear(outcome, now_ns); }
 
+void MatchScene::take(const msg::KickerDrift& drift, std::int64_t now_ns) {
+  state_.robots[drift.robot_id].drift.hear(drift, now_ns);
+}
+
 void MatchScene::take(const msg::KickerStatus& status, std::int64_t now_ns) {
   state_.robots[status.robot_id].kicker.hear(status, now_ns);
 }

@@ -148,7 +148,7 @@ test('the keyboard alone filters, replays and comes back to the kick', async () 
 
 test('without JavaScript everything but filter and replay is there', async () => {
   const page = await open(url, {javaScriptEnabled: false});
-  for (const id of ['verdict', 'table2', 'forest', 'mouth', 'pitch', 'rates', 'predictions', 'held', 'list', 'quality'])
+  for (const id of ['verdict', 'table2', 'forest', 'mouth', 'pitch', 'rates', 'predictions', 'drift', 'held', 'list', 'quality'])
     assert.ok(await page.isVisible(`#${id}`), id);
   assert.ok(await page.isHidden('#filter'));
   assert.ok(await page.isHidden('#k0 button'));

@@ -95,6 +95,7 @@ TEST(TeamFiles, TheEnvironmentNamesWhatTheLauncherReads) {
   EXPECT_THAT(robot,
               HasSubstr("CYCLONEDDS_URI=\"file:///etc/trivela/cyclonedds/loopback.xml\"\nTRIVELA_TAG=\"example-1\"\n"));
   EXPECT_THAT(robot, HasSubstr("TRIVELA_FLAGS_kicker_driver=\"--realtime 50\"\n"));
+  EXPECT_THAT(robot, HasSubstr("kicker_driver shot_observer kicker_drift\"\n"));
   const std::string base = text_in(team_files(team, nullptr, "/here", ""), "robot.env");
   EXPECT_THAT(base, HasSubstr("TRIVELA_NODES=\"recorder team_link refbox\"\n"));
   EXPECT_THAT(base, Not(HasSubstr("TRIVELA_CONFIG")));

@@ -1,7 +1,9 @@
 // Sections of the page of a report, from plain data.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "evaluator/report/page/html.hpp"
 #include "evaluator/report/page/kick_list.hpp"
@@ -180,6 +182,93 @@ TEST(PagePredictions, ComparesProbabilitiesWithOutcomes) {
   const std::string text = prediction_section(two.view());
   EXPECT_THAT(text, HasSubstr("predicted 85.0 %: 1 of 2 on target"));
   EXPECT_THAT(text, HasSubstr("2.9 of 4 predicted, 2 came"));
+}
+
+/// A robot whose kicker changed with the second of two kicks, which the list has as k0 and k1.
+TwoPolicies changed_kicker() {
+  TwoPolicies two;
+  two.data.kicks.assign(2, {0, kick("moving", "on_target", 0.0, 0.5)});
+  RobotDrift robot{.robot_id = 1};
+  for (std::int64_t id = 1; id <= 2; ++id) {
+    two.data.kicks[static_cast<std::size_t>(id - 1)].story.kick_id = id;
+    two.data.kicks[static_cast<std::size_t>(id - 1)].story.number = id;
+    robot.kicks.push_back({.kick_id = id});
+  }
+  robot.story.drifts = {{.changed = 1, .found = 1, .factor = {std::log(0.95), 0.01}, .height_m = -0.4}};
+  two.data.drift.robots = {robot};
+  return two;
+}
+
+TEST(PageDrift, NamesTheKickByItsPlaceInTheListTheSizeAndTheCorrection) {
+  const std::string text = drift_section(changed_kicker().view());
+  EXPECT_THAT(text, HasSubstr("robot 1, 2 kicks: changed at kick <a href=\"#k1\">1:2</a>"));
+  EXPECT_THAT(text, HasSubstr("exit speed fell by 5.0 % (standard error 1.0)"));
+  EXPECT_THAT(text, HasSubstr("multiply exit_speeds_mps of its [table] by 0.950"));
+}
+
+TEST(PageDrift, LinksNowhereWhereThereIsNoList) {
+  TwoPolicies two = changed_kicker();
+  two.data.kicks.resize(kMostKicks + 1, two.data.kicks.front());
+  const std::string text = drift_section(two.view());
+  EXPECT_THAT(text, HasSubstr("changed at kick_id 2"));
+  EXPECT_THAT(text, Not(HasSubstr("href")));
+}
+
+TEST(PageDrift, SaysThatNothingChangedOrThatThereAreTooFewKicks) {
+  TwoPolicies two;
+  EXPECT_THAT(drift_section(two.view()), HasSubstr("There is no kick"));
+  RobotDrift well{.robot_id = 1}, hardly_seen{.robot_id = 2};
+  well.kicks.resize(60);
+  well.story.level = {.heights = 50, .height = {0.0101, 0.002}};
+  hardly_seen.kicks.resize(9);
+  hardly_seen.story.level = {.heights = 7};
+  two.data.drift.robots = {well, hardly_seen};
+  const std::string text = drift_section(two.view());
+  EXPECT_THAT(text,
+              HasSubstr("robot 1, 60 kicks: no change found; above its table by 1.0 % of speed (standard error 0.2, "
+                        "50 heights)"));
+  EXPECT_THAT(text,
+              HasSubstr("robot 2, 9 kicks: too few kicks to say: the height of 7 was seen, and a change is looked "
+                        "for from the 11th on"));
+}
+
+TEST(PageDrift, CountsWhatDidNotChangeInALargeExperiment) {
+  TwoPolicies two = changed_kicker();
+  RobotDrift well{.robot_id = 1, .simulated = true};
+  well.kicks.resize(60);
+  two.data.drift.robots.resize(301, well);
+  const std::string text = drift_section(two.view());
+  EXPECT_EQ(count(text, "<li>"), 22U) << "the one that changed, twenty that did not, and how many more";
+  EXPECT_THAT(text, HasSubstr("and 280 more without a change"));
+}
+
+TEST(PageChanges, HasATableOfWhatIsNotAsInTheLogBefore) {
+  TwoPolicies two;
+  two.data.logs = {{"sunday.db", "", 7}, {"<saturday>.db", "", 7}};
+  two.data.changes = {{1, 0, {{"settings", "policy.keep_off_m", {{"2.5"}, {"3.0", "4.0"}}}}}};
+  const std::string text = changes_section(two.view());
+  EXPECT_THAT(text, HasSubstr("<h3>sunday.db, after &lt;saturday&gt;.db</h3>"));
+  EXPECT_THAT(text, HasSubstr("<th scope=\"row\">settings policy.keep_off_m</th><td>2.5</td><td>3.0, 4.0</td>"));
+  two.data.changes[0].differences.clear();
+  EXPECT_THAT(changes_section(two.view()), HasSubstr("Settings, robots, versions, scenario and seed are alike."));
+}
+
+TEST(PageChanges, KeepsALongListShort) {
+  TwoPolicies two;
+  two.data.logs = {{"a.db", "", 7}, {"b.db", "", 7}};
+  two.data.changes = {{0, 1, std::vector<LogDifference>(100, {"settings", "key", {{"1"}, {"2"}}})}};
+  const std::string text = changes_section(two.view());
+  EXPECT_EQ(count(text, "settings key"), 40U);
+  EXPECT_THAT(text, HasSubstr("And 60 more keys: trivela compare a.db b.db --all has them."));
+}
+
+TEST(ReportPage, OfOneLogHasNothingThatChangedSinceTheLogBefore) {
+  TwoPolicies two;
+  EXPECT_THAT(to_html(two.report, two.data), Not(HasSubstr("since the log before")));
+  two.data.logs.push_back(two.data.logs.front());
+  const std::string text = to_html(two.report, two.data);
+  EXPECT_EQ(count(text, "What changed since the log before"), 2U) << "above the section and in the contents";
+  EXPECT_THAT(text, HasSubstr("<a href=\"#changes\">"));
 }
 
 TEST(PageHeld, SaysWhyAndWhatTheShadowsWouldHaveDone) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/watched_log.hpp"
 
 namespace trivela::evaluator::page {
 namespace {
@@ -44,12 +45,38 @@ TEST_F(ReportPageOfALog, HasEverySectionAndTheFilesHash) {
   write();
   const std::string text = page_of();
   for (const char* const id :
-       {"verdict", "table2", "forest", "mouth", "pitch", "rates", "predictions", "held", "list", "quality"})
+       {"verdict", "table2", "forest", "mouth", "pitch", "rates", "predictions", "drift", "held", "list", "quality"})
     EXPECT_THAT(text, HasSubstr(std::string("<section id=\"") + id));
   EXPECT_THAT(text, HasSubstr("<td>match.db</td>"));
   EXPECT_THAT(text, Not(HasSubstr(directory_.string())));
   EXPECT_THAT(text, Not(HasSubstr("could not be made")));
   EXPECT_EQ(text, page_of());
+}
+
+TEST_F(ReportPageOfALog, NamesTheKickAtWhichAKickerChangedAndLinksToIt) {
+  WatchedLog log(path(), session(), options(), 4);
+  log.kicks(1, 40);
+  log.kicks(1, 20, -0.7);
+  log.close();
+  const std::string text = page_of();
+  EXPECT_THAT(text, HasSubstr(", 60 kicks: changed at kick <a href=\"#k40\">1:41</a> (+41.00 s): exit speed fell by "));
+  EXPECT_THAT(text, HasSubstr("<tr id=\"k40\""));
+  EXPECT_THAT(text, HasSubstr("multiply exit_speeds_mps"));
+}
+
+TEST_F(ReportPageOfALog, SaysWhatIsNotAsInTheLogThatWasRecordedBefore) {
+  const auto written = [&](const std::string& name, std::int64_t day, const std::string& value) {
+    log::Session played = session();
+    played.uuid = "0000000" + std::to_string(day) + "-0000-4000-8000-000000000001";
+    played.realtime_offset_ns = day * 86'400'000'000'000;
+    played.config_toml = "### settings\n[policy]\nkeep_off_m = " + value + "\n";
+    write(name, played);
+  };
+  written("sunday.db", 2, "3.0");
+  written("saturday.db", 1, "2.5");
+  const std::string text = page_of({"sunday.db", "saturday.db"});
+  EXPECT_THAT(text, HasSubstr("<h3>sunday.db, after saturday.db</h3>"));
+  EXPECT_THAT(text, HasSubstr("<th scope=\"row\">settings policy.keep_off_m</th><td>2.5</td><td>3.0</td>"));
 }
 
 TEST_F(ReportPageOfALog, LosesASectionAndNoReportWhereAStreamIsEmpty) {

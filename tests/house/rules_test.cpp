@@ -70,6 +70,7 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"robot/recording", {"evaluator/log/"}},
     {"monitor", {"idl/", "bus/", "robot/watch/"}},
     {"nodes", {"kicking/", "config/", "idl/", "bus/", "hal/", "robot/"}},
+    {"nodes/kicker_drift", {"evaluator/drift/"}},
     {"nodes/recorder", {"evaluator/log/"}},
     {"nodes/scan_recorder", {"evaluator/log/"}},
     {"nodes/simulator", {"sim/"}},

@@ -65,8 +65,8 @@ TEST_F(NodeProgramTest, SigtermEndsTheSimulator) { expect_clean_end<msg::DeviceD
 TEST_F(NodeProgramTest, SigintDoesTheSame) { expect_clean_end<msg::Odometry>("world_state", SIGINT); }
 
 TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsSupervisorThatItLives) {
-  for (const std::string name :
-       {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer", "recorder", "simulator"}) {
+  for (const std::string name : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer",
+                                 "kicker_drift", "recorder", "simulator"}) {
     SCOPED_TRACE(name);
     const std::string path = (folder / ("notify-" + name)).string();
     NotifySocket manager{path};
@@ -215,7 +215,7 @@ TEST_F(NodeProgramTest, ASettingOnTheCommandLineIsCheckedToo) {
 
 TEST_F(NodeProgramTest, BadUsageEndsWithTwoAndHelpWithZero) {
   for (const std::string name : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer",
-                                 "recorder", "simulator", "replay_player"}) {
+                                 "kicker_drift", "recorder", "simulator", "replay_player"}) {
     SCOPED_TRACE(name);
     auto with = arguments();
     with.emplace_back("--no-such-flag");

@@ -1,5 +1,6 @@
 // Two nodes of one kind and robot would both write; the second is turned away.
 #include "nodes/kick_decision/kick_decision_node.hpp"
+#include "nodes/kicker_drift/kicker_drift_node.hpp"
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 #include "nodes/odometry/odometry_node.hpp"
 #include "nodes/shot_observer/shot_observer_node.hpp"
@@ -51,6 +52,10 @@ TEST_F(TwinsTest, OfTheKickerDriverAreRefused) {
 
 TEST_F(TwinsTest, OfTheShotObserverAreRefused) {
   expect_refused([](NodeContext& c) { return std::make_unique<ShotObserverNode>(c); }, "shot_observer", "kick_outcome");
+}
+
+TEST_F(TwinsTest, OfKickerDriftAreRefused) {
+  expect_refused([](NodeContext& c) { return std::make_unique<KickerDriftNode>(c); }, "kicker_drift", "kicker_drift");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "bus/graph.hpp"
 #include "evaluator/log/reader.hpp"
 #include "nodes/kick_decision/kick_decision_node.hpp"
+#include "nodes/kicker_drift/kicker_drift_node.hpp"
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
 #include "nodes/odometry/odometry_node.hpp"
 #include "nodes/recorder/recorder_node.hpp"
@@ -69,7 +70,10 @@ TEST_F(WholeGraphTest, WritersWaitForThoseWhoRead) {
 
 // On a secured bus it would be refused what its permissions leave out.
 TEST_F(WholeGraphTest, ANodeReadsAndWritesWhatItsKeysAllow) {
-  for (const bus::Node* const node : whole()) {
+  KickerDriftNode kicker_drift{context};
+  auto nodes = whole();
+  nodes.push_back(&kicker_drift.node());
+  for (const bus::Node* const node : nodes) {
     const auto reactions = node->reactions();
     ASSERT_FALSE(reactions.empty());
     const std::string name = reactions.front().name.substr(0, reactions.front().name.find('/'));

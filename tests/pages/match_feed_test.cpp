@@ -107,6 +107,25 @@ TEST(LivePageOfAMatch, IsToldThatADeviceIsEmulatedThoughThatWasSaidBeforeItCame)
   EXPECT_EQ(writer.readers(), 0u) << "it looks on";
 }
 
+TEST(LivePageOfAMatch, ShowsAChangeOfAKickerThatWasSaidBeforeItCame) {
+  const bus::WirePair wire = bus::fresh_wire_pair();
+  const bus::Participant robot(wire.a);
+  bus::Writer<msg::KickerDrift> writer(robot);
+  msg::KickerDrift said{};
+  said.robot_id = 3;
+  said.seq = said.changes = 1;
+  said.changed_kick_id = 61;
+  said.factor = 0.95;
+  said.factor_se = 0.01;
+  writer.write(said);
+  const Served page(wire.b);
+  Viewer viewer(page.server.port());
+  EXPECT_TRUE(viewer.wait([&] {
+    return viewer.newest["match"].dump().find("robot 3: its kicker changed at kick 61: exit speed fell by 5.0 %") !=
+           std::string::npos;
+  }));
+}
+
 TEST(LivePageOfAMatch, IsSimulatedWhereAWriterOfTruthIsThere) {
   const bus::WirePair wire = bus::fresh_wire_pair();
   const Served page(wire.b);

@@ -12,6 +12,7 @@ namespace trivela::pages {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -128,6 +129,52 @@ TEST_F(Scene, AFaultOfTheKickerIsAnAlarm) {
   EXPECT_THAT(alarms(), ElementsAre("robot 1: kicker: fault of the charger"));
   play(200);
   EXPECT_THAT(alarms(), IsEmpty());
+}
+
+msg::KickerDrift drift(double factor, msg::DriftKind kind = msg::DRIFT_EXIT_SPEED) {
+  msg::KickerDrift said{};
+  said.robot_id = 1;
+  said.seq = 1;
+  said.changes = 1;
+  said.changed_kick_id = 61;
+  said.found_kick_id = 66;
+  said.kind = kind;
+  said.factor = factor;
+  said.factor_se = 0.008;
+  said.height_m = -0.42;
+  return said;
+}
+
+TEST_F(Scene, AKickerThatChangedIsAnAlarmThatSaysByHowMuchAndWhatToDo) {
+  scene.hear(drift(0.95), 4, now);
+  play(20'000);
+  EXPECT_THAT(
+      alarms(),
+      ElementsAre("robot 1: its kicker changed at kick 61: exit speed fell by 5.0 % (standard error 0.8); multiply "
+                  "exit_speeds_mps of its [table] by 0.950, or measure it anew: trivela calibrate table"))
+      << "it holds without being said again";
+  msg::KickerDrift taken_back{};
+  taken_back.robot_id = 1;
+  taken_back.seq = 2;
+  scene.hear(taken_back, 4, now);
+  play(200);
+  EXPECT_THAT(alarms(), IsEmpty());
+  EXPECT_EQ(match()["mended"].size(), 1u);
+}
+
+TEST_F(Scene, AnAngleThatChangedIsSaidInMetres) {
+  scene.hear(drift(0.95, msg::DRIFT_ELEVATION), 4, now);
+  play(200);
+  EXPECT_THAT(alarms(),
+              ElementsAre(AllOf(HasSubstr("balls cross 0.42 m lower"), HasSubstr("measure exit_angle_deg anew"))));
+}
+
+TEST_F(Scene, AChangeWithoutASizeIsAnAlarmAllTheSame) {
+  for (const double factor : {std::numeric_limits<double>::quiet_NaN(), 0.0, -1.0, 1.0}) {
+    scene.hear(drift(factor), 4, now);
+    play(200);
+    EXPECT_THAT(alarms(), ElementsAre("robot 1: its kicker changed at kick 61: by how much is not said")) << factor;
+  }
 }
 
 TEST_F(Scene, AnOpenSwitchIsAnAlarmOnceTheGameIsPlayedForHalfASecond) {

@@ -25,7 +25,7 @@ class MessageRowTest : public evaluator::LogTest {};
 /// What is said on the bus and stands in no log.
 const std::set<std::string> kNotRecorded{"DeviceWheels", "DeviceGyro",   "DeviceDrive",    "DeviceKicker",
                                          "DeviceFire",   "DeviceCharge", "DeviceEmulated", "SimScan",
-                                         "StepDone",     "TeamHeard",    "TeamState"};
+                                         "StepDone",     "TeamHeard",    "TeamState",      "KickerDrift"};
 
 /// Calls f.operator()<T>(table) for each message with a table of the log.
 template <class F>

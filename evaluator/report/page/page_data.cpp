@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <span>
@@ -180,6 +182,24 @@ void read_clocks(const log::Reader& reader, PageData& data) {
       });
 }
 
+/// What differs between each log and the one that was recorded before it.
+void read_changes(const std::vector<fs::path>& logs, const std::vector<OpenLog>& readers, PageData& data) {
+  std::vector<std::pair<std::int64_t, std::size_t>> by_time;  // the first instant of each, UTC
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+    readers[i].reader->query(
+        "SELECT min(s.started_t_ns + u.utc_offset_ns) FROM sessions AS s JOIN utc_offsets AS u ON u.session_id = "
+        "s.session_id",
+        [&](std::optional<std::int64_t> started_ns) { first_ns = started_ns.value_or(first_ns); });
+    by_time.emplace_back(first_ns, i);
+  }
+  std::ranges::sort(by_time);  // those of one instant as they were named
+  for (std::size_t n = 1; n < by_time.size(); ++n) {
+    const std::size_t before = by_time[n - 1].second, after = by_time[n].second;
+    data.changes.push_back({before, after, log_differences(std::array{logs[before], logs[after]})});
+  }
+}
+
 /// The paths of robots and balls, of so many kicks that they fit a page.
 void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.kicks.size() > kMostReplays) return;
@@ -223,6 +243,8 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
   std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
     return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
   });
+  attempt(data, "drift of kickers", [&] { data.drift = drift_in(readers); });
+  attempt(data, "differences between the logs", [&] { read_changes(logs, readers, data); });
   attempt(data, "tracks of robots and balls", [&] { read_tracks(readers, data); });
   return data;
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "evaluator/report/kick_story.hpp"
+#include "evaluator/report/log_differences.hpp"
+#include "evaluator/report/log_drift.hpp"
 #include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/policy_comparison.hpp"
 #include "evaluator/report/table2.hpp"
@@ -75,6 +77,12 @@ struct AlignedClock {
   std::string reference_uuid;
 };
 
+/// What is not the same in two logs, one recorded after the other.
+struct LogChange {
+  std::size_t before = 0, after = 0;  ///< places among the logs
+  std::vector<LogDifference> differences;
+};
+
 /// Everything that a page shows besides its report. What could not be read is empty, and `failures` says why.
 struct PageData {
   std::vector<PageLog> logs;
@@ -86,6 +94,8 @@ struct PageData {
   std::vector<HeldChance> held_chances;
   std::vector<std::string> shadows;  ///< policies that rode along
   std::vector<PredictedChance> predictions;
+  DriftReport drift;
+  std::vector<LogChange> changes;  ///< one less than there are logs
   std::vector<ClockRow> clocks;
   std::vector<AlignedClock> aligned;
   std::vector<std::string> failures;

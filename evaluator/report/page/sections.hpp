@@ -31,6 +31,10 @@ std::string pitch_section(const PageView& view);
 std::string rates_section(const PageView& view);
 /// Height by set-point against its prediction, and probabilities against outcomes.
 std::string prediction_section(const PageView& view);
+/// By robot: whether its kicker changed, at which kick, by how much, and what to do.
+std::string drift_section(const PageView& view);
+/// What differs between each log and the one before it.
+std::string changes_section(const PageView& view);
 /// Why policies held, and what those that ride along would have done.
 std::string held_section(const PageView& view);
 /// The list of kicks, filtered and replayed by page.js.
