@@ -88,7 +88,9 @@ class DriftBook {
 
  private:
   static RobotDrift story_of(int robot_id, const std::vector<const Row*>& kicks) {
-    RobotDrift robot{.robot_id = robot_id, .simulated = kicks.front()->simulated};
+    RobotDrift robot;
+    robot.robot_id = robot_id;
+    robot.simulated = kicks.front()->simulated;
     std::vector<KickResidual> residuals;
     for (const Row* const row : kicks) {
       if (robot.kicks.empty() || robot.kicks.back().session != row->at.session) ++robot.sessions;

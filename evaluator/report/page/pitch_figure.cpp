@@ -86,7 +86,7 @@ bool on_field(const KickStory& story, double x_m, double y_m) {
 bool has_place(const KickStory& story) { return story.distance_m > 0.0; }
 
 /// What is drawn, and how much of it.
-struct Places {
+struct DrawnPlaces {
   std::array<std::size_t, 5> kicks{};  ///< by outcome
   std::size_t held = 0, would = 0, off_field = 0;
   double low_m = 0.0;  ///< y of the lowest
@@ -94,8 +94,8 @@ struct Places {
   std::size_t all_kicks() const { return std::accumulate(kicks.begin(), kicks.end(), std::size_t{0}); }
 };
 
-Places count_places(const PageData& data, const KickStory& any) {
-  Places places;
+DrawnPlaces count_places(const PageData& data, const KickStory& any) {
+  DrawnPlaces places;
   places.low_m = any.goal.y_m;
   const auto see = [&](double x_m, double y_m) {
     if (on_field(any, x_m, y_m)) {
@@ -144,7 +144,7 @@ std::string binned_places(const PageData& data, const Field& field, const KickSt
   return held.draw("heat held-heat", field.x, field.y) + kicked.draw("heat", field.x, field.y);
 }
 
-std::string legend_of(const Places& places, double y) {
+std::string legend_of(const DrawnPlaces& places, double y) {
   const double held_y = y + 44.0;
   const auto triangle = [&](const char* kind, double x) {
     return fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}l5 9h-10z\"/>", kind, x, held_y - 9.0);
@@ -160,7 +160,7 @@ std::string legend_of(const Places& places, double y) {
 std::string pitch_section(const PageView& view) {
   const PageData& data = view.data;
   const KickStory any = data.kicks.empty() ? KickStory{} : data.kicks.front().story;
-  const Places places = count_places(data, any);
+  const DrawnPlaces places = count_places(data, any);
   if (places.all_kicks() + places.held == 0)
     return section("pitch", "Where from", paragraphs({"No kick says where it was taken, and no chance was held."}));
   const Field field(any, std::min(places.low_m - 0.5, any.goal.y_m - 5.0));
