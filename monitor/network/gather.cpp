@@ -108,7 +108,7 @@ std::string configuration_of(const bus::DomainConfig& domain) {
   if (!domain.xml.empty()) return domain.xml;
   const char* const uri = std::getenv("CYCLONEDDS_URI");
   if (uri == nullptr) return {};
-  const std::string text = uri;
+  std::string text = uri;
   if (!text.starts_with("file://")) return text;
   std::ifstream in{text.substr(7)};
   return {std::istreambuf_iterator<char>{in}, {}};
