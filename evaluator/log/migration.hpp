@@ -15,8 +15,8 @@ struct Migrated {
 
 /// Copies a match log of any version to a new one of kMatchLog.version, with a new digest for each session that had
 /// ended. The old log is verified first, and never changed; what the old version did not have is empty, NULL or what
-/// was true then. Tables of somebody else do not come along. `progress` is told the rows so far, and all, the first time
-/// before `to` is made; false: stop. Throws std::runtime_error as Reader does, and where `to` exists or cannot be
+/// was true then. Tables of somebody else do not come along. `progress` is told the rows so far, and all, the first
+/// time before `to` is made; false: stop. Throws std::runtime_error as Reader does, and where `to` exists or cannot be
 /// written, Stopped where `progress` says so: nothing is left behind then.
 Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
                  const std::function<bool(std::int64_t, std::int64_t)>& progress);

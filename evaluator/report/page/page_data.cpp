@@ -48,6 +48,7 @@ struct ChanceCycles {
   bool kicked = false;
   std::map<std::pair<std::string, std::string>, std::int64_t> held;                 // by policy and reason
   std::map<std::tuple<std::string, std::string, std::string>, std::int64_t> would;  // and the shadow's policy
+  std::optional<double> p_on_target;  // the most that a shadow which would have kicked in play gave its kick
 };
 
 bool stands(const std::string& reason) { return reason == "not_playing"; }
@@ -79,9 +80,11 @@ class HeldBook {
     });
     reader.query(kHeldShadowsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
                                       const std::string& policy, const std::string& reason, const std::string& shadow,
-                                      std::int64_t cycles) {
+                                      std::int64_t cycles, std::optional<double> p_on_target) {
       const auto chance = fresh.find({session_id, {plays_[session_id], robot_id, half, possession_id}});
-      if (chance != fresh.end()) chance->second.would[{policy, reason, shadow}] += cycles;
+      if (chance == fresh.end()) return;
+      chance->second.would[{policy, reason, shadow}] += cycles;
+      if (!stands(reason)) chance->second.p_on_target = std::max(chance->second.p_on_target, p_on_target);
     });
     for (auto& [key, chance] : fresh) {
       ChanceCycles& kept = chances_[key.second];
@@ -107,7 +110,7 @@ class HeldBook {
       }
       const bool numbered = std::get<3>(key) != 0;
       if (!chance.kicked && numbered && chance.last_seq >= 0)
-        data.held_chances.push_back({chance.policy, chance.x_m, chance.y_m, would});
+        data.held_chances.push_back({chance.policy, chance.x_m, chance.y_m, would, chance.p_on_target});
     }
     for (auto& [why, row] : reasons) {
       std::tie(row.policy, row.reason) = why;
@@ -180,6 +183,12 @@ void read_clocks(const log::Reader& reader, PageData& data) {
       });
 }
 
+/// The times of the halves, of so many kicks that they are listed.
+void read_half_times(const std::vector<OpenLog>& readers, PageData& data) {
+  if (data.binned()) return;
+  for (PageKick& kick : data.kicks) add_half_time(*readers[kick.log].reader, kick.story);
+}
+
 /// The paths of robots and balls, of so many kicks that they fit a page.
 void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.kicks.size() > kMostReplays) return;
@@ -223,6 +232,7 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
   std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
     return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
   });
+  attempt(data, "times of the halves", [&] { read_half_times(readers, data); });
   attempt(data, "tracks of robots and balls", [&] { read_tracks(readers, data); });
   return data;
 }
