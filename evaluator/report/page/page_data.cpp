@@ -160,6 +160,16 @@ void read_predictions(const log::Reader& reader, PageData& data) {
       });
 }
 
+/// Out of what was counted when a session ended, where it was: a long log is not walked through for four names.
+void read_shadows(const log::Reader& reader, PageData& data) {
+  reader.query(
+      "SELECT policy FROM session_tallies WHERE in_charge = 0 "
+      "AND session_id IN (SELECT session_id FROM tallied_sessions) "
+      "UNION SELECT d.policy FROM sessions AS s CROSS JOIN shadow_decisions AS d ON d.session_id = s.session_id "
+      "WHERE s.session_id NOT IN (SELECT session_id FROM tallied_sessions)",
+      [&](const std::string& policy) { data.shadows.push_back(policy); });
+}
+
 void read_clocks(const log::Reader& reader, PageData& data) {
   std::map<std::pair<int, int>, ClockRow> rows;
   for (const log::ClockOffset& offset : log::clock_offsets(reader)) {
@@ -221,10 +231,7 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
     attempt(data, "decisions", [&] { held.add(reader); });
     attempt(data, "predicted chances", [&] { read_predictions(reader, data); });
     attempt(data, "clocks", [&] { read_clocks(reader, data); });
-    attempt(data, "shadows", [&] {
-      reader.query("SELECT DISTINCT policy FROM shadow_decisions ORDER BY policy",
-                   [&](const std::string& policy) { data.shadows.push_back(policy); });
-    });
+    attempt(data, "shadows", [&] { read_shadows(reader, data); });
   }
   std::ranges::sort(data.shadows);
   data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());

@@ -61,7 +61,7 @@ MeanError mean_of(const std::vector<HeightError>& errors) {
   return mean;
 }
 
-/// Means by robot over bands of set-points with about as many kicks each.
+/// Means by robot over bands of set-points with about as many kicks each; kicks of one set-point stay together.
 std::map<int, std::vector<MeanError>> drift_of(std::vector<HeightError> errors) {
   std::map<int, std::vector<HeightError>> by_robot;
   std::ranges::stable_sort(errors, {}, &HeightError::power);
@@ -69,11 +69,13 @@ std::map<int, std::vector<MeanError>> drift_of(std::vector<HeightError> errors) 
   std::map<int, std::vector<MeanError>> means;
   for (const auto& [robot_id, of] : by_robot) {
     const std::size_t bands = std::clamp<std::size_t>(of.size() / 8, 1, kBands);
+    auto from = of.begin();
     for (std::size_t i = 0; i < bands; ++i) {
-      const auto from = of.begin() + static_cast<std::ptrdiff_t>(i * of.size() / bands);
-      const auto to = of.begin() + static_cast<std::ptrdiff_t>((i + 1) * of.size() / bands);
+      auto to = std::max(from, of.begin() + static_cast<std::ptrdiff_t>((i + 1) * of.size() / bands));
+      while (to != of.end() && to->power == std::prev(to)->power) ++to;
       if (std::distance(from, to) >= static_cast<std::ptrdiff_t>(kFewestInBand))
         means[robot_id].push_back(mean_of({from, to}));
+      from = to;
     }
   }
   return means;
