@@ -221,7 +221,7 @@ test('hostile names stay text', async () => {
   copyFileSync(folder.file('match.db'), folder.file(hostile));
   // A scenario's name is anybody's; a session that was never closed has no digest.
   const said = '<script>alert(4)</script><img src=x onerror=alert(5)>"\'&';
-  await run('note', hostile, '--match', said, '--opponent', said, '--venue', said, '--note', said, '--by', said);
+  await run('note', hostile, said, '--match', said, '--opponent', said, '--venue', said, '--by', said);
   execFileSync('sqlite3', [folder.file(hostile),
     `DELETE FROM digests; UPDATE sessions SET closed_t_ns = NULL, scenario = '</script><script>alert(2)</script>', software_version = '"><svg onload=alert(3)>';`]);
   await ends(3, 'report', hostile, '--html', 'hostile.html');

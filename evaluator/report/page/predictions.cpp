@@ -85,6 +85,7 @@ std::string drift_figure(const PageView& view, const std::vector<HeightError>& e
   const auto [low_p, high_p] = std::ranges::minmax(errors, {}, &HeightError::power);
   double reach_m = 0.1;
   std::vector<double> sizes;
+  sizes.reserve(errors.size());
   for (const HeightError& e : errors) sizes.push_back(std::abs(e.error_m));
   std::ranges::sort(sizes);
   reach_m = std::max(reach_m, sizes[sizes.size() * 49 / 50]);  // a far one does not flatten the others
