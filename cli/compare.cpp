@@ -13,6 +13,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/between_logs.hpp"
 #include "evaluator/report/comparison_gates.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/log_kicks.hpp"
@@ -70,21 +71,23 @@ void check(const CompareArguments& arguments) {
   }
 }
 
-evaluator::KickBook read_logs(const CompareArguments& arguments, std::string& by) try {
-  return evaluator::read_log_kicks({arguments.logs.begin(), arguments.logs.end()},
-                                   {.by = arguments.by,
-                                    .stratify = arguments.stratify,
-                                    .truth = arguments.outcome == "truth",
-                                    .blocked_apart = arguments.blocked == "apart"},
-                                   by);
+evaluator::LogKicks options_of(const CompareArguments& arguments) {
+  return {.by = arguments.by,
+          .stratify = arguments.stratify,
+          .truth = arguments.outcome == "truth",
+          .blocked_apart = arguments.blocked == "apart"};
+}
+
+evaluator::KickBook book_of(const evaluator::LoggedOpportunities& logged, const CompareArguments& arguments,
+                            std::string& by) try {
+  return evaluator::kick_book_of(logged, options_of(arguments), by);
 } catch (const evaluator::BadOption& error) {
   throw std::runtime_error(fmt::format("--{}", error.what()));
 }
 
-evaluator::PolicyComparison compared(const CompareArguments& arguments) {
-  const bool of_csv = !arguments.csv.empty();
-  std::string by = arguments.by.empty() ? "policy" : arguments.by;
-  evaluator::KickBook book = of_csv ? read_csv(arguments) : read_logs(arguments, by);
+/// With its baseline and its design as they were asked for.
+evaluator::PolicyComparison compared(evaluator::KickBook book, const std::string& by,
+                                     const CompareArguments& arguments) {
   if (arguments.stratify == by) {
     throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
   }
@@ -96,16 +99,31 @@ evaluator::PolicyComparison compared(const CompareArguments& arguments) {
     book.design = *evaluator::design_of(arguments.design);
     book.design_reason = "as --design says";
   }
+  return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+}
+
+evaluator::PolicyComparison compared_csv(const CompareArguments& arguments) {
+  evaluator::KickBook book = read_csv(arguments);
   try {
-    auto comparison = evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
-    comparison.logs = arguments.logs;
-    const std::vector<std::filesystem::path> logs(arguments.logs.begin(), arguments.logs.end());
-    if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
-    return comparison;
+    return compared(std::move(book), arguments.by.empty() ? "policy" : arguments.by, arguments);
   } catch (const std::runtime_error& error) {
-    if (!of_csv) throw;
     throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
   }
+}
+
+evaluator::PolicyComparison compared_logs(const CompareArguments& arguments) {
+  const std::vector<std::filesystem::path> logs(arguments.logs.begin(), arguments.logs.end());
+  const auto options = options_of(arguments);
+  const auto logged = evaluator::read_opportunities(logs, options.truth);
+  std::string by;
+  auto comparison = compared(book_of(logged, arguments, by), by, arguments);
+  comparison.logs = arguments.logs;
+  if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
+  if (logs.size() != 2 || (by != "policy" && by != "arm")) return comparison;
+  std::vector<std::string> groups;
+  for (const evaluator::GroupResult& group : comparison.groups) groups.push_back(group.name);
+  comparison.between = evaluator::between_logs(logged, groups, by, options, comparison.smallest_effect);
+  return comparison;
 }
 
 void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
@@ -146,7 +164,9 @@ bool run_comparison(const CompareArguments& arguments) {
   }
   const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
   require_writable("--out", arguments.out);
-  if (arguments.counts.empty()) return write_comparison(arguments, compared(arguments), gates);
+  if (arguments.counts.empty())
+    return write_comparison(arguments, arguments.logs.empty() ? compared_csv(arguments) : compared_logs(arguments),
+                            gates);
   const auto [older, newer] = parse_two_counts(arguments.counts);
   return write_comparison(arguments, evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points), gates);
 }

@@ -21,6 +21,7 @@ inline void add_gates(CLI::App& verb, std::vector<std::string>& gates, const std
 inline std::vector<evaluator::Gate> parse_gates(const std::vector<std::string>& texts,
                                                 const evaluator::GateMetrics& known) try {
   std::vector<evaluator::Gate> gates;
+  gates.reserve(texts.size());
   for (const std::string& text : texts) gates.push_back(evaluator::parse_gate(text, known));
   return gates;
 } catch (const evaluator::BadGate& bad) {

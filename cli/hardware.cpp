@@ -53,6 +53,8 @@ Bench bench_of(const HardwareFlags& flags, SignalInbox& signals) {
   config::Settings settings = config::load_settings(flags.config);
   config::override_settings(settings, flags.overrides, "--set");
   if (settings.run.lockstep) throw UsageError{"run.lockstep = true: devices wait for nobody"};
+  if (flags.spin) refuse_in_a_match(settings, "a wheel's test");
+  if (flags.kick) refuse_in_a_match(settings, "a test kick");
   config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
   const bus::Participant participant{nodes::domain_of(settings.domain)};
   const auto robot_id = static_cast<std::uint8_t>(settings.run.robot_id);
@@ -116,7 +118,6 @@ bool answers(hal::Wheels& wheels, const Bench& bench) {
 }
 
 int spin(const Bench& bench, const HardwareFlags& flags) {
-  refuse_in_a_match(bench.settings, "a wheel's test");
   const std::size_t wheels = bench.robot.base.wheel_angles_rad.size();
   if (static_cast<std::size_t>(*flags.spin) > wheels)
     throw UsageError{fmt::format("--spin {}: {} has wheels 1 to {}", *flags.spin, bench.robot.name, wheels)};
@@ -140,7 +141,6 @@ int spin(const Bench& bench, const HardwareFlags& flags) {
 }
 
 int kick(const Bench& bench) {
-  refuse_in_a_match(bench.settings, "a test kick");
   if (!Person::is_there()) throw std::runtime_error{"--kick asks before it does it: standard input is no terminal"};
   bench.claims.require_kicker();
   const auto device = hal::open_kicker(bench.devices(), bench.owner());

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/stoppable_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/merge.hpp"
 #include "evaluator/log/shard_merge.hpp"
+#include "evaluator/log/stoppable.hpp"
 #include "evaluator/log/tally_book.hpp"
 #include "evaluator/report/merge_report.hpp"
 
@@ -24,16 +25,16 @@ struct MergeArguments {
 };
 
 /// Shards that were copied, as progress.
-auto shown_on(ProgressBar& bar) {
+auto shown_on(StoppableBar& bar) {
   return [&bar](std::size_t done, std::size_t all) {
-    bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
+    return bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
   };
 }
 
 int merge_books(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
   if (arguments.reference_robot) throw UsageError{"--reference: tallies have no clock"};
   const auto merged = [&] {
-    ProgressBar bar;
+    StoppableBar bar;
     return evaluator::log::merge_books(shards, arguments.out, shown_on(bar));
   }();
   say(fmt::format("{}: {} matches of {} arms, of {} shards\nmissing: nothing\n", arguments.out, merged.matches,
@@ -44,7 +45,7 @@ int merge_books(const MergeArguments& arguments, const std::vector<std::filesyst
 int merge_shards(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
   if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
   const auto merged = [&] {
-    ProgressBar bar;
+    StoppableBar bar;
     return evaluator::log::merge_shards(shards, arguments.out, shown_on(bar));
   }();
   say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,
@@ -52,7 +53,7 @@ int merge_shards(const MergeArguments& arguments, const std::vector<std::filesys
   return kDone;
 }
 
-int run_merge(const MergeArguments& arguments) {
+int run_merge(const MergeArguments& arguments) try {
   require_new("OUT", arguments.out);
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
   if (evaluator::log::any_is_tally_book(logs)) return merge_books(arguments, logs);
@@ -60,9 +61,9 @@ int run_merge(const MergeArguments& arguments) {
   evaluator::log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
   const evaluator::log::Merged merged = [&] {
-    ProgressBar bar;
+    StoppableBar bar;
     options.progress = [&](std::int64_t read, std::int64_t all) {
-      bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
+      return bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
     };
     return evaluator::log::merge(logs, arguments.out, options);
   }();
@@ -83,6 +84,9 @@ int run_merge(const MergeArguments& arguments) {
   say("missing:\n");
   for (const std::string& line : report.missing) say("  " + line + '\n');
   return kDoneWithLoss;
+} catch (const evaluator::log::Stopped&) {
+  warn(fmt::format("interrupted: there is no {}", arguments.out));
+  return kFailed;
 }
 
 }  // namespace

@@ -4,11 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "cli/launch/progress_bar.hpp"
+#include "cli/launch/stoppable_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/migration.hpp"
 #include "evaluator/log/reader.hpp"
+#include "evaluator/log/stoppable.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -19,14 +20,14 @@ struct MigrateArguments {
   bool in_place = false;
 };
 
-int run_migrate(const MigrateArguments& arguments) {
+int run_migrate(const MigrateArguments& arguments) try {
   if (arguments.out.empty() && !arguments.in_place) throw UsageError{"say --out NEW or --in-place"};
   const std::filesystem::path backup =
       arguments.in_place ? evaluator::log::backup_of(arguments.log) : std::filesystem::path{};
   const auto migrated = [&] {
-    ProgressBar bar;
+    StoppableBar bar;
     const auto progress = [&](std::int64_t rows, std::int64_t total) {
-      bar.show(static_cast<double>(rows), static_cast<double>(total), "rows", "");
+      return bar.show(static_cast<double>(rows), static_cast<double>(total), "rows", "");
     };
     return arguments.in_place ? evaluator::log::migrate_in_place(arguments.log, backup, progress)
                               : evaluator::log::migrate(arguments.log, arguments.out, progress);
@@ -35,6 +36,10 @@ int run_migrate(const MigrateArguments& arguments) {
                   migrated.rows, migrated.from_version, migrated.sessions, migrated.sessions == 1 ? "" : "s"));
   if (arguments.in_place) say(fmt::format("the old log is {}\n", backup.string()));
   return kDone;
+} catch (const evaluator::log::Stopped&) {
+  warn(arguments.in_place ? fmt::format("interrupted: {} is as it was", arguments.log)
+                          : fmt::format("interrupted: there is no {}", arguments.out));
+  return kFailed;
 }
 
 }  // namespace

@@ -109,9 +109,9 @@ int play_in(Field field, const RunFlags& flags, const fs::path& file, SignalInbo
 
 int calibrate_in_field(const RunFlags& flags) {
   refuse_flags_of_simulation(flags);
+  Field field = field_of(flags);
   if (!Person::is_there())
     throw std::runtime_error{"--in field asks a person for each step: standard input is no terminal"};
-  Field field = field_of(flags);
   const fs::path file = place_of(flags);
   SignalInbox signals;
   if (field.world) say("A REHEARSAL: the drives are played in the simulator's world.\n");

@@ -9,8 +9,11 @@
 
 #include "calibration/scanner_session.hpp"
 #include "cli/launch/signal_inbox.hpp"
+#include "cli/match_mode.hpp"
+#include "cli/open_file.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
+#include "config/settings.hpp"
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/lob_page.hpp"
@@ -65,10 +68,14 @@ void add_page_flags(CLI::App& verb, PageFlags& flags) {
   verb.add_option("--trials", flags.trials, "page: kicks of each power")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  verb.add_option("--config", flags.config, "page: settings whose run.match_mode refuses it")
+      ->check(readable_file())
+      ->capture_default_str();
 }
 
 int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
                const kicking::lob::AnalyzerConfig& config) {
+  refuse_in_a_match(config::load_settings(flags.config), "the page of trivela lob");
   const pages::ListenAddress address = pages::parse_listen(flags.listen, flags.port, "--listen");
   SignalInbox signals;  // before all threads, which must not take them
   pages::Broadcast broadcast{pages::lob_channels()};

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/scan/mount_flags.hpp"
+#include "config/installation.hpp"
 #include "kicking/lob/analyzer.hpp"
 
 namespace trivela::cli {
@@ -19,6 +20,7 @@ struct PageFlags {
   std::string plan;
   std::string robot;
   int trials = 2;
+  std::string config = config::shipped("default.toml").string();
 
   bool asked_for() const { return !live.empty() || !replay.empty(); }
 };
@@ -26,6 +28,7 @@ struct PageFlags {
 void add_page_flags(CLI::App& verb, PageFlags& flags);
 
 /// Serves the page until Ctrl-C; returns the exit code. The mount is that of a live scanner; a record knows its own.
+/// Throws std::runtime_error where a match is on: the page takes verdicts and powers.
 int serve_lobs(const PageFlags& flags, const kicking::lob::LaserMount& mount,
                const kicking::lob::AnalyzerConfig& config);
 

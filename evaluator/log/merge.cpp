@@ -16,6 +16,7 @@
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/log/session_tallies.hpp"
+#include "evaluator/log/stoppable.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -53,13 +54,18 @@ class Merging {
 
   Merged write(const fs::path& to) {
     if (choices_.empty()) throw std::runtime_error(nothing_to_merge());
+    go_on_or_stop();
     const auto database = new_file(to, kMatchLog, [&](SQLite::Database& made) {
-      create_tables(made);
-      copy_whole_sources(made);
-      SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
-      copy_all(made);
-      finish_sessions(made);
-      transaction.commit();
+      stoppable(
+          made, [this] { return goes_on(); },
+          [&] {
+            create_tables(made);
+            copy_whole_sources(made);
+            SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
+            copy_all(made);
+            finish_sessions(made);
+            transaction.commit();
+          });
     });
     fold(*database);
     return std::move(merged_);
@@ -110,7 +116,7 @@ class Merging {
       const std::int64_t before = read_;
       copy_whole(database, sources_[i].path(), [&](std::int64_t rows) {
         read_ = before + rows;
-        if (options_.progress) options_.progress(read_, rows_);
+        go_on_or_stop();
       });
       for (MergedPart& part : merged_.files[i].parts) {
         const auto rows = rows_of_whole(database, part.session_id);
@@ -226,7 +232,12 @@ class Merging {
   }
 
   void tell() {
-    if (++read_ % kToldEvery == 0 && options_.progress) options_.progress(read_, rows_);
+    if (++read_ % kToldEvery == 0) go_on_or_stop();
+  }
+
+  bool goes_on() const { return !options_.progress || options_.progress(read_, rows_); }
+  void go_on_or_stop() const {
+    if (!goes_on()) throw Stopped{};
   }
 
   void finish_sessions(SQLite::Database& database) {
@@ -321,7 +332,6 @@ Merged merge(const std::vector<fs::path>& from, const fs::path& to, const MergeO
   try {
     return merging.write(to);
   } catch (const WriteFailed& error) {
-    for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(to, suffix));
     throw std::runtime_error(fmt::format("cannot write the match log {}: {}", to.string(), error.why));
   }
 }

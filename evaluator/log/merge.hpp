@@ -14,8 +14,9 @@ namespace trivela::evaluator::log {
 
 struct MergeOptions {
   std::optional<int> reference_robot{};  ///< by whose clock times are aligned, 0: the base's; none: chosen
-  /// Told the rows read so far, and how many the files say that they have; none: nobody asks.
-  std::function<void(std::int64_t read, std::int64_t all)> progress{};
+  /// Told the rows read so far, and how many the files say that they have, the first time before `to` is made; false:
+  /// stop, nothing is kept. None: nobody asks.
+  std::function<bool(std::int64_t read, std::int64_t all)> progress{};
 };
 
 /// A session as one file had it.
@@ -56,7 +57,7 @@ struct Merged {
 /// by the reference's clock, `merged_sessions` which file had what. What people say of kicks and sessions
 /// comes along from every file, tallies with whole sessions. The same files and their merged log make the same tables
 /// again. No file is changed. Throws std::runtime_error where none can be read, `to` exists, or cannot be
-/// written; nothing is left behind then.
+/// written, Stopped where `options.progress` says so; nothing is left behind then.
 Merged merge(const std::vector<std::filesystem::path>& from, const std::filesystem::path& to,
              const MergeOptions& options = {});
 

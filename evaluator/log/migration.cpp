@@ -13,6 +13,7 @@
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/log/session_tallies.hpp"
+#include "evaluator/log/stoppable.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -61,6 +62,23 @@ void copy_rows(const Reader& reader, SQLite::Database& database, std::string_vie
   });
 }
 
+/// Everything, with a digest and tallies of each session that has ended.
+void copy_log(const Reader& reader, SQLite::Database& made, const std::function<void()>& copied) {
+  SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
+  create_tables(made);
+  const TextNames names = copy_texts(reader, made);
+  copy_rows(reader, made, "experiments", names, [] {});
+  for (const std::string_view table : kSaidAfterwards) copy_rows(reader, made, table, names, [] {});
+  for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
+  RowDigests digests(made);
+  for (const RecordedSession& session : reader.sessions()) {
+    if (!session.closed_t_ns) continue;
+    digests.write(session.session_id);
+    write_tallies(made, session.session_id);
+  }
+  transaction.commit();
+}
+
 /// Folds what a killed recorder left behind into the file. Throws where somebody still has it.
 void let_go(const fs::path& log) {
   const auto held = [&](const char* why) {
@@ -84,28 +102,20 @@ void keep_as(const fs::path& log, const fs::path& backup) {
 }  // namespace
 
 Migrated migrate(const std::filesystem::path& from, const std::filesystem::path& to,
-                 const std::function<void(std::int64_t, std::int64_t)>& progress) {
+                 const std::function<bool(std::int64_t, std::int64_t)>& progress) {
   const Reader reader(from, Check::kWhole);
   Migrated migrated{.from_version = reader.version()};
+  const std::int64_t total = rows_of(reader);
+  const auto goes_on = [&] { return progress(migrated.rows, total); };
+  if (!goes_on()) throw Stopped{};
   const auto database = new_file(to, kMatchLog, [&](SQLite::Database& made) {
-    SQLite::Transaction transaction(made, SQLite::TransactionBehavior::IMMEDIATE);
-    create_tables(made);
-    const TextNames names = copy_texts(reader, made);
-    const std::int64_t total = rows_of(reader);
-    const auto copied = [&] {
-      if (++migrated.rows % kTold_rows == 0) progress(migrated.rows, total);
-    };
-    copy_rows(reader, made, "experiments", names, [] {});
-    for (const std::string_view table : kSaidAfterwards) copy_rows(reader, made, table, names, [] {});
-    for (const DigestedTable& table : digested_tables()) copy_rows(reader, made, table.name, names, copied);
-    RowDigests digests(made);
-    for (const RecordedSession& session : reader.sessions()) {
-      if (!session.closed_t_ns) continue;
-      digests.write(session.session_id);
-      write_tallies(made, session.session_id);
-      ++migrated.sessions;
-    }
-    transaction.commit();
+    stoppable(made, goes_on, [&] {
+      const auto copied = [&] {
+        if (++migrated.rows % kTold_rows == 0 && !goes_on()) throw Stopped{};
+      };
+      copy_log(reader, made, copied);
+    });
+    migrated.sessions = made.execAndGet("SELECT count(*) FROM digests").getInt64();
   });
   fold(*database);
   return migrated;
@@ -118,7 +128,7 @@ fs::path backup_of(const fs::path& log) {
 }
 
 Migrated migrate_in_place(const fs::path& log, const fs::path& backup,
-                          const std::function<void(std::int64_t, std::int64_t)>& progress) {
+                          const std::function<bool(std::int64_t, std::int64_t)>& progress) {
   if (LogFile(log, kMatchLog, Check::kSchema).version() == kMatchLog.version)
     throw std::runtime_error(fmt::format("{} is of version {} already", log.string(), kMatchLog.version));
   if (fs::exists(backup))
@@ -129,6 +139,7 @@ Migrated migrate_in_place(const fs::path& log, const fs::path& backup,
   try {
     const Migrated migrated = migrate(log, made, progress);
     const Reader whole(made, Check::kWhole);
+    if (!progress(migrated.rows, migrated.rows)) throw Stopped{};
     keep_as(log, backup);
     fs::rename(made, log);
     return migrated;

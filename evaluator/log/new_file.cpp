@@ -59,6 +59,10 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
   const auto failed = [&](const char* why) {
     return fmt::format("cannot create the {} {}: {}", kind.name, path.string(), why);
   };
+  const auto leave_nothing = [&] {
+    if (!made_here) return;
+    for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
+  };
   // A file that another process works on stays, whoever has made it.
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
@@ -72,10 +76,11 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
   } catch (const std::exception& error) {
     const auto* const sqlite = dynamic_cast<const SQLite::Exception*>(&error);
     if (sqlite != nullptr && is_busy(*sqlite)) throw FileTaken(failed(error.what()));
-    if (made_here) {
-      for (const char* const suffix : {"", "-wal", "-shm"}) fs::remove(beside(path, suffix));
-    }
+    leave_nothing();
     throw std::runtime_error(failed(error.what()));
+  } catch (...) {
+    leave_nothing();
+    throw;
   }
 }
 

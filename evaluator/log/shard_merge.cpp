@@ -14,6 +14,7 @@
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/log/shard_set.hpp"
+#include "evaluator/log/stoppable.hpp"
 
 namespace trivela::evaluator::log {
 namespace {
@@ -144,7 +145,7 @@ bool any_is_shard(const std::vector<fs::path>& files) {
 }
 
 MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to,
-                          const std::function<void(std::size_t, std::size_t)>& told) {
+                          const std::function<bool(std::size_t, std::size_t)>& told) {
   std::vector<ExperimentFile> found;
   found.reserve(files.size());
   for (const fs::path& path : files) found.push_back(read_shard(path));
@@ -153,13 +154,19 @@ MergedShards merge_shards(const std::vector<fs::path>& files, const fs::path& to
   check_set(shards);
   MergedShards merged{
       .shards = static_cast<std::int64_t>(shards.size()), .sessions = 0, .matches = shards.front().stamp.matches};
+  std::size_t done = 0;
+  const auto goes_on = [&] { return told(done, shards.size()); };
+  if (!goes_on()) throw Stopped{};
   const auto database = new_file(to, kMatchLog, [&](SQLite::Database& made) {
     made.exec("PRAGMA trusted_schema = OFF");
     create_tables(made);
-    for (std::size_t i = 0; i < shards.size(); ++i) {
-      copy_rows(made, shards[i], false);
-      told(i + 1, shards.size());
-    }
+    stoppable(made, goes_on, [&] {
+      for (const ShardFile& file : shards) {
+        copy_rows(made, file, false);
+        ++done;
+      }
+    });
+    if (!goes_on()) throw Stopped{};
     for (const ShardFile& file : repeated) copy_rows(made, file, true);
     write_whole(made, shards.front().stamp);
     merged.sessions = made.execAndGet("SELECT count(*) FROM sessions").getInt64();

@@ -107,8 +107,9 @@ struct MergedBooks {
 
 /// One new book out of the shards of one study, in any order, with the rows of one run. No file is changed. Throws
 /// std::runtime_error naming the file where one is no shard, of another study, damaged, not finished or behind the
-/// others, where one is there twice or lacks, and where `to` exists or cannot be written; nothing is left behind then.
+/// others, where one is there twice or lacks, and where `to` exists or cannot be written, Stopped where `told(done,
+/// all)` of shards says so; nothing is left behind then.
 MergedBooks merge_books(const std::vector<std::filesystem::path>& files, const std::filesystem::path& to,
-                        const std::function<void(std::size_t done, std::size_t all)>& told);
+                        const std::function<bool(std::size_t done, std::size_t all)>& told);
 
 }  // namespace trivela::evaluator::log

@@ -7,6 +7,7 @@
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/shard_set.hpp"
+#include "evaluator/log/stoppable.hpp"
 #include "evaluator/log/tally_book.hpp"
 
 namespace trivela::evaluator::log {
@@ -72,20 +73,26 @@ bool any_is_tally_book(const std::vector<fs::path>& files) {
 }
 
 MergedBooks merge_books(const std::vector<fs::path>& files, const fs::path& to,
-                        const std::function<void(std::size_t, std::size_t)>& told) {
+                        const std::function<bool(std::size_t, std::size_t)>& told) {
   std::vector<ShardFile> shards;
   shards.reserve(files.size());
   for (const fs::path& path : files) shards.push_back(read_book_shard(path));
   check_set(shards);
   const ShardStamp& whole = shards.front().stamp;
   MergedBooks merged{.shards = static_cast<std::int64_t>(shards.size()), .arms = 0, .matches = whole.matches};
+  std::size_t done = 0;
+  const auto goes_on = [&] { return told(done, shards.size()); };
+  if (!goes_on()) throw Stopped{};
   const auto database = new_file(to, kTallyBook, [&](SQLite::Database& made) {
     made.exec("PRAGMA trusted_schema = OFF");
     create_book(made, {whole.arguments, whole.matches, true});
-    for (std::size_t i = 0; i < shards.size(); ++i) {
-      copy_book_rows(made, shards[i].path);
-      told(i + 1, shards.size());
-    }
+    stoppable(made, goes_on, [&] {
+      for (const ShardFile& shard : shards) {
+        copy_book_rows(made, shard.path);
+        ++done;
+      }
+    });
+    if (!goes_on()) throw Stopped{};
     for (const ShardFile& shard : shards) check_arms_of(made, shard);
     merged.arms = made.execAndGet("SELECT count(*) FROM arms").getInt64();
   });

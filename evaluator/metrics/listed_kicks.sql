@@ -16,6 +16,6 @@ SELECT k.session_id, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, 
   k.x_cross_m, k.z_cross_m, k.sd_cross_m, k.truth_outcome, k.truth_x_cross_m, k.truth_z_cross_m,
   k.bounced
 FROM counted_kicks AS k
-JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq
+CROSS JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq
 WHERE k.accepted IS NOT 0
 ORDER BY utc_ns, k.session_id, k.robot_id, k.kick_id;

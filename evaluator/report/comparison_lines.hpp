@@ -5,6 +5,7 @@
 
 #include "evaluator/report/comparison.hpp"
 #include "evaluator/report/json_values.hpp"
+#include "evaluator/report/policy_comparison.hpp"
 
 namespace trivela::evaluator {
 
@@ -19,6 +20,9 @@ Json counts_json(const Comparison& comparison);
 
 /// A line for each under a title; empty where there is none.
 std::string gates_text(std::span<const GateResult> gates);
+
+/// Who of a pair is better, by how much, how sure, how many more are needed; p is adjusted for so many comparisons.
+std::string short_line_of(const PairResult& pair, const PolicyComparison& comparison, std::size_t comparisons);
 
 /// A line with a name in a column of its own.
 std::string named_line(const std::string& name, const std::string& value);

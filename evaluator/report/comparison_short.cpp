@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluator/report/between_logs.hpp"
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/policy_comparison.hpp"
 #include "evaluator/report/simulated.hpp"
@@ -67,26 +68,6 @@ double missing(double needed_of_each, stats::Counts older, stats::Counts newer) 
   return needed_of_each - static_cast<double>(std::min(older.n, newer.n));
 }
 
-std::string short_line_of(const PairResult& pair, const PolicyComparison& c) {
-  if (!pair.headline) return fmt::format("{} against {}: {}\n", pair.newer, pair.older, pair.why_none);
-  const Headline& h = *pair.headline;
-  const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
-  return short_line(
-      {.older = pair.older,
-       .newer = pair.newer,
-       .causal = pair.design != Design::kBeforeAfter,
-       .verdict = h.verdict,
-       .measure = std::string(h.of_opportunities ? "in shots on target an opportunity" : "in efficiency") +
-                  (h.adjusted ? " on the same mix of " + c.book.stratified_by : ""),
-       .difference = h.difference,
-       .ci = h.ci,
-       .p = h.p_holm,
-       .comparisons = c.pairs.size(),
-       .smallest_effect = c.smallest_effect,
-       .unit = h.of_opportunities ? "opportunities" : "kicks",
-       .more = missing(h.needed_for_smallest, effect.older, effect.newer)});
-}
-
 std::string remarks_of(const PolicyComparison& c) {
   std::string text;
   const auto& remarks = c.book.remarks;
@@ -100,6 +81,26 @@ std::string remarks_of(const PolicyComparison& c) {
 
 }  // namespace
 
+std::string short_line_of(const PairResult& pair, const PolicyComparison& c, std::size_t comparisons) {
+  if (!pair.headline) return fmt::format("{} against {}: {}\n", pair.newer, pair.older, pair.why_none);
+  const Headline& h = *pair.headline;
+  const Effect& effect = h.of_opportunities ? *pair.per_opportunity : *pair.efficiency;
+  return short_line(
+      {.older = pair.older,
+       .newer = pair.newer,
+       .causal = pair.design != Design::kBeforeAfter,
+       .verdict = h.verdict,
+       .measure = std::string(h.of_opportunities ? "in shots on target an opportunity" : "in efficiency") +
+                  (h.adjusted ? " on the same mix of " + c.book.stratified_by : ""),
+       .difference = h.difference,
+       .ci = h.ci,
+       .p = h.p_holm,
+       .comparisons = comparisons,
+       .smallest_effect = c.smallest_effect,
+       .unit = h.of_opportunities ? "opportunities" : "kicks",
+       .more = missing(h.needed_for_smallest, effect.older, effect.newer)});
+}
+
 std::string gates_text(std::span<const GateResult> gates) {
   std::string text = gates.empty() ? "" : "\nGates\n";
   for (const GateResult& gate : gates) text += fmt::format("  {}\n", kicking::printable(gate.sentence()));
@@ -110,13 +111,15 @@ std::string head_text(const PolicyComparison& c, std::size_t most_differences) {
   std::string text = c.book.simulated ? kSimulated : "";
   if (c.logs.size() < 2) return text;
   text += differences_text(c.differences, c.logs, most_differences);
-  if (c.by != "log") text += "  The sessions of all are taken together; --by log compares one log with another.\n";
+  text += between_logs_text(c.between);
+  if (c.by != "log")
+    text += "  Below, the sessions of all are taken together; --by log compares one log with another.\n";
   return text + "\n";
 }
 
 std::string to_short_text(const PolicyComparison& c) {
   std::string text = head_text(c, kMostDifferences);
-  for (const PairResult& pair : c.pairs) text += short_line_of(pair, c);
+  for (const PairResult& pair : c.pairs) text += short_line_of(pair, c, c.pairs.size());
   const Design design = c.pairs.front().design;
   text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n",
                       design == Design::kBeforeAfter ? "before and after" : label(design),

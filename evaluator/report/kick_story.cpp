@@ -90,7 +90,7 @@ class KickStreams {
     read_world(story);
     read_flight(story);
     read_opponent(story);
-    read_half_time(story);
+    add_half_time(reader_, story);
   }
 
  private:
@@ -184,18 +184,6 @@ class KickStreams {
     return t_ns - before->t_ns < after->t_ns - t_ns ? before->pose : after->pose;
   }
 
-  /// By the referee's last word before the decision, which he repeats.
-  void read_half_time(KickStory& story) const {
-    constexpr double kWord_s = 1.0;
-    reader_.for_each_row_between(
-        "referee", {"t_ns", "half", "half_time_s"},
-        {story.session_id, story.robot_id, story.t_ns - kicking::nanoseconds(kWord_s), story.t_ns}, [&](Cells cells) {
-          const auto half_time_s = log::cell_as<std::optional<double>>(cells[2], 2);
-          if (log::cell_as<int>(cells[1], 1) != story.half || !half_time_s) return;
-          story.half_time_s = *half_time_s + kicking::seconds(story.t_ns - log::cell_as<std::int64_t>(cells[0], 0));
-        });
-  }
-
   const log::Reader& reader_;
   StoryPlan plan_;
   std::int64_t from_ns_ = 0, to_ns_ = 0;
@@ -214,6 +202,17 @@ std::vector<KickStory> kicks_without_tracks(const log::Reader& reader) {
     story.side_line_x_m = pitches[story.session_id].side_line_x_m;
   }
   return stories;
+}
+
+void add_half_time(const log::Reader& reader, KickStory& story) {
+  constexpr double kWord_s = 1.0;  // within which the referee says it again
+  reader.for_each_row_between(
+      "referee", {"t_ns", "half", "half_time_s"},
+      {story.session_id, story.robot_id, story.t_ns - kicking::nanoseconds(kWord_s), story.t_ns}, [&](Cells cells) {
+        const auto half_time_s = log::cell_as<std::optional<double>>(cells[2], 2);
+        if (log::cell_as<int>(cells[1], 1) != story.half || !half_time_s) return;
+        story.half_time_s = *half_time_s + kicking::seconds(story.t_ns - log::cell_as<std::int64_t>(cells[0], 0));
+      });
 }
 
 void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan) {

@@ -75,6 +75,10 @@ struct StoryPlan {
 /// std::runtime_error where the log cannot be read.
 std::vector<KickStory> kicks_without_tracks(const log::Reader& reader);
 
+/// Adds the time of the half, by the referee's last word before the decision. Throws std::runtime_error where the log
+/// cannot be read.
+void add_half_time(const log::Reader& reader, KickStory& story);
+
 /// Adds the tracks, and the time of the half. Throws std::runtime_error where the log cannot be read.
 void add_tracks(const log::Reader& reader, KickStory& story, const StoryPlan& plan = {});
 

@@ -212,6 +212,18 @@ void say_holm(Headline& headline, double p_holm) {
 
 }  // namespace
 
+void adjust_together(std::span<PairResult* const> pairs) {
+  std::vector<double> p_values;
+  for (const PairResult* const pair : pairs) {
+    if (pair->headline) p_values.push_back(pair->headline->p);
+  }
+  const auto adjusted = stats::holm(p_values);
+  std::size_t next = 0;
+  for (PairResult* const pair : pairs) {
+    if (pair->headline) say_holm(*pair->headline, adjusted[next++]);
+  }
+}
+
 PolicyComparison compare_policies(KickBook book, const std::string& by, double smallest_effect) {
   PolicyComparison result;
   result.by = by;
@@ -229,19 +241,15 @@ PolicyComparison compare_policies(KickBook book, const std::string& by, double s
     throw std::runtime_error(fmt::format("there are {} opportunities but no kick, so there is nothing to compare",
                                          book.opportunities.size()));
   }
-  std::vector<double> p_values;
   const auto goals = book.keeper && book.has_opportunities ? std::optional(goals_of(book)) : std::nullopt;
   for (std::uint32_t place = 1; place < book.groups.size(); ++place) {
     result.pairs.push_back(pair_result(book, result.groups[0], result.groups[place], place, smallest_effect));
     PairResult& pair = result.pairs.back();
     if (goals) pair.goals = goals_effect(*goals, place, pair.pairs.has_value());
-    if (result.pairs.back().headline) p_values.push_back(result.pairs.back().headline->p);
   }
-  const auto adjusted = stats::holm(p_values);
-  std::size_t next = 0;
-  for (PairResult& pair : result.pairs) {
-    if (pair.headline) say_holm(*pair.headline, adjusted[next++]);
-  }
+  std::vector<PairResult*> pairs;
+  for (PairResult& pair : result.pairs) pairs.push_back(&pair);
+  adjust_together(pairs);
   if (book.planned_shares.size() == book.groups.size()) {
     std::vector<std::int64_t> counts(book.groups.size());
     for (const Opportunity& o : book.opportunities) ++counts[o.group];

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -115,6 +117,15 @@ struct PairResult {
   std::string why_none;              ///< why there is no headline
 };
 
+struct PolicyComparison;
+
+/// One policy or arm in two logs: the later against the first.
+struct BetweenLogs {
+  std::string group;
+  std::shared_ptr<PolicyComparison> comparison;  ///< by log; none: `why_none` says why
+  std::string why_none;
+};
+
 /// Policies, tables, robots or arms side by side: the first is the baseline of all others.
 struct PolicyComparison {
   std::string by = "policy";
@@ -125,6 +136,7 @@ struct PolicyComparison {
   double smallest_effect = stats::kSmallestEffect;
   std::vector<std::string> logs;           ///< that were compared or taken together; empty: it is of no logs
   std::vector<LogDifference> differences;  ///< between them
+  std::vector<BetweenLogs> between;        ///< each group of two logs, the logs compared; empty: nobody asked
   std::vector<GateResult> gates;           ///< of whoever asked (judge_gates())
 };
 
@@ -132,6 +144,9 @@ struct PolicyComparison {
 /// or no kick at all.
 PolicyComparison compare_policies(KickBook book, const std::string& by,
                                   double smallest_effect = stats::kSmallestEffect);
+
+/// Adjusts p and verdict of comparisons that are read together, by Holm's method.
+void adjust_together(std::span<PairResult* const> pairs);
 
 /// The verdict as a sentence, worded by the design: before and after, a policy "differs".
 std::string verdict_sentence(const PairResult& pair, const PolicyComparison& comparison);

@@ -147,6 +147,21 @@ Json pair_json(const PairResult& pair, const PolicyComparison& c) {
   return json;
 }
 
+Json between_json(const std::vector<BetweenLogs>& between) {
+  Json json = Json::array();
+  for (const BetweenLogs& group : between) {
+    Json row = {{"group", group.group},
+                {"why_none", group.comparison ? Json() : Json(group.why_none)},
+                {"comparisons", Json::array()}};
+    if (group.comparison) {
+      for (const PairResult& pair : group.comparison->pairs)
+        row["comparisons"].push_back(pair_json(pair, *group.comparison));
+    }
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(const PolicyComparison& c) {
@@ -162,6 +177,7 @@ std::string to_json(const PolicyComparison& c) {
                {"remarks", c.book.remarks},
                {"logs", c.logs},
                {"differences", differences_json(c.differences, c.logs)}};
+  if (!c.between.empty()) json["between_logs"] = between_json(c.between);
   for (const GroupResult& group : c.groups)
     json["groups"].push_back(group_json(group, c.book.keeper, c.book.blocked_apart));
   for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));

@@ -156,13 +156,13 @@ function takeLobs(data) {
 function showLobs() {
   const accepted = lobs.filter((lob) => lob.accepted).length;
   $('count').textContent = lobs.length ? `${accepted} of ${lobs.length} accepted` : 'none yet';
-  const typed = $('lobs').querySelector('input');
-  const kept = typed && {value: typed.value, focus: document.activeElement === typed};
+  const typed = $('lobs').querySelector('input')?.value;
+  const focused = document.activeElement.closest('#lobs li');
+  const held = focused && `li[data-lob="${focused.dataset.lob}"] .${document.activeElement.className}`;
   $('lobs').replaceChildren(...lobs.map((lob, n) => lobItem(lob, n)).reverse());
   const fresh = $('lobs').querySelector('input');
-  if (!fresh || !kept) return;
-  fresh.value = kept.value;
-  if (kept.focus) fresh.focus();
+  if (fresh && typed !== undefined) fresh.value = typed;
+  if (held) $('lobs').querySelector(held)?.focus();  // the keyboard stays where it was
 }
 
 function lobItem(lob, n) {
@@ -171,7 +171,7 @@ function lobItem(lob, n) {
   const fitted = lob.effective;
   const values = fitted
     ? `${fitted.exit_speed_mps.value.toFixed(2)} m/s at ${fitted.exit_angle_deg.value.toFixed(1)}°` : 'no fit';
-  item.append(element('span', `#${n + 1}  power ${lob.power ?? '?'}  ${values}`, {class: 'values'}));
+  item.append(element('button', `#${n + 1}  power ${lob.power ?? '?'}  ${values}`, {class: 'values', 'aria-expanded': n === chosen}));
   const judge = element('button', lob.accepted ? 'reject' : 'accept', {class: 'judge'});
   judge.disabled = !lob.accepted && !fitted;
   judge.onclick = (event) => {
@@ -197,13 +197,13 @@ function details(lob) {
     more.append(element('div', `true: ${pair(lob.true.exit_speed_mps, 2)} m/s, ` +
       `${pair(lob.true.exit_angle_deg, 1)}°, Cd ${pair(lob.true.Cd, 2)}`));
   }
-  const where = element('button', 'go there');
+  const where = element('button', 'go there', {class: 'there'});
   where.onclick = (event) => {
     event.stopPropagation();
     seek(lob.end);
   };
   more.append(element('div', `${lob.centres.length} scans with the ball, at ${lob.t_s.toFixed(2)} s `), where);
-  if (lob.accepted) more.append(element('input', '', {type: 'text', placeholder: 'why it is rejected (optional)'}));
+  if (lob.accepted) more.append(element('input', '', {type: 'text', class: 'why', 'aria-label': 'why it is rejected', placeholder: 'why it is rejected (optional)'}));
   return more;
 }
 
@@ -456,7 +456,8 @@ $('other').onsubmit = (event) => {
   if ($('number').value) command('set-point', {power: Number($('number').value)});
 };
 document.addEventListener('keydown', (event) => {
-  if (['INPUT', 'SELECT', 'BUTTON'].includes(event.target.tagName)) return;
+  const {tagName} = event.target;
+  if (['INPUT', 'SELECT'].includes(tagName) || (tagName === 'BUTTON' && event.key === ' ')) return;
   const keys = {ArrowLeft: () => step(-1), ArrowRight: () => step(1), ' ': toggle};
   if (!keys[event.key]) return;
   event.preventDefault();

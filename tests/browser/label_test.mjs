@@ -1,4 +1,5 @@
-// The page of `trivela label --serve` in Chromium: with the keyboard alone, with hostile texts, and after its end.
+// The page of `trivela label --serve` in Chromium: with the keyboard alone, after a reload, with hostile texts, and after its
+// end; it asks its own server alone.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {createRequire} from 'node:module';
@@ -33,11 +34,20 @@ const ask = (sql) => execFileSync('sqlite3', [folder.file('sim.db'), sql], {enco
 async function open(url, viewport = wide, colorScheme = 'light') {
   const page = await browser.newPage({viewport, colorScheme});
   page.complaints = [];
+  page.requests = [];
+  page.on('request', (request) => page.requests.push(request.url()));
   page.on('pageerror', (error) => page.complaints.push(error.message));
   page.on('console', (message) => message.type() === 'error' && page.complaints.push(message.text()));
   await page.goto(url);
   await page.waitForSelector('#replay svg', patience);
   return page;
+}
+
+// Nothing was asked for but of the page's own server.
+function askedItsServerAlone(page, url) {
+  const own = new URL(url).origin;
+  assert.ok(page.requests.length > 0);
+  assert.deepEqual(page.requests.filter((request) => new URL(request).origin !== own && !request.startsWith('data:')), []);
 }
 
 const text = (page, selector) => page.textContent(selector);
@@ -60,7 +70,8 @@ test.after(async () => {
 
 test('unknown kicks are labelled with the keyboard alone, and each label is a row', async () => {
   const server = trivela('label', 'sim.db', '--serve');
-  const page = await open(await server.firstLine);
+  const url = await server.firstLine;
+  const page = await open(url);
   assert.match(await text(page, '#log'), /^sim\.db: 4 of \d+ kicks are unknown$/);
   assert.match(await text(page, '#kick'), /, 1 of 4$/);
   const first = await page.evaluate(() => document.body.dataset.shown);
@@ -105,6 +116,7 @@ test('unknown kicks are labelled with the keyboard alone, and each label is a ro
   await says(page, '#log', '3 of');
   assert.equal(ask('SELECT count(*), sum(outcome IS NULL) FROM labels'), '3|1');
   assert.deepEqual(page.complaints, []);
+  askedItsServerAlone(page, url);
 
   server.kill('SIGINT');
   assert.equal(await server.end(), 0, server.errors);
@@ -112,6 +124,31 @@ test('unknown kicks are labelled with the keyboard alone, and each label is a ro
   await page.focus('#kick');
   await page.keyboard.press('1');
   await says(page, '#said', 'does not answer: it has ended. Nothing was written.');
+  await page.close();
+});
+
+test('a reload shows what stands in the log, and goes on labelling', async () => {
+  const server = trivela('label', 'sim.db', '--serve');
+  const url = await server.firstLine;
+  const page = await open(url);
+  const labels = Number(ask('SELECT count(*) FROM labels'));
+  const left = /(\d+) of/.exec(await text(page, '#log'))[1];
+  await page.reload();
+  await page.waitForSelector('#replay svg', patience);
+  assert.equal(/(\d+) of/.exec(await text(page, '#log'))[1], left);
+  assert.match(await text(page, '#kick'), new RegExp(`, 1 of ${left}$`));
+  await page.fill('#who', 'Grace');
+  await page.focus('#kick');
+  await page.keyboard.press('2');
+  await says(page, '#said', 'Kick');
+  await says(page, '#log', `${left - 1} of`);
+  assert.equal(Number(ask('SELECT count(*) FROM labels')), labels + 1);
+  await page.reload();
+  await page.waitForSelector('#replay svg', patience);
+  assert.equal(/(\d+) of/.exec(await text(page, '#log'))[1], String(left - 1), 'the label is in the log');
+  assert.deepEqual(page.complaints, []);
+  askedItsServerAlone(page, url);
+  server.stop();
   await page.close();
 });
 
@@ -132,6 +169,7 @@ test('texts of the log stay texts, nothing sticks out, and axe finds nothing', a
       await page.screenshot({path: join(process.env.BROWSER_FOLDER, 'screenshots',
         `label-${colorScheme}-${viewport.width}.png`), fullPage: true});
       assert.deepEqual(page.complaints, []);
+      askedItsServerAlone(page, url);
       await page.close();
     }
   }

@@ -1,8 +1,10 @@
-// The page of `trivela lob` in Chromium: a replay, and a live scanner whose cable is pulled.
+// The page of `trivela lob` in Chromium: a replay, with the keyboard alone and after a reload, and a live scanner whose cable is
+// pulled. It asks its own server alone, and axe-core finds nothing.
 import assert from 'node:assert/strict';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 import test from 'node:test';
+import {findings} from './axe.mjs';
 import {Folder, Trivela} from './processes.mjs';
 
 const {chromium} = createRequire(join(process.env.BROWSER_FOLDER, 'package.json'))('playwright-core');
@@ -23,10 +25,19 @@ function trivela(...args) {
 async function open(url, viewport = wide, colorScheme = 'light') {
   const page = await browser.newPage({viewport, colorScheme});
   page.complaints = [];
+  page.requests = [];
+  page.on('request', (request) => page.requests.push(request.url()));
   page.on('pageerror', (error) => page.complaints.push(error.message));
   page.on('console', (message) => message.type() === 'error' && page.complaints.push(message.text()));
   await page.goto(url);
   return page;
+}
+
+// Nothing was asked for but of the page's own server.
+function askedItsServerAlone(page, url) {
+  const own = new URL(url).origin;
+  assert.ok(page.requests.length > 0);
+  assert.deepEqual(page.requests.filter((request) => new URL(request).origin !== own && !request.startsWith('data:')), []);
 }
 
 // Every way a user sees the page: pictures for a human to look at, and nothing sticks out sideways.
@@ -38,6 +49,9 @@ async function photograph(url, name) {
       await page.screenshot({path: join(process.env.BROWSER_FOLDER, 'screenshots',
         `${name}-${colorScheme}-${viewport.width}.png`), fullPage: true});
       assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
+      assert.deepEqual(await findings(page), [], `${name} ${colorScheme} ${viewport.width}`);
+      assert.deepEqual(page.complaints, []);
+      askedItsServerAlone(page, url);
       await page.close();
     }
   }
@@ -126,6 +140,46 @@ test('a replayed lob appears, is rejected, and the table changes', async () => {
   assert.equal(await server.end(), 0, server.errors);
   assert.ok(performance.now() - stopped < 1000, 'Ctrl-C with a viewer');
   await page.waitForFunction(() => document.querySelector('#link').textContent === 'server gone', null, patience);
+  await page.close();
+});
+
+test('the keyboard alone plays, steps and judges, and a reload keeps the verdict', async () => {
+  const server = trivela('lob', '--replay', 'lobs.db', '--plan', '15,20,...,50');
+  const url = await server.firstLine;
+  const page = await open(url);
+  const reach = async (selector) => {
+    for (let i = 0; i < 150; ++i) {
+      if (await page.evaluate((wanted) => document.activeElement.matches(wanted), selector)) return;
+      await page.keyboard.press('Tab');
+    }
+    assert.fail(`the keyboard does not reach ${selector}`);
+  };
+  await page.waitForFunction(() => document.body.dataset.drawn, null, patience);
+  await reach('#play');
+  if (await page.textContent('#play') !== 'play') await page.keyboard.press('Enter');
+  await page.waitForFunction(() => document.querySelector('#play').textContent === 'play', null, patience);
+  const at = Number(await page.evaluate(() => document.body.dataset.drawn));
+  await reach('#forward');
+  await page.keyboard.press('Enter');
+  await drawn(page, at + 1);
+  await reach('#speed');
+  await page.keyboard.press('End');  // as fast as it goes
+  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Shift+Tab');
+  await reach('#play');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('#lobs li[data-lob="0"][data-accepted="true"]', patience);
+  await reach('#lobs li[data-lob="0"] .values');
+  await page.keyboard.press('Enter');
+  await reach('#lobs li[data-lob="0"] .judge');
+  await page.keyboard.press('Enter');
+  await page.waitForSelector('#lobs li[data-lob="0"][data-accepted="false"]', patience);
+  await page.reload();
+  await page.waitForSelector('#lobs li[data-lob="0"][data-accepted="false"]', patience);
+  assert.deepEqual(page.complaints, []);
+  askedItsServerAlone(page, url);
+  server.kill('SIGINT');
+  assert.equal(await server.end(), 0, server.errors);
   await page.close();
 });
 

@@ -220,16 +220,34 @@ test('on paper it is light, without controls, whole', async () => {
 test('hostile names stay text', async () => {
   copyFileSync(folder.file('match.db'), folder.file(hostile));
   // A scenario's name is anybody's; a session that was never closed has no digest.
+  const said = '<script>alert(4)</script><img src=x onerror=alert(5)>"\'&';
+  await run('note', hostile, said, '--match', said, '--opponent', said, '--venue', said, '--by', said);
   execFileSync('sqlite3', [folder.file(hostile),
     `DELETE FROM digests; UPDATE sessions SET closed_t_ns = NULL, scenario = '</script><script>alert(2)</script>', software_version = '"><svg onload=alert(3)>';`]);
   await ends(3, 'report', hostile, '--html', 'hostile.html');
   const page = await open(pathToFileURL(folder.file('hostile.html')).href);
   assert.equal(await page.textContent('h1'), `Match report: ${hostile}`);
   assert.match(await page.textContent('#quality'), /<\/script><script>alert\(2\)<\/script>/);
-  assert.equal(await page.$('main img'), null);
+  const header = await page.textContent('header');
+  assert.equal(header.split(said).length - 1 >= 4, true, `match, opponent, venue and note stand in: ${header}`);
+  assert.equal(await page.$('img'), null);
+  assert.equal(await page.$$eval('script', (scripts) => scripts.filter((script) => script.textContent.startsWith('alert')).length), 0);
   assert.equal(await page.$('main svg[onload]'), null);
   await page.click('#k0 button');
   await page.waitForSelector('#replay .replay-above');
+  await close(page);
+});
+
+test('the page of a whole match is a small file, and soon ready', async () => {
+  await run('match', '--half', 'stopped', '--half', 'moving', '--seed', '1', '--out', 'whole.db');
+  await run('report', 'whole.db', '--html', 'whole.html');
+  const size_B = readFileSync(folder.file('whole.html')).length;
+  assert.ok(size_B < 2_000_000, `${size_B} bytes`);
+  const page = await open(pathToFileURL(folder.file('whole.html')).href);
+  const ready_ms = await page.evaluate(() => performance.now());
+  const {domInteractive, domContentLoadedEventEnd} = await page.evaluate(() => performance.getEntriesByType('navigation')[0].toJSON());
+  console.log(`${size_B} bytes; read after ${domInteractive.toFixed(0)} ms, its scripts after ${domContentLoadedEventEnd.toFixed(0)} ms, ` +
+    `seen ready after ${ready_ms.toFixed(0)} ms`);
   await close(page);
 });
 

@@ -152,6 +152,19 @@ class CompareLogs : public evaluator::LogTest {
     match.close();
   }
 
+  /// 50 kicks of both policies, so many of them inside.
+  void write_both(const std::string& name, std::int64_t seed, int stopped_inside, int moving_inside) {
+    evaluator::log::Session played = session();
+    played.uuid = fmt::format("{:08x}-0000-4000-8000-000000000001", seed);
+    played.seed = seed;
+    evaluator::MatchLog match(path(name), played, options());
+    match.kicks(1, "on_target", stopped_inside);
+    match.kicks(1, "over", 50 - stopped_inside);
+    match.kicks(2, "on_target", moving_inside);
+    match.kicks(2, "over", 50 - moving_inside);
+    match.close();
+  }
+
   VerbRun compared(const std::string& rest) const {
     return run_verbs({add_compare}, "compare " + path("a.db").string() + " " + path("b.db").string() + " " + rest);
   }
@@ -191,6 +204,32 @@ TEST_F(CompareLogs, OfOnePolicyAreComparedWithEachOther) {
   EXPECT_EQ(json["groups"][0]["inside"], 10);
   EXPECT_EQ(json["groups"][1]["inside"], 40);
   EXPECT_EQ(json["comparisons"][0]["design"], "before_after");
+}
+
+TEST_F(CompareLogs, OfSeveralPoliciesSayWhatChangedInEach) {
+  write_both("a.db", 1, 10, 20);
+  write_both("b.db", 2, 40, 22);
+  const std::string a = path("a.db").string(), b = path("b.db").string();
+  const std::string text = compared("").out;
+  EXPECT_THAT(text, HasSubstr("One log against the other\n"));
+  EXPECT_THAT(text, HasSubstr(fmt::format("  stopped: {} differs from {}: +60.0 points in efficiency, 95 % ", b, a)));
+  EXPECT_THAT(text, HasSubstr(fmt::format("  moving: {} against {}, not enough data: +4.0 points", b, a)));
+  EXPECT_THAT(text, HasSubstr("(Holm, 2 comparisons)"));
+  EXPECT_THAT(text, HasSubstr("before and after"));
+  EXPECT_LT(text.find("sessions seed"), text.find("One log against")) << "after what differs between them";
+  EXPECT_LT(text.find("One log against"), text.find("moving differs from stopped")) << "before the policies";
+  const auto json = nlohmann::json::parse(compared("--json").out)["between_logs"];
+  EXPECT_EQ(json[0]["group"], "stopped");
+  EXPECT_NEAR(json[0]["comparisons"][0]["headline"]["difference"].get<double>(), 0.6, 1e-12);
+  EXPECT_EQ(json[0]["comparisons"][0]["design"], "before_after");
+  EXPECT_TRUE(json[0]["comparisons"][0]["kicks_per_min"].is_null()) << "minutes of play are the whole log's";
+  EXPECT_FALSE(nlohmann::json::parse(compared("--by log --json").out).contains("between_logs"));
+}
+
+TEST_F(CompareLogs, SayWhichPolicyOneOfThemAloneHas) {
+  write("a.db", 1, 1, 10, kOlder);
+  write("b.db", 2, 2, 40, kOlder);
+  EXPECT_THAT(compared("").out, HasSubstr(fmt::format("  moving: in {} alone\n", path("b.db").string())));
 }
 
 TEST_F(CompareLogs, ThatDifferInNothingSaySo) {

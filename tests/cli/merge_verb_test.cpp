@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <csignal>
+
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
+#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -32,7 +35,32 @@ class MergeVerb : public evaluator::LogTest {
     return path(name);
   }
 
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+
   int exit_code_ = -1;
+};
+
+/// SIGINT waits for whoever takes it, as if Ctrl-C had been pressed a moment ago.
+class PressedCtrlC {
+ public:
+  PressedCtrlC() {
+    sigset_t interrupt;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    sigprocmask(SIG_BLOCK, &interrupt, &before_);
+    raise(SIGINT);
+  }
+  PressedCtrlC(const PressedCtrlC&) = delete;
+  PressedCtrlC& operator=(const PressedCtrlC&) = delete;
+  ~PressedCtrlC() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_{};
 };
 
 TEST_F(MergeVerb, PrintsTheFilesAndThatNothingIsMissing) {
@@ -45,6 +73,26 @@ TEST_F(MergeVerb, PrintsTheFilesAndThatNothingIsMissing) {
 TEST_F(MergeVerb, EndsWithWhatIsMissingAndItsExitCode) {
   EXPECT_THAT(said({path("out.db"), robot_log("one.db", 1), path("nowhere.db")}), HasSubstr("nowhere.db"));
   EXPECT_EQ(exit_code_, kDoneWithLoss);
+}
+
+TEST_F(MergeVerb, LeavesNothingWhereItIsStopped) {
+  const std::string one = robot_log("one.db", 1), two = robot_log("two.db", 2);
+  const PressedCtrlC now;
+  const VerbRun run = run_verbs({add_merge}, {"merge", path("out.db"), one, two});
+  EXPECT_EQ(run.exit_code, kFailed);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.errors, HasSubstr("interrupted: there is no " + path("out.db").string()));
+  EXPECT_THAT(files(), testing::UnorderedElementsAre("one.db", "two.db"));
+}
+
+TEST_F(MergeVerb, OfMigrationLeavesTheOldLogAloneWhereItIsStopped) {
+  const std::string old = evaluator::older_match_log(path("old.db"), 7).string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"migrate", old, "--out", path("new.db")}, {"migrate", old, "--in-place"}}) {
+    const PressedCtrlC now;
+    EXPECT_EQ(run_verbs({add_migrate}, words).exit_code, kFailed);
+    EXPECT_THAT(files(), testing::ElementsAre("old.db"));
+  }
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ class MigrationInPlace : public LogTest {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   static void migrate(const std::filesystem::path& log) {
-    log::migrate_in_place(log, log::backup_of(log), [](Int, Int) {});
+    log::migrate_in_place(log, log::backup_of(log), [](Int, Int) { return true; });
   }
 };
 

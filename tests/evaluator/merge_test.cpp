@@ -8,7 +8,9 @@
 #include <map>
 
 #include "evaluator/log/additions.hpp"
+#include "evaluator/log/migration.hpp"
 #include "evaluator/log/row_digest.hpp"
+#include "evaluator/log/stoppable.hpp"
 #include "evaluator/report/merge_report.hpp"
 #include "evaluator/report/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
@@ -371,6 +373,61 @@ TEST_P(MergeOfVersion, AnOlderLogComesAlong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Version, MergeOfVersion, testing::Values(1, 2, 3, 4, 5, 6));
+
+class StoppedWriting : public Merge {
+ protected:
+  /// Says to stop once the new log is under way.
+  auto stop_within(const std::string& name) {
+    return [this, name](std::int64_t, std::int64_t) {
+      const bool begun = std::filesystem::exists(path(name));
+      stopped_ = stopped_ || begun;
+      return !begun;
+    };
+  }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+
+  bool stopped_ = false;
+};
+
+TEST_F(StoppedWriting, OfAMergeLeavesNothing) {
+  const Path one = robot_log("one.db", 1, 500, 500), two = robot_log("two.db", 2, 500, 500);
+  EXPECT_THROW(log::merge({one, two}, path("out.db"), {{}, stop_within("out.db")}), log::Stopped);
+  EXPECT_TRUE(stopped_);
+  EXPECT_THAT(files(), testing::UnorderedElementsAre("one.db", "two.db"));
+  log::merge({one, two}, path("out.db"));
+  EXPECT_EQ(table2_of(path("out.db")).at("stopped on_target"), 1000) << "and nothing stands in the way of the next";
+}
+
+TEST_F(StoppedWriting, OfAMigrationLeavesNothing) {
+  const Path one = robot_log("one.db", 1, 2000, 2000);
+  EXPECT_THROW(log::migrate(one, path("new.db"), stop_within("new.db")), log::Stopped);
+  EXPECT_TRUE(stopped_);
+  EXPECT_THAT(files(), ElementsAre("one.db"));
+}
+
+TEST(Stoppable, EndsALongStatementAndSaysWhatWentWrongElse) {
+  SQLite::Database database(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  const auto endless = [&] {
+    database.execAndGet("WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n");
+  };
+  int asked = 0;
+  EXPECT_THROW(log::stoppable(
+                   database, [&] { return ++asked < 3; }, endless),
+               log::Stopped);
+  EXPECT_EQ(asked, 3);
+  EXPECT_THROW(log::stoppable(
+                   database, []() -> bool { throw std::invalid_argument("asked in vain"); }, endless),
+               std::invalid_argument);
+  EXPECT_THROW(log::stoppable(
+                   database, [] { return true; }, [&] { database.exec("SELECT nothing"); }),
+               SQLite::Exception);
+  EXPECT_EQ(database.execAndGet("SELECT 1").getInt(), 1);
+}
 
 }  // namespace
 }  // namespace trivela::evaluator

@@ -170,7 +170,7 @@ TEST(PagePredictions, FindsTheDriftOfHeights) {
     two.data.kicks.back().story.observed->z_m = i % 2 == 0 ? 0.61 : 0.59;
   }
   std::string text = prediction_section(two.view());
-  EXPECT_THAT(text, HasSubstr("<td>+10.0 cm</td>"));
+  EXPECT_EQ(count(text, "<td>+10.0 cm</td>"), 1U) << "kicks of one set-point have one mean";
   EXPECT_THAT(text, HasSubstr("No kick was given a probability"));
   for (PageKick& bounced : two.data.kicks) bounced.story.bounced = true;
   EXPECT_THAT(prediction_section(two.view()), HasSubstr("No kick has both"));
@@ -282,6 +282,25 @@ TEST(PageHeld, SaysWhyAndWhatTheShadowsWouldHaveDone) {
   EXPECT_THAT(text, Not(HasSubstr("not playing")));
   two.data.held.clear();
   EXPECT_THAT(held_section(two.view()), HasSubstr("no decision that held"));
+}
+
+TEST(PageHeld, AddsUpWhatTheShadowsPredictedAndCallsItAnEstimate) {
+  TwoPolicies two;
+  two.data.shadows = {"predictive"};
+  two.data.held = {{"moving", "not_aligned", 400, 30, {{"predictive", {9, 3}}}}};
+  two.data.held_chances = {{"moving", 0.0, 4.0, true, 0.75},
+                           {"moving", 0.0, 4.0, true, 0.5},
+                           {"moving", 0.0, 4.0, true, std::nullopt},
+                           {"moving", 0.0, 4.0, false, std::nullopt},
+                           {"stopped", 0.0, 4.0, true, std::nullopt}};
+  const std::string text = held_section(two.view());
+  EXPECT_THAT(text, HasSubstr("in 3 chances in which moving kicked nothing"));
+  EXPECT_THAT(text, HasSubstr("in 2 of them it predicted"));
+  EXPECT_THAT(text, HasSubstr("add up to 1.2 shots on target"));
+  EXPECT_THAT(text, HasSubstr("a model&#39;s estimate and no outcome"));
+  EXPECT_THAT(text, Not(HasSubstr("in which stopped kicked nothing"))) << "nobody predicted";
+  two.data.held_chances.clear();
+  EXPECT_THAT(held_section(two.view()), Not(HasSubstr("estimate")));
 }
 
 TEST(PageKickList, TellsTheInstantByUtcAndByTheMatch) {

@@ -144,8 +144,8 @@ TEST_F(ReportPageOfALog, CountsChancesInWhichNobodyKicked) {
                            "target_y_m", "target_z_m",    "distance_m",   "alpha_rad",
                            "beta_rad",   "aligned",       "left_m",       "right_m",
                            "charge",     "shadow_count",  "fire_after_s", "assignment_probability"});
-    const auto shadows = match.writer().table(
-        "shadow_decisions", {"robot_id", "seq", "shadow_index", "policy", "fire", "reason", "aligned", "fire_after_s"});
+    const auto shadows = match.writer().table("shadow_decisions", {"robot_id", "seq", "shadow_index", "policy", "fire",
+                                                                   "reason", "aligned", "fire_after_s", "p_on_target"});
     for (Int i = 0; i < 4; ++i) {
       const bool last = i == 3;
       match.writer().push(decisions, {Int{1},
@@ -176,8 +176,8 @@ TEST_F(ReportPageOfALog, CountsChancesInWhichNobodyKicked) {
                                       Int{1},
                                       0.0,
                                       1.0});
-      match.writer().push(shadows,
-                          {Int{1}, 500 + i, Int{0}, "stopped", Int{i == 1}, i == 1 ? "fire" : "turning", Int{0}, 0.0});
+      match.writer().push(shadows, {Int{1}, 500 + i, Int{0}, "stopped", Int{i == 1}, i == 1 ? "fire" : "turning",
+                                    Int{0}, 0.0, i == 1 ? 0.625 : 0.875});
     }
     match.close();
   }
@@ -185,6 +185,7 @@ TEST_F(ReportPageOfALog, CountsChancesInWhichNobodyKicked) {
   ASSERT_EQ(data.held_chances.size(), 1U);
   EXPECT_EQ(data.held_chances[0].x_m, 1.0);  // the last cycle in play
   EXPECT_TRUE(data.held_chances[0].shadow_would);
+  EXPECT_EQ(data.held_chances[0].p_on_target, 0.625) << "of the cycle in which the shadow would have kicked";
   ASSERT_EQ(data.held.size(), 2U);
   EXPECT_EQ(data.held[0].reason, "not_aligned");
   EXPECT_EQ(data.held[0].cycles, 3);
@@ -192,6 +193,24 @@ TEST_F(ReportPageOfALog, CountsChancesInWhichNobodyKicked) {
   EXPECT_EQ(data.held[0].would.at("stopped").cycles, 1);
   EXPECT_EQ(data.held[0].would.at("stopped").chances, 1);
   EXPECT_EQ(data.shadows, std::vector<std::string>{"stopped"});
+}
+
+TEST_F(ReportPageOfALog, ListsTheTimeOfTheHalfOfKicksThatHaveNoReplay) {
+  constexpr Int kKicks = kMostReplays + 1, kTold = 500;
+  {
+    MatchLog match(path(), session(), options());
+    match.kicks(1, "on_target", kKicks);
+    std::vector<std::string> columns = referee_columns();
+    columns.emplace_back("half_time_s");
+    std::vector<log::Value> cells = referee_cells(1, 1, (4 * kTold + 1) * 20'000'000, 1, true, 0);
+    cells.emplace_back(61.5);
+    match.writer().push(match.writer().table("referee", columns), cells);
+    match.close();
+  }
+  const PageData data = read_page_data({path()});
+  ASSERT_EQ(data.kicks.size(), kKicks);
+  EXPECT_EQ(data.kicks[kTold].story.half_time_s, 61.5) << "the referee spoke at the instant of its decision";
+  EXPECT_FALSE(data.kicks.front().story.half_time_s) << "he had not spoken yet";
 }
 
 TEST_F(ReportPageOfALog, RefusesAFileThatIsNoLog) {

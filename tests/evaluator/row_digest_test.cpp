@@ -135,7 +135,7 @@ TEST_F(DigestOfRows, ASessionThatNeverEndedHasNone) {
 class Migration : public DigestOfRows {
  protected:
   log::Migrated migrated(const std::filesystem::path& from) {
-    return log::migrate(from, path("new.db"), [](std::int64_t, std::int64_t) {});
+    return log::migrate(from, path("new.db"), [](std::int64_t, std::int64_t) { return true; });
   }
 
   /// Without the line that only one of the two can have.

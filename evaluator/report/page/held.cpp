@@ -68,6 +68,38 @@ std::string idle_sentence(const std::vector<HeldReason>& held) {
                      idle["order_pending"]);
 }
 
+/// What the shadows predicted for the kicks that nobody took, by the policy that held. A sentence each.
+std::vector<std::string> cost_sentences(const std::vector<HeldChance>& chances) {
+  struct Cost {
+    std::int64_t would = 0;      // chances in which a shadow would have kicked
+    std::int64_t predicted = 0;  // of them those with a probability
+    double on_target = 0.0;      // their sum
+  };
+  std::map<std::string, Cost> costs;
+  for (const HeldChance& chance : chances) {
+    if (!chance.shadow_would) continue;
+    Cost& cost = costs[chance.policy];
+    ++cost.would;
+    cost.predicted += chance.p_on_target ? 1 : 0;
+    cost.on_target += chance.p_on_target.value_or(0.0);
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [policy, cost] : costs) {
+    if (cost.predicted == 0) continue;
+    sentences.push_back(fmt::format(
+        "What holding cost, by the model: in {} in which {} kicked nothing a policy that rode along would have kicked; "
+        "in "
+        "{} of them it predicted how likely its kick was on target, and the best predictions add up to {:.1f} shots on "
+        "target.",
+        counted(cost.would, "chance", "chances"), policy, cost.predicted, cost.on_target));
+  }
+  if (!sentences.empty())
+    sentences.emplace_back(
+        "That is a model's estimate and no outcome: nobody kicked, the prediction may be wrong, and what became of the "
+        "ball instead is not in it.");
+  return sentences;
+}
+
 }  // namespace
 
 std::string held_section(const PageView& view) {
@@ -81,6 +113,7 @@ std::string held_section(const PageView& view) {
   std::string body = bars(view, rows);
   body += shadow_table(rows, view.data.shadows);
   if (const std::string idle = idle_sentence(view.data.held); !idle.empty()) body += paragraphs({idle});
+  body += paragraphs(cost_sentences(view.data.held_chances));
   body += paragraphs(
       {view.data.shadows.empty()
            ? "No other policy rode along."

@@ -50,6 +50,7 @@ struct ChanceCycles {
   bool kicked = false;
   std::map<std::pair<std::string, std::string>, std::int64_t> held;                 // by policy and reason
   std::map<std::tuple<std::string, std::string, std::string>, std::int64_t> would;  // and the shadow's policy
+  std::optional<double> p_on_target;  // the most that a shadow which would have kicked in play gave its kick
 };
 
 bool stands(const std::string& reason) { return reason == "not_playing"; }
@@ -81,9 +82,11 @@ class HeldBook {
     });
     reader.query(kHeldShadowsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
                                       const std::string& policy, const std::string& reason, const std::string& shadow,
-                                      std::int64_t cycles) {
+                                      std::int64_t cycles, std::optional<double> p_on_target) {
       const auto chance = fresh.find({session_id, {plays_[session_id], robot_id, half, possession_id}});
-      if (chance != fresh.end()) chance->second.would[{policy, reason, shadow}] += cycles;
+      if (chance == fresh.end()) return;
+      chance->second.would[{policy, reason, shadow}] += cycles;
+      if (!stands(reason)) chance->second.p_on_target = std::max(chance->second.p_on_target, p_on_target);
     });
     for (auto& [key, chance] : fresh) {
       ChanceCycles& kept = chances_[key.second];
@@ -109,7 +112,7 @@ class HeldBook {
       }
       const bool numbered = std::get<3>(key) != 0;
       if (!chance.kicked && numbered && chance.last_seq >= 0)
-        data.held_chances.push_back({chance.policy, chance.x_m, chance.y_m, would});
+        data.held_chances.push_back({chance.policy, chance.x_m, chance.y_m, would, chance.p_on_target});
     }
     for (auto& [why, row] : reasons) {
       std::tie(row.policy, row.reason) = why;
@@ -159,6 +162,16 @@ void read_predictions(const log::Reader& reader, PageData& data) {
       });
 }
 
+/// Out of what was counted when a session ended, where it was: a long log is not walked through for four names.
+void read_shadows(const log::Reader& reader, PageData& data) {
+  reader.query(
+      "SELECT policy FROM session_tallies WHERE in_charge = 0 "
+      "AND session_id IN (SELECT session_id FROM tallied_sessions) "
+      "UNION SELECT d.policy FROM sessions AS s CROSS JOIN shadow_decisions AS d ON d.session_id = s.session_id "
+      "WHERE s.session_id NOT IN (SELECT session_id FROM tallied_sessions)",
+      [&](const std::string& policy) { data.shadows.push_back(policy); });
+}
+
 void read_clocks(const log::Reader& reader, PageData& data) {
   std::map<std::pair<int, int>, ClockRow> rows;
   for (const log::ClockOffset& offset : log::clock_offsets(reader)) {
@@ -200,6 +213,12 @@ void read_changes(const std::vector<fs::path>& logs, const std::vector<OpenLog>&
   }
 }
 
+/// The times of the halves, of so many kicks that they are listed.
+void read_half_times(const std::vector<OpenLog>& readers, PageData& data) {
+  if (data.binned()) return;
+  for (PageKick& kick : data.kicks) add_half_time(*readers[kick.log].reader, kick.story);
+}
+
 /// The paths of robots and balls, of so many kicks that they fit a page.
 void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   if (data.kicks.size() > kMostReplays) return;
@@ -232,10 +251,7 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
     attempt(data, "decisions", [&] { held.add(reader); });
     attempt(data, "predicted chances", [&] { read_predictions(reader, data); });
     attempt(data, "clocks", [&] { read_clocks(reader, data); });
-    attempt(data, "shadows", [&] {
-      reader.query("SELECT DISTINCT policy FROM shadow_decisions ORDER BY policy",
-                   [&](const std::string& policy) { data.shadows.push_back(policy); });
-    });
+    attempt(data, "shadows", [&] { read_shadows(reader, data); });
   }
   std::ranges::sort(data.shadows);
   data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
@@ -245,6 +261,7 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
   });
   attempt(data, "drift of kickers", [&] { data.drift = drift_in(readers); });
   attempt(data, "differences between the logs", [&] { read_changes(logs, readers, data); });
+  attempt(data, "times of the halves", [&] { read_half_times(readers, data); });
   attempt(data, "tracks of robots and balls", [&] { read_tracks(readers, data); });
   return data;
 }

@@ -39,6 +39,8 @@ struct HeldChance {
   std::string policy;
   double x_m = 0.0, y_m = 0.0;  ///< of the robot, in F
   bool shadow_would = false;    ///< a policy that rides along would have kicked
+  /// The most that such a policy predicted for its kick when it would have kicked; none: it predicts nothing.
+  std::optional<double> p_on_target{};
 };
 
 /// What a policy that rides along would have done while the one in charge held.

@@ -61,7 +61,7 @@ MeanError mean_of(const std::vector<HeightError>& errors) {
   return mean;
 }
 
-/// Means by robot over bands of set-points with about as many kicks each.
+/// Means by robot over bands of set-points with about as many kicks each; kicks of one set-point stay together.
 std::map<int, std::vector<MeanError>> drift_of(std::vector<HeightError> errors) {
   std::map<int, std::vector<HeightError>> by_robot;
   std::ranges::stable_sort(errors, {}, &HeightError::power);
@@ -69,11 +69,13 @@ std::map<int, std::vector<MeanError>> drift_of(std::vector<HeightError> errors) 
   std::map<int, std::vector<MeanError>> means;
   for (const auto& [robot_id, of] : by_robot) {
     const std::size_t bands = std::clamp<std::size_t>(of.size() / 8, 1, kBands);
+    auto from = of.begin();
     for (std::size_t i = 0; i < bands; ++i) {
-      const auto from = of.begin() + static_cast<std::ptrdiff_t>(i * of.size() / bands);
-      const auto to = of.begin() + static_cast<std::ptrdiff_t>((i + 1) * of.size() / bands);
+      auto to = std::max(from, of.begin() + static_cast<std::ptrdiff_t>((i + 1) * of.size() / bands));
+      while (to != of.end() && to->power == std::prev(to)->power) ++to;
       if (std::distance(from, to) >= static_cast<std::ptrdiff_t>(kFewestInBand))
         means[robot_id].push_back(mean_of({from, to}));
+      from = to;
     }
   }
   return means;
@@ -83,6 +85,7 @@ std::string drift_figure(const PageView& view, const std::vector<HeightError>& e
   const auto [low_p, high_p] = std::ranges::minmax(errors, {}, &HeightError::power);
   double reach_m = 0.1;
   std::vector<double> sizes;
+  sizes.reserve(errors.size());
   for (const HeightError& e : errors) sizes.push_back(std::abs(e.error_m));
   std::ranges::sort(sizes);
   reach_m = std::max(reach_m, sizes[sizes.size() * 49 / 50]);  // a far one does not flatten the others
