@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <random>
 #include <string>
 
@@ -21,6 +23,11 @@ inline constexpr std::int64_t kRecovery_ns = 2'000 * kMs;  ///< what a robot may
 inline constexpr std::int64_t kBusy_ns = 100 * kMs;        ///< what a busy machine may add to an instant
 
 inline std::int64_t steady_now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
+
+/// How long the machine stood still in a turn of a test's own loop, which takes turn_ns: time that no robot had.
+inline std::int64_t stalled_ns(std::int64_t began_ns, std::int64_t turn_ns) {
+  return std::max<std::int64_t>(0, steady_now_ns() - began_ns - turn_ns - kBusy_ns);
+}
 
 inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   const char* const value = std::getenv(name);

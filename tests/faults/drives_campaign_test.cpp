@@ -78,13 +78,16 @@ class DrivesCampaign : public testing::Test {
     return rests;
   }
 
-  /// Lets time go on until then, or `done`, with a command each 10 ms where somebody drives.
+  /// Lets time go on until then, or `done`, with a command each 10 ms where somebody drives; where the machine stands
+  /// still, for so much longer.
   void go_on(
       std::int64_t until_ns, bool driven, const std::function<bool()>& done = [] { return false; }) {
     while (steady_now_ns() < until_ns && !done()) {
+      const std::int64_t began_ns = steady_now_ns();
       if (driven) command();
       stir();
       drives_.wait(milliseconds(10), [](const cia402::EmulatedDrives&) { return false; });
+      until_ns += stalled_ns(began_ns, 10 * kMs);
     }
   }
 

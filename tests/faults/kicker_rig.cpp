@@ -42,10 +42,12 @@ void KickerRig::start_driver() {
 
 void KickerRig::play(std::int64_t until_ns, const std::function<bool()>& done) {
   while (steady_now_ns() < until_ns && !done()) {
+    const std::int64_t began_ns = steady_now_ns();
     say();
     order();
     board_->stir();
     board_->wait_for_pulse(board_->pulses().size(), kBetweenOrders);
+    until_ns += stalled_ns(began_ns, std::chrono::nanoseconds{kBetweenOrders}.count());
   }
 }
 

@@ -24,7 +24,7 @@ class KickerRig {
   /// Throws std::runtime_error where they do not start, with what they said.
   KickerRig(std::unique_ptr<TroubledBoard> board, config::Settings settings, bool referees);
 
-  /// Lets the match go on until then, or `done`.
+  /// Lets the match go on until then, or `done`; where the machine stands still, for so much longer.
   void play(
       std::int64_t until_ns, const std::function<bool()>& done = [] { return false; });
 
