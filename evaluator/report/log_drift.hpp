@@ -15,7 +15,7 @@ namespace trivela::evaluator {
 struct DriftKick {
   std::size_t log = 0;  ///< place among the logs
   std::int64_t session_id = 0;
-  std::string session;  ///< its uuid
+  std::string session{};  ///< its uuid
   std::int64_t kick_id = 0;
   std::int64_t utc_ns = 0;
 };
@@ -26,8 +26,8 @@ struct RobotDrift {
   int robot_id = 0;
   bool simulated = false;
   std::size_t sessions = 0;
-  std::vector<DriftKick> kicks;  ///< accepted ones, by time
-  DriftStory story;              ///< places in it are of `kicks`
+  std::vector<DriftKick> kicks{};  ///< accepted ones, by time
+  DriftStory story{};              ///< places in it are of `kicks`
 };
 
 struct DriftReport {

@@ -19,7 +19,9 @@ experiment::ExperimentPlan failing(std::uint64_t seed, kicking::PolicyName polic
   experiment::ExperimentPlan plan;
   plan.scenario.kicker.drop_ratio = 0.08;
   plan.scenario.kicker.drop_after_kicks = 40;
-  plan.arms = {{.name = "failing", .policy = policy}};
+  plan.arms.resize(1);
+  plan.arms[0].name = "failing";
+  plan.arms[0].policy = policy;
   plan.seed = seed;
   plan.possessions = 160;
   return plan;

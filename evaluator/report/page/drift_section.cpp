@@ -10,15 +10,15 @@
 namespace trivela::evaluator::page {
 namespace {
 
-constexpr std::size_t kMostQuiet = 20;  // kickers without a change that are named one by one
+constexpr std::size_t kMostUnchanged = 20;  // kickers without a change that are named one by one
 
 /// Log, session, robot and kick.
-using KickKey = std::tuple<std::size_t, std::int64_t, int, std::int64_t>;
+using ListedKick = std::tuple<std::size_t, std::int64_t, int, std::int64_t>;
 
 /// Where kicks stand in the list.
-class Places {
+class LinkedKicks {
  public:
-  explicit Places(const PageData& data) : kicks_(data.kicks) {
+  explicit LinkedKicks(const PageData& data) : kicks_(data.kicks) {
     if (data.binned()) return;
     for (std::size_t i = 0; i < kicks_.size(); ++i) {
       const KickStory& story = kicks_[i].story;
@@ -37,35 +37,35 @@ class Places {
 
  private:
   const std::vector<PageKick>& kicks_;
-  std::map<KickKey, std::size_t> places_;
+  std::map<ListedKick, std::size_t> places_;
 };
 
-std::string head_of(const RobotDrift& robot) {
+std::string kicker_head(const RobotDrift& robot) {
   return html(fmt::format("robot {}{}, {}", robot.robot_id,
                           robot.simulated ? fmt::format(" of session {}", robot.kicks.front().session) : "",
                           counted(std::ssize(robot.kicks), "kick", "kicks")));
 }
 
-std::string told(const RobotDrift& robot, const Places& places) {
+std::string changed_items(const RobotDrift& robot, const LinkedKicks& places) {
   std::string text;
   for (const Drift& drift : robot.story.drifts) {
-    text += fmt::format("<li>{}: changed at {}: {}; certain with {}. What to do: {}.</li>\n", head_of(robot),
+    text += fmt::format("<li>{}: changed at {}: {}; certain with {}. What to do: {}.</li>\n", kicker_head(robot),
                         places.link(robot.robot_id, robot.kicks[drift.changed]), html(words_of(drift)),
                         places.link(robot.robot_id, robot.kicks[drift.found]), html(correction_of(drift)));
   }
   return text;
 }
 
-std::string quiet(const RobotDrift& robot) {
+std::string unchanged_item(const RobotDrift& robot) {
   const DriftRule rule;
   const auto judged = static_cast<std::size_t>(rule.height.quiet);
   const DriftLevel& level = robot.story.level;
   if (level.heights > judged)
-    return fmt::format("<li>{}: no change found; {}</li>\n", head_of(robot), html(level_words(level)));
+    return fmt::format("<li>{}: no change found; {}</li>\n", kicker_head(robot), html(level_words(level)));
   return fmt::format(
       "<li>{}: too few kicks to say: the height of {} was seen, and a change is looked for from the "
       "{}th on</li>\n",
-      head_of(robot), level.heights, judged + 1);
+      kicker_head(robot), level.heights, judged + 1);
 }
 
 }  // namespace
@@ -75,14 +75,15 @@ std::string drift_section(const PageView& view) {
   const auto& robots = view.data.drift.robots;
   if (robots.empty())
     return section("drift", title, paragraphs({"There is no kick that the kicker's driver accepted."}));
-  const Places places(view.data);
+  const LinkedKicks places(view.data);
   std::string changed, same;
   std::size_t without = 0;
   for (const RobotDrift& robot : robots) {
-    changed += told(robot, places);
-    if (robot.story.drifts.empty() && ++without <= kMostQuiet) same += quiet(robot);
+    changed += changed_items(robot, places);
+    if (robot.story.drifts.empty() && ++without <= kMostUnchanged) same += unchanged_item(robot);
   }
-  if (without > kMostQuiet) same += fmt::format("<li>and {} more without a change</li>\n", without - kMostQuiet);
+  if (without > kMostUnchanged)
+    same += fmt::format("<li>and {} more without a change</li>\n", without - kMostUnchanged);
   const std::string body = "<ul>\n" + changed + same + "</ul>\n";
   return section("drift", title,
                  body + paragraphs({"Crossing heights and exit speeds against what the robot itself predicted, kick by "
