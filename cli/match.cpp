@@ -129,6 +129,34 @@ config::Settings settings_of(const MatchFlags& flags) {
   return settings;
 }
 
+/// --watch and what goes with it; gives --pace.
+const CLI::Option* add_watching(CLI::App& verb, MatchFlags& flags) {
+  auto* watch = verb.add_flag("--watch", flags.watch,
+                              "serve a live page of the match, which stays until Ctrl-C, and print its address");
+  auto* pace =
+      verb.add_option(
+              "--pace", flags.pace,
+              "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
+              "same at every pace")
+          ->check(between(0.0, 1000.0))
+          ->needs(watch)
+          ->capture_default_str();
+  for (CLI::Option* option : add_watch_flags(verb, flags.page)) option->needs(watch);
+  return pace;
+}
+
+/// The match that the flags ask for; its exit code.
+int play(const MatchFlags& flags, bool secured, bool paced) {
+  if (flags.halves.empty() && flags.random.empty()) throw UsageError{"--half or --random is required"};
+  if (flags.devices == kEmulated && paced)
+    throw UsageError{"--pace: against emulated devices a match is played in real time"};
+  config::Settings settings = settings_of(flags);
+  const auto keys = secured ? secure_children(flags.keys, settings.run.robot_id) : nullptr;
+  const WatchFlags* const page = flags.watch ? &flags.page : nullptr;
+  return flags.devices == kEmulated ? record_emulated(std::move(settings), flags.domain, flags.out, page)
+                                    : record_lockstep("simulator", std::move(settings), flags.domain, flags.out, page);
+}
+
 }  // namespace
 
 void add_match(CLI::App& app, int& exit_code) {
@@ -166,28 +194,9 @@ void add_match(CLI::App& app, int& exit_code) {
               "every node with the keys of this folder (trivela keys; ./keys where it is named like a verb), in which "
               "simulator has some; without a folder, with keys that go with the match")
           ->expected(0, 1);
-  auto* watch = verb->add_flag("--watch", flags->watch,
-                               "serve a live page of the match, which stays until Ctrl-C, and print its address");
-  auto* pace =
-      verb->add_option(
-              "--pace", flags->pace,
-              "with --watch: seconds of play a second, at most; 0: as fast as the nodes answer. The rows are the "
-              "same at every pace")
-          ->check(between(0.0, 1000.0))
-          ->needs(watch)
-          ->capture_default_str();
-  for (CLI::Option* option : add_watch_flags(*verb, flags->page)) option->needs(watch);
-  verb->callback([flags, secure, pace, &exit_code] {
-    if (flags->halves.empty() && flags->random.empty()) throw UsageError{"--half or --random is required"};
-    if (flags->devices == kEmulated && pace->count() > 0)
-      throw UsageError{"--pace: against emulated devices a match is played in real time"};
-    config::Settings settings = settings_of(*flags);
-    const auto keys = secure->count() == 0 ? nullptr : secure_children(flags->keys, settings.run.robot_id);
-    const WatchFlags* const page = flags->watch ? &flags->page : nullptr;
-    exit_code = flags->devices == kEmulated
-                    ? record_emulated(std::move(settings), flags->domain, flags->out, page)
-                    : record_lockstep("simulator", std::move(settings), flags->domain, flags->out, page);
-  });
+  const CLI::Option* const pace = add_watching(*verb, *flags);
+  verb->callback(
+      [flags, secure, pace, &exit_code] { exit_code = play(*flags, secure->count() > 0, pace->count() > 0); });
 }
 
 }  // namespace trivela::cli
