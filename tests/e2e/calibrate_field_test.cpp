@@ -76,12 +76,13 @@ TEST_F(CalibrateInField, ASecondStartGoesOnWhereTheFirstOneEnded) {
   EXPECT_FALSE(exists("newcomer.toml"));
 }
 
-// Two set-points, two kicks each.
+// Two set-points, two kicks each. The command is the referee, whom the simulated world does not hear: it has stops of
+// its own, in which a coil's pulse moves no ball.
 TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
   std::random_device random;
   std::ofstream{folder_ / "robot.toml"} << fmt::format(
       "[run]\nlockstep = false\nscenario = \"{}/config/scenarios/calibration.toml\"\n\n[domain]\ndomain_id = {}\n"
-      "tag = \"evening-{}-{:08x}\"\n\n[policy.test_drive]\npowers = [25.0, 35.0]\n",
+      "tag = \"evening-{}-{:08x}\"\n\n[simulator]\nreferee = false\n\n[policy.test_drive]\npowers = [25.0, 35.0]\n",
       TRIVELA_SOURCE_DIR, 1 + random() % 100, getpid(), random());
   Program bridge{"trivela-simulator", {"--config", "robot.toml"}, folder_.path()};
   Program evening{"trivela",
@@ -103,7 +104,7 @@ TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
   const Reader log{folder_ / "drives" / "1_standing.db"};
   EXPECT_EQ(number_of(log, "SELECT count(*) FROM kick_receipts WHERE accepted"), 4);
   EXPECT_EQ(number_of(log, "SELECT count(DISTINCT power) FROM kick_receipts WHERE accepted"), 2);
-  EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_truths"), 3) << "which the world let fly";
+  EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_truths"), 1) << "which the world let fly";
 }
 
 TEST_F(CalibrateInField, WhatMakesNoSenseIsRefusedBeforeAnybodyIsAsked) {

@@ -174,7 +174,7 @@ class CarriedKicks : public LogTest {
         "### settings\n[rules]\ncarry_limit_m = " + carry_limit_m + "\n\n### robot\nball_offset_m = 0.27\n";
     write_known_match(path(), ruled, options());
     const std::string said = answer(log::Reader(path()), std::string(metric("carried_kicks")->sql));
-    return said.substr(said.find('\n') + 1);
+    return said.substr(said.find("8192,1,99,"));
   }
 };
 
