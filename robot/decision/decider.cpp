@@ -66,11 +66,21 @@ void Decider::begin_possession(std::uint8_t half, std::uint32_t possession_id) {
   decision_.in_charge = assignment_.in_charge(half, possession_id);
 }
 
+/// Whether an order that the driver accepted of the robot's other decision node still has its time: whoever takes over
+/// does not kick the same ball again.
+bool Decider::kicked_by_another(std::int64_t t_ns, const msg::KickerStatus& kicker) {
+  if (kicker.last_accepted && std::exchange(accepted_kick_id_, kicker.last_kick_id) != kicker.last_kick_id &&
+      (orders_ == 0 || kicker.last_kick_id != last_order_.kick_id))
+    anothers_t_ns_ = t_ns;
+  return anothers_t_ns_ && kicking::seconds(t_ns - *anothers_t_ns_) < policy_.order_hold_s;
+}
+
 const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::KickerStatus* kicker,
                                      const std::optional<msg::KickOutcome>& outcome, const kicking::PolicyInput* truth,
                                      double world_age_s) {
   begin_possession(world.half, world.possession_id);
   kicking::PolicyInput input = policy_input(world, kicker);
+  if (kicker != nullptr && kicked_by_another(world.t_ns, *kicker)) input.kicker_ready = false;
   input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
   if (const auto seen = last_kick(outcome)) input.last_kick = seen;
   input.set_piece_left_s = set_piece_.left_s(world);

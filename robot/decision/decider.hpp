@@ -76,6 +76,7 @@ class Decider {
 
  private:
   void begin_possession(std::uint8_t half, std::uint32_t possession_id);
+  bool kicked_by_another(std::int64_t t_ns, const msg::KickerStatus& kicker);
   std::optional<kicking::SeenKick> last_kick(const std::optional<msg::KickOutcome>& outcome) const;
   msg::KickOrder order(const msg::WorldState& world, const kicking::Judgement& judgement);
 
@@ -95,6 +96,8 @@ class Decider {
   std::uint32_t possession_id_ = 0;  // of half_
   msg::KickOrder last_order_{}, order_before_{};
   std::uint32_t last_order_possession_id_ = 0, possession_before_id_ = 0;
+  std::int64_t accepted_kick_id_ = 0;          // the last one that the driver said
+  std::optional<std::int64_t> anothers_t_ns_;  // when it was one of the robot's other decision node
   std::uint32_t orders_ = 0;
   std::uint64_t decisions_ = 0;
   bool said_ = false;  // the last cycle counts among them

@@ -1,0 +1,84 @@
+#include "robot/decision/decider.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config/robot.hpp"
+#include "idl/none.hpp"
+#include "kicking/kick_id.hpp"
+
+namespace trivela::robot {
+namespace {
+
+constexpr std::uint32_t kSession = 5;
+constexpr std::int64_t kCycle_ns = 20'000'000;
+
+/// A robot 6 m before the goal at rest with the ball, aligned, whose policy kicks at once.
+struct Robot {
+  Robot() { settings.kick_decision.policy_by_half = {kicking::PolicyName::kMoving}; }
+
+  const CycleDecision& cycle() {
+    world.t_ns += kCycle_ns;
+    kicker.t_ns = world.t_ns;
+    return decider.decide(world, &kicker, std::nullopt);
+  }
+
+  void driver_accepts(std::int64_t kick_id) {
+    kicker.last_kick_id = kick_id;
+    kicker.last_accepted = true;
+  }
+
+  config::Settings settings;
+  config::Robot robot;
+  Decider decider{{settings.kick_decision, settings.policy, settings.goal}, robot.model, 1, kSession};
+  msg::WorldState world = [] {
+    msg::WorldState out{};
+    out.half = 1;
+    out.playing = out.possession = out.ball_known = true;
+    out.possession_id = 1;
+    out.y_m = 3.0;
+    out.opponent_distance_m = msg::kNone;
+    return out;
+  }();
+  msg::KickerStatus kicker = [] {
+    msg::KickerStatus out{};
+    out.ready = true;
+    return out;
+  }();
+};
+
+std::int64_t kick_of_the_other_node() { return kicking::KickId{kSession + 1, 1, 1}.number(); }
+
+TEST(Decider, AKickThatTheOtherNodeOrderedIsUnderWayForThisOneToo) {
+  Robot robot;
+  robot.driver_accepts(kick_of_the_other_node());
+  const CycleDecision& decision = robot.cycle();
+  EXPECT_FALSE(decision.order);
+  EXPECT_EQ(decision.judgement.reason, kicking::Reason::kKickerNotReady);
+}
+
+TEST(Decider, AKickOfTheOtherNodeThatTheDriverRefusedHoldsNothingBack) {
+  Robot robot;
+  robot.driver_accepts(kick_of_the_other_node());
+  robot.kicker.last_accepted = false;
+  EXPECT_TRUE(robot.cycle().order);
+}
+
+TEST(Decider, AKickOfTheOtherNodeIsMindedForAsLongAsAnOrderAndNoLonger) {
+  Robot robot;
+  robot.driver_accepts(kick_of_the_other_node());
+  int held = 0;
+  while (!robot.cycle().order && held < 1000) ++held;
+  EXPECT_NEAR(held * 0.02, robot.settings.policy.order_hold_s, 0.021);
+}
+
+TEST(Decider, ItsOwnAcceptedKickIsNoKickOfAnother) {
+  Robot robot;
+  const std::int64_t kick_id = robot.cycle().order.value().kick_id;
+  int held = 0;
+  for (robot.driver_accepts(kick_id); !robot.cycle().order && held < 1000;) ++held;
+  EXPECT_NEAR((held + 1) * 0.02, robot.settings.policy.order_hold_s, 0.021)
+      << "counted from the order, not from its status";
+}
+
+}  // namespace
+}  // namespace trivela::robot
