@@ -39,7 +39,7 @@ class DriftVerb : public evaluator::LogTest {
   }
 
   void write(const std::string& name, int day, int before, int after, bool simulated = false) {
-    WatchedLog log(path(name), on_field(day, simulated), options(), 4 + static_cast<std::uint32_t>(day));
+    WatchedLog log(path(name), on_field(day, simulated), options(), 4 + static_cast<std::uint32_t>(day), 1000 * day);
     log.kicks(1, before);
     log.kicks(1, after, kLower_m);
     log.close();

@@ -14,7 +14,7 @@ class WatchedLog {
   using Int = std::int64_t;
 
   WatchedLog(const std::filesystem::path& path, const log::Session& session, const log::WriterOptions& options,
-             std::uint32_t seed = 1)
+             std::uint32_t seed = 1, Int kicks_before = 0)
       : writer_(path, session, options),
         decisions_(writer_.table("kick_decisions", {"robot_id",
                                                     "seq",
@@ -52,7 +52,8 @@ class WatchedLog {
                               "release_t_ns", "power", "received_steady_ns", "fired_steady_ns"})),
         outcomes_(writer_.table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
                                                   "observations", "z_cross_m", "bounced"})),
-        random_(seed) {}
+        random_(seed),
+        kicks_(kicks_before) {}
 
   /// So many kicks of a robot, which cross so much higher than a kicker's that is as its table says.
   void kicks(Int robot_id, int n, double higher_m = 0.0) {
@@ -77,7 +78,7 @@ class WatchedLog {
   log::TableId decisions_, receipts_, outcomes_;
   std::mt19937 random_;
   std::normal_distribution<double> scatter_m_{0.0, 0.1};
-  Int kicks_ = 0;
+  Int kicks_;  // numbered on from those of earlier sessions
 };
 
 }  // namespace trivela::evaluator

@@ -31,7 +31,10 @@ class KickerDriftMatchTest : public NodeTest {
  protected:
   evaluator::RobotDrift as_the_verb_says(const experiment::ExperimentPlan& plan) const {
     const std::filesystem::path log = folder / fmt::format("{}.db", plan.seed);
-    experiment::run_experiment(plan, 1, log.string(), {});
+    const experiment::ExperimentWatch nobody{.found = [](std::int64_t) {},
+                                             .progress = [](double, double, const std::string&) {},
+                                             .stop = [] { return false; }};
+    experiment::run_experiment(plan, 1, log.string(), nobody);
     return evaluator::drift_in({log}).robots.at(0);
   }
 
