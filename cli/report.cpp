@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/gate_option.hpp"
+#include "cli/launch/progress_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
@@ -118,8 +119,12 @@ void add_report(CLI::App& app, int& exit_code) {
     }
     const evaluator::Report report = report_of(*arguments);
     if (!arguments->html.empty()) {
+      ProgressBar bar;
+      const auto progress = [&bar](std::size_t done, std::size_t parts, const std::string& what) {
+        bar.show(static_cast<double>(done), static_cast<double>(parts), "page: " + what);
+      };
       write_file(arguments->html,
-                 evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()}));
+                 evaluator::page::report_page(report, {arguments->logs.begin(), arguments->logs.end()}, progress));
     }
     const std::string text = written(report, *arguments);
     arguments->out.empty() ? say(text) : write_file(arguments->out, text);

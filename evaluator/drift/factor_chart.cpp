@@ -30,12 +30,12 @@ double FactorChart::sd() const {
 void FactorChart::judge(double x, bool at_most) {
   const double sd = this->sd() * std::sqrt(1.0 + 1.0 / static_cast<double>(count_));  // the mean is not known, either
   const double c = (x - mean_) / sd, d = rule_.shift / sd;
+  const double z = std::clamp(c, -rule_.clip, rule_.clip);
   if (at_most) {
-    const double as_before = log_below(c);
-    up_ = std::max(0.0, up_ + log_below(c - d) - as_before);
-    down_ = std::max(0.0, down_ + log_below(c + d) - as_before);
+    const double as_before = log_below(z);
+    up_ = std::max(0.0, up_ + log_below(z - d) - as_before);
+    down_ = std::max(0.0, down_ + log_below(z + d) - as_before);
   } else {
-    const double z = std::clamp(c, -rule_.clip, rule_.clip);
     up_ = std::max(0.0, up_ + d * (z - 0.5 * d));
     down_ = std::max(0.0, down_ + d * (-z - 0.5 * d));
   }

@@ -7,11 +7,11 @@ namespace trivela::evaluator {
 /// How a chart judges.
 struct ChartRule {
   double shift = 0.03;         ///< change of the mean that it is made for, either way
-  double limit = 5.5;          ///< nats: it alarms above
+  double limit = 5.3;          ///< nats: it alarms above
   double expected_sd = 0.025;  ///< of one residual, before there are any; counts as so many residuals:
   double expected_weight = 10.0;
   int quiet = 10;     ///< first residuals, which make the mean and are not judged
-  double clip = 3.5;  ///< standard deviations: one residual counts as no farther off
+  double clip = 2.0;  ///< standard deviations: one residual counts as no farther off
 };
 
 /// A two-sided CUSUM (Page 1954) of residuals whose mean and spread are not known beforehand: each is judged by those

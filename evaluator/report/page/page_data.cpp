@@ -227,17 +227,27 @@ void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
 
 }  // namespace
 
-PageData read_page_data(const std::vector<fs::path>& logs) {
+PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& progress) {
   PageData data;
+  const std::size_t parts = 6 * logs.size() + 5;
+  std::size_t done = 0;
+  const auto begins = [&](const char* what) {
+    if (progress) progress(done++, parts, what);
+  };
+  const auto read = [&](const char* what, const auto& part) {
+    begins(what);
+    attempt(data, what, part);
+  };
   std::vector<std::unique_ptr<log::Reader>> open;
   std::vector<OpenLog> readers;
   for (const fs::path& path : logs) {
     open.push_back(std::make_unique<log::Reader>(path, log::Check::kSchema));  // the report has looked closer
     readers.push_back({open.back().get(), path.filename().string()});
+    begins("files");
     data.logs.push_back({readers.back().name, sha256_of_file(path), open.back()->version()});
   }
   LoggedOpportunities logged;
-  attempt(data, "chances", [&] {
+  read("chances", [&] {
     logged = read_opportunities(readers, false);
     for (const LoggedOpportunity& o : logged.rows) {
       if (o.has_possession && !o.policy.empty()) ++data.opportunities[o.policy];
@@ -247,11 +257,11 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
   HeldBook held(logged);
   for (std::size_t i = 0; i < readers.size(); ++i) {
     const log::Reader& reader = *readers[i].reader;
-    attempt(data, "kicks", [&] { read_kicks(reader, i, data); });
-    attempt(data, "decisions", [&] { held.add(reader); });
-    attempt(data, "predicted chances", [&] { read_predictions(reader, data); });
-    attempt(data, "clocks", [&] { read_clocks(reader, data); });
-    attempt(data, "shadows", [&] { read_shadows(reader, data); });
+    read("kicks", [&] { read_kicks(reader, i, data); });
+    read("decisions", [&] { held.add(reader); });
+    read("predicted chances", [&] { read_predictions(reader, data); });
+    read("clocks", [&] { read_clocks(reader, data); });
+    read("shadows", [&] { read_shadows(reader, data); });
   }
   std::ranges::sort(data.shadows);
   data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
@@ -259,10 +269,10 @@ PageData read_page_data(const std::vector<fs::path>& logs) {
   std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
     return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
   });
-  attempt(data, "drift of kickers", [&] { data.drift = drift_in(readers); });
-  attempt(data, "differences between the logs", [&] { read_changes(logs, readers, data); });
-  attempt(data, "times of the halves", [&] { read_half_times(readers, data); });
-  attempt(data, "tracks of robots and balls", [&] { read_tracks(readers, data); });
+  read("drift of kickers", [&] { data.drift = drift_in(readers); });
+  read("differences between the logs", [&] { read_changes(logs, readers, data); });
+  read("times of the halves", [&] { read_half_times(readers, data); });
+  read("tracks of robots and balls", [&] { read_tracks(readers, data); });
   return data;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -105,8 +106,11 @@ struct PageData {
   bool binned() const { return kicks.size() > kMostKicks; }
 };
 
+/// Told before each part that is read: how many of all are done, and what comes.
+using PageProgress = std::function<void(std::size_t done, std::size_t parts, const std::string& what)>;
+
 /// Reads what a page needs of the logs, each stream once. A stream that cannot be read is a sentence in `failures`.
 /// Throws std::runtime_error where a file cannot be opened as a log.
-PageData read_page_data(const std::vector<std::filesystem::path>& logs);
+PageData read_page_data(const std::vector<std::filesystem::path>& logs, const PageProgress& progress = {});
 
 }  // namespace trivela::evaluator::page

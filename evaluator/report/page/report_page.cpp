@@ -103,8 +103,9 @@ std::string to_html(const Report& report, const PageData& data) {
   return page + "<script>" + script + "</script>\n</body>\n</html>\n";
 }
 
-std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs) {
-  return to_html(report, read_page_data(logs));
+std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs,
+                        const PageProgress& progress) {
+  return to_html(report, read_page_data(logs, progress));
 }
 
 }  // namespace trivela::evaluator::page

@@ -13,6 +13,7 @@ namespace trivela::evaluator::page {
 std::string to_html(const Report& report, const PageData& data);
 
 /// The same of logs that `report` was made of. Throws std::runtime_error where one cannot be read at all.
-std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs);
+std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs,
+                        const PageProgress& progress = {});
 
 }  // namespace trivela::evaluator::page
