@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -177,6 +178,11 @@ TEST(House, FileNamesSayWhatIsInside) {
     }
   }
   EXPECT_THAT(broken, IsEmpty());
+}
+
+TEST(House, TheReadmeIsReadAtOneSitting) {
+  std::ifstream in{kRoot / "README.md"};
+  EXPECT_LT(std::count(std::istreambuf_iterator<char>{in}, {}, '\n'), 120);
 }
 
 TEST(House, NoTestSleeps) {
