@@ -37,8 +37,8 @@ RowVerb align_verb() {
     const auto result = kicking::align(robot, kicking::radians(row.number_in("alpha_deg", -180.0, 180.0)),
                                        kicking::radians(row.number_in("beta_deg", -360.0, 360.0)),
                                        row.number("omega_rad_s"), target, rule);
-    return std::vector<Value>{result.centre_distance_m, value_or_none(result.offset_right_m), result.left_m, result.right_m,
-                              result.aligned};
+    return std::vector<Value>{result.centre_distance_m, value_or_none(result.offset_right_m), result.left_m,
+                              result.right_m, result.aligned};
   };
   return verb;
 }

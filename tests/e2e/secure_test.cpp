@@ -42,7 +42,7 @@ TEST(Secure, AMatchPlaysWithATeamsKeysAndSaysWhatIsWrongWithThem) {
   ASSERT_EQ(world.wait(), 0) << world.errors();
   Program check{"trivela", {"keys", "check", "--dir", "keys"}, folder.path()};
   EXPECT_EQ(check.wait(), 0) << check.errors();
-  EXPECT_THAT(check.output(), HasSubstr("robot 1: 16 identities, nothing wrong"));
+  EXPECT_THAT(check.output(), HasSubstr("robot 1: 17 identities, nothing wrong"));
   Program match{"trivela", with(short_match("match.db"), {"--secure", "./keys"}), folder.path()};
   EXPECT_EQ(match.wait(), 0) << match.errors();
   std::filesystem::copy_file(folder / "keys/robot_1/identity_ca.pem", folder / "keys/robot_1/permissions_ca.pem",

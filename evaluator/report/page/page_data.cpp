@@ -128,15 +128,32 @@ class HeldBook {
   std::map<ChanceKey, ChanceCycles> chances_;
 };
 
-/// Calls `read` and notes what goes wrong: a stream that is missing costs its section alone.
-template <class Read>
-void attempt(PageData& data, const std::string& what, Read&& read) {
-  try {
-    read();
-  } catch (const std::runtime_error& error) {
-    data.failures.push_back(fmt::format("{}: {}", what, error.what()));
+/// Reads one part after the other, says which begins, and notes what goes wrong: a stream that is missing costs its
+/// section alone.
+class Parts {
+ public:
+  Parts(PageData& data, const PageProgress& progress, std::size_t logs)
+      : data_(data), progress_(progress), parts_(6 * logs + 5) {}
+
+  void begin(const char* what) {
+    if (progress_) progress_(done_++, parts_, what);
   }
-}
+
+  template <class Read>
+  void read(const char* what, Read&& read) {
+    begin(what);
+    try {
+      read();
+    } catch (const std::runtime_error& error) {
+      data_.failures.push_back(fmt::format("{}: {}", what, error.what()));
+    }
+  }
+
+ private:
+  PageData& data_;
+  const PageProgress& progress_;
+  std::size_t parts_, done_ = 0;
+};
 
 void compare(const LoggedOpportunities& logged, PageData& data) {
   try {
@@ -225,29 +242,30 @@ void read_tracks(const std::vector<OpenLog>& readers, PageData& data) {
   for (PageKick& kick : data.kicks) add_tracks(*readers[kick.log].reader, kick.story);
 }
 
+/// Shadows by name, each once; kicks by time.
+void sort_all(PageData& data) {
+  std::ranges::sort(data.shadows);
+  data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
+  std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
+    return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
+  });
+}
+
 }  // namespace
 
 PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& progress) {
   PageData data;
-  const std::size_t parts = 6 * logs.size() + 5;
-  std::size_t done = 0;
-  const auto begins = [&](const char* what) {
-    if (progress) progress(done++, parts, what);
-  };
-  const auto read = [&](const char* what, const auto& part) {
-    begins(what);
-    attempt(data, what, part);
-  };
+  Parts parts{data, progress, logs.size()};
   std::vector<std::unique_ptr<log::Reader>> open;
   std::vector<OpenLog> readers;
   for (const fs::path& path : logs) {
     open.push_back(std::make_unique<log::Reader>(path, log::Check::kSchema));  // the report has looked closer
     readers.push_back({open.back().get(), path.filename().string()});
-    begins("files");
+    parts.begin("files");
     data.logs.push_back({readers.back().name, sha256_of_file(path), open.back()->version()});
   }
   LoggedOpportunities logged;
-  read("chances", [&] {
+  parts.read("chances", [&] {
     logged = read_opportunities(readers, false);
     for (const LoggedOpportunity& o : logged.rows) {
       if (o.has_possession && !o.policy.empty()) ++data.opportunities[o.policy];
@@ -257,22 +275,18 @@ PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& p
   HeldBook held(logged);
   for (std::size_t i = 0; i < readers.size(); ++i) {
     const log::Reader& reader = *readers[i].reader;
-    read("kicks", [&] { read_kicks(reader, i, data); });
-    read("decisions", [&] { held.add(reader); });
-    read("predicted chances", [&] { read_predictions(reader, data); });
-    read("clocks", [&] { read_clocks(reader, data); });
-    read("shadows", [&] { read_shadows(reader, data); });
+    parts.read("kicks", [&] { read_kicks(reader, i, data); });
+    parts.read("decisions", [&] { held.add(reader); });
+    parts.read("predicted chances", [&] { read_predictions(reader, data); });
+    parts.read("clocks", [&] { read_clocks(reader, data); });
+    parts.read("shadows", [&] { read_shadows(reader, data); });
   }
-  std::ranges::sort(data.shadows);
-  data.shadows.erase(std::unique(data.shadows.begin(), data.shadows.end()), data.shadows.end());
   held.fill(data);
-  std::ranges::stable_sort(data.kicks, {}, [](const PageKick& kick) {
-    return std::tuple(kick.story.utc_ns, kick.story.session_id, kick.story.robot_id, kick.story.kick_id);
-  });
-  read("drift of kickers", [&] { data.drift = drift_in(readers); });
-  read("differences between the logs", [&] { read_changes(logs, readers, data); });
-  read("times of the halves", [&] { read_half_times(readers, data); });
-  read("tracks of robots and balls", [&] { read_tracks(readers, data); });
+  sort_all(data);
+  parts.read("drift of kickers", [&] { data.drift = drift_in(readers); });
+  parts.read("differences between the logs", [&] { read_changes(logs, readers, data); });
+  parts.read("times of the halves", [&] { read_half_times(readers, data); });
+  parts.read("tracks of robots and balls", [&] { read_tracks(readers, data); });
   return data;
 }
 
