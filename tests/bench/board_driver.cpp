@@ -92,6 +92,7 @@ class DrivenBoard {
     for (const auto end = steady_clock::now() + seconds(30); !ready;) {
       if (steady_clock::now() > end) throw std::runtime_error{"the driver is never ready: " + driver_->errors()};
       say_play();
+      say_decision_lives();
       status_.wait(milliseconds(50));
       status_.take([&](const msg::KickerStatus& status) { ready = status.ready && status.t_ns > fired_ns; });
     }
@@ -106,6 +107,14 @@ class DrivenBoard {
     referee_.write(word);
   }
 
+  void say_decision_lives() {
+    msg::DriveCommand command{};
+    command.robot_id = 1;
+    command.seq = ++drives_;
+    command.t_ns = now_ns();
+    drive_.write(command);
+  }
+
   std::size_t pulses() {
     std::size_t count = 0;
     board_.with_board([&](const Board& board) { count = board.pulses().size(); });
@@ -118,11 +127,13 @@ class DrivenBoard {
   bus::Participant participant_{
       bus::loopback(static_cast<std::uint32_t>(settings_.domain.domain_id), settings_.domain.tag)};
   bus::Writer<msg::Referee> referee_{participant_};
-  bus::Writer<msg::KickOrder> decision_{
-      participant_, {.period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/1"}};
+  const bus::WriterOptions own_{
+      .period = {}, .lease = std::chrono::hours{1}, .strength = 0, .owner = "kick_decision/1"};
+  bus::Writer<msg::KickOrder> decision_{participant_, own_};
+  bus::Writer<msg::DriveCommand> drive_{participant_, own_};
   bus::Reader<msg::KickerStatus> status_{participant_};
   std::optional<e2e::Program> driver_;
-  std::uint64_t kicks_ = 0, words_ = 0;
+  std::uint64_t kicks_ = 0, words_ = 0, drives_ = 0;
 };
 
 /// The same frame to the same kind of far end, written by whoever decides.
