@@ -151,10 +151,10 @@ TEST_F(DriftVerb, KicksWithoutPredictionsAreTooFewToTell) {
 
 TEST_F(DriftVerb, ALogThatIsNotThereIsNamed) { EXPECT_THROW(run({"nowhere.db"}), std::runtime_error); }
 
-// Simulated: 40 kickers, each of another seed, lose 3 % of their speed after 60 kicks.
+// Simulated: 200 kickers, each of another seed, lose 3 % of their speed after 60 kicks.
 TEST_F(DriftVerb, FindsAFallOfThreePercentWithinTenKicksAtTheMedian) {
   constexpr int kBefore = 60;
-  run_verbs({add_simulate}, {"simulate", "--arms", "predictive", "--matches", "200", "--possessions", "160", "--seed",
+  run_verbs({add_simulate}, {"simulate", "--arms", "predictive", "--matches", "200", "--possessions", "200", "--seed",
                              "1000", "--world", "kicker.drop_ratio=0.03", "--world",
                              fmt::format("kicker.drop_after_kicks={}", kBefore), "--out", path().string()});
   const json robots = json::parse(run({"match.db"}, true).out)["robots"];
