@@ -153,6 +153,9 @@ TEST_F(DriftVerb, ALogThatIsNotThereIsNamed) { EXPECT_THROW(run({"nowhere.db"}),
 
 // Simulated: 200 kickers, each of another seed, lose 3 % of their speed after 60 kicks.
 TEST_F(DriftVerb, FindsAFallOfThreePercentWithinTenKicksAtTheMedian) {
+#ifdef TRIVELA_SANITIZE
+  GTEST_SKIP() << "forty thousand possessions take minutes";
+#endif
   constexpr int kBefore = 60;
   run_verbs({add_simulate}, {"simulate", "--arms", "predictive", "--matches", "200", "--possessions", "200", "--seed",
                              "1000", "--world", "kicker.drop_ratio=0.03", "--world",
