@@ -39,14 +39,14 @@ std::vector<CLI::Option*> add_watch_flags(CLI::App& verb, WatchFlags& flags) {
 
 pages::SceneSettings scene_settings(const config::Settings& settings) {
   const config::Robot robot = config::load_robot(settings.run.robot);
-  pages::SceneSettings scene{.title = settings.run.team,
-                             .names = {{static_cast<std::uint8_t>(settings.run.robot_id), robot.name}},
-                             .goal = settings.goal,
-                             .side_line_x_m = settings.field.side_line_x_m,
-                             .cycle_s = settings.run.cycle_s,
-                             .own_half_ball_offset_m = {}};
-  if (settings.policy.rules.opponents_half_only) scene.own_half_ball_offset_m = robot.model.ball_offset_m;
-  return scene;
+  return {.title = settings.run.team,
+          .names = {{static_cast<std::uint8_t>(settings.run.robot_id), robot.name}},
+          .goal = settings.goal,
+          .side_line_x_m = settings.field.side_line_x_m,
+          .cycle_s = settings.run.cycle_s,
+          .goal_rules = {.opponents_half_only = settings.policy.rules.opponents_half_only,
+                         .carry_limit_m = settings.policy.rules.carry_limit_m,
+                         .ball_offset_m = robot.model.ball_offset_m}};
 }
 
 WatchPage::WatchPage(const WatchFlags& flags, const config::Settings& settings, const std::string& keys,

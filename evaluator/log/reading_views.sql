@@ -7,14 +7,20 @@ CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER 
 CREATE TEMP VIEW imported_sessions AS
 SELECT session_id FROM sessions
 WHERE config_sha256 IN (SELECT sha256 FROM texts WHERE substr(text, 1, 11) = '### import' || char(10));
--- Sessions whose rules count no goal from the own half: [rules] of their configuration, with how far before a robot's
--- centre it says that the ball lies.
-CREATE TEMP VIEW opponents_half_sessions AS
-SELECT s.session_id,
-  CAST(substr(t.text, instr(t.text, char(10) || 'ball_offset_m = ') + length(char(10) || 'ball_offset_m = ')) AS REAL)
-    AS ball_offset_m
-FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256
-WHERE instr(t.text, char(10) || 'opponents_half_only = true' || char(10)) > 0;
+-- Sessions whose rules count no goal from the own half (opponents_half_only), or after the ball was carried farther than
+-- carry_limit_m (NULL: however far): [rules] of their configuration, with how far before a robot's centre it says that
+-- the ball lies.
+CREATE TEMP VIEW ruled_sessions AS
+SELECT * FROM (
+  SELECT s.session_id,
+    CAST(substr(t.text, instr(t.text, char(10) || 'ball_offset_m = ') + length(char(10) || 'ball_offset_m = ')) AS REAL)
+      AS ball_offset_m,
+    instr(t.text, char(10) || 'opponents_half_only = true' || char(10)) > 0 AS opponents_half_only,
+    CASE WHEN instr(t.text, char(10) || 'carry_limit_m = ') > 0 THEN nullif(CAST(substr(t.text,
+      instr(t.text, char(10) || 'carry_limit_m = ') + length(char(10) || 'carry_limit_m = ')) AS REAL), 0.0) END
+      AS carry_limit_m
+  FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256)
+WHERE opponents_half_only OR carry_limit_m IS NOT NULL;
 -- What people say of kicks: the latest label of each, unless it is withdrawn, for every recording of that kick in the log.
 -- An experiment's kicks are nobody else's.
 CREATE TEMP VIEW hand_labels AS
@@ -30,21 +36,39 @@ FROM (
       WHERE d.session_id = s.session_id AND d.robot_id = l.robot_id AND d.kick_id = l.kick_id AND d.fire = 1
         AND d.t_ns = l.t_ns)))
 WHERE place = 1 AND outcome IS NOT NULL;
--- Kicks with own_half, 1 where the rules count no goal from where the ball lay when the kick was decided, and with what
--- counts as their outcome, label: what people say of it (hand_outcome; NULL: nothing), else what the observer does (outcome).
--- 'own_half' is one on target from there, 'outside' one of which somebody who saw it did not say how.
+-- Kicks with no_goal, why the rules count none of this kick (NULL: they do): 'own_half' from where the ball lay when it
+-- was decided, 'carried_too_far' by how far, in a straight line, that was from where it lay at the possession's first
+-- decision, which the tallies name, else the one that follows the last of another possession; and with what counts as
+-- their outcome, label: what people say of it (hand_outcome; NULL: nothing), else what the observer does (outcome). One
+-- on target that is no goal has no_goal, 'outside' is one of which somebody who saw it did not say how.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
       AND k.session_id IN (SELECT session_id FROM imported_sessions)
     THEN 'outside'
-    WHEN k.own_half AND coalesce(k.hand_outcome, k.outcome) = 'on_target' THEN 'own_half'
+    WHEN coalesce(k.hand_outcome, k.outcome) = 'on_target' THEN coalesce(k.no_goal, 'on_target')
     ELSE coalesce(k.hand_outcome, k.outcome) END AS label
 FROM (
-  SELECT j.*, h.outcome AS hand_outcome, coalesce(h.utc_ns, 0) AS labelled_utc_ns, CASE WHEN j.session_id IN (SELECT session_id FROM opponents_half_sessions) THEN EXISTS (
-    SELECT 1 FROM kick_decisions AS d JOIN opponents_half_sessions AS s ON s.session_id = d.session_id
-    WHERE d.session_id = j.session_id AND d.robot_id = j.robot_id AND d.seq = j.seq
-      AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0) ELSE 0 END AS own_half
+  SELECT j.*, h.outcome AS hand_outcome, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
+    CASE WHEN j.session_id IN (SELECT session_id FROM ruled_sessions) THEN (
+      SELECT CASE WHEN s.opponents_half_only AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0 THEN 'own_half'
+        WHEN s.carry_limit_m * s.carry_limit_m < (
+          SELECT pow(d.x_m - a.x_m - s.ball_offset_m * (sin(d.heading_rad) - sin(a.heading_rad)), 2)
+            + pow(d.y_m - a.y_m + s.ball_offset_m * (cos(d.heading_rad) - cos(a.heading_rad)), 2)
+          FROM kick_decisions AS a
+          WHERE a.session_id = d.session_id AND a.robot_id = d.robot_id AND a.seq = coalesce((
+            SELECT first_seq FROM possession_tallies
+            WHERE session_id = d.session_id AND robot_id = d.robot_id AND half = d.half
+              AND possession_id = d.possession_id AND counted_by = 'robot'
+              AND session_id IN (SELECT session_id FROM counted_sessions)), (
+            SELECT min(seq) FROM kick_decisions
+            WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq > coalesce((
+              SELECT seq FROM kick_decisions
+              WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq < d.seq
+                AND (half <> d.half OR possession_id <> d.possession_id)
+              ORDER BY seq DESC LIMIT 1), -1)))) THEN 'carried_too_far' END
+      FROM kick_decisions AS d JOIN ruled_sessions AS s ON s.session_id = d.session_id
+      WHERE d.session_id = j.session_id AND d.robot_id = j.robot_id AND d.seq = j.seq) END AS no_goal
   FROM temp.kicks AS j
   LEFT JOIN hand_labels AS h ON h.session_id = j.session_id AND h.robot_id = j.robot_id AND h.kick_id = j.kick_id) AS k;
 CREATE TEMP VIEW counted_kicks AS

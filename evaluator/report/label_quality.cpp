@@ -10,7 +10,7 @@
 
 #include "evaluator/log/ball_turns.hpp"
 #include "evaluator/metrics/label_doubt.sql.hpp"
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -43,7 +43,7 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     stats::LabelDoubt& doubt = doubts[{session_id, robot_id, policy}];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
-    } else if (label != kOwnHalf) {  // however sure it is that it was inside
+    } else if (!is_no_goal(label)) {  // however sure it is that it was inside
       doubt.outside += p_inside.value_or(0.0);
     }
   };

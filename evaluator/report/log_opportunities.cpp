@@ -14,7 +14,7 @@
 #include "evaluator/metrics/opportunities.sql.hpp"
 #include "evaluator/report/log_minutes.hpp"
 #include "evaluator/report/log_sessions.hpp"
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/played_length.hpp"
 #include "evaluator/report/possession_places.hpp"
 #include "evaluator/report/truth_count.hpp"
@@ -163,7 +163,8 @@ PossessionPlaces add_opportunities(std::vector<LoggedOpportunity>&& opportunitie
 
 void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, const PossessionPlaces& places, bool truth,
                LoggedOpportunities& logged) {
-  std::int64_t alone = 0, from_own_half = 0;
+  std::int64_t alone = 0;
+  std::array<std::int64_t, kNoGoals.size()> no_goals{};
   for (const SeenKick& kick : kicks) {
     if (!book.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
     const ComparedSession& session = logged.sessions[kick.session];
@@ -181,22 +182,23 @@ void add_kicks(const std::vector<SeenKick>& kicks, const SessionBook& book, cons
     const bool no_ball = truth && kick.outcome.empty() && session.simulated;
     o.ending = no_ball ? Ending::kNoKick : ending_of(kick.outcome);
     o.distance_m = kick.distance_m;
-    const bool own_half = kick.outcome == kOwnHalf;
-    from_own_half += own_half ? 1 : 0;
-    o.doubt = !kick.p_inside || own_half     ? 0.0
-              : o.ending == Ending::kInside  ? 1.0 - *kick.p_inside
-              : o.ending == Ending::kOutside ? *kick.p_inside
-                                             : 0.0;
+    for (std::size_t i = 0; i < kNoGoals.size(); ++i) no_goals[i] += kick.outcome == kNoGoals[i].label ? 1 : 0;
+    o.doubt = !kick.p_inside || is_no_goal(kick.outcome) ? 0.0
+              : o.ending == Ending::kInside              ? 1.0 - *kick.p_inside
+              : o.ending == Ending::kOutside             ? *kick.p_inside
+                                                         : 0.0;
     o.blocked = kick.outcome == "blocked";
     o.bounced = kick.bounced;
     o.truth_bounced = kick.truth_bounced;
     o.saved = kick.saved;
     o.goal = kick.goal;
   }
-  if (from_own_half > 0) {
+  for (std::size_t i = 0; i < kNoGoals.size(); ++i) {
+    if (no_goals[i] == 0) continue;
+    const bool one = no_goals[i] == 1;
     logged.not_counted.push_back(
-        fmt::format("{} {} on target from the own half {} outside: the rules of the session count no goal from there",
-                    from_own_half, from_own_half == 1 ? "kick" : "kicks", from_own_half == 1 ? "is" : "are"));
+        fmt::format("{} {} on target {} {} outside: the rules of the session count no such goal", no_goals[i],
+                    one ? "kick" : "kicks", kNoGoals[i].where, one ? "is" : "are"));
     logged.remarks.push_back(logged.not_counted.back());
   }
   if (alone > 0 && !places.empty()) {

@@ -2,7 +2,7 @@
 #include <fmt/ranges.h>
 
 #include "evaluator/report/escaped_text.hpp"
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
@@ -25,7 +25,8 @@ const CsvCells kCsvHead = {"row",
                            "played_min",
                            "kicks_per_min"};
 const CsvCells kCsvMore = {"not_said",
-                           kOwnHalf,
+                           kNoGoals[0].label,
+                           kNoGoals[1].label,
                            "observed_bounced",
                            "observed_bounced_of",
                            "truth_bounced",
@@ -65,8 +66,9 @@ std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, cons
                     csv_cell(row.played_min),
                     csv_cell(row.kicks_per_min())};
   for (const std::string& miss : kMisses) cells.push_back(csv_cell(row.of(miss)));
-  for (const std::int64_t n : {row.of("outside"), row.of(kOwnHalf), row.bounces.observed_bounced, row.bounces.observed,
-                               row.bounces.truth_bounced, row.bounces.truth})
+  for (const std::int64_t n :
+       {row.of("outside"), row.of(kNoGoals[0].label), row.of(kNoGoals[1].label), row.bounces.observed_bounced,
+        row.bounces.observed, row.bounces.truth_bounced, row.bounces.truth})
     cells.push_back(csv_cell(n));
   cells.push_back(csv_cell(row.doubt.inside));
   cells.push_back(csv_cell(row.doubt.outside));

@@ -1,5 +1,5 @@
 #include "evaluator/report/json_values.hpp"
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
@@ -9,7 +9,8 @@ Json policy_json(const PolicyRow& row) {
   Json misses = Json::object();
   for (const std::string& miss : kMisses) misses[miss] = row.of(miss);
   if (row.of("outside") > 0) misses["outside"] = row.of("outside");
-  if (row.of(kOwnHalf) > 0) misses[kOwnHalf] = row.of(kOwnHalf);
+  for (const NoGoal& rule : kNoGoals)
+    if (row.of(rule.label) > 0) misses[rule.label] = row.of(rule.label);
   return {{"arm", row.arm.empty() ? Json() : Json(row.arm)},
           {"policy", row.policy},
           {"inside", row.inside()},

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "evaluator/report/next_comparison.hpp"
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/report_heading.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
@@ -93,17 +93,18 @@ ReportPart by_robot_part(const Report& report) {
 ReportPart misses_part(const Report& report) {
   std::vector<std::string> names;
   for (const std::string& miss : kMisses) names.push_back(words(miss));
-  const bool unsaid = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of("outside") > 0; });
-  if (unsaid) names.emplace_back("not said");
-  const bool own_half = std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.of(kOwnHalf) > 0; });
-  if (own_half) names.push_back(words(kOwnHalf));
+  std::vector<std::string> rarer;  // that there are
+  for (const char* const label : {"outside", kNoGoals[0].label, kNoGoals[1].label}) {
+    if (std::ranges::none_of(report.policies, [&](const PolicyRow& row) { return row.of(label) > 0; })) continue;
+    rarer.emplace_back(label);
+    names.push_back(rarer.back() == "outside" ? "not said" : words(label));
+  }
   names.emplace_back("unknown");
   ReportPart part{"Why the misses missed", {head_of(report, names)}, {}};
   for (const PolicyRow& row : report.policies) {
     std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
     for (const std::string& miss : kMisses) cells.push_back(shown(row.of(miss)));
-    if (unsaid) cells.push_back(shown(row.of("outside")));
-    if (own_half) cells.push_back(shown(row.of(kOwnHalf)));
+    for (const std::string& label : rarer) cells.push_back(shown(row.of(label)));
     cells.push_back(shown(row.unknown()));
   }
   return part;

@@ -30,7 +30,7 @@ KickFate fate_of(const KnownKick& kick, const LedgerNow& now) {
     case msg::OUTCOME_UNKNOWN:
       return KickFate::kUnknown;
     case msg::OUTCOME_ON_TARGET:
-      return kick.decided && kick.decided->from_own_half ? KickFate::kOutside : KickFate::kInside;
+      return kick.decided && !kick.decided->goal_counts ? KickFate::kOutside : KickFate::kInside;
     default:
       return KickFate::kOutside;
   }
@@ -52,18 +52,29 @@ KnownKick* KickLedger::kick_of(std::uint8_t robot_id, std::int64_t kick_id, std:
   return &kick;
 }
 
+bool KickLedger::goal_counts(const msg::KickDecision& decision) {
+  const Taken ball{.half = decision.half,
+                   .possession_id = decision.possession_id,
+                   .x_m = decision.x_m - rules_.ball_offset_m * std::sin(decision.heading_rad),
+                   .y_m = decision.y_m + rules_.ball_offset_m * std::cos(decision.heading_rad)};
+  Taken& taken = taken_.try_emplace(decision.robot_id, ball).first->second;
+  if (taken.half != ball.half || taken.possession_id != ball.possession_id) taken = ball;
+  if (rules_.opponents_half_only && ball.y_m <= 0.0) return false;
+  return !(rules_.carry_limit_m > 0.0 && std::hypot(ball.x_m - taken.x_m, ball.y_m - taken.y_m) > rules_.carry_limit_m);
+}
+
 void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) {
+  const bool counts = goal_counts(decision);
   if (!decision.fire) return;
   KnownKick* const kick = kick_of(decision.robot_id, decision.kick_id, heard_ns);
   if (kick == nullptr || (kick->decided && kick->decided->seq <= decision.seq)) return;
-  KnownKick::Decided decided{.seq = decision.seq,
-                             .t_ns = decision.t_ns,
-                             .policy = decision.policy,
-                             .distance_m = decision.distance_m,
-                             .power = msg::optional_of(decision.power),
-                             .p_on_target = msg::optional_of(decision.p_on_target)};
-  decided.from_own_half = ball_offset_m_ && decision.y_m + *ball_offset_m_ * std::cos(decision.heading_rad) <= 0.0;
-  kick->decided = decided;
+  kick->decided = KnownKick::Decided{.seq = decision.seq,
+                                     .t_ns = decision.t_ns,
+                                     .policy = decision.policy,
+                                     .distance_m = decision.distance_m,
+                                     .power = msg::optional_of(decision.power),
+                                     .p_on_target = msg::optional_of(decision.p_on_target),
+                                     .goal_counts = counts};
 }
 
 void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {

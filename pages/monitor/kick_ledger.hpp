@@ -21,7 +21,7 @@ struct KnownKick {
     double distance_m = 0.0;
     std::optional<double> power;
     std::optional<double> p_on_target;
-    bool from_own_half = false;
+    bool goal_counts = true;  ///< by the rules, if the ball goes in
   };
   struct Answered {
     std::uint64_t seq = 0;
@@ -54,8 +54,8 @@ struct LedgerNow {
 inline constexpr std::int64_t kOutcomePatience_ns = 10'000'000'000;
 inline constexpr std::int64_t kSilencePatience_ns = 60'000'000'000;
 
-/// A refused order is no kick; an outcome that never came is unknown; one on target from the own half is outside where
-/// the rules say so.
+/// A refused order is no kick; an outcome that never came is unknown; one on target that the rules count as no goal is
+/// outside.
 KickFate fate_of(const KnownKick& kick, const LedgerNow& now);
 
 /// Kicks by fate; `refused` are none.
@@ -67,6 +67,14 @@ struct KickTally {
   std::int64_t refused = 0;
 };
 
+/// From which kicks no goal counts, as the log's view `labelled_kicks` has it.
+struct GoalRules {
+  bool opponents_half_only = false;  ///< the ball lies in the own half
+  double carry_limit_m =
+      0.0;  ///< it was carried farther from where the possession's first decision saw it; 0: no limit
+  double ball_offset_m = 0.0;  ///< how far before a robot's centre the ball lies
+};
+
 /// Joins decisions, receipts and outcomes by kick_id, each kick once however often and in whatever order its words
 /// come. As the log's view `kicks` has it: the first decision that fired, the last receipt (one that says `double` last
 /// of all), the last outcome.
@@ -74,8 +82,7 @@ class KickLedger {
  public:
   static constexpr std::size_t kMostKicks = 10'000;  ///< a stranger may say any number of them
 
-  /// `ball_offset_m`: how far before a robot's centre the ball lies; none: goals from the own half count.
-  explicit KickLedger(std::optional<double> own_half_ball_offset_m = {}) : ball_offset_m_(own_half_ball_offset_m) {}
+  explicit KickLedger(const GoalRules& rules = {}) : rules_(rules) {}
 
   void hear(const msg::KickDecision& decision, std::int64_t heard_ns);
   void hear(const msg::KickReceipt& receipt, std::int64_t heard_ns);
@@ -91,9 +98,16 @@ class KickLedger {
   std::int64_t not_kept() const { return not_kept_; }
 
  private:
+  struct Taken {
+    std::uint8_t half = 0;
+    std::uint32_t possession_id = 0;
+    double x_m = 0.0, y_m = 0.0;  // of the ball
+  };
+  bool goal_counts(const msg::KickDecision& decision);
   KnownKick* kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns);
 
-  std::optional<double> ball_offset_m_;
+  GoalRules rules_;
+  std::map<std::uint8_t, Taken> taken_;  // by robot: where its possession began
   std::map<std::pair<std::uint8_t, std::int64_t>, std::size_t> places_;
   std::vector<KnownKick> kicks_;  // in the order of their first words
   std::int64_t not_kept_ = 0;

@@ -24,7 +24,7 @@ struct SceneSettings {
   kicking::Goal goal{};
   double side_line_x_m = 6.0;
   double cycle_s = 0.02;
-  std::optional<double> own_half_ball_offset_m{};  ///< where goals from the own half do not count: KickLedger
+  GoalRules goal_rules{};
 };
 
 /// All that the page knows.
@@ -40,7 +40,7 @@ struct SceneState {
   std::int64_t strangers = 0;       ///< messages of robots that found no place
   bool over = false;                ///< nothing more comes, and that is as it should be
 
-  explicit SceneState(SceneSettings given) : settings(std::move(given)), kicks(settings.own_half_ball_offset_m) {}
+  explicit SceneState(SceneSettings given) : settings(std::move(given)), kicks(settings.goal_rules) {}
 };
 
 /// A match as it looks from the topics. Pure: messages and the clock are handed in, instants are of the listener's

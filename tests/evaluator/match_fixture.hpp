@@ -46,12 +46,10 @@ class MatchLog {
     return kick_id;
   }
 
-  void write_decision(Int kick_id, Int half) {
-    const char* const policy = half == 1 ? "stopped" : "moving";
-    writer_.push(decisions_, {robot_id, ++seq_,      t_ns(), kick_id, half, kick_id, policy, Int{1}, "fire", 0.0,
-                              y_m,      heading_rad, 0.0,    0.0,     0.0,  0.0,     9.0,    0.7,    5.0,    0.0,
-                              0.0,      Int{1},      0.3,    0.3,     1.0,  Int{0},  0.0,    1.0});
-  }
+  void write_decision(Int kick_id, Int half) { write_decision(kick_id, half, kick_id, "fire"); }
+
+  /// A decision to hold, in the possession of the kick that comes next.
+  void hold(Int half) { write_decision(0, half, kicks_ + 1, "not_aligned"); }
 
   void order(Int kick_id) {
     writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40, Int{1}});
@@ -102,6 +100,14 @@ class MatchLog {
   double heading_rad = 0.0;
 
  private:
+  void write_decision(Int kick_id, Int half, Int possession_id, const std::string& reason) {
+    const char* const policy = half == 1 ? "stopped" : "moving";
+    const Int fire = kick_id > 0 ? 1 : 0;
+    writer_.push(decisions_, {robot_id, ++seq_,      t_ns(), kick_id, half, possession_id, policy, fire, reason, 0.0,
+                              y_m,      heading_rad, 0.0,    0.0,     0.0,  0.0,           9.0,    0.7,  5.0,    0.0,
+                              0.0,      fire,        0.3,    0.3,     1.0,  Int{0},        0.0,    1.0});
+  }
+
   Int t_ns() const { return seq_ * 20'000'000; }
 
   log::Writer writer_;

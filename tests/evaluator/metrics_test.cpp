@@ -179,7 +179,7 @@ class CarriedKicks : public LogTest {
 };
 
 TEST_F(CarriedKicks, BeyondTheSessionsLimitAreTooFar) {
-  EXPECT_EQ(by_the_rule("0.4"), "8192,1,99,moving,on_target,0.5,0.4,1\n");
+  EXPECT_EQ(by_the_rule("0.4"), "8192,1,99,moving,carried_too_far,0.5,0.4,1\n");
 }
 
 TEST_F(CarriedKicks, WithinTheSessionsLimitAreNot) {

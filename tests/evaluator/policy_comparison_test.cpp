@@ -350,6 +350,28 @@ TEST_F(PolicyComparisonTest, ABallFromTheOwnHalfIsNoGoalAsSeenOrInTruthWhereTheR
   }
 }
 
+TEST_F(PolicyComparisonTest, ABallThatWasCarriedTooFarIsNoGoalAsSeenOrInTruthWhereTheRulesSaySo) {
+  log::Session ruled = session();
+  ruled.config_toml = "### settings\n[rules]\ncarry_limit_m = 3.0\n\n### robot\nball_offset_m = 0.27\n";
+  MatchLog match(path(), ruled, options());
+  for (const int half : {1, 2}) {
+    for (int kick = 0; kick < 10; ++kick) {
+      match.y_m = half == 1 && kick < 4 ? 0.5 : 3.0;
+      match.hold(half);
+      match.y_m = 4.0;
+      match.truth(match.kick(half, "on_target"), "on_target");
+    }
+  }
+  match.close();
+  for (const bool truth : {false, true}) {
+    const auto result = compared({.truth = truth});
+    EXPECT_EQ(result.groups[0].inside, 6) << truth;
+    EXPECT_EQ(result.groups[1].inside, 10) << truth;
+    EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target after the ball was carried too far are outside"))
+        << truth;
+  }
+}
+
 TEST_F(PolicyComparisonTest, LogsWithoutKicksGiveASentence) {
   {
     MatchLog match(path(), session(), options());

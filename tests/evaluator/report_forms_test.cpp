@@ -40,7 +40,7 @@ Report full_report() {
   const auto fill = [&](PolicyRow& row, const std::string& arm, const std::string& policy) {
     row.arm = arm;
     row.policy = policy;
-    for (const char* const outcome : {"on_target", "unknown", "outside", "own_half"})
+    for (const char* const outcome : {"on_target", "unknown", "outside", "own_half", "carried_too_far"})
       row.kicks_by_outcome[outcome] = n += 2;
     for (const std::string& miss : kMisses) row.kicks_by_outcome[miss] = n += 3;
     row.doubt = {0.25 + static_cast<double>(n), 0.75};
@@ -221,6 +221,7 @@ TEST(ReportForms, TheTablesHaveTheNumbersOfTheJson) {
       expect_shown(tables[2][i + 1][m + 2], misses[kMisses[m]], kMisses[m]);
     expect_shown(tables[2][i + 1][kMisses.size() + 2], misses["outside"], "not said");
     expect_shown(tables[2][i + 1][kMisses.size() + 3], misses["own_half"], "own half");
+    expect_shown(tables[2][i + 1][kMisses.size() + 4], misses["carried_too_far"], "carried too far");
     const JsonValue& sightings = json["data_quality"]["labels"]["by_sightings"][i];
     expect_shown(tables[3][i + 1][1], sightings["kicks"], "kicks by sightings");
     expect_shown(tables[3][i + 1][2], sightings["unknown"], "unknown by sightings");
@@ -290,6 +291,7 @@ void expect_row(const CsvReport& csv, std::size_t row, const JsonValue& json) {
       {"efficiency_unknown_in", json["efficiency_bounds"][1]},
       {"not_said", json["misses"]["outside"]},
       {"own_half", json["misses"]["own_half"]},
+      {"carried_too_far", json["misses"]["carried_too_far"]},
       {"expected_wrong_inside", json["expected_wrong"]["inside"]},
       {"expected_wrong_outside", json["expected_wrong"]["outside"]},
       {"observed_bounced", json["bounced"]["observed"]["bounced"]},

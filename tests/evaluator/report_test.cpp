@@ -84,10 +84,57 @@ TEST_F(ReportOfALog, ABallFromTheOwnHalfIsNoGoalWhereTheRulesOfTheSessionSaySo) 
   EXPECT_EQ(moving.outside(), 4);
   EXPECT_EQ(moving.of("own_half"), 3);
   const std::string line =
-      "3 kicks on target from the own half are outside: the rules of the session count no goal from there";
+      "3 kicks on target from the own half are outside: the rules of the session count no such goal";
   EXPECT_THAT(report.not_counted, ElementsAre(line));
   EXPECT_THAT(to_text(report), AllOf(HasSubstr(line), HasSubstr("own half  unknown")));
   EXPECT_EQ(nlohmann::json::parse(to_json(report))["policies"][1]["misses"]["own_half"], 3);
+}
+
+/// Kicks on target after a carry of 2.9 m, of 3.1 m, of 3.1 m in two possessions, and of 3.1 m ended by another policy.
+void carry_and_kick(MatchLog& match) {
+  for (const double to_y_m : {3.9, 4.1}) {
+    match.y_m = 1.0;
+    match.hold(2);
+    match.y_m = 2.0;
+    match.hold(2);
+    match.y_m = to_y_m;
+    match.kick(2, "on_target");
+  }
+  match.kick(2, "on_target");
+  match.y_m = 1.0;
+  match.hold(1);
+  match.y_m = 4.1;
+  match.kick(1, "wide_left");
+}
+
+TEST_F(ReportOfALog, ABallThatWasCarriedTooFarIsNoGoalWhereTheRulesOfTheSessionSaySo) {
+  log::Session ruled = session();
+  ruled.config_toml = "### settings\n[rules]\ncarry_limit_m = 3.0\n\n### robot\nball_offset_m = 0.5\n";
+  MatchLog match(path(), ruled, options());
+  carry_and_kick(match);
+  match.close();
+  for (const bool tallied : {true, false}) {
+    if (!tallied) SQLite::Database(path(), SQLite::OPEN_READWRITE).exec("DELETE FROM tallied_sessions");
+    const Report report = make_report(log::Reader(path()));
+    const PolicyRow moving = row_of(report, "moving");
+    EXPECT_EQ(moving.inside(), 2) << tallied;
+    EXPECT_EQ(moving.of("carried_too_far"), 1) << tallied;
+    EXPECT_EQ(row_of(report, "stopped").of("carried_too_far"), 0) << "what missed is what it is";
+    EXPECT_THAT(report.not_counted, ElementsAre("1 kick on target after the ball was carried too far is outside: the "
+                                                "rules of the session count no such goal"));
+    EXPECT_THAT(to_text(report), HasSubstr("carried too far  unknown"));
+  }
+}
+
+TEST_F(ReportOfALog, WithoutALimitABallCountsHoweverFarItWasCarried) {
+  for (const std::string limit : {"carry_limit_m = 0.0", "", "carry_limit_m = 3.2"}) {
+    log::Session free = session();
+    free.config_toml = "### settings\n[rules]\n" + limit + "\n\n### robot\nball_offset_m = 0.5\n";
+    MatchLog match(path(limit + ".db"), free, options());
+    carry_and_kick(match);
+    match.close();
+    EXPECT_EQ(row_of(make_report(log::Reader(path(limit + ".db"))), "moving").inside(), 3) << limit;
+  }
 }
 
 TEST_F(ReportOfALog, WithoutTheRuleABallFromTheOwnHalfCountsAsAnyOther) {

@@ -120,7 +120,7 @@ TEST(KickLedger, DecisionsToHoldAndNumbersThatAreNoneAreNoKicks) {
 
 TEST(KickLedger, AGoalFromTheOwnHalfIsOutsideWhereTheRulesSaySo) {
   for (const bool rule : {false, true}) {
-    KickLedger ledger{rule ? std::optional{0.27} : std::nullopt};
+    KickLedger ledger{{.opponents_half_only = rule, .ball_offset_m = 0.27}};
     msg::KickDecision own = decision(1, 7, msg::POLICY_MOVING);
     own.y_m = -0.3;
     ledger.hear(own, kNow);
@@ -132,6 +132,28 @@ TEST(KickLedger, AGoalFromTheOwnHalfIsOutsideWhereTheRulesSaySo) {
     EXPECT_EQ(moving(ledger).inside, rule ? 1 : 2);
     EXPECT_EQ(moving(ledger).outside, rule ? 1 : 0);
   }
+}
+
+TEST(KickLedger, AGoalAfterTheBallWasCarriedTooFarIsOutsideWhereTheRulesSaySo) {
+  const auto inside_after = [](double limit_m,
+                               std::initializer_list<std::tuple<std::uint32_t, double, bool>> decisions) {
+    KickLedger ledger{{.carry_limit_m = limit_m, .ball_offset_m = 0.27}};
+    std::int64_t seq = 0;
+    for (const auto& [possession_id, y_m, fire] : decisions) {
+      msg::KickDecision said = decision(1, fire ? 7 : 0, msg::POLICY_MOVING);
+      said.seq = static_cast<std::uint64_t>(++seq);
+      said.fire = fire;
+      said.possession_id = possession_id;
+      said.y_m = y_m;
+      ledger.hear(said, kNow);
+    }
+    ledger.hear(outcome(1, 7, msg::OUTCOME_ON_TARGET), kNow);
+    return moving(ledger).inside;
+  };
+  EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {4, 3.9, true}}), 1);
+  EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {4, 4.1, true}}), 0);
+  EXPECT_EQ(inside_after(0.0, {{4, 1.0, false}, {4, 4.1, true}}), 1) << "no limit";
+  EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {5, 2.0, false}, {5, 4.1, true}}), 1) << "another possession";
 }
 
 TEST(KickLedger, KeepsNoMoreKicksThanItsPlacesAndSaysSo) {

@@ -22,7 +22,7 @@ inline constexpr std::array<OutcomeName, 5> kOutcomeNames{{{"inside", "on target
                                                            {"blocked", "blocked"},
                                                            {"unknown", "not known"}}};
 
-/// Of a kick's label; without one it is not known. "outside" and "own_half" are beside.
+/// Of a kick's label; without one it is not known. "outside" and what is no goal by the rules are beside.
 OutcomeKind kind_of(const KickStory& story);
 
 /// Its mark: a dot, a square, a diamond, a cross or a ring.

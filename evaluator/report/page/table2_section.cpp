@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "evaluator/report/own_half.hpp"
+#include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/page/html.hpp"
 #include "evaluator/report/page/sections.hpp"
 #include "evaluator/report/text_table.hpp"
