@@ -44,14 +44,14 @@ std::runtime_error lost(const Spin& spin, const hal::Wheels& wheels) {
 }
 
 void turn(const Spin& spin, hal::Wheels& wheels, const kicking::OmniKinematics& kinematics) {
-  if (wheels.drive_wheel(spin.wheel, spin.radps, spin_now_ns())) return;
-  const auto twist = kinematics.one_wheel(spin.wheel, spin.radps);
-  if (!twist)
+  if (const auto twist = kinematics.one_wheel(spin.wheel, spin.radps)) {
+    wheels.drive(*twist, spin_now_ns());
+  } else if (!wheels.drive_wheel(spin.wheel, spin.radps, spin_now_ns())) {
     throw std::runtime_error{fmt::format(
         "wheel {} cannot be turned alone: this device takes velocities of the whole base, and a base of {} wheels has "
         "none at which one alone turns",
         spin.wheel + 1, kinematics.wheel_count())};
-  wheels.drive(*twist, spin_now_ns());
+  }
 }
 
 /// Sums of the samples of the second half.

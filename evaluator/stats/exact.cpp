@@ -84,10 +84,11 @@ class Hypergeometric {
   double sum_ = 0.0;
 };
 
-/// Probabilities of 0..n successes out of n, for many proportions.
+/// Probabilities of 0..n successes out of n, for many proportions; those whose logarithm is below `least_log` are 0.
 class Binomial {
  public:
-  explicit Binomial(std::int64_t n) : log_coefficients_(static_cast<std::size_t>(n) + 1) {
+  Binomial(std::int64_t n, double least_log)
+      : log_coefficients_(static_cast<std::size_t>(n) + 1), least_log_(least_log) {
     for (std::size_t k = 1; k < log_coefficients_.size(); ++k) {
       log_coefficients_[k] = log_coefficients_[k - 1] + std::log(static_cast<double>(log_coefficients_.size() - k)) -
                              std::log(static_cast<double>(k));
@@ -100,13 +101,15 @@ class Binomial {
     std::vector<double> result(log_coefficients_.size());
     for (std::size_t k = 0; k < result.size(); ++k) {
       const double misses = static_cast<double>(result.size() - 1 - k);
-      result[k] = std::exp(log_coefficients_[k] + static_cast<double>(k) * log_p + misses * log_q);
+      const double log_of = log_coefficients_[k] + static_cast<double>(k) * log_p + misses * log_q;
+      result[k] = log_of < least_log_ ? 0.0 : std::exp(log_of);
     }
     return result;
   }
 
  private:
   std::vector<double> log_coefficients_;
+  double least_log_;
 };
 
 /// For each count inside of the newer group the largest count of the older one whose statistic is at most p; -1: none.
@@ -137,8 +140,10 @@ std::optional<double> boschloo_one_sided(Counts older, Counts newer) {
   const double statistic = fisher_one_sided(older, newer) * kTie;
   if (statistic >= 1.0) return 1.0;
   const auto largest_old = rejection_region(older.n, newer.n, statistic);
-  const Binomial old_kicks(older.n);
-  const Binomial new_kicks(newer.n);
+  // The result is of the statistic's size: what is e^-50 of it is nothing, also a kBoschlooKicks times.
+  const double least_log = std::log(statistic) - 50.0;
+  const Binomial old_kicks(older.n, least_log);
+  const Binomial new_kicks(newer.n, least_log);
   // Over the angle t with the common proportion sin^2 t the probability is about as smooth at the ends as inside.
   const auto negative_probability = [&](double angle) {
     const double p = std::sin(angle) * std::sin(angle);

@@ -51,14 +51,26 @@ void BusWheels::drive(const kicking::Twist& set_point, std::int64_t t_ns) {
   const bool finite =
       std::isfinite(set_point.vx_mps) && std::isfinite(set_point.vy_mps) && std::isfinite(set_point.omega_radps);
   const kicking::Twist twist = finite ? set_point : kicking::Twist{};
-  drive_t_ns_ = t_ns;
   msg::DeviceDrive command{};
-  command.robot_id = robot_id_;
-  command.seq = ++drive_seq_;
-  command.t_ns = t_ns;
   command.vx_mps = twist.vx_mps;
   command.vy_mps = twist.vy_mps;
   command.omega_radps = twist.omega_radps;
+  send(command, t_ns);
+}
+
+bool BusWheels::drive_wheel(int wheel, double radps, std::int64_t t_ns) {
+  msg::DeviceDrive command{};
+  command.wheels_alone = true;
+  command.wheel_radps[wheel] = std::isfinite(radps) ? radps : 0.0;
+  send(command, t_ns);
+  return true;
+}
+
+void BusWheels::send(msg::DeviceDrive command, std::int64_t t_ns) {
+  drive_t_ns_ = t_ns;
+  command.robot_id = robot_id_;
+  command.seq = ++drive_seq_;
+  command.t_ns = t_ns;
   drives_.write(command);
 }
 

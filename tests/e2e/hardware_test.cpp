@@ -4,14 +4,22 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cmath>
+#include <fstream>
 #include <memory>
+#include <thread>
 
+#include "bus/domain.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
 #include "hal/cia402/emulated_drives.hpp"
 #include "hal/ioboard/emulator.hpp"
 #include "hal/mti/emulated_mti.hpp"
 #include "hal/refbox/emulated_box.hpp"
 #include "hal/rekick/emulator.hpp"
 #include "hal/scip/emulator.hpp"
+#include "idl/messages.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
@@ -233,6 +241,64 @@ TEST_F(SpunDrives, AnotherWordTurnsNothing) {
   EXPECT_THAT(trivela->errors(), HasSubstr("not confirmed: no wheel was turned"));
   EXPECT_EQ(drives_.output().find("the wheels turn"), std::string::npos);
   EXPECT_EQ(drives_.output().find("drive "), std::string::npos) << "no state was left: " << drives_.output();
+}
+
+/// A bridge to four wheels that turn as they are told, on the bus of on_the_board().
+class FourWheelBridge : public Hardware {
+ protected:
+  FourWheelBridge() {
+    std::ifstream known{TRIVELA_SOURCE_DIR "/config/robots/cambada_1.toml"};
+    std::ofstream robot{folder_ / "robot.toml"};
+    for (std::string line; std::getline(known, line);)
+      robot << (line.starts_with("wheel_angles_rad") ? "wheel_angles_rad = [0.7, 2.4, 3.9, 5.5]" : line) << '\n';
+  }
+  std::unique_ptr<Program> spin() const {
+    return start(on_the_board({"--spin", "4", "--seconds", "1", "--set", "run.robot=\"robot.toml\""}));
+  }
+
+  bool alone_ = true;                  ///< it knows wheels_alone
+  std::atomic<double> most_radps_{0};  ///< that the fourth wheel turned with
+  std::atomic<double> last_radps_{0};
+
+ private:
+  void drive(const std::stop_token& stop) {
+    const bus::Participant participant{bus::loopback(63, "hardware-" + folder_.path().filename().string())};
+    bus::Reader<msg::DeviceDrive> drives{participant};
+    bus::Writer<msg::DeviceWheels> wheels{participant};
+    msg::DeviceWheels said{};
+    said.robot_id = 1;
+    said.wheel_count = 4;
+    said.gyro_radps = std::nan("");
+    while (!stop.stop_requested()) {
+      drives.wait(std::chrono::milliseconds{10});
+      drives.take([&](const msg::DeviceDrive& told) {
+        for (std::size_t i = 0; i < 4; ++i)
+          said.wheel_radps[i] = alone_ && told.wheels_alone ? told.wheel_radps[i] : 0.0;
+      });
+      most_radps_ = std::max<double>(most_radps_, said.wheel_radps[3]);
+      last_radps_ = said.wheel_radps[3];
+      ++said.seq;
+      said.t_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+      wheels.write(said);
+    }
+  }
+  std::jthread bridge_{[this](const std::stop_token& stop) { drive(stop); }};
+};
+
+TEST_F(FourWheelBridge, TurnsOneWheelAndLeavesItAtRest) {
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 4\n"), 0) << trivela->errors();
+  EXPECT_THAT(trivela->output(), HasSubstr("asked wheel 4 for 2.00 rad/s; wheel 1 0.00, wheel 2 0.00, wheel 3 0.00, "
+                                           "wheel 4 2.00 rad/s"));
+  EXPECT_EQ(most_radps_, 2.0);
+  EXPECT_EQ(last_radps_, 0.0);
+}
+
+TEST_F(FourWheelBridge, StandsWhereItKnowsVelocitiesAlone) {
+  alone_ = false;
+  const auto trivela = spin();
+  EXPECT_EQ(answered(*trivela, "spin 4\n"), 1);
+  EXPECT_THAT(trivela->errors(), HasSubstr("wheel 4: it did not turn"));
 }
 
 TEST_F(Hardware, FlagsThatMakeNoSenseAreBadUsage) {

@@ -120,6 +120,49 @@ TEST_F(WorldStateNodeTest, WarnsOnceOfARobotThatPlaysBeyondTheFieldOfItsSettings
   }
 }
 
+TEST_F(WorldStateNodeTest, WarnsOnceOfAGoalThatIsGivenForABallBesideTheGoalOfItsSettings) {
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  std::int64_t cycle = 0;
+  const auto cycle_with = [&](double ball_y_m, std::uint8_t goals) {
+    msg::Referee word = referee();
+    word.goals_own = goals;
+    word.playing = goals == 0;
+    referee_says(word);
+    auto frame = vision(++cycle);
+    frame.x_m = 3.0;  // of a goal 2 m wide at y = 9 m
+    frame.y_m = 8.5;
+    frame.heading_rad = 0.0;
+    frame.ball_y_m = ball_y_m;
+    camera_says(frame);
+    wheels_say(odometry(cycle));
+    world.first(static_cast<std::size_t>(cycle));
+  };
+  for (const double ball_y_m : {0.27, 0.3, 0.4, 0.6, 0.8}) cycle_with(ball_y_m, 0);
+  EXPECT_EQ(log_lines->count("the referee gave a goal"), 0u);
+  for (int i = 0; i < 3; ++i) cycle_with(0.8, 1);
+  EXPECT_EQ(log_lines->count("the referee gave a goal, and the ball crossed the goal line at x = 3.0 m, outside the "
+                             "goal of 2.0 m"),
+            1u);
+}
+
+TEST_F(WorldStateNodeTest, WarnsOnceOfPlayThatNeverComesNearTheLinesOfItsSettings) {
+  ASSERT_FALSE(context.settings.run.lockstep);
+  WorldStateNode node{context};
+  const Running running{Executor::kListener, stop, {&node.node()}};
+  wheels_say.expect_reader();
+  referee_says(referee());
+  constexpr std::int64_t kCyclesAMinute = 3000;
+  for (std::int64_t minute = 0; minute <= 12; ++minute) {
+    camera_says(vision(1 + kCyclesAMinute * minute));
+    wheels_say(odometry(1 + kCyclesAMinute * minute));
+    world.first(static_cast<std::size_t>(minute + 1));
+    EXPECT_EQ(log_lines->count("in 10 min of play neither robot nor ball came farther than"), minute < 10 ? 0u : 1u)
+        << minute;
+  }
+}
+
 TEST_F(WorldStateNodeTest, WithoutCameraAndRefereeNobodyPlays) {
   WorldStateNode node{context};
   const Running running{Executor::kListener, stop, {&node.node()}};
