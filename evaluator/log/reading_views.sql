@@ -7,20 +7,43 @@ CREATE TEMP TABLE left_out_kicks (session_id INTEGER NOT NULL, robot_id INTEGER 
 CREATE TEMP VIEW imported_sessions AS
 SELECT session_id FROM sessions
 WHERE config_sha256 IN (SELECT sha256 FROM texts WHERE substr(text, 1, 11) = '### import' || char(10));
--- Sessions whose rules count no goal from the own half (opponents_half_only), or after the ball was carried farther than
--- carry_limit_m (NULL: however far): [rules] of their configuration, with how far before a robot's centre it says that
--- the ball lies.
+-- What each session's configuration says: how far before a robot's centre the ball lies, and [rules] by which no goal
+-- counts from the own half (opponents_half_only) or after the ball was carried farther than carry_limit_m (NULL: however far).
+CREATE TEMP VIEW session_rules AS
+SELECT session_id,
+  CASE WHEN offset_at > 0 THEN CAST(substr(text, offset_at + length(char(10) || 'ball_offset_m = ')) AS REAL) ELSE 0.0 END
+    AS ball_offset_m,
+  instr(text, char(10) || 'opponents_half_only = true' || char(10)) > 0 AS opponents_half_only,
+  CASE WHEN limit_at > 0
+    THEN nullif(CAST(substr(text, limit_at + length(char(10) || 'carry_limit_m = ')) AS REAL), 0.0) END AS carry_limit_m
+FROM (
+  SELECT s.session_id, t.text, instr(t.text, char(10) || 'ball_offset_m = ') AS offset_at,
+    instr(t.text, char(10) || 'carry_limit_m = ') AS limit_at
+  FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256);
 CREATE TEMP VIEW ruled_sessions AS
-SELECT * FROM (
-  SELECT s.session_id,
-    CAST(substr(t.text, instr(t.text, char(10) || 'ball_offset_m = ') + length(char(10) || 'ball_offset_m = ')) AS REAL)
-      AS ball_offset_m,
-    instr(t.text, char(10) || 'opponents_half_only = true' || char(10)) > 0 AS opponents_half_only,
-    CASE WHEN instr(t.text, char(10) || 'carry_limit_m = ') > 0 THEN nullif(CAST(substr(t.text,
-      instr(t.text, char(10) || 'carry_limit_m = ') + length(char(10) || 'carry_limit_m = ')) AS REAL), 0.0) END
-      AS carry_limit_m
-  FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256)
-WHERE opponents_half_only OR carry_limit_m IS NOT NULL;
+SELECT session_id FROM session_rules WHERE opponents_half_only OR carry_limit_m IS NOT NULL;
+-- How far the ball had been carried when a decision fired, in a straight line by the robot's belief, from where it lay at
+-- the possession's first decision with the ball in play; that follows the possession's first one, which the tallies name,
+-- else the last one of another possession.
+CREATE TEMP VIEW carries AS
+SELECT d.session_id, d.robot_id, d.seq,
+  sqrt(pow(d.x_m - a.x_m - s.ball_offset_m * (sin(d.heading_rad) - sin(a.heading_rad)), 2)
+    + pow(d.y_m - a.y_m + s.ball_offset_m * (cos(d.heading_rad) - cos(a.heading_rad)), 2)) AS carried_m
+FROM kick_decisions AS d
+JOIN session_rules AS s ON s.session_id = d.session_id
+JOIN kick_decisions AS a ON a.session_id = d.session_id AND a.robot_id = d.robot_id AND a.seq = (
+  SELECT seq FROM kick_decisions
+  WHERE session_id = d.session_id AND robot_id = d.robot_id AND reason NOT IN ('not_playing', 'no_ball', 'stale_state')
+    AND seq >= coalesce((
+      SELECT first_seq FROM possession_tallies
+      WHERE session_id = d.session_id AND robot_id = d.robot_id AND half = d.half AND possession_id = d.possession_id
+        AND counted_by = 'robot' AND session_id IN (SELECT session_id FROM counted_sessions)), 1 + (
+      SELECT seq FROM kick_decisions
+      WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq < d.seq
+        AND (half <> d.half OR possession_id <> d.possession_id)
+      ORDER BY seq DESC LIMIT 1), 0)
+  ORDER BY seq LIMIT 1)
+WHERE d.fire = 1;
 -- What people say of kicks: the latest label of each, unless it is withdrawn, for every recording of that kick in the log.
 -- An experiment's kicks are nobody else's.
 CREATE TEMP VIEW hand_labels AS
@@ -37,10 +60,9 @@ FROM (
         AND d.t_ns = l.t_ns)))
 WHERE place = 1 AND outcome IS NOT NULL;
 -- Kicks with no_goal, why the rules count none of this kick (NULL: they do): 'own_half' from where the ball lay when it
--- was decided, 'carried_too_far' by how far, in a straight line, that was from where it lay at the possession's first
--- decision, which the tallies name, else the one that follows the last of another possession; and with what counts as
--- their outcome, label: what people say of it (hand_outcome; NULL: nothing), else what the observer does (outcome). One
--- on target that is no goal has no_goal, 'outside' is one of which somebody who saw it did not say how.
+-- was decided, 'carried_too_far' by its carry; and with what counts as their outcome, label: what people say of it
+-- (hand_outcome; NULL: nothing), else what the observer does (outcome). One on target that is no goal has no_goal,
+-- 'outside' is one of which somebody who saw it did not say how.
 CREATE TEMP VIEW labelled_kicks AS
 SELECT k.*,
   CASE WHEN k.hand_outcome IS NULL AND k.outcome = 'unknown' AND k.observed_p_on_target = 0.0
@@ -52,22 +74,10 @@ FROM (
   SELECT j.*, h.outcome AS hand_outcome, coalesce(h.utc_ns, 0) AS labelled_utc_ns,
     CASE WHEN j.session_id IN (SELECT session_id FROM ruled_sessions) THEN (
       SELECT CASE WHEN s.opponents_half_only AND d.y_m + s.ball_offset_m * cos(d.heading_rad) <= 0.0 THEN 'own_half'
-        WHEN s.carry_limit_m * s.carry_limit_m < (
-          SELECT pow(d.x_m - a.x_m - s.ball_offset_m * (sin(d.heading_rad) - sin(a.heading_rad)), 2)
-            + pow(d.y_m - a.y_m + s.ball_offset_m * (cos(d.heading_rad) - cos(a.heading_rad)), 2)
-          FROM kick_decisions AS a
-          WHERE a.session_id = d.session_id AND a.robot_id = d.robot_id AND a.seq = coalesce((
-            SELECT first_seq FROM possession_tallies
-            WHERE session_id = d.session_id AND robot_id = d.robot_id AND half = d.half
-              AND possession_id = d.possession_id AND counted_by = 'robot'
-              AND session_id IN (SELECT session_id FROM counted_sessions)), (
-            SELECT min(seq) FROM kick_decisions
-            WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq > coalesce((
-              SELECT seq FROM kick_decisions
-              WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq < d.seq
-                AND (half <> d.half OR possession_id <> d.possession_id)
-              ORDER BY seq DESC LIMIT 1), -1)))) THEN 'carried_too_far' END
-      FROM kick_decisions AS d JOIN ruled_sessions AS s ON s.session_id = d.session_id
+        WHEN s.carry_limit_m < (
+          SELECT carried_m FROM carries WHERE session_id = d.session_id AND robot_id = d.robot_id AND seq = d.seq)
+          THEN 'carried_too_far' END
+      FROM kick_decisions AS d JOIN session_rules AS s ON s.session_id = d.session_id
       WHERE d.session_id = j.session_id AND d.robot_id = j.robot_id AND d.seq = j.seq) END AS no_goal
   FROM temp.kicks AS j
   LEFT JOIN hand_labels AS h ON h.session_id = j.session_id AND h.robot_id = j.robot_id AND h.kick_id = j.kick_id) AS k;

@@ -21,6 +21,12 @@ bool outweighs(const msg::KickReceipt& receipt, const KnownKick::Answered& last)
          rank(last.refusal == msg::REFUSAL_DOUBLE, last.seq);
 }
 
+// Whether the robot had the ball and might play it: the policy judged.
+bool has_ball(const msg::KickDecision& decision) {
+  return decision.reason != msg::REASON_NOT_PLAYING && decision.reason != msg::REASON_NO_BALL &&
+         decision.reason != msg::REASON_STALE_STATE;
+}
+
 }  // namespace
 
 KickFate fate_of(const KnownKick& kick, const LedgerNow& now) {
@@ -58,7 +64,7 @@ bool KickLedger::goal_counts(const msg::KickDecision& decision) {
                    .x_m = decision.x_m - rules_.ball_offset_m * std::sin(decision.heading_rad),
                    .y_m = decision.y_m + rules_.ball_offset_m * std::cos(decision.heading_rad)};
   Taken& taken = taken_.try_emplace(decision.robot_id, ball).first->second;
-  if (taken.half != ball.half || taken.possession_id != ball.possession_id) taken = ball;
+  if (taken.half != ball.half || taken.possession_id != ball.possession_id || !has_ball(decision)) taken = ball;
   if (rules_.opponents_half_only && ball.y_m <= 0.0) return false;
   return !(rules_.carry_limit_m > 0.0 && std::hypot(ball.x_m - taken.x_m, ball.y_m - taken.y_m) > rules_.carry_limit_m);
 }

@@ -49,7 +49,7 @@ class MatchLog {
   void write_decision(Int kick_id, Int half) { write_decision(kick_id, half, kick_id, "fire"); }
 
   /// A decision to hold, in the possession of the kick that comes next.
-  void hold(Int half) { write_decision(0, half, kicks_ + 1, "not_aligned"); }
+  void hold(Int half, const std::string& reason = "not_aligned") { write_decision(0, half, kicks_ + 1, reason); }
 
   void order(Int kick_id) {
     writer_.push(orders_, {robot_id, ++seq_, t_ns(), kick_id, 20.0, t_ns(), t_ns() + 40, Int{1}});

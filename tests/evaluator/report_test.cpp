@@ -93,6 +93,9 @@ TEST_F(ReportOfALog, ABallFromTheOwnHalfIsNoGoalWhereTheRulesOfTheSessionSaySo) 
 /// Kicks on target after a carry of 2.9 m, of 3.1 m, of 3.1 m in two possessions, and of 3.1 m ended by another policy.
 void carry_and_kick(MatchLog& match) {
   for (const double to_y_m : {3.9, 4.1}) {
+    match.y_m = 0.5;
+    match.hold(2, "not_playing");
+    match.hold(2, "no_ball");
     match.y_m = 1.0;
     match.hold(2);
     match.y_m = 2.0;

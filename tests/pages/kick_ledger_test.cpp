@@ -143,7 +143,8 @@ TEST(KickLedger, AGoalAfterTheBallWasCarriedTooFarIsOutsideWhereTheRulesSaySo) {
       msg::KickDecision said = decision(1, fire ? 7 : 0, msg::POLICY_MOVING);
       said.seq = static_cast<std::uint64_t>(++seq);
       said.fire = fire;
-      said.possession_id = possession_id;
+      said.possession_id = 4 + (possession_id > 4 ? 1 : 0);
+      said.reason = possession_id == 0 ? msg::REASON_NOT_PLAYING : msg::REASON_NOT_ALIGNED;
       said.y_m = y_m;
       ledger.hear(said, kNow);
     }
@@ -152,6 +153,7 @@ TEST(KickLedger, AGoalAfterTheBallWasCarriedTooFarIsOutsideWhereTheRulesSaySo) {
   };
   EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {4, 3.9, true}}), 1);
   EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {4, 4.1, true}}), 0);
+  EXPECT_EQ(inside_after(3.0, {{0, 9.0, false}, {4, 1.0, false}, {4, 3.9, true}}), 1) << "the game stood where 0 is";
   EXPECT_EQ(inside_after(0.0, {{4, 1.0, false}, {4, 4.1, true}}), 1) << "no limit";
   EXPECT_EQ(inside_after(3.0, {{4, 1.0, false}, {5, 2.0, false}, {5, 4.1, true}}), 1) << "another possession";
 }
