@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "evaluator/metrics/listed_kicks.sql.hpp"
-#include "evaluator/report/logged_pitch.hpp"
+#include "evaluator/report/session_setup.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {

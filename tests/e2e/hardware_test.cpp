@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "hal/cia402/emulated_drives.hpp"
-#include "hal/ioboard/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
 #include "hal/mti/emulated_mti.hpp"
 #include "hal/refbox/emulated_box.hpp"
-#include "hal/rekick/emulator.hpp"
+#include "hal/rekick/emulated_board.hpp"
 #include "hal/scip/emulator.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
