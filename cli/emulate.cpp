@@ -15,9 +15,9 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "hal/cia402/emulated_drives.hpp"
-#include "hal/ioboard/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
 #include "hal/mti/emulated_mti.hpp"
-#include "hal/rekick/emulator.hpp"
+#include "hal/rekick/emulated_board.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -9,8 +9,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "evaluator/export/csv_export.hpp"
-#include "evaluator/export/mcap_export.hpp"
+#include "evaluator/export/export_files.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "security/key_check.hpp"
 #include "security/key_folder.hpp"
 #include "security/rights.hpp"
 

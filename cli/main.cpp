@@ -12,7 +12,7 @@
 
 #include "cli/finite_numbers.hpp"
 #include "cli/launch/progress_bar.hpp"
-#include "cli/manual/manual_flags.hpp"
+#include "cli/manual/manual.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/error.hpp"

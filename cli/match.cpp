@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "cli/launch/record_emulated.hpp"
-#include "cli/launch/record_lockstep.hpp"
+#include "cli/launch/record_match.hpp"
 #include "cli/launch/throwaway_keys.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/verbs.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "cli/launch/config_file.hpp"
-#include "cli/launch/record_lockstep.hpp"
+#include "cli/launch/record_match.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"

@@ -10,9 +10,9 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/tally_book.hpp"
+#include "evaluator/report/gate.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/page/report_page.hpp"
-#include "evaluator/report/report_gates.hpp"
 #include "evaluator/report/table2.hpp"
 #include "experiment/effects/summary.hpp"
 

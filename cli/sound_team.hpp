@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/team_check.hpp"
+#include "config/team.hpp"
 
 namespace trivela::cli {
 

@@ -50,4 +50,7 @@ void add_align(CLI::App& app, int& exit_code);
 void add_predict(CLI::App& app, int& exit_code);
 void add_team(CLI::App& app, int& exit_code);
 
+/// Of `trivela import`, beside the referee box's logs: what somebody labelled by hand.
+void add_import_kicks(CLI::App& import, int& exit_code);
+
 }  // namespace trivela::cli

@@ -83,4 +83,10 @@ struct ReadTeam {
 /// Reads a team.toml, and goes on after what is wrong. Throws Error where there is no file or it is no TOML.
 ReadTeam load_team(const std::filesystem::path& path);
 
+/// In words with file and line, everything in which a team contradicts itself, the league or its robots' files: names,
+/// addresses and numbers that two have, addresses outside the network, groups that are none, domains whose ports meet,
+/// files that are missing or do not read, policies that a robot cannot play, traffic beyond the
+/// budget. Reads those files. Empty: nothing.
+std::vector<std::string> team_findings(const Team& team);
+
 }  // namespace trivela::config

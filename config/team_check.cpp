@@ -1,4 +1,4 @@
-#include "config/team_check.hpp"
+#include "config/team.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "security/documents.hpp"
+#include "security/rights.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include "security/key_check.hpp"
+#include "security/key_folder.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
@@ -6,8 +6,8 @@
 #include <exception>
 
 #include "security/certificates.hpp"
-#include "security/documents.hpp"
 #include "security/private_files.hpp"
+#include "security/rights.hpp"
 
 namespace trivela::security {
 namespace fs = std::filesystem;

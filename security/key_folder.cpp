@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "security/certificates.hpp"
-#include "security/documents.hpp"
 #include "security/private_files.hpp"
+#include "security/rights.hpp"
 
 namespace trivela::security {
 namespace fs = std::filesystem;

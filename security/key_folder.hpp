@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -62,5 +63,10 @@ class KeyFolder {
 /// What a robot has by default: every kind of node but those that stand in for the world; the base (robot 0) those that
 /// run there.
 std::vector<std::string> usual_nodes(std::uint32_t robot_id);
+
+/// What is wrong with the keys of every robot in the folder at that time, a sentence each; empty: nothing. Looks at
+/// modes, owners of keys, chains, subjects, validity, signatures, authorities that are one, and whether permissions say
+/// what the nodes' graph does. Needs no authority/: it works on a robot as it does at home.
+std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_seconds now);
 
 }  // namespace trivela::security

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "security/validity.hpp"
+
 namespace trivela::security {
 
 /// The topics that one kind of node writes and reads, and nothing else of the bus.
@@ -33,5 +35,12 @@ const Rights& rights_of(std::string_view node);
 /// What certificates and permissions call a robot's node: "kick_decision.1". A slash, as owners of writers have it,
 /// would be a separator in a subject name.
 std::string common_name(std::string_view node, std::uint32_t robot_id);
+
+/// What holds for everybody (DDS Security, governance): nobody without a certificate, discovery encrypted, each packet
+/// signed; kick_order, kicker_status and referee encrypted too; every topic read and written by right alone.
+std::string governance_xml();
+
+/// What the robot's node may write and read while that holds; everything else is denied.
+std::string permissions_xml(const Rights& rights, std::uint32_t robot_id, const Validity& validity);
 
 }  // namespace trivela::security

@@ -8,7 +8,7 @@
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
-#include "cli/launch/record_lockstep.hpp"
+#include "cli/launch/record_match.hpp"
 #include "cli/output.hpp"
 #include "config/field.hpp"
 #include "config/scenario.hpp"

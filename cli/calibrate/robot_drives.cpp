@@ -15,7 +15,7 @@
 #include "cli/hardware/claims.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
-#include "cli/launch/record_lockstep.hpp"
+#include "cli/launch/record_match.hpp"
 #include "cli/output.hpp"
 #include "hal/refbox/emulated_box.hpp"
 #include "kicking/geometry/time.hpp"

@@ -8,10 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/import/import_session.hpp"
 #include "cli/import/kick_labels.hpp"
 #include "cli/import/row_writing.hpp"
-#include "cli/import/subcommands.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"

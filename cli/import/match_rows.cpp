@@ -8,7 +8,6 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cli/import/import_session.hpp"
 #include "cli/import/row_writing.hpp"
 #include "evaluator/imports/play_statistics.hpp"
 #include "evaluator/imports/record_times.hpp"

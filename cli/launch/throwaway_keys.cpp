@@ -8,7 +8,6 @@
 
 #include "cli/verbs.hpp"
 #include "nodes/runtime/node_flags.hpp"
-#include "security/key_check.hpp"
 #include "security/key_folder.hpp"
 #include "security/rights.hpp"
 

@@ -16,8 +16,8 @@
 #include "config/settings.hpp"
 #include "hal/open.hpp"
 #include "pages/lob/live_scene.hpp"
-#include "pages/lob/lob_page.hpp"
 #include "pages/lob/replay_scene.hpp"
+#include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"
 
 namespace trivela::cli {

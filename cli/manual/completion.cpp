@@ -1,4 +1,4 @@
-#include "cli/manual/completion.hpp"
+#include "cli/manual/manual.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

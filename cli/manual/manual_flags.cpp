@@ -1,11 +1,9 @@
-#include "cli/manual/manual_flags.hpp"
+#include "cli/manual/manual.hpp"
 
 #include <fmt/core.h>
 
 #include <string>
 
-#include "cli/manual/completion.hpp"
-#include "cli/manual/man_page.hpp"
 #include "nodes/runtime/node_flags.hpp"
 
 namespace trivela::cli {

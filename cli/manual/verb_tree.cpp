@@ -1,4 +1,4 @@
-#include "cli/manual/verb_tree.hpp"
+#include "cli/manual/manual.hpp"
 
 #include <algorithm>
 #include <utility>

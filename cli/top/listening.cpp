@@ -1,4 +1,4 @@
-#include "cli/top/listening.hpp"
+#include "cli/top/live_bus.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "cli/top/rendering.hpp"
+#include "cli/top/live_bus.hpp"
 
 #include <fmt/format.h>
 

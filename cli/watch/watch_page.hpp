@@ -5,7 +5,6 @@
 
 #include "config/settings.hpp"
 #include "pages/monitor/match_feed.hpp"
-#include "pages/monitor/monitor_page.hpp"
 #include "pages/serve/page_server.hpp"
 
 namespace trivela::cli {

@@ -10,7 +10,7 @@
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/stream_table.hpp"
 #include "evaluator/mcap/cdr.hpp"
-#include "evaluator/report/logged_pitch.hpp"
+#include "evaluator/report/session_setup.hpp"
 
 namespace trivela::evaluator {
 

@@ -1,4 +1,4 @@
-#include "evaluator/export/mcap_export.hpp"
+#include "evaluator/export/export_files.hpp"
 
 #include <fmt/format.h>
 

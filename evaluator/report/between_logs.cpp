@@ -1,4 +1,4 @@
-#include "evaluator/report/between_logs.hpp"
+#include "evaluator/report/log_kicks.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "evaluator/report/comparison_lines.hpp"
+#include "evaluator/report/policy_comparison.hpp"
 
 namespace trivela::evaluator {
 namespace {

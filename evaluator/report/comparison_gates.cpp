@@ -1,10 +1,12 @@
-#include "evaluator/report/comparison_gates.hpp"
+#include "evaluator/report/gate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+
+#include "evaluator/report/policy_comparison.hpp"
 
 namespace trivela::evaluator {
 namespace {

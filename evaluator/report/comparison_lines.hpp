@@ -21,6 +21,9 @@ Json counts_json(const Comparison& comparison);
 /// A line for each under a title; empty where there is none.
 std::string gates_text(std::span<const GateResult> gates);
 
+/// A line for each, and what the design allows to be said; empty where there is none.
+std::string between_logs_text(std::span<const BetweenLogs> between);
+
 /// Who of a pair is better, by how much, how sure, how many more are needed; p is adjusted for so many comparisons.
 std::string short_line_of(const PairResult& pair, const PolicyComparison& comparison, std::size_t comparisons);
 

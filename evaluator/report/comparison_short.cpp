@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/report/between_logs.hpp"
 #include "evaluator/report/comparison_lines.hpp"
 #include "evaluator/report/policy_comparison.hpp"
 #include "evaluator/report/simulated.hpp"

@@ -10,6 +10,10 @@
 
 namespace trivela::evaluator {
 
+struct Comparison;
+struct PolicyComparison;
+struct Report;
+
 /// A gate that cannot be read; the message names the position, from 1, and what may stand there.
 struct BadGate : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
@@ -64,5 +68,18 @@ Json gates_json(std::span<const GateResult> gates);
 
 /// A gate is met where there is a value and each passes.
 GateResult judged(const Gate& gate, std::vector<Measured> measured);
+
+/// What a gate on a report may ask; docs/evaluation.md says what each is.
+const GateMetrics& report_gate_metrics();
+
+/// Asks the report. Arms of an experiment are not added up: a gate that would need it has no data.
+std::vector<GateResult> judge_gates(const Report& report, std::span<const Gate> gates);
+
+/// What a gate on a comparison may ask. A subject is a group; of difference, its ends and p the newer one. Without a
+/// subject each group, or each pair, has to pass.
+const GateMetrics& comparison_gate_metrics();
+
+std::vector<GateResult> judge_gates(const PolicyComparison& comparison, std::span<const Gate> gates);
+std::vector<GateResult> judge_gates(const Comparison& comparison, std::span<const Gate> gates);
 
 }  // namespace trivela::evaluator

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "evaluator/metrics/listed_kicks.sql.hpp"
-#include "evaluator/report/logged_pitch.hpp"
+#include "evaluator/report/session_setup.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::evaluator {
@@ -21,6 +21,14 @@ constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farth
 std::optional<double> seconds_after(std::int64_t t_ns, std::optional<std::int64_t> then_ns) {
   if (!then_ns || *then_ns <= 0) return std::nullopt;  // 0: never
   return kicking::seconds(*then_ns - t_ns);
+}
+
+/// None: nobody said how the kick ended.
+std::optional<StoryEnd> end_of(const std::optional<std::string>& outcome, std::optional<double> x_m,
+                               std::optional<double> z_m, std::optional<double> sd_m = {},
+                               std::optional<double> after_s = {}) {
+  if (!outcome) return std::nullopt;
+  return StoryEnd{*outcome, x_m, z_m, sd_m, after_s};
 }
 
 /// The kicks with what their decision, receipt and outcome say.
@@ -51,28 +59,16 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
         story.robot = {x_m, y_m, heading_rad};
         story.target_m = {target_x_m, target_y_m};
         story.bounced = bounced;
-        story.segments = decided_segments({{x_m, y_m, heading_rad},
-                                           alpha_rad,
-                                           {target_x_m, target_y_m},
-                                           distance_m,
-                                           aligned,
-                                           offset_right_m,
-                                           left_m,
-                                           right_m});
+        story.segments = decided_segments(
+            {story.robot, alpha_rad, story.target_m, distance_m, aligned, offset_right_m, left_m, right_m});
         story.fired_after_s = seconds_after(t_ns, fired_t_ns);
         story.released_after_s = seconds_after(t_ns, release_t_ns);
         if (predicted_x_m || predicted_z_m) {
-          const auto crossing_s =
-              flight_s ? std::optional(story.released_after_s.value_or(0.0) + *flight_s) : std::nullopt;
-          story.predicted = StoryEnd{"", predicted_x_m, predicted_z_m, std::nullopt, crossing_s};
+          story.predicted = StoryEnd{"", predicted_x_m, predicted_z_m, {}, {}};
+          if (flight_s) story.predicted->after_s = story.released_after_s.value_or(0.0) + *flight_s;
         }
-        if (outcome) {
-          story.observed =
-              StoryEnd{std::move(*outcome), x_cross_m, z_cross_m, sd_cross_m, seconds_after(t_ns, settled_t_ns)};
-        }
-        if (truth_outcome) {
-          story.truth = StoryEnd{std::move(*truth_outcome), truth_x_m, truth_z_m, std::nullopt, std::nullopt};
-        }
+        story.observed = end_of(outcome, x_cross_m, z_cross_m, sd_cross_m, seconds_after(t_ns, settled_t_ns));
+        story.truth = end_of(truth_outcome, truth_x_m, truth_z_m);
       });
   return stories;
 }

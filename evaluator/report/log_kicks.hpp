@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "evaluator/report/log_opportunities.hpp"
 
 namespace trivela::evaluator {
+
+struct BetweenLogs;
 
 /// What was asked for by one of the options below makes no sense with these logs; the message begins with the option.
 struct BadOption : std::runtime_error {
@@ -31,5 +34,10 @@ KickBook read_log_kicks(const std::vector<std::filesystem::path>& logs, const Lo
 
 /// The same of what was read of them, with the outcomes that it was read for: `options.truth` says which.
 KickBook kick_book_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
+
+/// Each of `groups`, policies or arms as `by` says, in the later logs against the first: yesterday against today. Their
+/// p are adjusted together. `options` are those of the comparison of the groups.
+std::vector<BetweenLogs> between_logs(const LoggedOpportunities& logged, std::span<const std::string> groups,
+                                      const std::string& by, LogKicks options, double smallest_effect);
 
 }  // namespace trivela::evaluator

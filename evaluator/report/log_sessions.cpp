@@ -9,7 +9,7 @@
 
 #include "evaluator/metrics/compared_sessions.sql.hpp"
 #include "evaluator/metrics/kick_words.sql.hpp"
-#include "evaluator/report/import_notes.hpp"
+#include "evaluator/report/session_notes.hpp"
 
 namespace trivela::evaluator {
 namespace {

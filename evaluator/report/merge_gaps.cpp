@@ -1,4 +1,4 @@
-#include "evaluator/report/merge_gaps.hpp"
+#include "evaluator/report/merge_report.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "evaluator/report/log_sessions.hpp"
-#include "evaluator/report/merge_gaps.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::evaluator {

@@ -20,4 +20,12 @@ struct MergeReport {
 /// Asks the new log, in which each kick counts once (evaluator/report/log_sessions.hpp).
 MergeReport report_merge(const log::Merged& merged, const log::Reader& reader);
 
+/// "robot 3", "the base".
+std::string participant(int robot_id);
+
+/// Sentences on what a merged log lacks: files and sessions that could not be read whole, rows lost while they were
+/// recorded, silences, times in which a robot was recorded by nobody, and kicks that its driver counted and that stand
+/// in no session. What one recorder missed and another one has is not missing.
+std::vector<std::string> merge_gaps(const log::Merged& merged, const log::Reader& reader);
+
 }  // namespace trivela::evaluator

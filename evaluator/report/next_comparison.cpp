@@ -1,4 +1,4 @@
-#include "evaluator/report/next_comparison.hpp"
+#include "evaluator/report/report_sentences.hpp"
 
 #include <fmt/format.h>
 

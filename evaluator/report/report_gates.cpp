@@ -1,4 +1,4 @@
-#include "evaluator/report/report_gates.hpp"
+#include "evaluator/report/gate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "evaluator/report/report_parts.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
 namespace {

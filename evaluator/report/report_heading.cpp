@@ -1,4 +1,4 @@
-#include "evaluator/report/report_heading.hpp"
+#include "evaluator/report/report_sentences.hpp"
 
 #include <fmt/format.h>
 

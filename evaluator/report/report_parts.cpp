@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "evaluator/report/next_comparison.hpp"
 #include "evaluator/report/no_goal.hpp"
-#include "evaluator/report/report_heading.hpp"
+#include "evaluator/report/report_sentences.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"

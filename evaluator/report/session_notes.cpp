@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <sstream>
 #include <tuple>
 
 #include "evaluator/log/additions.hpp"
+#include "evaluator/log/session.hpp"
 
 namespace trivela::evaluator {
 
@@ -47,6 +49,19 @@ std::string line_of(const SessionNote& note) {
   const std::chrono::sys_time<std::chrono::nanoseconds> at{std::chrono::nanoseconds{note.utc_ns}};
   return fmt::format("Note of {}, {:%Y-%m-%d %H:%M} UTC: {}", note.who, std::chrono::floor<std::chrono::seconds>(at),
                      text);
+}
+
+ImportNotes import_notes_of(const log::Queries& reader) {
+  ImportNotes notes;
+  reader.query(
+      "SELECT s.session_id, t.text FROM sessions AS s JOIN texts AS t ON t.sha256 = s.config_sha256 "
+      "WHERE s.session_id IN (SELECT session_id FROM imported_sessions) ORDER BY s.session_id",
+      [&](std::int64_t session_id, const std::string& text) {
+        std::istringstream lines(text.substr(log::kImportMark.size()));
+        auto& sentences = notes[session_id];
+        for (std::string line; std::getline(lines, line) && !line.empty();) sentences.push_back(line);
+      });
+  return notes;
 }
 
 }  // namespace trivela::evaluator

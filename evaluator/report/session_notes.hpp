@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluator/log/queries.hpp"
 #include "evaluator/log/reader.hpp"
 
 namespace trivela::evaluator {
@@ -28,5 +30,11 @@ std::vector<SessionNote> notes_that_hold(const std::vector<SessionNote>& notes);
 
 /// "Opponent: Them", "Note of Ada, 2026-11-24 09:30 UTC: the left goal post leans".
 std::string line_of(const SessionNote& note);
+
+/// By session_id of an imported session: sentences on what it was imported from.
+using ImportNotes = std::map<std::int64_t, std::vector<std::string>>;
+
+/// Of the sessions whose configuration begins with log::kImportMark. Throws std::runtime_error where it cannot be read.
+ImportNotes import_notes_of(const log::Queries& reader);
 
 }  // namespace trivela::evaluator

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
+
+#include "kicking/geometry/goal.hpp"
 
 namespace trivela::evaluator {
 
@@ -23,5 +26,15 @@ class SetupBook {
   Numbers worlds_;
   Numbers settings_;
 };
+
+/// The field that a session was played on.
+struct LoggedPitch {
+  kicking::Goal goal{};
+  double side_line_x_m = 6.0;
+};
+
+/// Out of [goal] and [field] of a session's configuration, as table `texts` has it; what it does not say stays as it is
+/// by default.
+LoggedPitch pitch_of(std::string_view config);
 
 }  // namespace trivela::evaluator

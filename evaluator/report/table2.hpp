@@ -12,7 +12,6 @@
 #include "evaluator/report/bounces.hpp"
 #include "evaluator/report/gate.hpp"
 #include "evaluator/report/hand_labels.hpp"
-#include "evaluator/report/import_notes.hpp"
 #include "evaluator/report/label_quality.hpp"
 #include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/played_length.hpp"

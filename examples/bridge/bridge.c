@@ -47,6 +47,18 @@ static int take(dds_entity_t reader, void* sample) {
   return info.valid_data;
 }
 
+// MODEL: motors, below encoders. `v` is how it moves, m/s to the right, m/s forward, rad/s; beside it the gyro.
+static trivela_msg_DeviceWheels turn(double v[3], const trivela_msg_DeviceDrive* drive, uint64_t seq, int64_t t_ns) {
+  const double driven = t_ns - drive->t_ns <= kDrive_ns;  // else it stops, whoever died
+  const double wanted[3] = {driven * drive->vx_mps, driven * drive->vy_mps, driven * drive->omega_radps};
+  for (int i = 0; i < 3; ++i) v[i] += kFollow_ratio * (wanted[i] - v[i]);
+  trivela_msg_DeviceWheels base = {.robot_id = kRobot, .seq = seq, .t_ns = t_ns, .wheel_count = 3, .emulated = true};
+  base.gyro_radps = v[2];
+  for (int i = 0; i < 3; ++i)
+    base.wheel_radps[i] = (cos(kAngle_rad[i]) * v[1] - sin(kAngle_rad[i]) * v[0] + kDistance_m * v[2]) / kRadius_m;
+  return base;
+}
+
 int main(int argc, char** argv) {
   signal(SIGTERM, end);
   const dds_domainid_t domain = argc > 1 ? (dds_domainid_t)atoi(argv[1]) : 0;
@@ -60,7 +72,7 @@ int main(int argc, char** argv) {
   dds_waitset_attach(wake, fires, 0);
   trivela_msg_DeviceDrive command, drive = {.t_ns = 0};
   trivela_msg_DeviceFire word, shot = {.kick_id = 0};  // 0: none is waited for
-  double v[3] = {0};                                   // m/s to the right, m/s forward, rad/s
+  double v[3] = {0};
   int64_t last_kick_id = 0, charging_ns = now_ns(), tick_ns = charging_ns;
   for (uint64_t seq = 0; !g_ended;) {
     const int64_t left_ns = (shot.kick_id && shot.t_ns < tick_ns ? shot.t_ns : tick_ns) - now_ns();
@@ -82,17 +94,10 @@ int main(int argc, char** argv) {
     if (t_ns < tick_ns) continue;
     tick_ns = t_ns + kPeriod_ns;
     while (take(drives, &command)) drive = command.robot_id == kRobot ? command : drive;
-    const double driven = t_ns - drive.t_ns <= kDrive_ns;  // else it stops, whoever died
-    const double wanted[3] = {driven * drive.vx_mps, driven * drive.vy_mps, driven * drive.omega_radps};
-    for (int i = 0; i < 3; ++i) v[i] += kFollow_ratio * (wanted[i] - v[i]);  // MODEL: motors, below encoders and board
-    trivela_msg_DeviceWheels base = {
-        .robot_id = kRobot, .seq = ++seq, .t_ns = t_ns, .wheel_count = 3, .emulated = true};
-    base.gyro_radps = v[2];
-    for (int i = 0; i < 3; ++i)
-      base.wheel_radps[i] = (cos(kAngle_rad[i]) * v[1] - sin(kAngle_rad[i]) * v[0] + kDistance_m * v[2]) / kRadius_m;
+    const trivela_msg_DeviceWheels base = turn(v, &drive, ++seq, t_ns);
     dds_write(wheels, &base);
     trivela_msg_DeviceKicker board = {.robot_id = kRobot, .seq = seq, .t_ns = t_ns, .armed = true, .voltage_v = NAN};
-    board.charge = fmin(1.0, 1e-9 * (double)(t_ns - charging_ns) / kCharge_s);
+    board.charge = fmin(1.0, 1e-9 * (double)(t_ns - charging_ns) / kCharge_s);  // MODEL: as the board says
     board.charge_modelled = board.emulated = true;
     dds_write(kicker, &board);
   }

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "hal/ioboard/emulator.hpp"
-#include "hal/rekick/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
+#include "hal/rekick/emulated_board.hpp"
 
 namespace trivela::hal {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "hal/ioboard/frame.hpp"
 #include "hal/line/emulated_line.hpp"
+#include "hal/line/emulator.hpp"
 
 namespace trivela::hal::ioboard {
 
@@ -77,5 +78,8 @@ class EmulatedBoard final : public EmulatedDevice {
   std::int64_t pulse_ends_ns_ = 0;
   std::int64_t lever_rests_ns_ = 0;
 };
+
+/// An ioBoard that is not there, on a pseudo-terminal.
+using Emulator = hal::Emulator<EmulatedBoard>;
 
 }  // namespace trivela::hal::ioboard

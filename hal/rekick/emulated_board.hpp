@@ -8,6 +8,7 @@
 
 #include "hal/can/can_line.hpp"
 #include "hal/line/emulated_line.hpp"
+#include "hal/line/emulator.hpp"
 #include "hal/rekick/messages.hpp"
 
 namespace trivela::hal::rekick {
@@ -77,5 +78,8 @@ class EmulatedBoard final : public EmulatedDevice {
   double energy_ = 0.0;  // of the whole, at energy_ns_
   std::int64_t energy_ns_ = 0;
 };
+
+/// A ReKick board that is not there, behind a SOCK_SEQPACKET socket in place of a CAN bus.
+using Emulator = hal::Emulator<EmulatedBoard>;
 
 }  // namespace trivela::hal::rekick

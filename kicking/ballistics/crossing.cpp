@@ -1,6 +1,8 @@
 #include "kicking/ballistics/crossing.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace trivela::kicking {
 
@@ -22,6 +24,16 @@ bool descends_through(const FlightPoint& point, const Elevation& exit_angle) {
 
 double extended_range(const FlightPoint& point, const Elevation& exit_angle) {
   return point.distance_m + point.height_m / exit_angle.tangent();
+}
+
+LobExit exit_from_lob(double apex_m, double range_m, double gravity_mps2) {
+  if (!(apex_m > 0.0 && range_m > 0.0)) {
+    throw std::invalid_argument("lob: apex_m = " + std::to_string(apex_m) +
+                                " and range_m = " + std::to_string(range_m) + " must be positive");
+  }
+  const double angle = std::atan(4.0 * apex_m / range_m);
+  const double speed = std::sqrt(range_m * gravity_mps2 / std::sin(2.0 * angle));
+  return {angle, speed, 2.0 * speed * std::sin(angle) / gravity_mps2};
 }
 
 }  // namespace trivela::kicking

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "kicking/ballistics/lob.hpp"
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::kicking {

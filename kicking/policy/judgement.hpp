@@ -9,16 +9,12 @@
 namespace trivela::kicking {
 
 /// A judgement with the target and the numbers of the shot; nothing decided yet.
-inline Judgement describe(const PolicyConfig& config, const Goal& goal, const Shot& shot) {
+inline Judgement describe(const PolicyConfig& config, const Goal& goal, const ShotNumbers& shot) {
   Judgement judgement;
   judgement.target_x_m = config.target_x_m;
   judgement.target_y_m = goal.y_m;
   judgement.target_z_m = config.target_height_m;
-  judgement.distance_m = shot.distance_m;
-  judgement.v0_mps = shot.v0_mps;
-  judgement.v_kick_mps = shot.v_kick_mps;
-  judgement.power = shot.power;
-  judgement.predicted = shot.predicted;
+  judgement.shot() = shot;
   return judgement;
 }
 

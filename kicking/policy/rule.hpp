@@ -61,25 +61,30 @@ struct PolicyInput {
   std::optional<double> set_piece_left_s;      ///< a kick that takes our set piece is released until then
 };
 
+/// What the kick of one cycle needs, and where it would go.
+struct ShotNumbers {
+  double distance_m = 0.0;           ///< ball centre to target, horizontal
+  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
+  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
+  std::optional<double> power;       ///< set-point, fractional
+  std::optional<PredictedCrossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
+};
+
 /// One decision with every number behind it.
-struct Judgement : Alignment {
+struct Judgement : Alignment, ShotNumbers {
   bool fire = false;
   Reason reason = Reason::kNotPlaying;
   double target_x_m = 0.0;  ///< aim point in F
   double target_y_m = 0.0;
   double target_z_m = 0.0;
-  double distance_m = 0.0;           ///< ball centre to target, horizontal
-  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
-  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
-  std::optional<double> power;       ///< set-point, fractional
-  double alpha_rad = 0.0;            ///< right positive
-  double beta_rad = 0.0;             ///< with the sign of omega
-  std::optional<PredictedCrossing> predicted;  ///< of an order that goes out now
+  double alpha_rad = 0.0;             ///< right positive
+  double beta_rad = 0.0;              ///< with the sign of omega
   std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
   double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
   Twist drive{};                      ///< command until the next cycle, in R
 
   Alignment& alignment() { return *this; }
+  ShotNumbers& shot() { return *this; }
 };
 
 /// A number of the predicted crossing.

@@ -8,16 +8,11 @@
 namespace trivela::kicking {
 
 /// The power question of one cycle: what speed does the kick need, and which set-point gives it?
-struct Shot {
-  TurnedPose release;                ///< of the robot, when the ball leaves if the order goes out now
-  double distance_m = 0.0;           ///< ball centre to target, horizontal
-  std::optional<double> v0_mps;      ///< for a robot at rest
-  std::optional<double> v_kick_mps;  ///< for this robot
-  std::optional<double> power;
+struct Shot : ShotNumbers {
+  TurnedPose release;      ///< of the robot, when the ball leaves if the order goes out now
   Elevation exit_angle{};  ///< that v0 and v_kick hold for: the power's own
   bool too_far = false;    ///< no set-point is fast enough
   bool reachable = false;  ///< a set-point reaches the height, or the least one still passes below the bar
-  std::optional<PredictedCrossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
 };
 
 /// Aim point on the goal line, in F.

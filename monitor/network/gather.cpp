@@ -21,7 +21,6 @@
 
 #include "bus/census.hpp"
 #include "bus/own_sockets.hpp"
-#include "monitor/network/open_ports.hpp"
 #include "monitor/network/probes.hpp"
 
 namespace trivela::monitor::network {

@@ -1,4 +1,4 @@
-#include "monitor/network/open_ports.hpp"
+#include "monitor/network/probes.hpp"
 
 #include <arpa/inet.h>
 #include <linux/inet_diag.h>

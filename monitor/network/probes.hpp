@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 
 #include "monitor/network/readings.hpp"
@@ -23,5 +25,9 @@ Peer probe_peer(const std::string& name);
 
 /// How many ports of the domain are in use on this machine.
 std::size_t busy_ports(Ports ports);
+
+/// Those of these ports on which a UDP socket of this machine hears every interface: bound to no address (0.0.0.0) and
+/// to no interface. None: the kernel does not say (sock_diag).
+std::optional<std::set<unsigned>> open_ports(Ports ports);
 
 }  // namespace trivela::monitor::network

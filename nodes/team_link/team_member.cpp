@@ -3,12 +3,18 @@
 #include <fmt/core.h>
 #include <pthread.h>
 
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "bus/executor.hpp"
-#include "nodes/team_link/interface_address.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -19,6 +25,23 @@ constexpr std::chrono::seconds kShortestPatience{15};
 constexpr std::chrono::seconds kLongestPatience{120};
 // Thirty signs of life a second of it, between six machines, were a seventh of all that crosses the air.
 constexpr std::chrono::seconds kLease{5};
+
+/// An interface's IPv4 address, such as 172.16.39.3, with the index by which the kernel knows it: "3 172.16.39.3".
+/// None: there is no such interface, it is down, or it has no address.
+std::optional<std::string> interface_address(const std::string& interface) {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return std::nullopt;
+  const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> all(first, freeifaddrs);
+  for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
+    if (interface != one->ifa_name || one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+    if ((one->ifa_flags & IFF_UP) == 0 || (one->ifa_flags & IFF_RUNNING) == 0) continue;
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* const address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
+    if (inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size()) == nullptr) continue;
+    return fmt::format("{} {}", if_nametoindex(one->ifa_name), text.data());
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 

@@ -10,7 +10,6 @@
 
 #include "evaluator/log/scan_log.hpp"
 #include "hal/range_finder.hpp"
-#include "pages/lob/channels.hpp"
 #include "pages/lob/frame.hpp"
 #include "pages/lob/lob_book.hpp"
 #include "pages/lob/scene.hpp"

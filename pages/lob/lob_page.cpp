@@ -1,4 +1,4 @@
-#include "pages/lob/lob_page.hpp"
+#include "pages/lob/scene.hpp"
 
 #include "config/parse_number.hpp"
 #include "pages/lob/page.css.hpp"

@@ -6,7 +6,6 @@
 #include <mutex>
 #include <thread>
 
-#include "pages/lob/channels.hpp"
 #include "pages/lob/frame.hpp"
 #include "pages/lob/lob_book.hpp"
 #include "pages/lob/player.hpp"

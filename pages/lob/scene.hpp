@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "pages/serve/page.hpp"
 
@@ -31,5 +32,15 @@ class Scene {
   /// Ends the scene's own thread, and a live record. Throws what check() does.
   virtual void finish() = 0;
 };
+
+/// What the page of lobs follows. A frame may be skipped; the others are snapshots of a whole, so that the newest says
+/// all.
+enum Channel : std::size_t { kSetup, kLobs, kStatus, kFrame };
+
+/// Their names as events.
+inline std::vector<std::string> lob_channels() { return {"setup", "lobs", "status", "frame"}; }
+
+/// The page of lobs: /, /api/state, /api/frame?i=N, /api/table.csv and the scene's commands. The scene must outlive it.
+Page lob_page(Scene& scene);
 
 }  // namespace trivela::pages

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "monitor/bus_picture.hpp"
-#include "pages/monitor/scene_json.hpp"
+#include "pages/monitor/match_scene.hpp"
 
 namespace trivela::pages {
 namespace {

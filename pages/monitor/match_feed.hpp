@@ -13,6 +13,7 @@
 #include "monitor/ear.hpp"
 #include "pages/monitor/match_scene.hpp"
 #include "pages/serve/broadcast.hpp"
+#include "pages/serve/page.hpp"
 
 namespace trivela::pages {
 
@@ -47,5 +48,9 @@ class MatchFeed {
   bool leaving_ = false;
   std::thread thread_;  // last: everything that it uses exists
 };
+
+/// The page of `trivela monitor` and `trivela match --watch`: files and events, no command. `token`: needed for
+/// everything; empty: for nothing.
+Page monitor_page(std::string token = "");
 
 }  // namespace trivela::pages

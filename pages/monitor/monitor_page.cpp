@@ -1,4 +1,4 @@
-#include "pages/monitor/monitor_page.hpp"
+#include "pages/monitor/match_feed.hpp"
 
 #include <utility>
 

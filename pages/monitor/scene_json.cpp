@@ -1,4 +1,4 @@
-#include "pages/monitor/scene_json.hpp"
+#include "pages/monitor/match_scene.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "hal/board/board_kicker.hpp"
-#include "hal/ioboard/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "tests/bench/board_driver.hpp"
 

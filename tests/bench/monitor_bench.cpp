@@ -15,7 +15,6 @@
 #include <string>
 
 #include "pages/monitor/match_feed.hpp"
-#include "pages/monitor/monitor_page.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/pages/viewer.hpp"

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "config/error.hpp"
+#include "config/team.hpp"
 #include "config/team_bus.hpp"
-#include "config/team_check.hpp"
 #include "config/team_settings.hpp"
 
 namespace trivela::config {

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
 #include "config/team.hpp"
-#include "config/team_check.hpp"
 #include "config/team_settings.hpp"
 
 namespace trivela::config {

@@ -9,8 +9,7 @@
 #include <fstream>
 #include <set>
 
-#include "evaluator/export/csv_export.hpp"
-#include "evaluator/export/mcap_export.hpp"
+#include "evaluator/export/export_files.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/mcap/cdr.hpp"
 #include "evaluator/mcap/row_message.hpp"

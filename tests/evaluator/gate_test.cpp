@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "evaluator/report/report_gates.hpp"
+#include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
 namespace {

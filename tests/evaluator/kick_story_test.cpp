@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "evaluator/report/logged_pitch.hpp"
 #include "evaluator/report/replay/replay.hpp"
+#include "evaluator/report/session_setup.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/kick_list.hpp"
 #include "evaluator/report/page/report_page.hpp"
 #include "evaluator/stats/poisson.hpp"
 

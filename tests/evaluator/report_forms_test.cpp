@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "evaluator/report/escaped_text.hpp"
-#include "evaluator/report/report_gates.hpp"
+#include "evaluator/report/gate.hpp"
 #include "evaluator/report/report_parts.hpp"
 #include "kicking/text/printable.hpp"
 

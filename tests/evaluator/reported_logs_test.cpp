@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "evaluator/report/next_comparison.hpp"
 #include "evaluator/report/policy_order.hpp"
+#include "evaluator/report/report_sentences.hpp"
 #include "evaluator/report/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "hal/can/frame.hpp"
-#include "hal/ioboard/emulator.hpp"
-#include "hal/rekick/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
+#include "hal/rekick/emulated_board.hpp"
 
 namespace trivela::faults {
 namespace {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "hal/board/board_kicker.hpp"
-#include "hal/ioboard/emulator.hpp"
+#include "hal/ioboard/emulated_board.hpp"
 #include "hal/ioboard/io_board.hpp"
-#include "hal/rekick/emulator.hpp"
+#include "hal/rekick/emulated_board.hpp"
 #include "hal/rekick/rekick.hpp"
 
 namespace trivela::tests {

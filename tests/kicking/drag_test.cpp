@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kicking/ballistics/lob.hpp"
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/kicking/reference_laws.hpp"
 #include "tests/vector_rows.hpp"

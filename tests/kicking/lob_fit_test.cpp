@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "kicking/ballistics/crossing.hpp"
 #include "kicking/ballistics/drag.hpp"
-#include "kicking/ballistics/lob.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/effective_fit.hpp"

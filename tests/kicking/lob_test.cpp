@@ -1,4 +1,4 @@
-#include "kicking/ballistics/lob.hpp"
+#include "kicking/ballistics/crossing.hpp"
 
 #include <gtest/gtest.h>
 

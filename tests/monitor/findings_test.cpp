@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "monitor/network/gather.hpp"
-#include "monitor/network/open_ports.hpp"
+#include "monitor/network/probes.hpp"
 
 namespace trivela::monitor::network {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "pages/lob/channels.hpp"
+#include "pages/lob/scene.hpp"
 
 namespace trivela::pages {
 namespace {

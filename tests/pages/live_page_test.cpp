@@ -5,7 +5,7 @@
 #include "hal/open.hpp"
 #include "hal/scip/emulator.hpp"
 #include "pages/lob/live_scene.hpp"
-#include "pages/lob/lob_page.hpp"
+#include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/pages/recorded_lobs.hpp"
 #include "tests/pages/viewer.hpp"

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "bus/writer.hpp"
-#include "pages/monitor/monitor_page.hpp"
 #include "pages/serve/page_server.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/pages/stalled_viewer.hpp"

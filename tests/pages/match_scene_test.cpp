@@ -5,7 +5,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "pages/monitor/scene_json.hpp"
 #include "tests/pages/kicks_of_a_match.hpp"
 
 namespace trivela::pages {

@@ -1,5 +1,4 @@
 // The live page over real HTTP, without a bus.
-#include "pages/monitor/monitor_page.hpp"
 
 #include <gmock/gmock.h>
 

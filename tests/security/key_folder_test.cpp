@@ -5,9 +5,8 @@
 #include <fstream>
 
 #include "security/certificates.hpp"
-#include "security/documents.hpp"
-#include "security/key_check.hpp"
 #include "security/private_files.hpp"
+#include "security/rights.hpp"
 #include "tests/security/key_fixture.hpp"
 
 namespace trivela::security {

@@ -8,8 +8,6 @@
 #include <set>
 #include <sstream>
 
-#include "security/documents.hpp"
-
 namespace trivela::security {
 namespace {
 

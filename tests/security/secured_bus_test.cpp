@@ -14,8 +14,8 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
-#include "security/documents.hpp"
 #include "security/private_files.hpp"
+#include "security/rights.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/security/key_fixture.hpp"
 

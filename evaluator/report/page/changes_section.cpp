@@ -4,7 +4,7 @@
 #include <span>
 
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 
 namespace trivela::evaluator::page {
 namespace {

@@ -4,8 +4,7 @@
 #include <tuple>
 
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/kick_list.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 
 namespace trivela::evaluator::page {
 namespace {

@@ -8,7 +8,7 @@
 #include "evaluator/report/page/heat_map.hpp"
 #include "evaluator/report/page/html.hpp"
 #include "evaluator/report/page/outcome_kind.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 
 namespace trivela::evaluator::page {
 namespace {

@@ -5,9 +5,8 @@
 #include <set>
 
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/kick_list.hpp"
 #include "evaluator/report/page/outcome_kind.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/simulated.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"

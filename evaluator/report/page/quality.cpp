@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "evaluator/report/merge_gaps.hpp"
+#include "evaluator/report/merge_report.hpp"
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
 

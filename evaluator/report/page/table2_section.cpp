@@ -5,7 +5,7 @@
 
 #include "evaluator/report/no_goal.hpp"
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::evaluator::page {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/sections.hpp"
+#include "evaluator/report/page/report_page.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::evaluator::page {

@@ -1,4 +1,4 @@
-#include "cli/import/import_session.hpp"
+#include "cli/import/row_writing.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "evaluator/report/table2.hpp"
 
 namespace trivela::evaluator {
+
+/// Sentences on what was played: the arms of experiments, other sessions one by one. What belongs to the one before
+/// begins with two blanks.
+std::vector<std::string> heading_of(const Report& report);
 
 /// The `trivela compare` that says how sure the differences of a report are, as a line to copy: by arm, policy, log or
 /// robot, whichever there are several of, in that order. Empty where there is nothing to compare: no kick, or replays.
