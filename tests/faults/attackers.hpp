@@ -36,13 +36,13 @@ class Attackers : public AirTest {
         << team->casualties() << team->said(1, "trivela-simulator");
   }
 
-  /// A base with the referee's word and two robots, all with keys, their links started by the launcher.
-  void start_team() {
+  /// A base with the referee's word and two robots, with keys or without, their links started by the launcher.
+  void start_team(bool with_keys = true) {
     const auto week = security::days_from(security::this_second(), 9);
     for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
     TeamPlan plan = this->plan();
     plan.robots = {Plays::kNothing, Plays::kNothing};
-    plan.keys = keys.keys().path();
+    if (with_keys) plan.keys = keys.keys().path();
     plan.link_launched = true;
     team = std::make_unique<TeamOnAir>(plan);
     team->start();

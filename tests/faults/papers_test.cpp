@@ -175,5 +175,27 @@ TEST_F(Papers, ACameraThatOrdersOnTheRobotsLoopbackIsHeardByNobodyAndItsDecision
   team->stop();
 }
 
+/// Whether robot 1 heard that somebody else says he is robot 1, once states in clear were sent in every mate's name.
+bool hears_its_twin_in_clear(TeamOnAir& team) {
+  const Packets forged = forged_states(team.stranger(), 1, speakers(team.hub().overheard()));
+  EXPECT_FALSE(forged.empty());
+  send_to_domain(team.stranger(), "10.77.0.1", config::TeamDomains{}.team, forged);
+  team.pass(seconds{1});
+  return team.said(1, "team_link").find("somebody else says") != std::string::npos;
+}
+
+TEST_F(Papers, AWordInClearInAMatesNameIsHeardByATeamWithoutKeys) {
+  ASSERT_NO_FATAL_FAILURE(start_team(false));
+  EXPECT_TRUE(hears_its_twin_in_clear(*team)) << "the packets are as good as a mate's";
+  team->stop();
+}
+
+TEST_F(Papers, AWordInClearInAMatesNameIsHeardByNobodyOfATeamWithKeys) {
+  ASSERT_NO_FATAL_FAILURE(start_team());
+  EXPECT_FALSE(hears_its_twin_in_clear(*team));
+  EXPECT_EQ(team->casualties(), "");
+  team->stop();
+}
+
 }  // namespace
 }  // namespace trivela::faults
