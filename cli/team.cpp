@@ -24,9 +24,9 @@ int check_team(const std::string& file) {
   say(fmt::format("{:>6}  {:<15}  {}\n", "base", team.base.address, team.interface_of_base()));
   const config::AirEstimate air = config::air_estimate(team);
   say(fmt::format(
-      "on the air, an estimate: {:.0f} of {:.0f} kbit/s (referee {:.0f}, team_state {:.0f}, discovery {:.0f})\n",
-      air.total_bps() / 1e3, team.team.budget_bps / 1e3, air.referee_bps / 1e3, air.state_bps / 1e3,
-      air.discovery_bps / 1e3));
+      "on the air, an estimate{}: {:.0f} of {:.0f} kbit/s (referee {:.0f}, team_state {:.0f}, discovery {:.0f})\n",
+      team.team.keys.empty() ? "" : " with keys", air.total_bps() / 1e3, team.team.budget_bps / 1e3,
+      air.referee_bps / 1e3, air.state_bps / 1e3, air.discovery_bps / 1e3));
   return kDone;
 }
 

@@ -9,7 +9,8 @@ constexpr double kMessageOverheadBytes = 104;
 constexpr double kAnnouncementBytes = 480;
 constexpr double kSignOfLifeBytes = 100;
 constexpr double kRefereeBytes = 120, kRefereeHz = 10;
-constexpr double kStateBytes = 300, kStateHz = 10;
+constexpr double kStateBytes = 300, kBaseStateHz = 10, kRobotStateHz = 5;
+constexpr double kKeysBytes = 80;  // of an encrypted message, beside the plain one
 constexpr double kBits = 8;
 
 std::string peer_elements(const Team& team) {
@@ -56,10 +57,12 @@ AirEstimate air_estimate(const Team& team) {
   const double machines = robots + 1;
   const double asked = (robots + static_cast<double>(team.team.peers.size())) * (kTeamLastParticipantIndex + 1);
   const double announcements = machines * (team.team.group.empty() ? asked : 1);
-  return {.referee_bps = robots * kRefereeHz * (kRefereeBytes + kMessageOverheadBytes) * kBits,
-          .state_bps = robots * robots * kStateHz * (kStateBytes + kMessageOverheadBytes) * kBits,
-          .discovery_bps = (announcements * kAnnouncementBytes + machines * robots * kSignOfLifeBytes) * kBits /
-                           team_discovery_interval_s(team)};
+  const double keys = team.team.keys.empty() ? 0.0 : kKeysBytes;
+  const double states_hz = robots * kBaseStateHz + robots * robots * kRobotStateHz;
+  return {.referee_bps = robots * kRefereeHz * (kRefereeBytes + kMessageOverheadBytes + keys) * kBits,
+          .state_bps = states_hz * (kStateBytes + kMessageOverheadBytes + keys) * kBits,
+          .discovery_bps = (announcements * kAnnouncementBytes + machines * robots * (kSignOfLifeBytes + keys)) *
+                           kBits / team_discovery_interval_s(team)};
 }
 
 }  // namespace trivela::config

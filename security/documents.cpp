@@ -11,7 +11,7 @@ namespace {
 // config/domain: ids above 100 are refused by bus/domain.cpp.
 constexpr const char* kDomains = "<domains><id_range><min>0</min><max>100</max></id_range></domains>";
 
-std::string topic_rule(std::string_view topic, bool confidential) {
+std::string topic_rule(std::string_view topic, const char* parts) {
   return fmt::format(R"(      <topic_rule>
         <topic_expression>{}</topic_expression>
         <enable_discovery_protection>true</enable_discovery_protection>
@@ -19,10 +19,10 @@ std::string topic_rule(std::string_view topic, bool confidential) {
         <enable_read_access_control>true</enable_read_access_control>
         <enable_write_access_control>true</enable_write_access_control>
         <metadata_protection_kind>{}</metadata_protection_kind>
-        <data_protection_kind>{}</data_protection_kind>
+        <data_protection_kind>NONE</data_protection_kind>
       </topic_rule>
 )",
-                     topic, confidential ? "SIGN" : "NONE", confidential ? "ENCRYPT" : "NONE");
+                     topic, parts);
 }
 
 std::string topic_list(const char* verb, const std::vector<std::string>& topics) {
@@ -36,12 +36,15 @@ std::string instant(std::chrono::sys_seconds t) { return fmt::format("{:%Y-%m-%d
 
 }  // namespace
 
-std::string governance_xml() {
+std::string governance_xml(Bus bus) {
+  const bool robot = bus == Bus::kRobot;
   std::string rules;
-  for (const std::string_view topic : {bus::meta<msg::KickOrder>::topic, bus::meta<msg::KickerStatus>::topic,
-                                       bus::meta<msg::Referee>::topic, bus::meta<msg::TeamState>::topic})
-    rules += topic_rule(topic, true);
-  rules += topic_rule("*", false);  // the first rule that fits counts
+  if (robot)
+    for (const std::string_view topic :
+         {trivela::bus::meta<msg::KickOrder>::topic, trivela::bus::meta<msg::KickerStatus>::topic,
+          trivela::bus::meta<msg::Referee>::topic})
+      rules += topic_rule(topic, "ENCRYPT");
+  rules += topic_rule("*", "NONE");  // the first rule that fits counts
   return fmt::format(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="https://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_governance.xsd">
   <domain_access_rules><domain_rule>
@@ -50,13 +53,13 @@ std::string governance_xml() {
     <enable_join_access_control>true</enable_join_access_control>
     <discovery_protection_kind>ENCRYPT</discovery_protection_kind>
     <liveliness_protection_kind>SIGN</liveliness_protection_kind>
-    <rtps_protection_kind>SIGN</rtps_protection_kind>
+    <rtps_protection_kind>{}</rtps_protection_kind>
     <topic_access_rules>
 {}    </topic_access_rules>
   </domain_rule></domain_access_rules>
 </dds>
 )",
-                     kDomains, rules);
+                     kDomains, robot ? "SIGN" : "ENCRYPT", rules);
 }
 
 std::string permissions_xml(const Rights& rights, std::uint32_t robot_id, const Validity& validity) {

@@ -71,7 +71,7 @@ void check_node(const fs::path& folder, std::uint32_t robot_id, const Rights& ri
                  faults);
 }
 
-void check_authorities(const fs::path& folder, const Authorities& authorities, std::chrono::sys_seconds now,
+void check_authorities(const fs::path& folder, const Authorities& authorities, Bus bus, std::chrono::sys_seconds now,
                        Faults& faults) {
   if (same_public_key(authorities.identity, authorities.permissions))
     faults.push_back(
@@ -80,7 +80,7 @@ void check_authorities(const fs::path& folder, const Authorities& authorities, s
                     folder.string()));
   check_clock(folder / "identity_ca.pem", validity_of(authorities.identity), now, faults);
   check_clock(folder / "permissions_ca.pem", validity_of(authorities.permissions), now, faults);
-  check_document(folder / "governance.p7s", authorities.permissions, governance_xml(), faults);
+  check_document(folder / "governance.p7s", authorities.permissions, governance_xml(bus), faults);
 }
 
 /// Runs the check; what is missing or no PEM at all is a fault too.
@@ -89,12 +89,12 @@ void noting(Faults& faults, const auto& check) try { check(); } catch (const std
 }
 
 /// The keys of one bus: a robot's own, or the team's.
-void check_bus(const fs::path& folder, std::uint32_t robot_id, const std::vector<Rights>& nodes,
+void check_bus(const fs::path& folder, Bus bus, std::uint32_t robot_id, const std::vector<Rights>& nodes,
                std::chrono::sys_seconds now, Faults& faults) {
   noting(faults, [&] {
     check_modes(folder, faults);
     const Authorities authorities{folder};
-    check_authorities(folder, authorities, now, faults);
+    check_authorities(folder, authorities, bus, now, faults);
     for (const Rights& rights : nodes)
       noting(faults, [&] { check_node(folder, robot_id, rights, authorities, now, faults); });
   });
@@ -110,8 +110,8 @@ std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_sec
     const fs::path of_robot = folder.robot_folder(robot_id);
     std::vector<Rights> of_nodes;
     for (const std::string& node : folder.nodes(robot_id)) noting(faults, [&] { of_nodes.push_back(rights_of(node)); });
-    check_bus(of_robot, robot_id, of_nodes, now, faults);
-    check_bus(of_robot / "team", robot_id, {rights_on_team_bus(robot_id)}, now, faults);
+    check_bus(of_robot, Bus::kRobot, robot_id, of_nodes, now, faults);
+    check_bus(of_robot / "team", Bus::kTeam, robot_id, {rights_on_team_bus(robot_id)}, now, faults);
   }
   return faults;
 }

@@ -137,7 +137,7 @@ void KeyFolder::revoke_robot(std::uint32_t robot_id, const Validity& validity) c
 namespace {
 
 /// The folder of one bus: whom its nodes believe.
-void write_bus(const fs::path& folder, const Authority& identity, const Authority& permissions) {
+void write_bus(const fs::path& folder, Bus bus, const Authority& identity, const Authority& permissions) {
   if (same_public_key(identity.certificate, permissions.certificate))
     throw std::runtime_error{
         fmt::format("{}: identity and permissions authority are the same (CVE-2023-24011)", folder.string())};
@@ -145,7 +145,7 @@ void write_bus(const fs::path& folder, const Authority& identity, const Authorit
   write_private_file(folder / "identity_ca.pem", pem_of(identity.certificate));
   write_private_file(folder / "permissions_ca.pem", pem_of(permissions.certificate));
   write_private_file(folder / "governance.p7s",
-                     signed_document(governance_xml(), permissions.certificate, permissions.key));
+                     signed_document(governance_xml(bus), permissions.certificate, permissions.key));
 }
 
 void write_identity(const fs::path& folder, const Rights& rights, std::uint32_t robot_id, const Authority& identity,
@@ -169,10 +169,10 @@ void KeyFolder::write_robot(std::uint32_t robot_id, const std::vector<std::strin
   const Authority permissions{authority() / "permissions_ca"};
   const fs::path made = folder_ / fmt::format(".new_{}{}", kRobotPrefix, robot_id);
   fs::remove_all(made);
-  write_bus(made, identity, permissions);
+  write_bus(made, Bus::kRobot, identity, permissions);
   for (const std::string& node : nodes)
     write_identity(made, rights_of(node), robot_id, identity, permissions, validity);
-  write_bus(made / "team", of_team, permissions);
+  write_bus(made / "team", Bus::kTeam, of_team, permissions);
   write_identity(made / "team", rights_on_team_bus(robot_id), robot_id, of_team, permissions, validity);
   fs::remove_all(robot_folder(robot_id));
   fs::rename(made, robot_folder(robot_id));

@@ -58,7 +58,7 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
     listen_to_robot();
   }
   member_.emplace(context, team_bus, own_, takes_referee);
-  node_.every(kPeriod, "team_state", [this] { say_state(); });
+  node_.every(base_ ? kBasePeriod : kRobotPeriod, "team_state", [this] { say_state(); });
   node_.on_device(
       "team", [this](std::chrono::nanoseconds timeout) { return member_->next(timeout); },
       [this](const TeamMember::HeardWord& heard) { hear(heard); }, bus::writes<msg::TeamHeard, msg::Referee>());

@@ -20,7 +20,10 @@ namespace trivela::nodes {
 /// box. On its own machine's bus it looks on and is waited for by nobody.
 class TeamLinkNode {
  public:
-  static constexpr std::chrono::milliseconds kPeriod{100};
+  /// Of `team_state`. The base's, by which all robots' clocks know its own, is the more frequent; of a robot's five
+  /// ways each costs the air as much as the base's, and there are as many of these as robots.
+  static constexpr std::chrono::milliseconds kBasePeriod{100};
+  static constexpr std::chrono::milliseconds kRobotPeriod{200};
 
   /// Throws std::runtime_error beside another referee of the robot.
   TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_bus);

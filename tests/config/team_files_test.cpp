@@ -183,8 +183,18 @@ TEST(TeamBus, AGroupIsTheDiscoverysAndPeersAreEveryMachine) {
 TEST(TeamBus, TheEstimateIsTheDocumentedArithmetic) {
   const AirEstimate air = air_estimate(five_robots());
   EXPECT_DOUBLE_EQ(air.referee_bps, 5 * 10 * (120 + 104) * 8);
-  EXPECT_DOUBLE_EQ(air.state_bps, 5 * 5 * 10 * (300 + 104) * 8);
+  EXPECT_DOUBLE_EQ(air.state_bps, (5 * 10 + 5 * 5 * 5) * (300 + 104) * 8);
   EXPECT_DOUBLE_EQ(air.discovery_bps, (6 * 480 + 6 * 5 * 100) * 8 / 2);
+}
+
+TEST(TeamBus, WithKeysTheEstimateHasWhatEncryptionAddsToEachMessage) {
+  Team team = five_robots();
+  team.team.keys = "/etc/trivela/keys";
+  const AirEstimate air = air_estimate(team);
+  EXPECT_DOUBLE_EQ(air.referee_bps, 5 * 10 * (120 + 104 + 80) * 8);
+  EXPECT_DOUBLE_EQ(air.state_bps, (5 * 10 + 5 * 5 * 5) * (300 + 104 + 80) * 8);
+  EXPECT_DOUBLE_EQ(air.discovery_bps, (6 * 480 + 6 * 5 * (100 + 80)) * 8 / 2);
+  EXPECT_LT(air.total_bps(), 1e6);
 }
 
 TEST(TeamBus, FiveRobotsAndABaseKeepTheDefaultBudgetByGroupAndByPeers) {
@@ -196,8 +206,8 @@ TEST(TeamBus, FiveRobotsAndABaseKeepTheDefaultBudgetByGroupAndByPeers) {
 
 TEST(TeamBus, MoreThanTheBudgetIsAFindingAtItsLine) {
   Team team = five_robots();
-  team.team.budget_bps = 900'000;
-  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:12: team.budget_bps = 900000")));
+  team.team.budget_bps = 600'000;
+  EXPECT_THAT(team_findings(team), ElementsAre(HasSubstr("example.toml:12: team.budget_bps = 600000")));
 }
 
 TEST(TeamReader, EveryUnknownKeyAndWrongTypeIsSaidWithItsLine) {

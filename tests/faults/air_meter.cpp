@@ -10,13 +10,23 @@
 namespace trivela::faults {
 namespace {
 
-constexpr std::uint8_t kData = 0x15;
+constexpr std::uint8_t kData = 0x15, kEncrypted = 0x33;  // SRTPS_PREFIX: the whole message is encrypted
 constexpr double kEthernetHeader = 14;
 constexpr std::size_t kLongestReferee = 132;  // of the data's submessage: referee has 60 bytes of data, team_state 200
 
+// Nothing of an encrypted message is known but its length, and those of the two topics have one each.
+constexpr std::size_t kEncryptedState = 336, kEncryptedReferee = 236;
+
+AirKind kind_of_encrypted(std::size_t message_size) {
+  if (message_size == kEncryptedState) return AirKind::kTeamState;
+  return message_size == kEncryptedReferee ? AirKind::kReferee : AirKind::kAcknowledgement;
+}
+
 AirKind kind_of(std::span<std::uint8_t> frame) {
-  const auto parts = submessages_of(udp_payload(frame));
+  const auto message = udp_payload(frame);
+  const auto parts = submessages_of(message);
   if (parts.empty()) return AirKind::kOther;
+  if (parts.front().id == kEncrypted) return kind_of_encrypted(message.size());
   if (std::ranges::any_of(parts, &Submessage::discovery)) return AirKind::kDiscovery;
   for (const Submessage& part : parts)
     if (part.id == kData) return part.end - part.begin > kLongestReferee ? AirKind::kTeamState : AirKind::kReferee;

@@ -12,7 +12,7 @@ namespace trivela::faults {
 enum class AirKind : std::uint8_t {
   kTeamState,        ///< data of more than 100 bytes between user endpoints
   kReferee,          ///< other data between user endpoints
-  kAcknowledgement,  ///< no data between user endpoints: heartbeats and their answers
+  kAcknowledgement,  ///< no data between user endpoints: heartbeats and their answers; encrypted: all but data
   kDiscovery,        ///< between builtin endpoints: participants, endpoints, signs of life, handshakes
   kOther             ///< no RTPS: ARP, IGMP, ICMP
 };

@@ -13,9 +13,7 @@
 #include "idl/messages.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/faults/air_flood.hpp"
-#include "tests/faults/air_test.hpp"
-#include "tests/faults/impostor.hpp"
-#include "tests/security/key_fixture.hpp"
+#include "tests/faults/attackers.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -29,64 +27,6 @@ constexpr std::int64_t kS = 1'000'000'000;
 const std::vector<std::string> kNodes{"trivela-odometry",      "trivela-world_state",   "trivela-kick_decision",
                                       "trivela-kicker_driver", "trivela-shot_observer", "trivela-recorder",
                                       "trivela-team_link"};
-
-/// A robot that plays with its own referee, with keys and without.
-class Attackers : public AirTest {
- protected:
-  /// `keys`: the robot's nodes and those of its simulated world have them.
-  void kick_off(bool with_keys) {
-    TeamPlan plan = this->plan();
-    plan.robots = {Plays::kOwnReferee};
-    if (with_keys) {
-      const auto week = security::days_from(security::this_second(), 9);
-      std::vector<std::string> nodes = security::usual_nodes(1);
-      if (std::ranges::find(nodes, "simulator") == nodes.end()) nodes.emplace_back("simulator");
-      keys.keys().issue(0, security::usual_nodes(0), week);
-      keys.keys().issue(1, nodes, week);
-      plan.keys = keys.keys().path();
-    }
-    team = std::make_unique<TeamOnAir>(plan);
-    team->start();
-    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, 0) > 100; }))
-        << team->casualties() << team->said(1, "trivela-simulator");
-  }
-
-  /// A base with the referee's word and two robots, all with keys, their links started by the launcher.
-  void start_team() {
-    const auto week = security::days_from(security::this_second(), 9);
-    for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
-    TeamPlan plan = this->plan();
-    plan.robots = {Plays::kNothing, Plays::kNothing};
-    plan.keys = keys.keys().path();
-    plan.link_launched = true;
-    team = std::make_unique<TeamOnAir>(plan);
-    team->start();
-    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return rows("referee WHERE playing = 1") > 50; }))
-        << team->casualties() << team->said(1, "team_link") << team->said(0, "team_link");
-  }
-
-  std::int64_t rows(const std::string& sql) const { return number_in(team->logs(1), "SELECT count(*) FROM " + sql); }
-
-  /// Orders of the impostor's that any node of the robot took for orders, and answers to them.
-  std::int64_t heard() const {
-    const auto forged = fmt::format("WHERE kick_id BETWEEN {} AND {}", kForgedKick, kForgedKick + kForgedKicks - 1);
-    return rows("kick_orders " + forged) + rows("kick_receipts " + forged);
-  }
-
-  /// It plays on: cycles after now.
-  bool plays_on() {
-    const std::int64_t now = last_instant(team->logs(1));
-    return team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, now) > 50; });
-  }
-
-  void send(const NetworkHost& host, const std::string& address, const Packets& packets) {
-    send_to_domain(host, address, config::TeamDomains{}.robot, packets);
-    team->pass(seconds{1});  // the recorder writes what it has every 200 ms
-  }
-
-  security::TeamKeys keys;
-  std::unique_ptr<TeamOnAir> team;
-};
 
 TEST_F(Attackers, OrdersForgedOnAnotherMachineReachARobotThatHasNoKeysFromItsOwnLoopbackAlone) {
   ASSERT_NO_FATAL_FAILURE(kick_off(false));

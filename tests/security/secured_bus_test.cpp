@@ -210,7 +210,7 @@ TEST_F(SecuredBus, WithOneAuthorityForBothDebiansCycloneTakesWhatANodeSignedForI
   const Certificate both = read_certificate(folder / "identity_ca.pem");
   const Key key = read_key(team.authority() / "identity_ca_1.key");
   write_private_file(folder / "permissions_ca.pem", pem_of(both) + "\n");  // the guard compares the files
-  write_private_file(folder / "governance.p7s", signed_document(governance_xml(), both, key));
+  write_private_file(folder / "governance.p7s", signed_document(governance_xml(Bus::kRobot), both, key));
   write_private_file(folder / "kicker_driver.p7s",
                      signed_document(permissions_xml(rights_of("kicker_driver"), 1,
                                                      validity_of(read_certificate(folder / "kicker_driver.pem"))),
