@@ -9,7 +9,7 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
-#include "security/documents.hpp"
+#include "security/rights.hpp"
 #include "security/private_files.hpp"
 #include "tests/faults/attackers.hpp"
 
