@@ -26,9 +26,11 @@ using evaluator::write_file;
 
 /// What a verb will write when it has computed. The verb says so first, since nobody wants to hear after half an hour
 /// that a folder is missing: throws std::runtime_error naming flag, file and reason where it cannot be written now. An
-/// empty path is none. The file stays as it is, and one that was not there is not there afterwards.
-inline void require_writable(const std::string& flag, const std::filesystem::path& path) {
+/// empty path is none. The file stays as it is, and one that was not there is not there afterwards. One that holds a
+/// database is for verbs alone that write one, a `database`: a match log is never lost to a slip of the hand.
+inline void require_writable(const std::string& flag, const std::filesystem::path& path, bool database = false) {
   if (path.empty()) return;
+  if (!database) evaluator::require_no_database(flag, path);
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error{fmt::format("cannot write {} {}: {}", flag, path.string(), why)};
   };

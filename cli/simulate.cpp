@@ -76,7 +76,7 @@ int simulate(const SimulateFlags& flags) {
   if (flags.summaries && (flags.shadows || flags.every_cycle))
     throw UsageError{fmt::format("--summaries and {}: a book of tallies keeps no decision",
                                  flags.shadows ? "--shadows" : "--every-cycle")};
-  require_writable("--out", flags.out);
+  require_writable("--out", flags.out, true);
   check_shard(flags.shard, flags.matches);
   experiment::ExperimentPlan plan;
   plan.scenario = flags.world.load();

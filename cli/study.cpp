@@ -86,7 +86,7 @@ void require_writable(const Study& study) {
   if (study.shard && (study.json || !study.csv.empty() || !study.svg.empty()))
     throw UsageError{
         fmt::format("--shard {}: a part has no report; the merged book of all parts has", study.shard->text())};
-  require_writable("--tallies", study.tallies);
+  require_writable("--tallies", study.tallies, true);
   require_writable("--csv", study.csv);
   require_writable("--svg", study.svg);
 }

@@ -6,11 +6,15 @@
 
 namespace trivela::evaluator {
 
-/// Writes a text file anew. Throws std::runtime_error naming it, and the reason, where that fails.
+/// Throws std::runtime_error naming `what` and the path, which may be a link, where a file there begins as SQLite's do.
+void require_no_database(const std::string& what, const std::filesystem::path& path);
+
+/// Writes a text file anew. Throws std::runtime_error naming it, and the reason, where that fails, and what
+/// require_no_database() throws.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 /// Writes a text file whole or not at all: beside its place, where `check` may throw on it, then in its place.
-/// Throws std::runtime_error "cannot write `what` PATH", and what `check` throws.
+/// Throws std::runtime_error "cannot write `what` PATH", and what `check` and require_no_database() throw.
 void replace_file(const std::filesystem::path& path, const std::string& text, const std::string& what,
                   const std::function<void(const std::filesystem::path&)>& check = {});
 
