@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <iterator>
 #include <stdexcept>
 
 #include "kicking/geometry/time.hpp"
+#include "tests/faults/drivers_words.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -33,11 +33,6 @@ std::int64_t now_ns() { return Clock::now().time_since_epoch().count(); }
 
 std::chrono::nanoseconds nanoseconds(double time_s) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Seconds{time_s});
-}
-
-bool garbles_driver(const Fault& fault) {
-  const std::size_t driver = node_index("kicker_driver");
-  return fault.kind == FaultKind::kGarble && (fault.node == driver || !fault.other || fault.other == driver);
 }
 
 /// Whether the chain is whole, from what comes after an instant.
@@ -257,18 +252,6 @@ class Campaign {
 };
 
 }  // namespace
-
-Testimony with_garbled_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials) {
-  for (const Trial& trial : trials) {
-    if (!garbles_driver(trial.fault)) continue;
-    std::copy_if(wire.words.begin(), wire.words.end(), std::back_inserter(device.words), [&](const WordSeen& word) {
-      return word.arrival_ns >= trial.began_ns && word.arrival_ns <= trial.whole_ns;
-    });
-  }
-  std::stable_sort(device.words.begin(), device.words.end(),
-                   [](const WordSeen& a, const WordSeen& b) { return a.arrival_ns < b.arrival_ns; });
-  return device;
-}
 
 std::vector<Trial> run_campaign(Stack& stack, const std::vector<Fault>& faults, const Watch& watch) {
   Campaign campaign{stack, watch};

@@ -30,11 +30,6 @@ struct Watch {
   std::function<void()> look;                                    ///< every 20 ms; may throw to end the campaign
 };
 
-/// The device's witness under garbled words: its reader may grow deaf for good like anybody's, while the driver's does
-/// not. What the referee really said, as the wire's witness heard it, is added to its words for as long as such a fault
-/// on the driver's cable lasted.
-Testimony with_garbled_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials);
-
 /// Makes one fault after the other and waits each time until the chain is whole: every periodic topic is heard, a new
 /// order is fired, the recorder writes, and where the observer was hit, an outcome is told. A chain that does not come
 /// back within the limit is started anew; where it does not even then, the campaign ends there. Throws

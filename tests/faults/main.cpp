@@ -9,6 +9,7 @@
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "tests/e2e/folder.hpp"
+#include "tests/faults/drivers_words.hpp"
 #include "tests/faults/forged_orders.hpp"
 #include "tests/faults/verdict.hpp"
 
@@ -93,7 +94,7 @@ Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_l
   stack.stop_all();
   verdict.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   verdict.orders = stack.wire().orders.size();
-  const Testimony device = with_garbled_words(stack.device(), stack.wire(), verdict.trials);
+  const Testimony device = with_drivers_words(stack.device(), stack.wire(), verdict.trials);
   verdict.fires = fires_carried_out(device, stack.wire(), rules);
   verdict.findings = judge(device, stack.wire(), rules);
   verdict.forged = take_forged(verdict.findings, stack.garbled_to_driver());
