@@ -40,7 +40,7 @@ TEST_F(KeptLogs, AreNeverOverwrittenByWhatElseAVerbWrites) {
          {"report " + log + " --html " + target, "report " + log + " --json --out " + target,
           "compare " + log + " --out " + target, "export " + log + " --mcap " + target + " --force",
           "frontier --matches 2 --csv " + target, "factorial --matches 2 --svg " + target,
-          "tune --matches 2 --out " + target, "learn " + log + " --out " + target}) {
+          "tune moving --matches 2 --out " + target, "learn " + log + " --out " + target}) {
       EXPECT_THAT(
           [&] {
             run_parsed({add_report, add_compare, add_export, add_frontier, add_factorial, add_tune, add_learn}, words);
