@@ -17,7 +17,7 @@ SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns 
   k.outcome, k.bounced, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
   d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
 FROM counted_kicks AS k
-JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq
+CROSS JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq  -- this order
 JOIN sessions AS s ON s.session_id = k.session_id
 JOIN utc_offsets AS u ON u.session_id = k.session_id
 WHERE k.accepted = 1)";
