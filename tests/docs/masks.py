@@ -18,6 +18,7 @@ MASKS = [
      r"in TIME s with \1: SPEED a second"),
     ("an arm's speed", re.compile(r"^(\S.* \d\.\d{4}) +\d+$"), r"\1 SPEED"),
     ("a drive's time", re.compile(rf"( s of play) in {NUMBER} s:"), r"\1 in TIME s:"),
+    ("why a kernel has no such CAN bus", re.compile(r"\b(no bus can\d+:) .*"), r"\1 WHY"),
     ("a day", re.compile(r"\b20\d\d-[01]\d-[0-3]\d\b"), "DAY"),
     ("a clock's time", re.compile(r"\bT?\d\d:?\d\d:?\d\d(?:\.\d+)?Z\b"), "CLOCK"),
 ]

@@ -122,7 +122,8 @@ class Rehearsal:
     def _start(self, text):
         return subprocess.Popen(["bash", "-c", text], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, start_new_session=True,
-                                env={**os.environ, "LC_ALL": "C.UTF-8"})
+                                env={**os.environ, "LC_ALL": "C.UTF-8",
+                                     "PATH": f"{self.folder}/build/release:{os.environ['PATH']}"})
 
     def _run_together(self, block):
         """All at once; the last one's end ends the others, which must end with 0 as well."""
