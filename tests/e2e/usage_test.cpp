@@ -89,6 +89,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"MissingConfig", {"--half", "moving", "--config", "nope.toml"}, 1, "nope.toml"},
         Mistake{"UnknownKey", {"--half", "moving", "--set", "policy.settle=3"}, 1, "policy.settle: unknown key"},
         Mistake{"ImpossibleValue", {"--half", "moving", "--set", "policy.settle_s=-3"}, 1, "policy.settle_s = -3"},
+        Mistake{"DeviceOfRealTime",
+                {"--half", "moving", "--set", "hal.kicker=\"rekick\""},
+                2,
+                "trivela: hal.kicker = \"rekick\" plays with --devices emulated alone\n"},
         Mistake{"MissingRobot", {"--half", "moving", "--set", "run.robot=\"no_one.toml\""}, 1, "no_one.toml"}),
     [](const auto& test) { return test.param.name; });
 
