@@ -107,6 +107,14 @@ TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
   EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_truths"), 1) << "which the world let fly";
 }
 
+TEST_F(CalibrateInField, ARobotsFileThatIsNotThereIsNamedBeforeTheFirstQuestion) {
+  const auto run = start({"--start", "nope.toml"});
+  EXPECT_EQ(run->wait(), 1);
+  EXPECT_THAT(run->errors(), HasSubstr("nope.toml: cannot read the configuration"));
+  EXPECT_EQ(run->output(), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "drives"));
+}
+
 TEST_F(CalibrateInField, WhatMakesNoSenseIsRefusedBeforeAnybodyIsAsked) {
   for (const auto& [flag, says] : std::vector<std::pair<std::string, std::string>>{
            {"--json", "--json goes with --in simulation"}, {"--in-process", "a field has its nodes"}}) {
