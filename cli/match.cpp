@@ -133,6 +133,7 @@ int play(const MatchFlags& flags, bool secured, bool paced) {
   if (flags.devices == kEmulated && paced)
     throw UsageError{"--pace: against emulated devices a match is played in real time"};
   config::Settings settings = settings_of(flags);
+  if (flags.devices != kEmulated) refuse_real_devices(settings.hal);
   const auto keys = secured ? secure_children(flags.keys, settings.run.robot_id) : nullptr;
   const WatchFlags* const page = flags.watch ? &flags.page : nullptr;
   return flags.devices == kEmulated ? record_emulated(std::move(settings), flags.domain, flags.out, page)

@@ -9,6 +9,7 @@
 #include "cli/launch/stoppable_bar.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
+#include "evaluator/log/log_file.hpp"
 #include "evaluator/log/merge.hpp"
 #include "evaluator/log/shard_merge.hpp"
 #include "evaluator/log/stoppable.hpp"
@@ -53,11 +54,24 @@ int merge_shards(const MergeArguments& arguments, const std::vector<std::filesys
   return kDone;
 }
 
+/// A mistyped name is no damage: throws log::NoSuchLog for the first that is no match log, sound or not.
+void require_match_logs(const std::vector<std::filesystem::path>& logs) {
+  for (const std::filesystem::path& log : logs) {
+    try {
+      const evaluator::log::Reader reader(log, evaluator::log::Check::kSchema);
+    } catch (const evaluator::log::NoSuchLog&) {
+      throw;
+    } catch (const std::exception&) {  // merging takes what can be read, and says what is wrong with the rest
+    }
+  }
+}
+
 int run_merge(const MergeArguments& arguments) try {
   require_new("OUT", arguments.out);
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
   if (evaluator::log::any_is_tally_book(logs)) return merge_books(arguments, logs);
   if (evaluator::log::any_is_shard(logs)) return merge_shards(arguments, logs);
+  require_match_logs(logs);
   evaluator::log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
   const evaluator::log::Merged merged = [&] {
@@ -97,7 +111,8 @@ void add_merge(CLI::App& app, int& exit_code) {
   verb->footer(
       "Every session comes along once, row for row; verbs count each kick once. Times are aligned by the clock "
       "offsets\n"
-      "that the robots measured. Of a damaged file what can be read is taken. No file is changed. Ends with\n"
+      "that the robots measured. Of a damaged file what can be read is taken; one that is no match log is refused. No "
+      "file is changed. Ends with\n"
       "\"missing: nothing\", or with what is missing and exit code 3, as where two files say different things of a "
       "kick. Shards of an experiment (trivela simulate "
       "--shard)\n"

@@ -35,6 +35,8 @@ inline void require_writable(const std::string& flag, const std::filesystem::pat
     throw std::runtime_error{fmt::format("cannot write {} {}: {}", flag, path.string(), why)};
   };
   std::error_code unknown;
+  if (const auto folder = path.parent_path(); !folder.empty() && !std::filesystem::exists(folder, unknown) && !unknown)
+    fail("there is no folder " + folder.string());
   const bool there = std::filesystem::exists(std::filesystem::symlink_status(path, unknown));
   if (std::filesystem::is_directory(path, unknown)) fail("it is a folder");
   if (there && !std::filesystem::is_regular_file(path, unknown)) return;  // a pipe, a terminal: opened once

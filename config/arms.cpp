@@ -131,7 +131,8 @@ std::vector<std::string> override_setting(Settings& settings, const SettingLine&
     return keys;
   } catch (const Error& error) {
     const std::string what = error.what();  // ":1: what is wrong", the line being the text's own
-    throw Error{fmt::format("{}: {}", line.place, what.substr(what.find(": ") + 2))};
+    throw Error{fmt::format("{}: {}{}", line.place, what.substr(what.find(": ") + 2),
+                            line.place.starts_with("--set ") ? quotes_advice(what, line.text, "--set") : "")};
   }
 }
 

@@ -110,6 +110,17 @@ void settle(Settings& settings, const std::string& source) {
   read_learned_model(settings, source);
 }
 
+/// What is wrong with one of the lines, which stands in the message: the number of the line in itself says nothing.
+std::string sentence_on_line(const std::string& what, const std::vector<std::string>& lines,
+                             const std::string& called) {
+  for (const std::string& line : lines) {
+    const std::string place = fmt::format("{} {}", called, line), numbered = place + ":1: ";
+    if (what.starts_with(numbered))
+      return fmt::format("{}: {}{}", place, what.substr(numbered.size()), quotes_advice(what, line, called));
+  }
+  return what;
+}
+
 }  // namespace
 
 Settings load_settings(const std::filesystem::path& path) {
@@ -157,9 +168,14 @@ void check_policies(const KickDecision& settings, const std::string& source) {
 }
 
 void override_settings(Settings& settings, const std::vector<std::string>& lines, const std::string& called) {
-  std::vector<TomlSource> said;
-  for (const std::string& line : lines) read_into(said.emplace_back(parse_text(line, called)), settings);
-  follow_field_file(settings, said);
+  try {
+    std::vector<TomlSource> said;
+    for (const std::string& line : lines)
+      read_into(said.emplace_back(parse_text(line, fmt::format("{} {}", called, line))), settings);
+    follow_field_file(settings, said);
+  } catch (const Error& error) {
+    throw Error{sentence_on_line(error.what(), lines, called)};
+  }
   settle(settings, "the settings");
 }
 

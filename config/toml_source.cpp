@@ -11,6 +11,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "config/csv_row.hpp"
 #include "config/installation.hpp"
 #include "kicking/text/nearest_word.hpp"
 
@@ -32,6 +33,16 @@ TomlSource parse_text(std::string_view text, std::string name) {
   } catch (const toml::parse_error& error) {
     throw Error{fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description())};
   }
+}
+
+std::string quotes_advice(std::string_view what, std::string_view line, std::string_view flag) {
+  const auto equals = line.find('=');
+  if (what.find("not valid TOML") == std::string_view::npos || equals == std::string_view::npos) return "";
+  const std::string key = trimmed(std::string{line.substr(0, equals)});
+  const std::string value = trimmed(std::string{line.substr(equals + 1)});
+  const bool bare = !value.empty() && value.find_first_of("\"'[]{}#") == std::string::npos &&
+                    std::string_view{"+-.0123456789"}.find(value.front()) == std::string_view::npos;
+  return bare ? fmt::format("; text needs quotes: {} '{}=\"{}\"'", flag, key, value) : "";
 }
 
 TomlSource parse_file(const std::filesystem::path& path) {

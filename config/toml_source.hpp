@@ -28,6 +28,10 @@ TomlSource parse_file(const std::filesystem::path& path);
 /// Parses `text`, calling it `name` in messages.
 TomlSource parse_text(std::string_view text, std::string name);
 
+/// What to add to `what` is wrong with a line that was no TOML since the text that it sets has no quotes; else nothing.
+/// `flag`: by which the line is given.
+std::string quotes_advice(std::string_view what, std::string_view line, std::string_view flag);
+
 /// Sets the struct fields that a TOML table names and refuses everything else in it. Fields that the table does not
 /// name keep their value, so that a file overrides defaults. Throws Error for an unknown key, a wrong type, a value
 /// that is not finite or outside its Range, naming file, line, key and value.

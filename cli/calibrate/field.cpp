@@ -72,7 +72,8 @@ std::unique_ptr<calibration::DriveSource> drives_in(const std::optional<sim::Sce
   return std::make_unique<RobotDrives>(settings, folder, part, signals);
 }
 
-int play_in(Field field, const RunFlags& flags, const fs::path& file, SignalInbox& signals) {
+int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& start, const fs::path& file,
+            SignalInbox& signals) {
   const fs::path folder = fs::absolute(flags.out_dir);
   fs::path part = file;
   part += ".part";  // until every figure is in it
@@ -88,8 +89,7 @@ int play_in(Field field, const RunFlags& flags, const fs::path& file, SignalInbo
   RunReport report{false};
   const auto played = drives_in(field.world, settings, folder, part, signals);
   AskedDrives asked{*played, settings, book, person};
-  calibration::CalibrationRun run{asked,        standing_m,       settings,
-                                  flags.effort, flags.seed * 100, robot_of(flags, field.world.has_value())};
+  calibration::CalibrationRun run{asked, standing_m, settings, flags.effort, flags.seed * 100, start};
   run.evening([&](const calibration::DriveSummary& summary) {
     report.add(summary);
     std::fflush(stdout);
@@ -110,13 +110,14 @@ int play_in(Field field, const RunFlags& flags, const fs::path& file, SignalInbo
 int calibrate_in_field(const RunFlags& flags) {
   refuse_flags_of_simulation(flags);
   Field field = field_of(flags);
+  const calibration::RobotUpdate start = robot_of(flags, field.world.has_value());
   if (!Person::is_there())
     throw std::runtime_error{"--in field asks a person for each step: standard input is no terminal"};
   const fs::path file = place_of(flags);
   SignalInbox signals;
   if (field.world) say("A REHEARSAL: the drives are played in the simulator's world.\n");
   try {
-    return play_in(std::move(field), flags, file, signals);
+    return play_in(std::move(field), flags, start, file, signals);
   } catch (const LeftForToday& left) {
     say(fmt::format("{}\n", left.what()));
     return kFailed;

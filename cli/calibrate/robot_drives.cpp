@@ -12,6 +12,7 @@
 
 #include "bus/reader.hpp"
 #include "cli/calibrate/drive_match.hpp"
+#include "cli/calibrate/drive_needs.hpp"
 #include "cli/hardware/claims.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
@@ -164,6 +165,7 @@ calibration::DriveRecord RobotDrives::play(const calibration::DrivePlan& plan, c
   config::Settings settings = settings_of_robot_drive(plan, record, robot_file_, settings_);
   const auto robot_id = static_cast<std::uint8_t>(settings.run.robot_id);
   const bus::Participant participant{nodes::domain_of(settings.domain)};
+  require_for_drive(participant, settings, plan);
   std::optional<OwnReferee> referee;
   if (!somebody_referees(participant, robot_id)) {
     referee.emplace();

@@ -18,8 +18,8 @@ class RobotDrives : public calibration::DriveSource {
   RobotDrives(config::Settings settings, std::filesystem::path folder, std::filesystem::path robot_file,
               SignalInbox& signals);
 
-  /// Throws std::runtime_error where nodes of this robot run already, somebody asked to stop, a node died or rows were
-  /// lost, with what is left on the disk.
+  /// Throws std::runtime_error where nodes of this robot run already, nobody says what the drive is measured by,
+  /// somebody asked to stop, a node died or rows were lost, with what is left on the disk.
   calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
 
  private:

@@ -23,6 +23,9 @@ class LogClaim {
     std::error_code unknown;
     if (std::filesystem::exists(std::filesystem::symlink_status(path_, unknown))) refuse_existing();
     const std::filesystem::path folder = path_.has_parent_path() ? path_.parent_path() : ".";
+    if (!std::filesystem::exists(folder, unknown) && !unknown)
+      throw std::runtime_error{
+          fmt::format("cannot write --out {}: there is no folder {}", path_.string(), folder.string())};
     int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0644);
     if (descriptor < 0) {  // also where the file system has no files without a name
       descriptor = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);

@@ -48,6 +48,16 @@ config::Settings lockstep_settings(config::Settings settings, int domain, const 
   return settings;
 }
 
+void refuse_real_devices(const config::Hal& devices) {
+  const auto look = [](const char* key, const auto& device) {
+    if (plays_in_lockstep(device)) return;
+    throw UsageError{fmt::format("{} = \"{}\" plays with --devices emulated alone", key, config::text_of(device))};
+  };
+  look("hal.wheels", devices.wheels);
+  look("hal.gyro", devices.gyro);
+  look("hal.kicker", devices.kicker);
+}
+
 int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::string& out) {
   fmt::print("played {:.0f} s in {:.1f} s: {:.1f} times real time\n", result.played_s, result.wall_s,
              result.played_s / result.wall_s);

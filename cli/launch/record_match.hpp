@@ -27,6 +27,9 @@ std::int64_t lost_rows(const std::string& log);
 /// Prints how fast a match went, and on standard error how it was broken off. Returns the exit code.
 int say_how_it_went(const MatchResult& result, const LogClaim& log, const std::string& out);
 
+/// Throws UsageError naming the first device that has a time of its own: a match in lockstep is not for it.
+void refuse_real_devices(const config::Hal& devices);
+
 /// Runs the nodes with `feeder` in lockstep on a domain of their own and records to `out`; prints how fast it went.
 /// `domain` < 0: drawn. `watch`: its live page is served there, and stays until somebody asks to stop; nullptr: none.
 /// Returns the exit code. Throws UsageError when `out` exists: a recorded match is never overwritten.

@@ -27,6 +27,13 @@ std::uintmax_t size_of(const std::string& path) {
   return size + (none ? 0 : wal);
 }
 
+/// What SQLite says; where it says no more than that a match log is malformed, who says more.
+std::string said_by(const SQLite::Exception& error, const LogKind& kind, const std::string& path) {
+  const bool malformed = (error.getErrorCode() & 0xFF) == SQLITE_CORRUPT;
+  if (!malformed || kind.application_id != kMatchLog.application_id) return error.what();
+  return fmt::format("{}: trivela doctor {} says what can be done", error.what(), path);
+}
+
 std::unique_ptr<SQLite::Database> connect(const std::string& path, bool damaged) {
   auto database = std::make_unique<SQLite::Database>(path, SQLite::OPEN_READONLY, 5000);
   sqlite3* const handle = database->getHandle();
@@ -82,20 +89,21 @@ LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
       check_(check),
       whole_(check == Check::kWhole),
       budget_(std::make_unique<Budget>()) {
-  if (fs::is_directory(path)) throw std::runtime_error(fmt::format("{} is a folder, no {}", path_, kind.name));
+  if (fs::is_directory(path)) throw NoSuchLog(fmt::format("{} is a folder, no {}", path_, kind.name));
   if (!fs::is_regular_file(path)) {
-    throw std::runtime_error(fmt::format("there is no {} {}{}", kind.name, path_,
-                                         path.is_relative() ? " (in " + fs::current_path().string() + ")" : ""));
+    throw NoSuchLog(fmt::format("there is no {} {}{}", kind.name, path_,
+                                path.is_relative() ? " (in " + fs::current_path().string() + ")" : ""));
   }
+  if (size_of(path_) == 0) throw NoSuchLog(fmt::format("{} is empty, no {}", path_, kind.name));
   whole_ = whole_ || (check == Check::kIfShort && size_of(path_) <= kShort_B);
   try {
     open();
     this->check();
   } catch (const SQLite::Exception& error) {
     const int code = error.getErrorCode() & 0xFF;
-    if (code == SQLITE_NOTADB) throw std::runtime_error(fmt::format("{} is not a {}", path_, kind.name));
+    if (code == SQLITE_NOTADB) throw NoSuchLog(fmt::format("{} is not a {}", path_, kind.name));
     if (code == SQLITE_CORRUPT)
-      throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind.name, path_, error.what()));
+      throw std::runtime_error(fmt::format("the {} {} is damaged: {}", kind.name, path_, said_by(error, kind, path_)));
     throw std::runtime_error(unreadable(error));
   }
 }
@@ -106,7 +114,7 @@ LogFile::LogFile(LogFile&&) noexcept = default;
 std::string LogFile::unreadable(const SQLite::Exception& error) const {
   const bool spent = (error.getErrorCode() & 0xFF) == SQLITE_INTERRUPT;
   return fmt::format("cannot read the {} {}: {}", kind_.name, path_,
-                     spent ? "it asks for more work than a file of its size can hold" : error.what());
+                     spent ? "it asks for more work than a file of its size can hold" : said_by(error, kind_, path_));
 }
 
 void LogFile::allow_steps() const {
@@ -123,10 +131,10 @@ void LogFile::open() {
   version_ = database_->execAndGet("PRAGMA user_version").getInt();
   for (const LogKind& other : {kMatchLog, kScanRecord, kTallyBook}) {
     if (application_id != other.application_id || application_id == kind_.application_id) continue;
-    throw std::runtime_error(fmt::format("{} is not a {} but a {}", path_, kind_.name, other.name));
+    throw NoSuchLog(fmt::format("{} is not a {} but a {}", path_, kind_.name, other.name));
   }
   if (application_id != kind_.application_id || version_ < 1) {
-    throw std::runtime_error(fmt::format("{} is not a {}", path_, kind_.name));
+    throw NoSuchLog(fmt::format("{} is not a {}", path_, kind_.name));
   }
   if (version_ <= kind_.version) return;
   throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} and older", path_,

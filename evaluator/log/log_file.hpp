@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,13 +19,19 @@ namespace trivela::evaluator::log {
 /// The value of a column of the row that the statement stands at.
 Value value_of(const SQLite::Column& column);
 
+/// What was opened is no log of the kind that was asked for: it is not there, a folder, empty or another file.
+class NoSuchLog : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A finished or growing log, open for reading only. It may come from anybody: no view, trigger or index of its own
 /// plays a part, and what reading costs is bounded by its size: a query that takes more steps than any of a file of
 /// this size does throws std::runtime_error, as every error naming the path.
 class LogFile final : public Queries {
  public:
-  /// Throws std::runtime_error naming the path where it does not exist, is no log of this kind, is of a newer version,
-  /// has another schema than its version, or is damaged.
+  /// Throws, naming the path, NoSuchLog where it does not exist or is no log of this kind, std::runtime_error where it
+  /// is of a newer version, has another schema than its version, or is damaged.
   LogFile(const std::filesystem::path& path, const LogKind& kind, Check check = Check::kIfShort);
   ~LogFile();
   LogFile(LogFile&&) noexcept;

@@ -95,13 +95,19 @@ void look_at_goal(const log::Reader& reader, Findings& findings) {
                                 : std::string("no ball came back from anywhere else"));
 }
 
+/// Without who says more: that is this.
+std::string sentence_of(const std::exception& error) {
+  const std::string said = error.what();
+  return said.substr(0, said.find(": trivela doctor "));
+}
+
 /// What reading says where it fails is a finding like any other.
 template <class Look>
 void look(const char* check, const Look& look_at, Findings& findings) {
   try {
     look_at();
   } catch (const std::exception& error) {
-    findings.push_back({check, Health::kBad, error.what(), "trivela merge NEW.db LOG takes what can be read"});
+    findings.push_back({check, Health::kBad, sentence_of(error), "trivela merge NEW.db LOG takes what can be read"});
   }
 }
 
@@ -109,6 +115,7 @@ void look(const char* check, const Look& look_at, Findings& findings) {
 std::string advice_on(const std::string& why) {
   const auto says = [&](const char* words) { return why.find(words) != std::string::npos; };
   if (says("this program reads version")) return "read it with the Trivela that wrote it, or a newer one";
+  if (says("is empty, no match log")) return "nothing is in it; copy it again if it was copied";
   if (says("is not a match log") || says("there is no match log") || says("is a folder"))
     return "match logs are SQLite files that a recorder or trivela simulate has written";
   if (says("does not count its rows")) return "trivela merge NEW.db LOG counts them anew";
@@ -144,7 +151,7 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
         },
         findings);
   } catch (const std::exception& error) {
-    findings.push_back({"file", Health::kBad, error.what(), advice_on(error.what())});
+    findings.push_back({"file", Health::kBad, sentence_of(error), advice_on(error.what())});
     if (fs::is_regular_file(path)) look_at_wal(path, findings);
   }
   return findings;

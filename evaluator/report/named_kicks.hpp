@@ -26,8 +26,11 @@ struct NamedKick {
   /// "1:4", robot and number.
   std::string name() const;
 
-  /// Neither the observer nor anybody else knows what became of it.
-  bool unknown() const { return !by_hand && (observed.empty() || observed == "unknown"); }
+  /// By the label that holds, as reports count it: the one by hand, else the observer's.
+  bool unknown() const {
+    const std::string& holds = by_hand ? *by_hand : observed;
+    return holds.empty() || holds == "unknown";
+  }
 };
 
 /// By session and time; refused orders are no kicks. Of several recordings of one kick, that which counts, where

@@ -26,8 +26,12 @@ function tell(sentence, wrong = false) {
 
 // --- which kicks
 
-const isUnknown = (kick) => kick.by_hand === null && (kick.observed === '' || kick.observed === 'unknown');
-const belongs = {unknown: isUnknown, labelled: (kick) => kick.by_hand !== null, all: () => true};
+const isUnknown = (kick) => ['', 'unknown'].includes(kick.by_hand ?? kick.observed);  // as reports count it
+const belongs = {
+  unknown: (kick) => isUnknown(kick) && kick.by_hand === null,  // nobody has looked at it
+  labelled: (kick) => kick.by_hand !== null,
+  all: () => true,
+};
 
 // Places of the kicks that are asked for; the one shown stays among them until the next is asked for.
 function places() {

@@ -64,6 +64,12 @@ TEST_F(AfterTheMatch, AKickIsLabelledAndTheLabelWithdrawn) {
               HasSubstr("no label by hand"));
 }
 
+TEST_F(AfterTheMatch, AKickThatAHandCallsUnknownIsCountedAsUnknownAsTheReportDoes) {
+  said({"label", log_, "1:1", "unknown", "--by", "Ada"});
+  EXPECT_THAT(said({"label", log_}), HasSubstr("2 of 3 kicks are unknown"));
+  EXPECT_THAT(said({"report", log_, "--json"}), HasSubstr("\"unknown\": 2"));
+}
+
 TEST_F(AfterTheMatch, WhatSqliteSaysIsWhatWasLabelled) {
   said({"label", log_, "1:1", "post", "--by", "Ada"});
   const std::string ask = "sqlite3 " + log_ + " \"SELECT outcome || who FROM labels\" > " + path("said").string();

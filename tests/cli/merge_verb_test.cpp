@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <fstream>
+#include <utility>
 
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
@@ -71,8 +73,30 @@ TEST_F(MergeVerb, PrintsTheFilesAndThatNothingIsMissing) {
 }
 
 TEST_F(MergeVerb, EndsWithWhatIsMissingAndItsExitCode) {
-  EXPECT_THAT(said({path("out.db"), robot_log("one.db", 1), path("nowhere.db")}), HasSubstr("nowhere.db"));
+  const std::string cut = robot_log("cut.db", 2);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  EXPECT_THAT(said({path("out.db"), robot_log("one.db", 1), cut}), HasSubstr("cut.db"));
   EXPECT_EQ(exit_code_, kDoneWithLoss);
+}
+
+TEST_F(MergeVerb, RefusesWhatIsNoMatchLogAndWritesNothing) {
+  const std::string one = robot_log("one.db", 1);
+  std::filesystem::create_directory(path("folder"));
+  std::ofstream{path("empty.db")}.close();
+  std::ofstream{path("text.db")} << "kick, outcome\n1, goal\n";
+  for (const auto& [name, says] :
+       std::vector<std::pair<std::string, std::string>>{{"nowhere.db", "there is no match log"},
+                                                        {"folder", "is a folder"},
+                                                        {"empty.db", "is empty"},
+                                                        {"text.db", "is not a match log"}}) {
+    try {
+      said({path("out.db"), path(name), one});
+      FAIL() << name;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr(says)));
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("out.db"))) << name;
+  }
 }
 
 TEST_F(MergeVerb, LeavesNothingWhereItIsStopped) {

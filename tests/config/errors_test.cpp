@@ -91,6 +91,32 @@ TEST(BadSettings, BrokenTomlIsNamedWithItsLine) {
   EXPECT_THAT(settings_error("[run]\nrobot_id = \n"), AllOf(HasSubstr("bad.toml:2"), HasSubstr("not valid TOML")));
 }
 
+std::string set_error(const std::vector<std::string>& lines) {
+  Settings settings;
+  try {
+    override_settings(settings, lines, "--set");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BadSettings, OfSeveralOverridesTheWrongOneIsNamed) {
+  EXPECT_THAT(set_error({"domain.domain_id=61", "run.robot_id=0"}),
+              ::testing::StartsWith("--set run.robot_id=0: run.robot_id = 0: must lie in"));
+  EXPECT_EQ(set_error({"run.foo=3", "domain.domain_id=61"}), "--set run.foo=3: run.foo: unknown key");
+}
+
+TEST(BadSettings, AnOverrideWhoseTextHasNoQuotesSaysHowTheyAreSet) {
+  EXPECT_THAT(set_error({"domain.domain_id=61", "hal.wheels=bus"}),
+              AllOf(::testing::StartsWith("--set hal.wheels=bus: not valid TOML"),
+                    ::testing::EndsWith("; text needs quotes: --set 'hal.wheels=\"bus\"'")));
+  EXPECT_THAT(set_error({"hal.ioboard.port = /dev/kicker"}),
+              HasSubstr("text needs quotes: --set 'hal.ioboard.port=\"/dev/kicker\"'"));
+  for (const char* const line : {"policy.settle_s", "policy.settle_s=", "policy.settle_s=0.5s", "hal.wheels=\"bus"})
+    EXPECT_THAT(set_error({line}), AllOf(HasSubstr("not valid TOML"), ::testing::Not(HasSubstr("quotes:")))) << line;
+}
+
 TEST(BadSettings, MissingFileIsNamed) {
   EXPECT_THAT([] { load_settings("no/such/file.toml"); },
               ::testing::ThrowsMessage<Error>(HasSubstr("no/such/file.toml: cannot read")));

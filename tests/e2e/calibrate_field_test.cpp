@@ -107,6 +107,35 @@ TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
   EXPECT_GE(number_of(log, "SELECT count(*) FROM kick_truths"), 1) << "which the world let fly";
 }
 
+TEST_F(CalibrateInField, ADriveThatNobodyMeasuresDoesNotBeginAndSaysWhatLacks) {
+  std::random_device random;
+  std::ofstream{folder_ / "robot.toml"} << fmt::format("[domain]\ndomain_id = {}\ntag = \"alone-{}-{:08x}\"\n",
+                                                       1 + random() % 100, getpid(), random());
+  Program evening{"trivela",
+                  {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer", "--out-dir",
+                   "drives", "--kicks", "2", "--lobs", "2"},
+                  folder_.path(),
+                  [this] { person_.become_input(); }};
+  answer(evening, "Standing kicks: ball to goal line, m [6.000]: ", "");
+  answer(evening, "m [4.000]: ", "");
+  answer(evening, "m [0.050]: ", "");
+  answer(evening, "leave for today: ", "", "1_standing\n");
+  EXPECT_EQ(evening.wait(), 1);
+  EXPECT_THAT(evening.errors(),
+              testing::AllOf(HasSubstr("1_standing cannot be played: nobody writes vision: start your vision"),
+                             HasSubstr("nobody writes flight_camera"), HasSubstr("nobody writes device/wheels"),
+                             HasSubstr("nobody writes device/kicker"), HasSubstr("set scan_recorder.device")));
+  EXPECT_FALSE(exists("1_standing.db"));
+}
+
+TEST_F(CalibrateInField, ARobotsFileThatIsNotThereIsNamedBeforeTheFirstQuestion) {
+  const auto run = start({"--start", "nope.toml"});
+  EXPECT_EQ(run->wait(), 1);
+  EXPECT_THAT(run->errors(), HasSubstr("nope.toml: cannot read the configuration"));
+  EXPECT_EQ(run->output(), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "drives"));
+}
+
 TEST_F(CalibrateInField, WhatMakesNoSenseIsRefusedBeforeAnybodyIsAsked) {
   for (const auto& [flag, says] : std::vector<std::pair<std::string, std::string>>{
            {"--json", "--json goes with --in simulation"}, {"--in-process", "a field has its nodes"}}) {

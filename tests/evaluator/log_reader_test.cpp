@@ -45,11 +45,22 @@ TEST_F(LogReader, AMissingFileIsNamed) { EXPECT_THAT(message_of_opening(), HasSu
 
 TEST_F(LogReader, OtherFilesAreNotMatchLogs) {
   std::ofstream(path("garbage.db")) << std::string(8192, 'x');
-  std::ofstream(path("empty.db")).close();
   SQLite::Database(path("other.db").string(), SQLite::OPEN_CREATE | SQLite::OPEN_READWRITE).exec("CREATE TABLE t (a)");
-  for (const char* const name : {"garbage.db", "empty.db", "other.db"}) {
+  for (const char* const name : {"garbage.db", "other.db"}) {
     EXPECT_THAT(message_of_opening(name), HasSubstr("is not a match log")) << name;
   }
+}
+
+TEST_F(LogReader, AnEmptyFileIsCalledEmpty) {
+  std::ofstream(path("empty.db")).close();
+  EXPECT_THAT(message_of_opening("empty.db"), testing::EndsWith("empty.db is empty, no match log"));
+}
+
+TEST_F(LogReader, ALogThatSqliteCallsMalformedNamesWhoSaysWhatCanBeDone) {
+  write_log(20'000);
+  std::filesystem::resize_file(path(), std::filesystem::file_size(path()) / 2);
+  EXPECT_THAT(message_of_opening(),
+              testing::EndsWith("malformed: trivela doctor " + path().string() + " says what can be done"));
 }
 
 TEST_F(LogReader, ANewerLogIsRefusedWithBothVersions) {
