@@ -9,8 +9,8 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
-#include "security/rights.hpp"
 #include "security/private_files.hpp"
+#include "security/rights.hpp"
 #include "tests/faults/attackers.hpp"
 
 namespace trivela::faults {
