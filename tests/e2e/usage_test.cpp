@@ -235,16 +235,20 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
   const Folder folder;
   std::ofstream{folder / "match.db"} << "nothing that anybody could learn from";
   for (const auto& [arguments, says] : std::vector<BadNumber>{
-           {{"factorial", "--matches", "1000000", "--csv", "no/f.csv"}, "cannot write --csv no/f.csv: No such file"},
+           {{"factorial", "--matches", "1000000", "--csv", "no/f.csv"},
+            "cannot write --csv no/f.csv: there is no folder"},
            {{"factorial", "--matches", "1000000", "--svg", "."}, "cannot write --svg .: it is a folder"},
-           {{"frontier", "--matches", "1000000", "--svg", "no/f.svg"}, "cannot write --svg no/f.svg: No such file"},
-           {{"sensitivity", "--matches", "1000000", "--csv", "no/s.csv"}, "cannot write --csv no/s.csv: No such file"},
+           {{"frontier", "--matches", "1000000", "--svg", "no/f.svg"},
+            "cannot write --svg no/f.svg: there is no folder"},
+           {{"sensitivity", "--matches", "1000000", "--csv", "no/s.csv"},
+            "cannot write --csv no/s.csv: there is no folder"},
            {{"solve", "--theta-deg", "36.78", "--d-m", "5.73", "--h-rel-m", "0.59", "--svg", "no/k.svg"},
-            "cannot write --svg no/k.svg: No such file"},
-           {{"learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: No such file"},
-           {{"scan", "--synthesize", "s.db", "--truth", "no/t.csv"}, "cannot write --truth no/t.csv: No such file"},
+            "cannot write --svg no/k.svg: there is no folder"},
+           {{"learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: there is no folder"},
+           {{"scan", "--synthesize", "s.db", "--truth", "no/t.csv"},
+            "cannot write --truth no/t.csv: there is no folder"},
            {{"simulate", "--arms", "moving", "--matches", "1000000", "--out", "no/ab.db"}, "no/ab.db"},
-           {{"calibrate", "run", "--in", "simulation", "--out", "no/r.toml"}, "no/r.toml: No such file"}}) {
+           {{"calibrate", "run", "--in", "simulation", "--out", "no/r.toml"}, "no/r.toml: there is no folder"}}) {
     Program trivela{"trivela", arguments, folder.path()};
     EXPECT_EQ(trivela.wait(), 1) << says;
     EXPECT_THAT(trivela.errors(), HasSubstr(says));
