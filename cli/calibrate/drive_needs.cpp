@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bus/reader.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::cli {
 namespace {

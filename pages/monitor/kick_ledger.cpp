@@ -64,7 +64,9 @@ bool KickLedger::goal_counts(const msg::KickDecision& decision) {
                    .x_m = decision.x_m - rules_.ball_offset_m * std::sin(decision.heading_rad),
                    .y_m = decision.y_m + rules_.ball_offset_m * std::cos(decision.heading_rad)};
   Taken& taken = taken_.try_emplace(decision.robot_id, ball).first->second;
-  if (taken.half != ball.half || taken.possession_id != ball.possession_id || !has_ball(decision)) taken = ball;
+  const bool same = taken.half == ball.half && taken.possession_id == ball.possession_id;
+  if (!same || !taken.held) taken = ball;
+  taken.held = taken.held || has_ball(decision);
   if (rules_.opponents_half_only && ball.y_m <= 0.0) return false;
   return !(rules_.carry_limit_m > 0.0 && std::hypot(ball.x_m - taken.x_m, ball.y_m - taken.y_m) > rules_.carry_limit_m);
 }

@@ -102,6 +102,7 @@ class KickLedger {
     std::uint8_t half = 0;
     std::uint32_t possession_id = 0;
     double x_m = 0.0, y_m = 0.0;  // of the ball
+    bool held = false;            // in play; until then it may be laid anywhere
   };
   bool goal_counts(const msg::KickDecision& decision);
   KnownKick* kick_of(std::uint8_t robot_id, std::int64_t kick_id, std::int64_t heard_ns);
