@@ -256,7 +256,7 @@ class FourWheelBridge : public Hardware {
     return start(on_the_board({"--spin", "4", "--seconds", "1", "--set", "run.robot=\"robot.toml\""}));
   }
 
-  bool alone_ = true;                  ///< it knows wheels_alone
+  std::atomic<bool> alone_ = true;     ///< it knows wheels_alone
   std::atomic<double> most_radps_{0};  ///< that the fourth wheel turned with
   std::atomic<double> last_radps_{0};
 
