@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "evaluator/report/log_kicks.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
@@ -331,45 +333,48 @@ TEST_F(PolicyComparisonTest, TheSameLogTwiceCountsOnce) {
   EXPECT_THAT(to_text(result), HasSubstr("stand in an earlier log, too, and count once"));
 }
 
-TEST_F(PolicyComparisonTest, ABallFromTheOwnHalfIsNoGoalAsSeenOrInTruthWhereTheRulesSaySo) {
-  log::Session ruled = session();
-  ruled.config_toml = "### settings\n[rules]\nopponents_half_only = true\n\n### robot\nball_offset_m = 0.27\n";
-  MatchLog match(path(), ruled, options());
-  for (const int half : {1, 2}) {
-    for (int kick = 0; kick < 10; ++kick) {
-      match.y_m = half == 1 && kick < 4 ? -1.0 : 3.0;
-      match.truth(match.kick(half, "on_target"), "on_target");
+/// Ten kicks on target in each half, of which the rule allows no goal of four in the first, as seen and in truth.
+class RulesOfGoals : public PolicyComparisonTest {
+ protected:
+  using Int = MatchLog::Int;
+
+  void expect_four_no_goals(const std::string& rule,
+                            const std::function<void(MatchLog&, Int half, bool allowed)>& place,
+                            const std::string& said) {
+    log::Session ruled = session();
+    ruled.config_toml = "### settings\n[rules]\n" + rule + "\n\n### robot\nball_offset_m = 0.27\n";
+    MatchLog match(path(), ruled, options());
+    for (const Int half : {1, 2}) {
+      for (int kick = 0; kick < 10; ++kick) {
+        place(match, half, half == 2 || kick >= 4);
+        match.truth(match.kick(half, "on_target"), "on_target");
+      }
+    }
+    match.close();
+    for (const bool truth : {false, true}) {
+      const auto result = compared({.truth = truth});
+      EXPECT_EQ(result.groups[0].inside, 6) << truth;
+      EXPECT_EQ(result.groups[1].inside, 10) << truth;
+      EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target " + said + " are outside")) << truth;
     }
   }
-  match.close();
-  for (const bool truth : {false, true}) {
-    const auto result = compared({.truth = truth});
-    EXPECT_EQ(result.groups[0].inside, 6) << truth;
-    EXPECT_EQ(result.groups[1].inside, 10) << truth;
-    EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target from the own half are outside")) << truth;
-  }
+};
+
+TEST_F(RulesOfGoals, ABallFromTheOwnHalfIsNoGoalAsSeenOrInTruth) {
+  expect_four_no_goals(
+      "opponents_half_only = true", [](MatchLog& match, Int, bool allowed) { match.y_m = allowed ? 3.0 : -1.0; },
+      "from the own half");
 }
 
-TEST_F(PolicyComparisonTest, ABallThatWasCarriedTooFarIsNoGoalAsSeenOrInTruthWhereTheRulesSaySo) {
-  log::Session ruled = session();
-  ruled.config_toml = "### settings\n[rules]\ncarry_limit_m = 3.0\n\n### robot\nball_offset_m = 0.27\n";
-  MatchLog match(path(), ruled, options());
-  for (const int half : {1, 2}) {
-    for (int kick = 0; kick < 10; ++kick) {
-      match.y_m = half == 1 && kick < 4 ? 0.5 : 3.0;
-      match.hold(half);
-      match.y_m = 4.0;
-      match.truth(match.kick(half, "on_target"), "on_target");
-    }
-  }
-  match.close();
-  for (const bool truth : {false, true}) {
-    const auto result = compared({.truth = truth});
-    EXPECT_EQ(result.groups[0].inside, 6) << truth;
-    EXPECT_EQ(result.groups[1].inside, 10) << truth;
-    EXPECT_THAT(to_text(result), HasSubstr("4 kicks on target after the ball was carried too far are outside"))
-        << truth;
-  }
+TEST_F(RulesOfGoals, ABallThatWasCarriedTooFarIsNoGoalAsSeenOrInTruth) {
+  expect_four_no_goals(
+      "carry_limit_m = 3.0",
+      [](MatchLog& match, Int half, bool allowed) {
+        match.y_m = allowed ? 3.0 : 0.5;
+        match.hold(half);
+        match.y_m = 4.0;
+      },
+      "after the ball was carried too far");
 }
 
 TEST_F(PolicyComparisonTest, LogsWithoutKicksGiveASentence) {
