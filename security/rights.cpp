@@ -53,7 +53,7 @@ std::vector<Rights> of_the_chain() {
       {"kick_decision_second", these<KickDecision, KickOrder, DriveCommand, StepDone>(),
        topics(nodes::KickDecisionInputs{}) + these<DriveCommand>()},
       {"kicker_driver", these<KickerStatus, KickReceipt, DeviceFire, DeviceCharge, DeviceEmulated, StepDone>(),
-       topics(nodes::KickerDriverInputs{})},
+       topics(nodes::KickerDriverInputs{}) + these<WorldState>()},
       {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},
       {"kicker_drift", these<KickerDrift>(), topics(nodes::KickerDriftInputs{})},
       {"recorder", these<StepDone>(), recorded(), true, true},

@@ -57,6 +57,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
     node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
                            bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), words);
+    node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); },
+                              bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), {.observer = true});
     orders.on_liveliness = [this](const bus::Liveliness& writers) {
       if (loop_.fell_silent(writers.alive, writers.lapsed, context_.steady_ns()))
         context_.logger->warn("the decision loop is silent: no order comes");
@@ -139,13 +141,15 @@ void KickerDriverNode::look_for_decision() {
   desk_.decision_node(known, now_t_ns());
 }
 
-/// In lockstep the cycle's word; in real time the last one, for as long as it counts.
+/// In lockstep the cycle's word; in real time the last one, for as long as it counts, and while the robot's own world
+/// does not say that the game stands: a stop that was lost on the way to one of the two still stops.
 robot::RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
   if (referee_of_cycle_)
     return word_of_cycle && word_of_cycle->playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
   const std::int64_t now_ns = now_t_ns();
   if (const auto news = referee_.news(now_ns)) context_.logger->warn(*news);
-  return referee_.says(now_ns);
+  const robot::RefereeSays says = referee_.says(now_ns);
+  return says == robot::RefereeSays::kPlay && world_stands_ ? robot::RefereeSays::kStop : says;
 }
 
 /// A sample that is not of the steady clock would make every order stale without saying why.
@@ -170,7 +174,16 @@ void KickerDriverNode::say_link(bool lost) {
 void KickerDriverNode::on_referee(const msg::Referee& word) {
   const std::lock_guard lock{mutex_};
   referee_.heard(word, now_t_ns());
-  if (word.playing) return;
+  if (!word.playing) stop();
+}
+
+void KickerDriverNode::on_world(const msg::WorldState& world) {
+  const std::lock_guard lock{mutex_};
+  world_stands_ = !world.playing;
+  if (world_stands_) stop();
+}
+
+void KickerDriverNode::stop() {
   desk_.referee(robot::RefereeSays::kStop);
   withdraw();
 }

@@ -18,8 +18,9 @@ namespace trivela::nodes {
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
 /// the OrderDesk accepts the order. An order may be fired up to a cycle after it was judged: the device has it and
 /// waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the kick
-/// is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game. Leaving,
-/// by whichever way, makes the device safe.
+/// is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game, and so
+/// does a WorldState in which it stands: it hears him by a way of its own. Leaving, by whichever way, makes the device
+/// safe.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
@@ -34,6 +35,8 @@ class KickerDriverNode {
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
   bool by_own_decision(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word);
+  void on_world(const msg::WorldState& world);
+  void stop();
   void withdraw();
   std::int64_t now_t_ns() const;
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
@@ -62,6 +65,7 @@ class KickerDriverNode {
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
   robot::RefereeWatch referee_;                                   // real time
+  bool world_stands_ = false;                                     // the game, as the robot's own world has it
   FirstCycle first_;
 };
 

@@ -208,6 +208,33 @@ TEST_F(KickerDriverNodeTest, AStopBeforeTheInstantOfAnAcceptedOrderCallsTheKickO
   EXPECT_FALSE(sample().last_accepted);
 }
 
+TEST_F(KickerDriverNodeTest, FiresNothingWhileTheWorldSaysThatTheGameStandsThoughTheRefereeWasNotHeardToStopIt) {
+  context.settings.run.cycle_s = 3600.0;  // a cycle as long as the test may take
+  context.settings.kicker_driver.future_tolerance_s = 3600.0;
+  Says<msg::WorldState> world{participant};
+  start();
+  play();
+  const auto says = [&](bool playing) {
+    return [&world, playing, this] {
+      msg::WorldState state{};
+      state.t_ns = t_ns;
+      state.playing = playing;
+      world(state);
+      return sample().armed == playing;
+    };
+  };
+  ASSERT_TRUE(eventually(says(true)));
+  auto later = wish(5);
+  later.fire_t_ns += 1800'000'000'000;
+  later.valid_until_t_ns = later.fire_t_ns;
+  EXPECT_TRUE(answer(later).accepted);
+  ASSERT_TRUE(eventually(says(false)));
+  EXPECT_EQ(receipt.nth(++orders).refusal, msg::REFUSAL_UNARMED);
+  EXPECT_EQ(kicker->withdrawn, 5) << "it was called off";
+  EXPECT_EQ(answer(wish(6)).refusal, msg::REFUSAL_UNARMED);
+  EXPECT_TRUE(eventually(says(true))) << "he had not stopped it, or lets play again";
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderSentTwiceIsFiredOnce) {
   start();
   play();
