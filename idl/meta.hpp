@@ -34,8 +34,9 @@ struct Enumerator {
 };
 
 /// Specialised by the generated code for each struct T of the IDL: `name`, `fields`, `members` (pointers to them, in
-/// the same order), `visit(message, f)`; for a topic also `topic`, `profile`, `period_s` (@period, the longest time
-/// between two samples while all is well; 0: none) and `descriptor()`.
+/// the same order), `visit(message, f)`; for a topic also `topic`, `profile`, `writers` (@writers, the kinds of nodes
+/// that may write it), `period_s` (@period, the longest time between two samples while all is well; 0: none) and
+/// `descriptor()`.
 template <class T>
 struct meta;
 

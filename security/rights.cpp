@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "nodes/runtime/readers.hpp"
 
@@ -25,68 +26,61 @@ std::vector<std::string> operator+(std::vector<std::string> some, std::vector<st
   return some;
 }
 
-std::vector<std::string> recorded() {
+/// Of the messages T for which fits<T>() holds.
+std::vector<std::string> topics_where(const auto& fits) {
   std::vector<std::string> all;
   bus::for_each_message([&]<class T>() {
-    if (nodes::NotRecorded::of<T>() == 0) all.emplace_back(bus::meta<T>::topic);
+    if (fits.template operator()<T>()) all.emplace_back(bus::meta<T>::topic);
   });
   return all;
+}
+
+std::vector<std::string> recorded() {
+  return topics_where([]<class T>() { return nodes::NotRecorded::of<T>() == 0; });
 }
 
 // The live page's: what the simulator says of itself and of its truth is nobody's to see in a match.
 std::vector<std::string> looked_at() {
-  std::vector<std::string> all;
-  bus::for_each_message([&]<class T>() {
-    if (!bus::meta<T>::topic.starts_with("sim/")) all.emplace_back(bus::meta<T>::topic);
-  });
-  return all;
+  return topics_where([]<class T>() { return !bus::meta<T>::topic.starts_with("sim/"); });
 }
 
-// Where the device is behind a bridge, its client in the node speaks on the bus too (hal/bus).
-std::vector<Rights> of_the_chain() {
-  using namespace msg;
-  return {
-      {"odometry", these<Odometry, DeviceDrive, DeviceEmulated, StepDone>(),
-       topics(nodes::OdometryInputs{}) + these<DeviceGyro>()},
-      {"world_state", these<WorldState>(), topics(nodes::WorldStateInputs{})},
-      {"kick_decision", these<KickDecision, KickOrder, DriveCommand, StepDone>(), topics(nodes::KickDecisionInputs{})},
-      {"kick_decision_second", these<KickDecision, KickOrder, DriveCommand, StepDone>(),
-       topics(nodes::KickDecisionInputs{}) + these<DriveCommand>()},
-      {"kicker_driver", these<KickerStatus, KickReceipt, DeviceFire, DeviceCharge, DeviceEmulated, StepDone>(),
-       topics(nodes::KickerDriverInputs{}) + these<WorldState>()},
-      {"shot_observer", these<KickOutcome, StepDone>(), topics(nodes::ShotObserverInputs{})},
-      {"kicker_drift", these<KickerDrift>(), topics(nodes::KickerDriftInputs{})},
-      {"recorder", these<StepDone>(), recorded(), true, true},
-      {"scan_recorder", these<DeviceEmulated, StepDone>(), topics(nodes::ScanRecorderInputs{})},
-      {"refbox", these<Referee, DeviceEmulated>(), these<WorldState, TeamHeard>(), true, true},
-      {"team_link", these<TeamHeard, Referee>(),
-       these<WorldState, KickerStatus, KickDecision, Referee, VisionFrame, DriveCommand>(), true, true},
-      {"monitor", {}, looked_at()},
-  };
+std::vector<std::string> written_by(std::string_view node) {
+  return topics_where([node]<class T>() { return std::ranges::count(bus::meta<T>::writers, node) > 0; });
 }
 
-std::vector<Rights> of_the_world() {
-  using namespace msg;
-  return {
-      {"bridge", these<DeviceWheels, DeviceGyro, DeviceKicker>(), these<DeviceDrive, DeviceFire, DeviceCharge>()},
-      {"vision", these<VisionFrame>(), {}},
-      {"goal_camera", these<FlightFrame>(), {}},
-      {"team", these<TeamDrive>(), {}},
-      {"simulator",
-       these<DeviceWheels, DeviceKicker, VisionFrame, FlightFrame, Referee, SimScan, KickTruth, PossessionTruth>(),
-       these<DeviceDrive, DeviceFire, KickReceipt, StepDone>(), false},
-      {"replay_player", these<VisionFrame, FlightFrame, Referee>(), these<StepDone>(), false},
-  };
+enum class Runs { kOnRobot, kOnRobotAndBase, kWhereAskedFor };
+
+Rights rights(std::string node, std::vector<std::string> reads, Runs runs = Runs::kOnRobot) {
+  std::vector<std::string> writes = written_by(node);
+  return {std::move(node), std::move(writes), std::move(reads), runs != Runs::kWhereAskedFor,
+          runs == Runs::kOnRobotAndBase};
 }
 
 }  // namespace
 
 const std::vector<Rights>& all_rights() {
-  static const std::vector<Rights> all = [] {
-    std::vector<Rights> rights = of_the_chain();
-    for (Rights& of_one : of_the_world()) rights.push_back(std::move(of_one));
-    return rights;
-  }();
+  using namespace msg;
+  static const std::vector<Rights> all{
+      rights("odometry", topics(nodes::OdometryInputs{}) + these<DeviceGyro>()),
+      rights("world_state", topics(nodes::WorldStateInputs{})),
+      rights("kick_decision", topics(nodes::KickDecisionInputs{})),
+      rights("kick_decision_second", topics(nodes::KickDecisionInputs{}) + these<DriveCommand>()),
+      rights("kicker_driver", topics(nodes::KickerDriverInputs{}) + these<WorldState>()),
+      rights("shot_observer", topics(nodes::ShotObserverInputs{})),
+      rights("kicker_drift", topics(nodes::KickerDriftInputs{})),
+      rights("recorder", recorded(), Runs::kOnRobotAndBase),
+      rights("scan_recorder", topics(nodes::ScanRecorderInputs{})),
+      rights("refbox", these<WorldState, TeamHeard>(), Runs::kOnRobotAndBase),
+      rights("team_link", these<WorldState, KickerStatus, KickDecision, Referee, VisionFrame, DriveCommand>(),
+             Runs::kOnRobotAndBase),
+      rights("monitor", looked_at()),
+      rights("bridge", these<DeviceDrive, DeviceFire, DeviceCharge>()),
+      rights("vision", {}),
+      rights("goal_camera", {}),
+      rights("team", {}),
+      rights("simulator", these<DeviceDrive, DeviceFire, KickReceipt, StepDone>(), Runs::kWhereAskedFor),
+      rights("replay_player", these<StepDone>(), Runs::kWhereAskedFor),
+  };
   return all;
 }
 
@@ -99,9 +93,11 @@ const Rights& rights_of(std::string_view node) {
 }
 
 Rights rights_on_team_bus(std::uint32_t robot_id) {
-  using namespace msg;
-  if (robot_id == 0) return {"team_bus", these<TeamState, Referee>(), these<TeamState>()};
-  return {"team_bus", these<TeamState>(), these<TeamState, Referee>()};
+  const std::string node = "team_bus";
+  const auto of_all = written_by(node);
+  const auto of_base = written_by(common_name(node, 0));
+  if (robot_id == 0) return {node, of_all + of_base, of_all};
+  return {node, of_all, of_all + of_base};
 }
 
 std::string common_name(std::string_view node, std::uint32_t robot_id) { return fmt::format("{}.{}", node, robot_id); }

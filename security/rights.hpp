@@ -21,8 +21,8 @@ struct Rights {
   bool on_base = false;
 };
 
-/// Of every kind of node, in the order of the chain; what the programs take and write (nodes/runtime/readers.hpp), and
-/// the team's own processes of idl/README.md.
+/// Of every kind of node, in the order of the chain, and of the team's own processes of idl/README.md: they write what
+/// the IDL's @writers say, and read what the programs take (nodes/runtime/readers.hpp).
 const std::vector<Rights>& all_rights();
 
 /// A machine's identity on the team's bus, where its team_link speaks: it says its state and hears the others', and the

@@ -46,7 +46,7 @@ def fields(body):
 def final_copy(text):
     """The text of an IDL file under ROS 2's names."""
     names = [name for name, _ in structs(text)]
-    text = re.sub(r'@(unit|profile|topic_name|period)\([^)]*\) |@key |#include "annotations.idl"\n', "", text)
+    text = re.sub(r'@(unit|profile|topic_name|period|writers)\([^)]*\) |@key |#include "annotations.idl"\n', "", text)
     text = text.replace("@appendable", "@final")
     text = re.sub(rf"\b({'|'.join(names)})\b(?=[^\n]*[;{{])", r"\1_", without_comments(text))
     text = text.replace("module trivela {\nmodule msg {", "module trivela_msgs {\nmodule msg {\nmodule dds_ {")

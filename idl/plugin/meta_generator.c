@@ -1,6 +1,6 @@
 // idlc back-end (idlc -l): for each x.idl writes x.hpp with the C++ names of its types, a bus::meta<T> per struct
-// (name, fields with units, members, visitor; for topics also topic, profile and descriptor), the labels of its enums and
-// for_each_message_of_x().
+// (name, fields with units, members, visitor; for topics also topic, profile, writers and descriptor), the labels of its
+// enums and for_each_message_of_x().
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,19 +90,35 @@ static idl_retcode_t emit_enum(const idl_pstate_t* pstate, bool revisit, const i
   return IDL_RETCODE_OK;
 }
 
+// The words of a text as a constant array.
+static void emit_words(FILE* out, const char* name, const char* text) {
+  fprintf(out, "  static constexpr auto %s = std::to_array<std::string_view>({", name);
+  const char* separator = "";
+  for (const char* word = text + strspn(text, " "); *word != '\0';) {
+    const size_t length = strcspn(word, " ");
+    fprintf(out, "%s\"%.*s\"", separator, (int)length, word);
+    separator = ", ";
+    word += length;
+    word += strspn(word, " ");
+  }
+  fputs("});\n", out);
+}
+
 // What a struct says of its topic.
 static idl_retcode_t emit_topic(const idl_pstate_t* pstate, FILE* out, const idl_struct_t* type) {
   const char* topic = annotation_text(&type->node, "topic_name");
   const char* profile = annotation_text(&type->node, "profile");
   const char* period = annotation_text(&type->node, "period");
-  if (topic == NULL || profile == NULL || *profile == '\0') {
-    idl_error(pstate, idl_location(&type->node), "%s needs @topic_name and @profile, or @nested",
+  const char* writers = annotation_text(&type->node, "writers");
+  if (topic == NULL || profile == NULL || *profile == '\0' || writers == NULL || *writers == '\0') {
+    idl_error(pstate, idl_location(&type->node), "%s needs @topic_name, @profile and @writers, or @nested",
               idl_identifier(&type->node));
     return IDL_RETCODE_SEMANTIC_ERROR;
   }
   fprintf(out, "  static constexpr std::string_view topic = \"%s\";\n", topic);
   fprintf(out, "  static constexpr Profile profile = Profile::k%c%s;\n", toupper((unsigned char)profile[0]),
           profile + 1);
+  emit_words(out, "writers", writers);
   fprintf(out, "  static constexpr double period_s = %s;\n", period ? period : "0");
   fputs("  static const dds_topic_descriptor_t& descriptor() { return ", out);
   print_c_name(out, &type->node);

@@ -35,6 +35,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, receipt_out_, "kicker_driver");
+  if (!context_.settings.run.lockstep) desk_.began(context_.steady_ns());
   node_.on_device(
       "kicker",
       [this](std::chrono::nanoseconds timeout) {

@@ -29,20 +29,6 @@ bool sound(const msg::Odometry& odometry) {
 
 }  // namespace
 
-void WorldModel::vision(const msg::VisionFrame& frame) {
-  if (frame.t_exposure_ns <= last_exposure_ns_) return;
-  last_exposure_ns_ = frame.t_exposure_ns;
-  if (frame.pose_seen) pose_.correct(frame.t_exposure_ns, {frame.x_m, frame.y_m, frame.heading_rad});
-  ball_.observe(frame.t_exposure_ns,
-                frame.ball_seen ? std::optional{Eigen::Vector2d{frame.ball_x_m, frame.ball_y_m}} : std::nullopt);
-  if (frame.opponent_seen) {
-    opponent_m_ = Eigen::Vector2d{frame.opponent_x_m, frame.opponent_y_m};
-    opponent_t_ns_ = frame.t_exposure_ns;
-  } else if (kicking::seconds(frame.t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
-    opponent_m_.reset();
-  }
-}
-
 std::uint32_t WorldModel::count(std::int64_t t_ns, const msg::Referee& word, bool possession) {
   return possessions_.see({.t_ns = t_ns,
                            .half = word.half,
@@ -53,32 +39,6 @@ std::uint32_t WorldModel::count(std::int64_t t_ns, const msg::Referee& word, boo
 }
 
 void WorldModel::hear(const msg::Referee& word) { count(word.t_ns, word, false); }
-
-void WorldModel::describe_ball(const TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out) {
-  out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
-      msg::kNone;
-  out.possession = ball_.possession();
-  const auto& ball = ball_.position_m();
-  out.ball_known = ball.has_value();
-  if (!ball) return;
-  // A held ball moves with the robot; a free one stands where it was seen.
-  const auto then = out.possession ? std::nullopt : pose_.pose_at(ball_.seen_t_ns());
-  const Eigen::Vector2d in_field = (then ? *then : pose).to_field(ball->x(), ball->y());
-  out.ball_x_m = in_field.x();
-  out.ball_y_m = in_field.y();
-  out.ball_age_s = kicking::seconds(t_ns - ball_.seen_t_ns());
-  if (out.possession) {
-    const Eigen::Vector2d velocity =
-        pose.turn(twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x());
-    out.ball_vx_mps = velocity.x();
-    out.ball_vy_mps = velocity.y();
-  }
-  if (opponent_m_) {
-    const auto when_seen = pose_.pose_at(opponent_t_ns_);
-    const Eigen::Vector2d opponent = (when_seen ? *when_seen : pose).to_field(opponent_m_->x(), opponent_m_->y());
-    out.opponent_distance_m = (opponent - in_field).norm();
-  }
-}
 
 msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::VisionFrame* frame,
                                    const msg::Referee* referee, const msg::KickerStatus* kicker) {
@@ -93,16 +53,34 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
     pose_.predict(odometry.t_ns, {odometry.x_m, odometry.y_m, odometry.heading_rad}, odometry.var_position_m2,
                   odometry.var_heading_rad2);
   }
-  if (frame) {
-    vision(*frame);
-    ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
+  if (frame && frame->t_exposure_ns > last_exposure_ns_) {
+    last_exposure_ns_ = frame->t_exposure_ns;
+    if (frame->pose_seen) pose_.correct(frame->t_exposure_ns, {frame->x_m, frame->y_m, frame->heading_rad});
+    ball_.observe(frame->t_exposure_ns,
+                  frame->ball_seen ? std::optional{Eigen::Vector2d{frame->ball_x_m, frame->ball_y_m}} : std::nullopt);
+    if (frame->opponent_seen) {
+      opponent_m_ = Eigen::Vector2d{frame->opponent_x_m, frame->opponent_y_m};
+      opponent_t_ns_ = frame->t_exposure_ns;
+    } else if (kicking::seconds(frame->t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
+      opponent_m_.reset();
+    }
   }
-  msg::WorldState out{};
-  out.t_ns = odometry.t_ns;
+  if (frame) ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
+  msg::WorldState out = describe(odometry.t_ns);
   out.half = referee ? referee->half : 0;
+  out.playing = believed && pose_.pose() && referee && referee->playing;
+  if (kicker && kicker->last_accepted) kick_id_ = kicker->last_kick_id;
+  if (referee) out.possession_id = count(out.t_ns, *referee, out.possession);
+  return out;
+}
+
+msg::WorldState WorldModel::describe(std::int64_t t_ns) const {
   const TurnedPose* const localised = pose_.pose();
-  out.playing = believed && localised && referee && referee->playing;
   const TurnedPose& pose = localised ? *localised : kOrigin;
+  // What moves with nobody stands where it was seen.
+  const auto seen_from = [&](std::int64_t seen_t_ns) { return pose_.pose_at(seen_t_ns).value_or(pose); };
+  msg::WorldState out{};
+  out.t_ns = t_ns;
   out.x_m = pose.x_m;
   out.y_m = pose.y_m;
   out.heading_rad = pose.heading_rad;
@@ -111,9 +89,27 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   out.omega_radps = twist_.omega_radps;
   out.sd_position_m = pose_.sd_position_m();
   out.sd_heading_rad = pose_.sd_heading_rad();
-  describe_ball(pose, odometry.t_ns, out);
-  if (kicker && kicker->last_accepted) kick_id_ = kicker->last_kick_id;
-  if (referee) out.possession_id = count(out.t_ns, *referee, out.possession);
+  out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
+      msg::kNone;
+  out.possession = ball_.possession();
+  const auto& ball = ball_.position_m();
+  out.ball_known = ball.has_value();
+  if (!ball) return out;
+  // A held ball moves with the robot.
+  const TurnedPose from = out.possession ? pose : seen_from(ball_.seen_t_ns());
+  const Eigen::Vector2d in_field = from.to_field(ball->x(), ball->y());
+  out.ball_x_m = in_field.x();
+  out.ball_y_m = in_field.y();
+  out.ball_age_s = kicking::seconds(t_ns - ball_.seen_t_ns());
+  if (out.possession) {
+    const Eigen::Vector2d velocity =
+        pose.turn(twist_.vx_mps - twist_.omega_radps * ball->y(), twist_.vy_mps + twist_.omega_radps * ball->x());
+    out.ball_vx_mps = velocity.x();
+    out.ball_vy_mps = velocity.y();
+  }
+  if (opponent_m_)
+    out.opponent_distance_m =
+        (seen_from(opponent_t_ns_).to_field(opponent_m_->x(), opponent_m_->y()) - in_field).norm();
   return out;
 }
 

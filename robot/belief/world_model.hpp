@@ -22,24 +22,22 @@ class WorldModel {
         ball_(settings, ball_offset_m),
         velocity_decay_(settings.velocity_time_constant_s) {}
 
-  /// A frame, once; a second call with the same exposure changes nothing.
-  void vision(const msg::VisionFrame& frame);
-
   /// The referee's word in a cycle in which the robot is not asked for its belief.
   void hear(const msg::Referee& word);
 
   /// The belief at the instant of `odometry`. `frame` is the newest vision frame, nullptr where there is none, and
-  /// `referee` his latest word: pictures older than odometry correct the past, so that the pose holds now. A robot that
-  /// has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite or farther off
-  /// than any robot drives, which changes no belief. Where no frame came for longer, the ball is forgotten as if it had
-  /// not been seen. The possessions are the robot's own count, whatever the referee numbers; `kicker` says which kick
-  /// ended one (nullptr: none).
+  /// counts once; `referee` his latest word: pictures older than odometry correct the past, so that the pose holds now.
+  /// A robot that has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite or
+  /// farther off than any robot drives, which changes no belief. Where no frame came for longer, the ball is forgotten
+  /// as if it had not been seen. The possessions are the robot's own count, whatever the referee numbers; `kicker` says
+  /// which kick ended one (nullptr: none).
   msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee,
                          const msg::KickerStatus* kicker = nullptr);
 
  private:
   std::uint32_t count(std::int64_t t_ns, const msg::Referee& word, bool possession);
-  void describe_ball(const kicking::TurnedPose& pose, std::int64_t t_ns, msg::WorldState& out);
+  /// What is believed of robot, ball and opponent, all predicted to t_ns.
+  msg::WorldState describe(std::int64_t t_ns) const;
 
   config::WorldState settings_;
   PoseFilter pose_;

@@ -20,8 +20,11 @@ OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const
     : gate_(settings, power_range(model.table), cycle_s),
       voltage_(settings.voltage_rise_v, settings.voltage_rise_s),
       decision_(decision),
+      cycle_ns_(kicking::nanoseconds(cycle_s)),
       delay_ns_(kicking::nanoseconds(model.delay_s)),
       robot_id_(robot_id) {}
+
+void OrderDesk::began(std::int64_t now_t_ns) { gate_.rest_from(now_t_ns + cycle_ns_); }
 
 msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
   hal::KickerSample judged = sample;

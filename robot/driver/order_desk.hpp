@@ -25,6 +25,10 @@ class OrderDesk {
   OrderDesk(const config::KickerDriver& settings, double cycle_s, const kicking::RobotModel& model,
             std::uint8_t robot_id, DecisionNode decision = DecisionNode::kUnheard);
 
+  /// The program begins in the place of one that ended unseen, whose last kick may have up to a cycle to go: none is
+  /// fired before min_interval_s after that.
+  void began(std::int64_t now_t_ns);
+
   msg::KickerStatus status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns);
 
   /// Judges the order; where it is accepted, the device is to be given receipt.power at receipt.fired_t_ns, which is
@@ -61,6 +65,7 @@ class OrderDesk {
   VoltageWatch voltage_;
   bool over_voltage_ = false;
   DecisionNode decision_;
+  std::int64_t cycle_ns_;
   std::int64_t delay_ns_;
   std::uint8_t robot_id_;
   std::uint64_t statuses_ = 0;

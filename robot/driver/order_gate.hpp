@@ -36,6 +36,9 @@ class OrderGate {
   OrderGate(const config::KickerDriver& settings, kicking::Range power, double cycle_s)
       : settings_(settings), power_(power), cycle_s_(cycle_s) {}
 
+  /// Somebody before it may have fired at `t_ns`: the next kick is min_interval_s after that.
+  void rest_from(std::int64_t t_ns) { last_fire_t_ns_ = t_ns; }
+
   void device(const hal::KickerSample& sample) { sample_ = sample; }
   void referee(RefereeSays says) { referee_ = says; }
 

@@ -30,6 +30,11 @@ TEST(Messages, NameTopicAndProfileComeFromTheIdl) {
   EXPECT_EQ(meta<msg::DeviceFire>::topic, "device/fire");
 }
 
+TEST(Messages, WritersComeFromTheIdl) {
+  EXPECT_THAT(meta<msg::Odometry>::writers, ElementsAre("odometry"));
+  EXPECT_THAT(meta<msg::KickOrder>::writers, ElementsAre("kick_decision", "kick_decision_second"));
+}
+
 TEST(Messages, TheDescriptorIsTheTypesOwn) {
   EXPECT_STREQ(meta<msg::KickReceipt>::descriptor().m_typename, "trivela::msg::KickReceipt");
   EXPECT_EQ(meta<msg::KickReceipt>::descriptor().m_size, sizeof(msg::KickReceipt));

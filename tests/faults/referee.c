@@ -2,18 +2,29 @@
 // writer of its own, so that the referee can be killed, paused and cut off while the rest of the world goes on. On
 // standard output: "writer GUID" for each writer of the simulator's words, in hexadecimal digits, for the hub that
 // keeps those words from everybody else. SIGRTMIN with a value: 1 silent from now on, 0 no longer. SIGTERM: deletes its
-// writer and ends.
+// writer and ends. Where it hears no word for long it joins the bus anew, as a node of ours does: garbled packets leave
+// readers deaf.
 #include <dds/dds.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "idl/robot.h"
 
+enum { kDeaf_s = 4 };
+
 static dds_entity_t g_writer;
 static atomic_bool g_silent;
+static atomic_llong g_heard_s;  // of CLOCK_MONOTONIC
+
+static long long now_s(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec;
+}
 
 static dds_entity_t checked(dds_entity_t entity, const char* what) {
   if (entity >= 0) return entity;
@@ -49,23 +60,15 @@ static void on_word(dds_entity_t reader, void* context) {
   void* samples[1] = {NULL};
   dds_sample_info_t info[1];
   while (dds_take(reader, samples, info, 1, 1) > 0) {
+    atomic_store(&g_heard_s, now_s());
     if (info[0].valid_data && !atomic_load(&g_silent)) dds_write(g_writer, samples[0]);
     dds_return_loan(reader, samples, 1);
     samples[0] = NULL;
   }
 }
 
-int main(int argc, char** argv) {
-  if (argc != 2) {
-    fprintf(stderr, "usage: fault_referee DOMAIN_ID\n");
-    return 2;
-  }
-  sigset_t ours;
-  sigemptyset(&ours);
-  sigaddset(&ours, SIGRTMIN);
-  sigaddset(&ours, SIGTERM);
-  sigprocmask(SIG_BLOCK, &ours, NULL);  // before the bus's threads exist, which inherit it
-  const dds_entity_t participant = checked(dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL), "bus");
+static dds_entity_t join(dds_domainid_t domain_id) {
+  const dds_entity_t participant = checked(dds_create_participant(domain_id, NULL, NULL), "bus");
   const dds_entity_t topic =
       checked(dds_create_topic(participant, &trivela_msg_Referee_desc, "referee", NULL, NULL), "topic");
   dds_qos_t* qos = state_qos();
@@ -78,10 +81,32 @@ int main(int argc, char** argv) {
   g_writer = checked(dds_create_writer(participant, topic, qos, NULL), "writer");
   dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, DDS_INFINITY);
   checked(dds_create_reader(participant, topic, qos, listener), "reader");
+  dds_delete_listener(listener);
+  dds_delete_qos(qos);
+  atomic_store(&g_heard_s, now_s());
+  return participant;
+}
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fprintf(stderr, "usage: fault_referee DOMAIN_ID\n");
+    return 2;
+  }
+  sigset_t ours;
+  sigemptyset(&ours);
+  sigaddset(&ours, SIGRTMIN);
+  sigaddset(&ours, SIGTERM);
+  sigprocmask(SIG_BLOCK, &ours, NULL);  // before the bus's threads exist, which inherit it
+  const dds_domainid_t domain_id = (dds_domainid_t)atoi(argv[1]);
+  const struct timespec look = {.tv_sec = 1};
+  dds_entity_t participant = join(domain_id);
   siginfo_t told;
   for (int signal = 0; signal != SIGTERM;) {
-    signal = sigwaitinfo(&ours, &told);  // -1 after a pause
+    signal = sigtimedwait(&ours, &told, &look);  // -1 after a pause, or a second
     if (signal == SIGRTMIN) atomic_store(&g_silent, told.si_value.sival_int == 1);
+    if (now_s() - atomic_load(&g_heard_s) <= kDeaf_s) continue;
+    dds_delete(participant);
+    participant = join(domain_id);
   }
   dds_delete(participant);
   return 0;

@@ -16,7 +16,9 @@ class KickerCharge : public NodeTest {
  protected:
   KickerCharge() { kicker->can = {.charge_control = true, .voltage = true, .discharge = true, .watchdog = true}; }
   void start() {
+    clock_ns = t_ns - 1'000'000'000;  // it has rested, whoever fired before it
     node.emplace(context, fake_kicker());
+    clock_ns = t_ns;
     running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
     referee.expect_reader();
     decision.expect_reader();

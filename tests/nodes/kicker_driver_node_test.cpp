@@ -14,11 +14,15 @@ using bus::Executor;
 class KickerDriverNodeTest : public NodeTest {
  protected:
   void start(Executor::Kind kind = Executor::kListener) {
+    long_ago();
     node.emplace(context, fake_kicker());
+    clock_ns = t_ns;
     running.emplace(kind, stop, std::vector<bus::Node*>{&node->node()});
     order.expect_reader();
   }
 
+  /// A driver that began then has rested, whoever fired before it.
+  void long_ago() { clock_ns = t_ns - kicking::nanoseconds(context.settings.run.cycle_s + 1.0); }
   msg::KickerStatus sample(double charge = 1.0, bool armed = true, hal::KickerFault fault = hal::KickerFault::kNone,
                            std::int64_t after_ns = 20'000'000) {
     clock_ns = t_ns += after_ns;
@@ -119,7 +123,9 @@ TEST_F(KickerDriverNodeTest, FiresAnOrderAndAnswersIt) {
     NodeContext own{context.settings, context.robot, participant, context.logger, own_stop};
     own.steady_ns = context.steady_ns;
     const auto far_side = std::make_shared<KickerFarSide>();
+    long_ago();
     KickerDriverNode own_node{own, std::make_unique<FakeKicker>(far_side)};
+    clock_ns = t_ns;
     const Running own_run{kind, own_stop, {&own_node.node()}};
     order.expect_reader();
     play();
@@ -233,6 +239,20 @@ TEST_F(KickerDriverNodeTest, FiresNothingWhileTheWorldSaysThatTheGameStandsThoug
   EXPECT_EQ(kicker->withdrawn, 5) << "it was called off";
   EXPECT_EQ(answer(wish(6)).refusal, msg::REFUSAL_UNARMED);
   EXPECT_TRUE(eventually(says(true))) << "he had not stopped it, or lets play again";
+}
+
+TEST_F(KickerDriverNodeTest, ADriverThatBeginsRestsAsIfOneBeforeItHadAKickStillToGo) {
+  node.emplace(context, fake_kicker());
+  const std::int64_t began_ns = t_ns, cycle_ns = 20'000'000, interval_ns = 500'000'000;
+  running.emplace(Executor::kListener, stop, std::vector<bus::Node*>{&node->node()});
+  order.expect_reader();
+  play();
+  ASSERT_TRUE(eventually([&] { return sample(1.0, true, hal::KickerFault::kNone, 1'000).armed; }));
+  EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_DOUBLE);
+  sample(1.0, true, hal::KickerFault::kNone, began_ns + cycle_ns + interval_ns - 1 - t_ns);
+  EXPECT_EQ(answer(wish(2)).refusal, msg::REFUSAL_DOUBLE);
+  sample(1.0, true, hal::KickerFault::kNone, 1);
+  EXPECT_TRUE(answer(wish(3)).accepted);
 }
 
 TEST_F(KickerDriverNodeTest, AnOrderSentTwiceIsFiredOnce) {

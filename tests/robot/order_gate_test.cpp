@@ -176,6 +176,16 @@ TEST(OrderGate, CountsTheIntervalFromTheInstantOfTheKick) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
 }
 
+TEST(OrderGate, CountsTheIntervalFromAKickThatOneBeforeItMayHaveHad) {
+  Case c;
+  OrderGate gate = c.gate();
+  gate.rest_from(kNow_ns - 499 * kMs);
+  EXPECT_FALSE(gate.rested(kNow_ns));
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 1), kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_DOUBLE);
+  gate.rest_from(kNow_ns - 500 * kMs);
+  EXPECT_EQ(gate.judge(order_at(kNow_ns, 2), kNow_ns, OrderBy::kOwnDecision), msg::REFUSAL_NONE);
+}
+
 // An accepted order that is to be fired 15 ms later, looked at after `passed_ms` with one thing taken away.
 std::optional<OrderGate::Withdrawal> withdrawn_after(std::int64_t passed_ms,
                                                      const std::function<void(OrderGate&)>& change) {

@@ -230,7 +230,7 @@ TEST(WorldModel, TakesAFrameOnceHoweverOftenItIsShown) {
   play.cycle(5);
   const double sd_m = play.cycle().sd_position_m;
   const auto frame = play.frame();
-  for (int i = 0; i < 5; ++i) play.model.vision(frame);
+  for (int i = 0; i < 5; ++i) play.model.update(play.wheels(), &frame, &*play.referee);
   play.sees = false;
   EXPECT_GE(play.cycle().sd_position_m, sd_m) << "the same picture is no new knowledge";
 }

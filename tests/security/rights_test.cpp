@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "idl/messages.hpp"
+
 namespace trivela::security {
 namespace {
 
@@ -78,6 +80,15 @@ TEST(Rights, AreWhatTheContractsTableSays) {
     EXPECT_EQ(granted[topic].readers, row.readers) << topic;
   }
   EXPECT_EQ(granted.size(), written.size());
+}
+
+TEST(Rights, EachWriterThatTheContractNamesIsAKindOfNode) {
+  bus::for_each_message([]<class T>() {
+    for (const std::string_view writer : bus::meta<T>::writers) {
+      const bool on_team_bus = writer == "team_bus" || writer == "team_bus.0";
+      EXPECT_EQ(std::ranges::count(all_rights(), writer, &Rights::node), on_team_bus ? 0 : 1) << writer;
+    }
+  });
 }
 
 TEST(Rights, TheLivePageReadsWhatIsSaidInAMatchAndWritesNothing) {
