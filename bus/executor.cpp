@@ -208,10 +208,10 @@ void Executor::serve_timer(Slot& slot) {
   guarded([&] {
     name_this_thread(slot.reaction.name);
     const ReactionScope scope(slot.reaction, false);
-    auto next = Clock::now() + slot.period;
+    auto next = Clock::now() + slot.first;
     for (slot.turn.due(next); !stop_.wait_until(next) && !over(); slot.turn.due(next)) {
-      slot.tick();
-      next = std::max(next + slot.period, Clock::now());
+      const auto pause = slot.tick();
+      next = std::max(next + pause, Clock::now());
     }
     slot.turn.idle();
   });

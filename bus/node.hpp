@@ -128,8 +128,19 @@ class Node {
   /// Calls react() again and again, a period apart, in a thread of its own; one that comes late puts off the next ones.
   template <class F>
   void every(std::chrono::nanoseconds period, const std::string& name, F react, std::vector<std::string> outputs = {}) {
+    const auto tick = [period, react = std::move(react)]() mutable {
+      react();
+      return period;
+    };
+    when_due(period, name, tick, std::move(outputs));
+  }
+
+  /// The same, where react() says how long after this call's instant the next one is due.
+  template <class F>
+  void when_due(std::chrono::nanoseconds first, const std::string& name, F react,
+                std::vector<std::string> outputs = {}) {
     Slot& slot = add(name, "timer:" + name, std::move(outputs));
-    slot.period = period;
+    slot.first = first;
     slot.tick = std::move(react);
   }
 
@@ -154,9 +165,9 @@ class Node {
     std::function<std::unique_ptr<AnyReader>(AnyReader::DataListener, void*)> open;
     std::function<void(AnyReader&)> take;
     std::function<void(std::chrono::nanoseconds)> poll;
-    std::function<void()> tick;
-    std::chrono::nanoseconds period{};  // of a timer
-    bool to_the_last = false;           // what has arrived when the run ends still counts
+    std::function<std::chrono::nanoseconds()> tick;  // how long after its instant the next one is due
+    std::chrono::nanoseconds first{};                // of a timer
+    bool to_the_last = false;                        // what has arrived when the run ends still counts
     std::unique_ptr<AnyReader> reader;
     std::mutex running;
     Turn turn;  // of its thread, or of the reaction that runs

@@ -9,6 +9,7 @@ namespace trivela::nodes {
 namespace {
 
 constexpr std::int64_t kStep_ns = 20'000'000;
+constexpr std::int64_t kLongestPause_ns = 5 * kStep_ns;
 constexpr std::int64_t kUnheard_ns = 5'000'000'000;   // after the start
 constexpr std::int64_t kStoodStill_ns = 500'000'000;  // beyond this it is worth a line
 constexpr double kDevicePeriod_s = 0.02;              // of one that is slower the cycle is, too
@@ -20,7 +21,11 @@ InputWatch::InputWatch(const NodeContext& context, bus::Node& node) : context_(c
   if (context.settings.run.lockstep) return;
   for (const bus::Input& input : node.inputs()) add(input);
   if (inputs_.empty()) return;
-  node.every(std::chrono::nanoseconds{kStep_ns}, "silence", [this] { look(now_ns(std::chrono::steady_clock::now())); });
+  node.when_due(std::chrono::nanoseconds{kStep_ns}, "silence", [this] {
+    const std::int64_t instant_ns = now_ns(std::chrono::steady_clock::now());
+    look(instant_ns);
+    return std::chrono::nanoseconds{watch_.pause_ns(kLongestPause_ns)};
+  });
 }
 
 void InputWatch::add(const bus::Input& input) {
@@ -47,7 +52,7 @@ void InputWatch::look(std::int64_t now_ns) {
     std::int64_t heard_ns = 0;
     for (const auto& way : input.heard_ns) heard_ns = std::max(heard_ns, way(now_ns - input.period_ns));
     if (heard_ns == input.last_ns) continue;
-    watch_.heard(input.stream, robot_id, heard_ns);
+    watch_.heard(input.stream, robot_id, heard_ns, heard_ns);
     input.last_ns = heard_ns;
   }
   for (const robot::SilenceEdge& edge : watch_.look(now_ns)) lines_.note(edge, inputs_[edge.stream].name);

@@ -62,6 +62,7 @@ SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
       flight_(context.participant),
       kick_truth_(context.participant),
       possession_truth_(context.participant),
+      referee_repeats_(kicking::nanoseconds(context.settings.refbox.period_s)),
       drive_(context.participant, context.robot_id()),
       fire_(context.participant),
       barrier_(context.participant, context.robot_id()) {
@@ -146,12 +147,19 @@ void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) 
 
 void SimulatorNode::publish(const sim::Sensors& sensors) {
   if (devices_ != nullptr) devices_->show(sensors);
-  if (referee_) write(*referee_, hal::referee_message(t_ns_, sensors.referee), cycle_);
+  publish_referee(sensors);
   if (kicker_) write(*kicker_, hal::kicker_message(sensors), cycle_);
   write(vision_, hal::vision_message(t_ns_, sensors.vision), cycle_);
   write(flight_, hal::flight_message(t_ns_, sensors.flight), cycle_);
   if (!has_drives()) write(wheels_, hal::wheels_message(sensors), cycle_);
   publish_scans(sensors);
+}
+
+/// In lockstep in each cycle, since the nodes wait for it.
+void SimulatorNode::publish_referee(const sim::Sensors& sensors) {
+  if (!referee_) return;
+  const msg::Referee word = hal::referee_message(t_ns_, sensors.referee);
+  if (context_.settings.run.lockstep || referee_repeats_.due(word)) write(*referee_, word, ++referee_words_);
 }
 
 void SimulatorNode::publish_scans(const sim::Sensors& sensors) {

@@ -8,6 +8,7 @@
 #include "nodes/runtime/progress_line.hpp"
 #include "nodes/simulator/emulated_devices.hpp"
 #include "nodes/simulator/receipt_book.hpp"
+#include "nodes/simulator/referee_repeats.hpp"
 #include "sim/match.hpp"
 
 namespace trivela::nodes {
@@ -19,8 +20,9 @@ sim::Scenario scenario_of(const config::Settings& settings);
 /// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer or, where there
 /// is a pace, no faster than that, otherwise in real time. The world's time begins at 0. In lockstep it is every t_ns
 /// on the bus; in real time those are of the steady clock, so that a simulator that is started anew goes on where the
-/// nodes are. A fire that reaches the simulated coil long after its instant energises nothing, and without a drive
-/// command for odometry.drive_timeout_s the base stands.
+/// nodes are; and the referee's word comes as a referee box's does, not in each cycle. A fire that reaches the
+/// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
+/// the base stands.
 ///
 /// With emulated devices the kicker's board, the base's drives and the referee box are in place of their topics, and
 /// the world begins when the robot's nodes are there. A pulse is what the coil does, whenever it comes; its kick is
@@ -45,6 +47,7 @@ class SimulatorNode {
   void say_settings();
   bool has_drives() const { return devices_ != nullptr && devices_->has_drives(); }
   void publish(const sim::Sensors& sensors);
+  void publish_referee(const sim::Sensors& sensors);
   void publish_scans(const sim::Sensors& sensors);
   bool await_cycle(std::int64_t t_ns);
   bool wait_until(std::int64_t until_ns) const;
@@ -73,6 +76,7 @@ class SimulatorNode {
   std::optional<bus::Writer<msg::Referee>> referee_;       // where there is no box
   std::optional<bus::Reader<msg::KickReceipt>> receipts_;  // where the kicker has a board
   ReceiptBook book_;
+  RefereeRepeats referee_repeats_;
   bus::Mailbox<msg::DeviceDrive> drive_;
   bus::Reader<msg::DeviceFire> fire_;
   LockstepBarrier barrier_;
@@ -82,6 +86,7 @@ class SimulatorNode {
   std::uint64_t kicks_ = 0;
   std::uint64_t possessions_ = 0;
   std::uint64_t scans_ = 0;
+  std::uint64_t referee_words_ = 0;
   std::int64_t started_ns_ = 0;  // on the steady clock; 0 in lockstep
   std::int64_t next_ns_ = 0;     // on the steady clock: the next cycle begins no sooner, in lockstep at a pace
   ProgressLine progress_;

@@ -31,7 +31,7 @@ class SilenceWatch {
  public:
   /// `step_ns`: how far apart looks are meant to be. Where one comes later by far, it was this process that stood
   /// still: the time beyond two steps is nobody's silence.
-  explicit SilenceWatch(std::int64_t step_ns) : longest_step_ns_(2 * step_ns) {}
+  explicit SilenceWatch(std::int64_t step_ns) : step_ns_(step_ns), longest_step_ns_(2 * step_ns) {}
 
   /// One more stream; returns its number.
   std::size_t add(std::int64_t period_ns) {
@@ -40,8 +40,9 @@ class SilenceWatch {
   }
 
   /// A sample of `ns` was heard. A gap between the instants of two samples is a silence that has ended, even if no look
-  /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news.
-  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns) {
+  /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news. `came_ns`: when it
+  /// came, by the looks' clock; not known: when it was looked next.
+  void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns, std::optional<std::int64_t> came_ns = {}) {
     const auto [place, first] = voices_.try_emplace({stream, robot_id});
     Voice& voice = place->second;
     if (!first && ns == voice.last_ns) return;
@@ -49,11 +50,12 @@ class SilenceWatch {
     if (voice.silent || (!first && ns > voice.last_ns && ns - voice.last_ns > limit_ns))
       edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, ns});
     voice = {.last_ns = ns};
+    if (came_ns) voice.heard_awake_ns = awake_ns_ + awake_since_look(*came_ns);
   }
 
   /// What began or ended since the last look, in the order in which it was noticed.
   std::vector<SilenceEdge> look(std::int64_t now_ns) {
-    awake_ns_ += std::clamp<std::int64_t>(now_ns - looked_ns_.value_or(now_ns), 0, longest_step_ns_);
+    awake_ns_ += awake_since_look(now_ns);
     looked_ns_ = now_ns;
     for (auto& [key, voice] : voices_) {
       const auto& [stream, robot_id] = key;
@@ -66,13 +68,31 @@ class SilenceWatch {
     return std::exchange(edges_, {});
   }
 
+  /// For who does not look in equal steps, after look(): how long the next one may wait, until a stream could be silent
+  /// that goes on now, no longer than `most_ns` and a step at least; a step while one is silent. What it comes later
+  /// than that is nobody's silence.
+  std::int64_t pause_ns(std::int64_t most_ns) {
+    std::int64_t pause_ns = most_ns;
+    for (const std::int64_t period_ns : periods_ns_) pause_ns = std::min(pause_ns, kSilentPeriods * period_ns);
+    for (const auto& [key, voice] : voices_) {
+      const std::int64_t silent_ns = awake_ns_ - voice.heard_awake_ns.value_or(awake_ns_);
+      pause_ns = voice.silent ? 0 : std::min(pause_ns, kSilentPeriods * periods_ns_[key.first] - silent_ns);
+    }
+    return longest_step_ns_ = std::max(pause_ns, step_ns_);
+  }
+
  private:
+  std::int64_t awake_since_look(std::int64_t ns) const {
+    return std::clamp<std::int64_t>(ns - looked_ns_.value_or(ns), 0, longest_step_ns_);
+  }
+
   struct Voice {
     std::int64_t last_ns = 0;
-    std::optional<std::int64_t> heard_awake_ns{};  // of the first look after the last sample
+    std::optional<std::int64_t> heard_awake_ns{};  // of the last sample, or of the first look after it
     bool silent = false;
   };
 
+  std::int64_t step_ns_;
   std::int64_t longest_step_ns_;
   std::vector<std::int64_t> periods_ns_;
   std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;

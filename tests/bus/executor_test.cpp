@@ -371,6 +371,21 @@ TEST(ExecutorTest, ATimerTicksAPeriodApartAndEndsWithTheStop) {
   EXPECT_GE(ticks.back() - ticks.front(), milliseconds(5 * 19 / 2));
 }
 
+TEST(ExecutorTest, ATimerMaySayWhenItIsDueNext) {
+  const Participant participant(fresh_domain());
+  Node node(participant, "node");
+  Stop stop;
+  std::vector<std::chrono::steady_clock::time_point> ticks;
+  node.when_due(milliseconds(1), "clock", [&] {
+    ticks.push_back(std::chrono::steady_clock::now());
+    if (ticks.size() == 3) stop.request();
+    return ticks.size() == 1 ? milliseconds(2) : milliseconds(40);
+  });
+  Executor(Executor::kListener, stop, {&node}).run();
+  ASSERT_EQ(ticks.size(), 3u);
+  EXPECT_GE(ticks[2] - ticks[0], milliseconds(40));
+}
+
 TEST(ExecutorTest, ALongPeriodDoesNotHoldUpTheStop) {
   const Participant participant(fresh_domain());
   Node node(participant, "node");

@@ -109,6 +109,53 @@ TEST_F(SilenceWatchTest, AProcessThatStoodStillCallsNobodySilent) {
   EXPECT_THAT(watch.look(5'020 * kMs), SizeIs(1)) << "what did not arrive meanwhile is missing all the same";
 }
 
+/// A stream each 10 ms, looked at no sooner than is said.
+class SparseLooksTest : public SilenceWatchTest {
+ protected:
+  static constexpr std::int64_t kCycle = 10 * kMs, kMost = 100 * kMs;
+
+  /// Samples until `end`; the instants of the looks.
+  std::vector<std::int64_t> hear_until(std::int64_t end) {
+    std::vector<std::int64_t> looks;
+    for (; now_ns < end; now_ns += kMs) {
+      if (now_ns % kCycle == 0) watch.heard(odometry, 1, now_ns, now_ns);
+      if (now_ns < due_ns) continue;
+      EXPECT_THAT(watch.look(now_ns), IsEmpty());
+      looks.push_back(now_ns);
+      due_ns = now_ns + watch.pause_ns(kMost);
+    }
+    return looks;
+  }
+
+  std::int64_t now_ns = 0, due_ns = 0;
+};
+
+TEST_F(SparseLooksTest, WhileAStreamGoesOnThereIsHardlyALookInThreePeriods) {
+  EXPECT_LE(hear_until(1'000 * kMs).size(), 20u);
+}
+
+TEST_F(SparseLooksTest, WhenItEndsThatIsSeenWithinThreePeriodsAndAStep) {
+  for (std::int64_t end = 500 * kMs; end < 560 * kMs; end += kMs) {
+    hear_until(end);
+    const std::int64_t last_ns = (end - 1) / kCycle * kCycle;
+    std::vector<SilenceEdge> seen;
+    std::int64_t noticed_ns = 0;
+    for (; seen.empty(); due_ns += watch.pause_ns(kMost)) seen = watch.look(noticed_ns = due_ns);
+    EXPECT_EQ(seen[0].from_ns, last_ns);
+    EXPECT_GT(noticed_ns - last_ns, 3 * kPeriod);
+    EXPECT_LE(noticed_ns - last_ns, 4 * kPeriod);
+    watch = SilenceWatch{kPeriod};
+    watch.add(kPeriod);
+    now_ns = due_ns = 0;
+  }
+}
+
+TEST_F(SparseLooksTest, AProcessThatStoodStillCallsNobodySilent) {
+  hear_until(500 * kMs);
+  EXPECT_THAT(watch.look(due_ns + 5'000 * kMs), IsEmpty());
+  EXPECT_EQ(watch.pause_ns(kMost), kPeriod) << "what did not arrive meanwhile is missing soon";
+}
+
 // Any gaps, looks that are never later than two steps: what lasts longer than three periods and the looks' grain is
 // seen to begin and to end at its own samples, what is shorter than three periods never.
 TEST(SilenceWatch, SeesEveryLongGapAndNoShortOne) {
