@@ -89,7 +89,7 @@ test('unknown kicks are labelled with the keyboard alone, and each label is a ro
   await says(page, '#said', `Kick ${first}: over`);
   assert.equal(ask('SELECT outcome, who, note FROM labels'), 'over|Ada 123|clear of the bar');
   await says(page, '#log', '3 of');
-  assert.notEqual(await page.evaluate(() => document.body.dataset.shown), first, 'the next one is shown');
+  await page.waitForFunction((was) => document.body.dataset.shown !== was, first);  // the next one is shown
 
   await page.click('#time');
   await page.keyboard.type('12:30');
