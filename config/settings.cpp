@@ -93,9 +93,14 @@ void check_group(const Refbox& refbox, const std::string& source) {
 }
 
 void check_standby(const Settings& settings, const std::string& source) {
-  if (!settings.run.lockstep || !settings.kick_decision.standby) return;
-  throw Error{
-      fmt::format("{}: run.lockstep = true, but kick_decision.standby = true: in lockstep nobody takes over", source)};
+  if (!settings.kick_decision.standby) return;
+  if (settings.run.lockstep)
+    throw Error{
+        fmt::format("{}: run.lockstep = true, but kick_decision.standby = true: in lockstep nobody takes over", source)};
+  if (settings.run.one_process)
+    throw Error{fmt::format("{}: run.one_process = true, but kick_decision.standby = true: where the first dies, there "
+                            "is no world_state for the second",
+                            source)};
 }
 
 /// What follows from several settings together.
@@ -180,6 +185,11 @@ void override_settings(Settings& settings, const std::vector<std::string>& lines
 }
 
 std::string to_toml_text(const Settings& settings) { return to_toml(settings); }
+
+std::vector<std::string> decision_path(const Settings& settings) {
+  if (settings.run.one_process) return {"chain"};
+  return {"odometry", "world_state", "kick_decision"};
+}
 
 std::map<std::string, std::string> setting_values(const Settings& settings) {
   std::map<std::string, std::string> values;

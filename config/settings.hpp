@@ -21,6 +21,7 @@ struct Run {
   std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
   bool match_mode = false;         ///< a match is on: what changes a log or a robot by hand is refused
   bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
+  bool one_process = false;        ///< odometry, world_state and kick_decision share one, trivela-chain
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
@@ -210,6 +211,9 @@ void override_settings(Settings& settings, const std::vector<std::string>& lines
 
 /// Every setting as TOML.
 std::string to_toml_text(const Settings& settings);
+
+/// The processes of a robot's decision path, without "trivela-": odometry, world_state and kick_decision, or chain.
+std::vector<std::string> decision_path(const Settings& settings);
 
 /// Every setting by its key, e.g. "policy.predictive.threshold", with its value as TOML has it.
 std::map<std::string, std::string> setting_values(const Settings& settings);

@@ -164,6 +164,7 @@ void fields(V& v, Run& r) {
   v("session", r.session, Range{0, kicking::KickId::kLastSession});
   v("match_mode", r.match_mode);
   v("lockstep", r.lockstep);
+  v("one_process", r.one_process);
   v("referee_timeout_s", r.referee_timeout_s, Range{0.05, 60.0});
   v("robot", r.robot);
   v("scenario", r.scenario);

@@ -19,13 +19,15 @@ constexpr const char* kTeamBus = "team_bus.xml";
 /// Those of the decision path, with their SCHED_FIFO priority: what keeps the devices safe goes before what computes,
 /// and the second decision node before a first that hangs in a loop.
 constexpr std::pair<std::string_view, int> kRealtime[]{
-    {"odometry", 50}, {"kicker_driver", 50}, {"world_state", 40}, {"kick_decision", 40}, {"kick_decision_second", 41}};
+    {"odometry", 50},      {"kicker_driver", 50}, {"world_state", 40},
+    {"kick_decision", 40}, {"chain", 40},         {"kick_decision_second", 41}};
 
 std::vector<std::string> nodes_of(const Settings& settings, bool base) {
   if (base) return {"recorder", "team_link", "refbox"};
-  std::vector<std::string> nodes{"recorder",      "team_link",     "odometry",      "world_state",
-                                 "kick_decision", "kicker_driver", "shot_observer", "kicker_drift"};
-  if (settings.kick_decision.standby) nodes.insert(nodes.begin() + 5, "kick_decision_second");
+  std::vector<std::string> nodes{"recorder", "team_link"};
+  for (const std::string& node : decision_path(settings)) nodes.push_back(node);
+  if (settings.kick_decision.standby) nodes.emplace_back("kick_decision_second");
+  for (const char* const node : {"kicker_driver", "shot_observer", "kicker_drift"}) nodes.emplace_back(node);
   return nodes;
 }
 

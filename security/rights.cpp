@@ -56,14 +56,31 @@ Rights rights(std::string node, std::vector<std::string> reads, Runs runs = Runs
           runs == Runs::kOnRobotAndBase};
 }
 
+/// Of one process that is all of `nodes`.
+Rights rights_together(std::string process, std::initializer_list<Rights> nodes) {
+  Rights all{.node = std::move(process), .publish = {}, .subscribe = {}, .on_robot = false};
+  for (const Rights& node : nodes) {
+    all.publish = all.publish + node.publish;
+    all.subscribe = all.subscribe + node.subscribe;
+  }
+  for (auto* const topics : {&all.publish, &all.subscribe}) {
+    std::ranges::sort(*topics);
+    topics->erase(std::ranges::unique(*topics).begin(), topics->end());
+  }
+  return all;
+}
+
 }  // namespace
 
 const std::vector<Rights>& all_rights() {
   using namespace msg;
+  static const Rights odometry = rights("odometry", topics(nodes::OdometryInputs{}) + these<DeviceGyro>());
+  static const Rights world_state = rights("world_state", topics(nodes::WorldStateInputs{}));
+  static const Rights kick_decision = rights("kick_decision", topics(nodes::KickDecisionInputs{}));
   static const std::vector<Rights> all{
-      rights("odometry", topics(nodes::OdometryInputs{}) + these<DeviceGyro>()),
-      rights("world_state", topics(nodes::WorldStateInputs{})),
-      rights("kick_decision", topics(nodes::KickDecisionInputs{})),
+      odometry,
+      world_state,
+      kick_decision,
       rights("kick_decision_second", topics(nodes::KickDecisionInputs{}) + these<DriveCommand>()),
       rights("kicker_driver", topics(nodes::KickerDriverInputs{}) + these<WorldState>()),
       rights("shot_observer", topics(nodes::ShotObserverInputs{})),
@@ -78,6 +95,7 @@ const std::vector<Rights>& all_rights() {
       rights("vision", {}),
       rights("goal_camera", {}),
       rights("team", {}),
+      rights_together("chain", {odometry, world_state, kick_decision}),
       rights("simulator", these<DeviceDrive, DeviceFire, KickReceipt, StepDone>(), Runs::kWhereAskedFor),
       rights("replay_player", these<StepDone>(), Runs::kWhereAskedFor),
   };

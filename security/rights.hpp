@@ -15,7 +15,7 @@ struct Rights {
   std::vector<std::string> publish;
   std::vector<std::string> subscribe;
   /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has
-  /// not, since it may write what referee and devices say.
+  /// not, since it may write what referee and devices say, nor chain, since it may do what three nodes may.
   bool on_robot = true;
   /// And on the base.
   bool on_base = false;

@@ -87,7 +87,7 @@ calibration::DriveRecord DriveMatches::play(const calibration::DrivePlan& plan, 
   settings.run.scenario = scenario_file.string();
   settings = config::on_field_of(world_, settings_of_drive(plan, record, std::move(settings)));
   const ConfigFile config{config::to_toml_text(settings)};
-  const MatchResult result = run_match("simulator", config.path(), signals_, more_nodes(settings), true);
+  const MatchResult result = run_match("simulator", config.path(), signals_, nodes_of_match(settings), true);
   record.played_s = result.played_s;
   record.wall_s = result.wall_s;
   if (!result.trouble.empty()) {

@@ -38,9 +38,7 @@ class NodesOfADrive {
  public:
   NodesOfADrive(const config::Settings& settings, const fs::path& config_file, bool refbox) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
-    std::vector<std::string> names{"recorder",      "odometry",      "world_state",
-                                   "kick_decision", "kicker_driver", "shot_observer"};
-    for (const std::string& more : more_nodes(settings)) names.push_back(more);
+    std::vector<std::string> names = nodes_of_match(settings);
     if (refbox) names.emplace_back("refbox");
     for (const std::string& name : names)
       nodes_.emplace_back(name, programs / ("trivela-" + name),

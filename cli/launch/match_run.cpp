@@ -20,7 +20,6 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::array kNodes{"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"};
 constexpr std::chrono::seconds kPatience{10};
 
 /// Where nobody reads.
@@ -111,21 +110,15 @@ MatchResult end_match(std::deque<ChildProcess>& children, std::size_t last, std:
   return result;
 }
 
-std::vector<std::string> all_nodes(const std::vector<std::string>& more_nodes) {
-  std::vector<std::string> nodes{kNodes.begin(), kNodes.end()};
-  nodes.insert(nodes.end(), more_nodes.begin(), more_nodes.end());
-  return nodes;
-}
-
 }  // namespace
 
 MatchResult run_match(const std::string& feeder, const std::filesystem::path& config_file, SignalInbox& signals,
-                      const std::vector<std::string>& more_nodes, bool quiet) {
+                      const std::vector<std::string>& nodes, bool quiet) {
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = WallClock::now();
   const Starter starter{quiet};
-  for (const std::string& node : all_nodes(more_nodes)) children.push_back(starter.start(node, config_file));
+  for (const std::string& node : nodes) children.push_back(starter.start(node, config_file));
   children.push_back(starter.start(feeder, config_file, progress.write_end()));
   progress.close_write_end();
   std::string trouble;
@@ -146,7 +139,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
 }
 
 MatchResult run_emulated_match(const std::filesystem::path& world_config, const NodesConfig& nodes_config,
-                               SignalInbox& signals, const std::vector<std::string>& more_nodes) {
+                               SignalInbox& signals, const std::vector<std::string>& nodes) {
   ProgressPipe progress;
   std::deque<ChildProcess> children;
   const auto started = WallClock::now();
@@ -161,7 +154,6 @@ MatchResult run_emulated_match(const std::filesystem::path& world_config, const 
   }
   if (progress.begun() && trouble.empty()) {
     const std::filesystem::path config_file = nodes_config(progress.settings());
-    const std::vector<std::string> nodes = all_nodes(more_nodes);
     children.push_front(starter.start(nodes.front(), config_file));  // the recorder, before the simulator
     for (std::size_t i = 1; i < nodes.size(); ++i) children.push_back(starter.start(nodes[i], config_file));
   }

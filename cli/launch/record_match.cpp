@@ -26,9 +26,13 @@ std::int64_t lost_rows(const std::string& log) {
   return missing;
 }
 
-std::vector<std::string> more_nodes(const config::Settings& settings) {
-  if (settings.scan_recorder.enabled) return {"scan_recorder"};
-  return {};
+std::vector<std::string> nodes_of_match(const config::Settings& settings) {
+  std::vector<std::string> nodes{"recorder"};
+  for (const std::string& node : config::decision_path(settings)) nodes.push_back(node);
+  nodes.emplace_back("kicker_driver");
+  nodes.emplace_back("shot_observer");
+  if (settings.scan_recorder.enabled) nodes.emplace_back("scan_recorder");
+  return nodes;
 }
 
 config::Settings match_settings(config::Settings settings, int domain, const std::string& log) {
@@ -74,7 +78,7 @@ int record_lockstep(const std::string& feeder, config::Settings settings, int do
   const LogClaim log{out};
   const ConfigFile config{config::to_toml_text(settings)};
   MatchWatch page{watch, settings};
-  const MatchResult result = run_match(feeder, config.path(), signals, more_nodes(settings));
+  const MatchResult result = run_match(feeder, config.path(), signals, nodes_of_match(settings));
   const int exit_code = say_how_it_went(result, log, out);
   page.stay_after(result, signals);
   return exit_code;
@@ -92,15 +96,15 @@ int record_emulated(config::Settings settings, int domain, const std::string& ou
   SignalInbox signals;
   const LogClaim log{out};
   const ConfigFile world{config::to_toml_text(settings)};
-  std::optional<ConfigFile> nodes;
+  std::optional<ConfigFile> robot;
   const auto nodes_config = [&](const std::vector<std::string>& devices) {
     config::override_settings(settings, devices, "the simulator's devices");
-    return nodes.emplace(config::to_toml_text(settings)).path();
+    return robot.emplace(config::to_toml_text(settings)).path();
   };
-  std::vector<std::string> beside = more_nodes(settings);
-  beside.emplace_back("refbox");
+  std::vector<std::string> nodes = nodes_of_match(settings);
+  nodes.emplace_back("refbox");
   MatchWatch page{watch, settings};
-  const MatchResult result = run_emulated_match(world.path(), nodes_config, signals, beside);
+  const MatchResult result = run_emulated_match(world.path(), nodes_config, signals, nodes);
   const int exit_code = say_how_it_went(result, log, out);
   page.stay_after(result, signals);
   return exit_code;

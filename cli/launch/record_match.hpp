@@ -18,8 +18,8 @@ config::Settings match_settings(config::Settings settings, int domain, const std
 /// The same in lockstep.
 config::Settings lockstep_settings(config::Settings settings, int domain, const std::string& log);
 
-/// What runs beside the nodes of every match: scan_recorder where the settings enable it.
-std::vector<std::string> more_nodes(const config::Settings& settings);
+/// The processes of a robot in a match, the recorder first: without the simulator, and without refbox.
+std::vector<std::string> nodes_of_match(const config::Settings& settings);
 
 /// Rows that the log says it is missing, with a sentence on standard error where there are any.
 std::int64_t lost_rows(const std::string& log);

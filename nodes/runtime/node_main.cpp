@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <vector>
 
@@ -158,10 +159,11 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
   }
 }
 
-void run(NodeContext& context, bus::Node& node) {
+void run(NodeContext& context, const std::vector<bus::Node*>& nodes) {
   const auto kind = context.settings.run.lockstep ? bus::Executor::kWaitset : bus::Executor::kListener;
-  InputWatch silences{context, node};
-  bus::Executor{kind, context.stop, {&node}, context.pulse()}.run();
+  std::deque<InputWatch> silences;
+  for (bus::Node* const node : nodes) silences.emplace_back(context, *node);
+  bus::Executor{kind, context.stop, nodes, context.pulse()}.run();
 }
 
 }  // namespace trivela::nodes

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bus/domain.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -24,8 +25,10 @@ std::string key_folder_of(const config::Settings& settings);
 /// Throws bus::Error as bus::secured does.
 bus::DomainConfig domain_of(const config::Settings& settings, const std::string& keys, std::string_view node);
 
-/// Runs one node until the stop: in listeners where the settings allow it, in a waitset thread in lockstep, where
-/// reactions wait for the other inputs of a cycle. In real time an InputWatch warns of inputs that fall silent.
-void run(NodeContext& context, bus::Node& node);
+/// Runs nodes of one process until the stop: in listeners where the settings allow it, in a waitset thread each in
+/// lockstep, where reactions wait for the other inputs of a cycle. In real time an InputWatch each warns of inputs that
+/// fall silent.
+void run(NodeContext& context, const std::vector<bus::Node*>& nodes);
+inline void run(NodeContext& context, bus::Node& node) { run(context, std::vector{&node}); }
 
 }  // namespace trivela::nodes

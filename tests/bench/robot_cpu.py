@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """robot_cpu.py BUILD [--hz N] [--seconds N] [--realtime N] [--processor N]: how much of a core the processes of one robot take.
 
-Plays the simulator in real time at that cycle with the programs of BUILD, first without the recorder, then with it, and reads
-what each process has used from /proc: its threads, those of the DDS library among them. The simulator, which stands in for
+Plays the simulator in real time at that cycle with the programs of BUILD, first without the recorder, then with it, and both with
+the decision path in one process (run.one_process), and reads what each process has used from /proc: its threads, those of the DDS library among them. The simulator, which stands in for
 the hardware, is shown apart. A robot has nobody beside it: how busy this machine was stands in the last line.
 """
 import argparse
@@ -15,7 +15,9 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CHAIN = ["odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"]
+BESIDE = ["kicker_driver", "shot_observer"]
+APART = ["odometry", "world_state", "kick_decision", *BESIDE]
+TOGETHER = ["chain", *BESIDE]
 
 
 def used_s(pid):
@@ -100,7 +102,8 @@ def main():
         parser.error("--hz is 2..1000, --seconds above 0 and below 3600")
     flags = [word for name in ("realtime", "processor") if getattr(args, name) for word in (f"--{name}", getattr(args, name))]
     used, total = machine()
-    for name, nodes in (("without recorder", CHAIN), ("with recorder", ["recorder", *CHAIN])):
+    for name, nodes in (("without recorder", APART), ("with recorder", ["recorder", *APART]),
+                        ("one process", TOGETHER), ("  with recorder", ["recorder", *TOGETHER])):
         with tempfile.TemporaryDirectory() as temporary:
             folder = pathlib.Path(temporary)
             write_files(folder, args.hz, os.getpid() % 100 + 1)

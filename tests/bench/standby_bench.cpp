@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
   app.add_flag("--goals", goals, "end with 3 where one took longer");
   CLI11_PARSE(app, argc, argv);
   try {
-    faults::RealTimeStack stack{1.0 + times * 2 * 8.0 / 60.0, true};
+    faults::RealTimeStack stack{1.0 + times * 2 * 8.0 / 60.0, {.standby = true}};
     Onlooker onlooker{stack.settings()};
     std::vector<double> kills_ms, hangs_ms;
     for (int i = 0; i < times; ++i) {

@@ -63,6 +63,13 @@ TEST(BadSettings, WrongTypeIsNamedWithItsValue) {
   EXPECT_THAT(settings_error("[kick_decision]\npolicy_by_half = \"moving\"\n"), HasSubstr("expected an array"));
 }
 
+TEST(BadSettings, AStandbyHasNoUseInLockstepNorBesideOneProcess) {
+  const std::string standby = "[kick_decision]\nstandby = true\n";
+  EXPECT_THAT(settings_error("[run]\nlockstep = true\n" + standby), HasSubstr("in lockstep nobody takes over"));
+  EXPECT_THAT(settings_error("[run]\none_process = true\n" + standby),
+              HasSubstr("run.one_process = true, but kick_decision.standby = true"));
+}
+
 TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
   EXPECT_THAT(settings_error("[run]\n\ncycle_s = -1.0\n"),
               AllOf(HasSubstr("bad.toml:3"), HasSubstr("run.cycle_s = -1"), HasSubstr("must lie in")));

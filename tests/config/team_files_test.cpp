@@ -131,6 +131,13 @@ TEST(TeamFiles, TheSecondDecisionNodeIsStartedWhereItStandsBy) {
   }
 }
 
+TEST(TeamFiles, OneProcessStandsInForTheThreeOfTheDecisionPath) {
+  const std::string env = text_in(files_with_settings(five_robots(), "[run]\none_process = true\n"), "robot.env");
+  EXPECT_THAT(env, HasSubstr("\"recorder team_link chain kicker_driver shot_observer kicker_drift\""));
+  EXPECT_THAT(env, HasSubstr("TRIVELA_FLAGS_chain=\"--realtime 40\"\n"));
+  EXPECT_THAT(env, Not(HasSubstr("odometry")));
+}
+
 TEST(TeamFiles, EveryNodeOfTheDecisionPathIsInRealTimeAndNoOther) {
   const Team team = five_robots();
   const std::string env = text_in(files_with_settings(team, "[kick_decision]\nstandby = true\n"), "robot.env");

@@ -12,13 +12,15 @@ namespace {
 using testing::IsEmpty;
 using testing::Not;
 
-std::vector<std::string> arguments(int seed, const std::string& out) {
-  return {"match", "--half", "stopped", "--half", "moving", "--minutes", "0.5", "--seed", fmt::format("{}", seed),
-          "--out", out};
+std::vector<std::string> arguments(int seed, const std::string& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all{"match", "--half", "stopped", "--half", "moving", "--minutes", "0.5", "--seed",
+                               fmt::format("{}", seed), "--out", out};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
-void play(const Folder& folder, int seed, const std::string& out) {
-  Program match{"trivela", arguments(seed, out), folder.path()};
+void play(const Folder& folder, int seed, const std::string& out, const std::vector<std::string>& more = {}) {
+  Program match{"trivela", arguments(seed, out, more), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
 }
 
@@ -40,6 +42,17 @@ TEST(Repeat, TheSameSeedGivesTheSameRowsAloneAndBesideAnotherMatch) {
   EXPECT_THAT(differences_of(first, other), Not(IsEmpty()));
   EXPECT_THAT(differences_of(first, Reader{folder / "one.db"}), IsEmpty()) << "while seed 2 was played";
   EXPECT_THAT(differences_of(other, Reader{folder / "two.db"}), IsEmpty()) << "while seed 1 was played";
+}
+
+TEST(Repeat, TheDecisionPathInOneProcessSaysTheSameWithKeysAndWithout) {
+  const Folder folder;
+  play(folder, 1, "apart.db");
+  play(folder, 1, "together.db", {"--set", "run.one_process=true"});
+  play(folder, 1, "secured.db", {"--set", "run.one_process=true", "--secure"});
+  const Reader apart{folder / "apart.db"};
+  EXPECT_GE(number_of(apart, "SELECT count(*) FROM kicks"), 3);
+  EXPECT_THAT(differences_of(apart, Reader{folder / "together.db"}), IsEmpty());
+  EXPECT_THAT(differences_of(apart, Reader{folder / "secured.db"}), IsEmpty());
 }
 
 }  // namespace

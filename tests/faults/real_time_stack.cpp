@@ -12,7 +12,7 @@
 namespace trivela::faults {
 namespace {
 
-config::Settings settings_for(const e2e::Folder& folder, double minutes, bool standby) {
+config::Settings settings_for(const e2e::Folder& folder, double minutes, StackOptions options) {
   config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;
@@ -21,7 +21,8 @@ config::Settings settings_for(const e2e::Folder& folder, double minutes, bool st
   settings.simulator.halves = 1;
   settings.simulator.half_minutes = minutes;
   settings.recorder.log = folder / "match.db";
-  settings.kick_decision.standby = standby;
+  settings.kick_decision.standby = options.standby;
+  settings.run.one_process = options.one_process;
   settings.run.session = kFirstSession;
   return settings;
 }
@@ -32,10 +33,12 @@ std::string last_of(const std::string& text) {
 
 }  // namespace
 
-RealTimeStack::RealTimeStack(double minutes, bool standby) : settings_(settings_for(folder_, minutes, standby)) {
+RealTimeStack::RealTimeStack(double minutes, StackOptions options)
+    : settings_(settings_for(folder_, minutes, options)) {
   std::ofstream{folder_ / "nodes.toml"} << config::to_toml_text(settings_);
-  for (const char* node : {"recorder", "odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer"})
-    start(node);
+  start("recorder");
+  for (const std::string& node : config::decision_path(settings_)) start(node);
+  for (const char* node : {"kicker_driver", "shot_observer"}) start(node);
   if (settings_.kick_decision.standby) start("kick_decision_second");
   for (const auto& [node, program] : programs_) {
     if (!e2e::wait_for_change(folder_.path(), program->watch(), [&] { return !program->errors().empty(); }))

@@ -17,13 +17,18 @@ namespace trivela::faults {
 /// The session in the kick_id of kick_decision's kicks; kick_decision_second has the next.
 inline constexpr std::uint32_t kFirstSession = 100;
 
+/// Which nodes there are.
+struct StackOptions {
+  bool standby = false;      ///< kick_decision_second beside kick_decision
+  bool one_process = false;  ///< chain in place of odometry, world_state and kick_decision
+};
+
 /// The simulator and all nodes of a robot as processes of their own in real time, in a folder of their own.
 class RealTimeStack {
  public:
   /// Starts them and waits until rows are recorded; the simulator plays for `minutes`. Throws std::runtime_error with
   /// what they said where that does not happen.
-  /// `standby`: with kick_decision_second beside kick_decision.
-  explicit RealTimeStack(double minutes, bool standby = false);
+  explicit RealTimeStack(double minutes, StackOptions options = {});
   RealTimeStack(const RealTimeStack&) = delete;
   RealTimeStack& operator=(const RealTimeStack&) = delete;
 

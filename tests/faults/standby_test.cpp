@@ -74,7 +74,7 @@ void expect_each_possession_kicked_once(const RealTimeStack& stack) {
 }
 
 TEST(Standby, TakesOverFromOneThatHangsAndGivesBackWhenItReturns) {
-  RealTimeStack stack{4.0, true};
+  RealTimeStack stack{4.0, {.standby = true}};
   play_until_the_second_fires(stack, SIGSTOP);
   EXPECT_TRUE(says(stack, "this one decides"));
   expect_drives_throughout(stack);  // before the first one answers late what it was sent meanwhile
@@ -88,7 +88,7 @@ TEST(Standby, TakesOverFromOneThatHangsAndGivesBackWhenItReturns) {
 }
 
 TEST(Standby, TakesOverFromOneThatIsKilled) {
-  RealTimeStack stack{4.0, true};
+  RealTimeStack stack{4.0, {.standby = true}};
   play_until_the_second_fires(stack, SIGKILL);
   for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, node == "kick_decision" ? 128 + SIGKILL : 0) << node;
   expect_each_possession_kicked_once(stack);

@@ -64,8 +64,8 @@ TEST(Rights, AreWhatTheContractsTableSays) {
   std::map<std::string, Row> granted;
   for (const Rights& rights : all_rights()) {
     // An emulation of the camera's and the referee's words out of a log; the table names who says them in a match.
-    // And the live page reads what it likes.
-    if (rights.node == "replay_player" || rights.node == "monitor") continue;
+    // And the live page reads what it likes, and chain is three of them.
+    if (rights.node == "replay_player" || rights.node == "monitor" || rights.node == "chain") continue;
     for (const std::string& topic : rights.publish) granted[topic].writers.insert(rights.node);
     for (const std::string& topic : rights.subscribe) granted[topic].readers.insert(rights.node);
   }
@@ -99,12 +99,23 @@ TEST(Rights, TheLivePageReadsWhatIsSaidInAMatchAndWritesNothing) {
   EXPECT_TRUE(monitor.on_robot);
 }
 
-TEST(Rights, AnOrderIsWrittenByTheDecisionNodesAlone) {
+TEST(Rights, AnOrderIsWrittenByTheProcessesOfDecisionNodesAlone) {
   std::vector<std::string> writers;
   for (const Rights& rights : all_rights())
     for (const std::string& topic : rights.publish)
       if (topic == "kick_order") writers.push_back(rights.node);
-  EXPECT_THAT(writers, ElementsAre("kick_decision", "kick_decision_second"));
+  EXPECT_THAT(writers, ElementsAre("kick_decision", "kick_decision_second", "chain"));
+}
+
+TEST(Rights, TheChainMayWhatItsThreeNodesMayAndIsThereWhereItIsAskedFor) {
+  std::set<std::string> writes, reads;
+  for (const char* const node : {"odometry", "world_state", "kick_decision"}) {
+    writes.insert(rights_of(node).publish.begin(), rights_of(node).publish.end());
+    reads.insert(rights_of(node).subscribe.begin(), rights_of(node).subscribe.end());
+  }
+  EXPECT_THAT(rights_of("chain").publish, testing::ElementsAreArray(writes));
+  EXPECT_THAT(rights_of("chain").subscribe, testing::ElementsAreArray(reads));
+  EXPECT_FALSE(rights_of("chain").on_robot);
 }
 
 TEST(Rights, OnTheTeamsBusTheBaseAloneSaysTheReferee) {
