@@ -94,13 +94,11 @@ void check_group(const Refbox& refbox, const std::string& source) {
 
 void check_standby(const Settings& settings, const std::string& source) {
   if (!settings.kick_decision.standby) return;
-  if (settings.run.lockstep)
-    throw Error{
-        fmt::format("{}: run.lockstep = true, but kick_decision.standby = true: in lockstep nobody takes over", source)};
-  if (settings.run.one_process)
-    throw Error{fmt::format("{}: run.one_process = true, but kick_decision.standby = true: where the first dies, there "
-                            "is no world_state for the second",
-                            source)};
+  const auto refuse = [&](const char* other, const char* why) {
+    throw Error{fmt::format("{}: {} = true, but kick_decision.standby = true: {}", source, other, why)};
+  };
+  if (settings.run.lockstep) refuse("run.lockstep", "in lockstep nobody takes over");
+  if (settings.run.one_process) refuse("run.one_process", "when the first dies, the second has no world_state");
 }
 
 /// What follows from several settings together.

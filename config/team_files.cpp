@@ -18,9 +18,9 @@ constexpr const char* kTeamBus = "team_bus.xml";
 
 /// Those of the decision path, with their SCHED_FIFO priority: what keeps the devices safe goes before what computes,
 /// and the second decision node before a first that hangs in a loop.
-constexpr std::pair<std::string_view, int> kRealtime[]{
-    {"odometry", 50},      {"kicker_driver", 50}, {"world_state", 40},
-    {"kick_decision", 40}, {"chain", 40},         {"kick_decision_second", 41}};
+constexpr std::pair<std::string_view, int> kRealtime[]{{"odometry", 50},    {"kicker_driver", 50},
+                                                       {"world_state", 40}, {"kick_decision", 40},
+                                                       {"chain", 40},       {"kick_decision_second", 41}};
 
 std::vector<std::string> nodes_of(const Settings& settings, bool base) {
   if (base) return {"recorder", "team_link", "refbox"};

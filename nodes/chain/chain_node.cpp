@@ -7,7 +7,8 @@
 namespace trivela::nodes {
 
 /// odometry, world_state and kick_decision as one member of the bus: what one of them says is handed to the others
-/// without a datagram, in the thread that said it. kicker_driver stays a process of its own, since it must outlive them.
+/// without a datagram, in the thread that said it. kicker_driver stays a process of its own, since it must outlive
+/// them.
 int chain_main(int argc, char** argv) {
   return node_main(argc, argv, "chain", [](NodeContext& context) {
     OdometryNode odometry{

@@ -13,8 +13,9 @@ using testing::IsEmpty;
 using testing::Not;
 
 std::vector<std::string> arguments(int seed, const std::string& out, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all{"match", "--half", "stopped", "--half", "moving", "--minutes", "0.5", "--seed",
-                               fmt::format("{}", seed), "--out", out};
+  std::vector<std::string> all{
+      "match", "--half", "stopped", "--half", "moving", "--minutes", "0.5", "--seed", fmt::format("{}", seed),
+      "--out", out};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
