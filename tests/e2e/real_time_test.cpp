@@ -90,6 +90,9 @@ TEST_F(RealTime, NodesThatAreStartedOneByOneRecordAMatchAndStopOnSigterm) {
   EXPECT_THAT(loose_ends_of(folder_ / "match.db"), IsEmpty());
   const Reader log{folder_ / "match.db"};
   EXPECT_GE(number_of(log, "SELECT count(*) FROM referee"), 70) << "as refbox, every 0.08 s";
+  EXPECT_LT(number_of(log, "SELECT max(gap) FROM (SELECT t_ns - lag(t_ns) OVER (ORDER BY t_ns) AS gap FROM referee)"),
+            1'000'000'000)
+      << "a pause in which a robot would take him for silent";
   EXPECT_GE(number_of(log, "SELECT count(*) FROM world_states"), 200);
   EXPECT_GT(number_of(log, "SELECT count(*) FROM kick_decisions"), 20);
   EXPECT_EQ(number_of(log, "SELECT count(*) FROM kick_decisions WHERE policy <> 'moving'"), 0);
