@@ -65,7 +65,7 @@ Rights rights_together(std::string process, std::initializer_list<Rights> nodes)
   }
   for (auto* const topics : {&all.publish, &all.subscribe}) {
     std::ranges::sort(*topics);
-    topics->erase(std::ranges::unique(*topics).begin(), topics->end());
+    topics->erase(std::unique(topics->begin(), topics->end()), topics->end());
   }
   return all;
 }

@@ -15,10 +15,15 @@
 namespace trivela::nodes {
 namespace {
 
-/// No two nodes of a robot share one: where it is given, the second node has the next.
+/// No two nodes of a robot share one: where it is given, the second node has the next. A robot whose clock starts in
+/// 1970 starts at the same seconds each time and draws.
 std::uint32_t session_of_kicks(std::uint32_t given, DecisionNode which) {
-  if (given == 0) return kicking::kick_session(std::random_device{}());
-  return which == DecisionNode::kFirst ? given : kicking::kick_session(given);
+  const bool second = which == DecisionNode::kSecond;
+  if (given != 0) return second ? kicking::kick_session(given) : given;
+  const auto now = std::chrono::system_clock::now();
+  if (now < std::chrono::sys_days{std::chrono::year{2020} / 1 / 1})
+    return kicking::kick_session(std::random_device{}());
+  return kicking::kick_session_at(static_cast<std::uint64_t>(std::chrono::system_clock::to_time_t(now)), second);
 }
 
 void refuse_oracle(const robot::PolicyAssignment& assignment) {

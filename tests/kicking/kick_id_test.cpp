@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace trivela::kicking {
 namespace {
 
@@ -19,6 +21,18 @@ TEST(KickId, OfAnySessionIsAboveZero) {
     EXPECT_GE(session, 1u);
     EXPECT_LE(session, KickId::kLastSession);
     EXPECT_GT((KickId{session, 1, 1}.number()), 0);
+  }
+}
+
+TEST(KickSession, NodesOfARobotThatStartWithinFourHoursHaveDifferentOnes) {
+  for (const std::uint64_t start_s : {std::uint64_t{1'795'000'000}, std::uint64_t{1'795'000'000 + 32'760}}) {
+    std::set<std::uint32_t> sessions;
+    for (std::uint64_t s = 0; s < 16'383; ++s)
+      for (const bool second : {false, true}) {
+        const std::uint32_t session = kick_session_at(start_s + s, second);
+        EXPECT_TRUE(session >= 1 && session <= KickId::kLastSession) << session;
+        EXPECT_TRUE(sessions.insert(session).second) << s << " s after the first";
+      }
   }
 }
 
