@@ -18,7 +18,7 @@ struct Run {
   std::string team = "team";  ///< its name, in those of the logs
   std::uint32_t robot_id = 1;
   double cycle_s = 0.02;           ///< control cycle (CAMBADA release 1.0: MOTION_TICK 20 ms)
-  std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: drawn at the start
+  std::uint32_t session = 0;       ///< upper 15 bits of every kick_id; 0: by the instant of the start
   bool match_mode = false;         ///< a match is on: what changes a log or a robot by hand is refused
   bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
   bool one_process = false;        ///< odometry, world_state and kick_decision share one, trivela-chain
