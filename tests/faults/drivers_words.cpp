@@ -28,6 +28,11 @@ std::optional<Spread> spread_of(const Fault& fault) {
   return Spread{delay_ns, delay_ns + jitter_ns};
 }
 
+/// A reader hands on what was said first first: no word to stop comes after a later one to play.
+void say_in_order(std::vector<WordSeen>& heard, const WordSeen& next) {
+  while (next.playing && !heard.empty() && heard.back().arrival_ns > next.arrival_ns) heard.pop_back();
+}
+
 /// In the order in which they were said, that of the wire.
 std::vector<WordSeen> heard_late(const Testimony& wire, const Trial& trial, std::int64_t to_ns, const Spread& spread) {
   std::vector<WordSeen> heard;
@@ -37,8 +42,9 @@ std::vector<WordSeen> heard_late(const Testimony& wire, const Trial& trial, std:
     const std::int64_t arrival_ns = word.arrival_ns + (!word.playing ? spread.most_ns
                                                        : late        ? spread.least_ns
                                                                      : std::min<std::int64_t>(0, spread.least_ns));
-    while (word.playing && !heard.empty() && heard.back().arrival_ns > arrival_ns) heard.pop_back();
-    heard.push_back({arrival_ns, word.playing});
+    const WordSeen seen{arrival_ns, word.playing};
+    say_in_order(heard, seen);
+    heard.push_back(seen);
   }
   return heard;
 }
@@ -53,11 +59,15 @@ bool garbles_driver(const Fault& fault) {
 Testimony with_drivers_words(Testimony device, const Testimony& wire, const std::vector<Trial>& trials) {
   for (const Trial& trial : trials) {
     if (const auto spread = spread_of(trial.fault)) {
-      const std::int64_t to_ns = trial.ended_ns + spread->most_ns;  // what is on its way when the fault ends
+      // What is on its way when the fault ends.
+      const std::int64_t to_ns = trial.ended_ns + Nanoseconds{trial.fault.way.delay + trial.fault.way.jitter}.count();
       std::erase_if(device.words, [&](const WordSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= to_ns;
       });
-      std::ranges::copy(heard_late(wire, trial, to_ns, *spread), std::back_inserter(device.words));
+      std::vector<WordSeen> heard = heard_late(wire, trial, to_ns, *spread);
+      for (const WordSeen& word : device.words)
+        if (word.arrival_ns > to_ns) say_in_order(heard, word);
+      std::ranges::copy(heard, std::back_inserter(device.words));
     } else if (garbles_driver(trial.fault)) {
       std::ranges::copy_if(wire.words, std::back_inserter(device.words), [&](const WordSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= trial.whole_ns;

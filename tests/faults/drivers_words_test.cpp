@@ -62,6 +62,31 @@ TEST(DriversWords, AfterTheFaultTheWitnessIsTheMeasureAgain) {
   EXPECT_THAT(found(2080, 130, {short_one}), SizeIs(1));
 }
 
+/// All that the referee says is late by 40 to 190 ms from 1 s to 1.8 s.
+Trial late_referee() {
+  Trial trial;
+  trial.fault = {.kind = FaultKind::kDelay, .node = node_index("referee"), .other = {}, .way = {}};
+  trial.fault.way = {.delay = std::chrono::milliseconds{40}, .jitter = std::chrono::milliseconds{150}};
+  trial.began_ns = 1000 * kMs;
+  trial.ended_ns = trial.whole_ns = 1800 * kMs;
+  return trial;
+}
+
+TEST(DriversWords, ARepeatedStopThatTheFaultHeldBackDoesNotComeAfterTheWordToPlay) {
+  EXPECT_THAT(found(2090, 0, {late_referee()}), IsEmpty())
+      << "he was to play at 2 s, and the last stop came at 2.05 s at most";
+  EXPECT_THAT(found(1700, 0, {late_referee()}), SizeIs(1)) << "the first stop came at 1.65 s at most";
+  EXPECT_THAT(found(1640, 0, {late_referee()}), IsEmpty());
+}
+
+TEST(DriversWords, AStopOnItsWayWhenTheFaultEndsMayComeLater) {
+  Trial short_one = late_referee();
+  short_one.ended_ns = 1330 * kMs;
+  EXPECT_THAT(found(1610, 0, {short_one}), IsEmpty()) << "said at 1.31 s at the earliest";
+  short_one.ended_ns = 1300 * kMs;
+  EXPECT_THAT(found(1610, 0, {short_one}), SizeIs(1)) << "said after the fault";
+}
+
 TEST(DriversWords, ADelayOnAnotherWayChangesNothing) {
   Trial other = late_link();
   other.fault.other = node_index("recorder");
