@@ -1,7 +1,6 @@
 #include "tests/bench/chain/run.hpp"
 
 #include <fmt/core.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,10 +8,8 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 #include "bus/process.hpp"
-#include "security/key_folder.hpp"
 #include "tests/bench/chain/bare_chain.hpp"
 #include "tests/bench/chain/contender.hpp"
 #include "tests/bench/chain/dds_chain.hpp"
@@ -20,6 +17,7 @@
 #include "tests/bench/chain/goals.hpp"
 #include "tests/bench/chain/hogs.hpp"
 #include "tests/bench/chain/processor_time.hpp"
+#include "tests/bench/chain/secured_chain.hpp"
 #include "tests/bench/chain/tuning.hpp"
 #include "tests/bench/chain/udp_chain.hpp"
 
@@ -40,26 +38,6 @@ bool realtime_permitted() {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// A folder for keys, which goes with the run.
-class TemporaryKeys {
- public:
-  TemporaryKeys() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "chain_bench_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder for keys");
-    folder_ = pattern;
-  }
-  TemporaryKeys(const TemporaryKeys&) = delete;
-  TemporaryKeys& operator=(const TemporaryKeys&) = delete;
-  ~TemporaryKeys() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-};
-
 // A contender before its processes exist.
 struct Entrant {
   const char* name;
@@ -77,17 +55,6 @@ std::deque<Contender> started(const std::vector<Entrant>& entrants, int priority
 
 DomainOf everywhere(int index) {
   return [config = own_domain(index)](const std::string&) { return config; };
-}
-
-// With keys of this run for the four nodes of robot 1, in that folder.
-DomainOf secured(int index, const std::filesystem::path& folder) {
-  const security::KeyFolder keys{folder};
-  const security::Validity today = security::days_from(security::this_second(), 1);
-  keys.init(today);
-  keys.issue(1, {"odometry", "world_state", "kick_decision", "kicker_driver"}, today);
-  return [config = own_domain(index), robot = keys.robot_folder(1)](const std::string& node) {
-    return bus::secured(config, robot, node);
-  };
 }
 
 std::vector<Entrant> chains(const DomainOf& secured_domain) {
@@ -129,6 +96,28 @@ std::vector<Entrant> tries() {
           {"4, on one processor", four(17, {.pinned = true}), kPlainFour},
           {"4, memory locked", four(18, {.locked = true}), kPlainFour},
           {"4, all of these", four(19, all), kPlainFour}};
+}
+
+// What protects every topic of the four processes, one way each; first none of it, then as a robot has it.
+std::vector<Entrant> protections(const std::filesystem::path& folder) {
+  struct Way {
+    const char* name;
+    Protection protection;
+  };
+  static constexpr Way kWays[] = {
+      {"certificates alone", {"NONE", "NONE", "NONE"}},   {"packets signed", {"SIGN", "NONE", "NONE"}},
+      {"packets encrypted", {"ENCRYPT", "NONE", "NONE"}}, {"parts signed", {"NONE", "SIGN", "NONE"}},
+      {"parts encrypted", {"NONE", "ENCRYPT", "NONE"}},   {"payload encrypted", {"NONE", "NONE", "ENCRYPT"}}};
+  std::vector<Entrant> entrants = {
+      {kUdp, udp_chain()},
+      {kListener, dds_chain(everywhere(0), bus::Executor::kListener)},
+      {kSecured, dds_chain(secured(1, folder / "usual"), bus::Executor::kListener), kListener}};
+  int index = 2;
+  for (const Way& way : kWays)
+    entrants.push_back({way.name,
+                        dds_chain(secured(index++, folder / way.name, &way.protection), bus::Executor::kListener),
+                        kListener});
+  return entrants;
 }
 
 void run_condition(std::deque<Contender>& contenders, Row condition, std::int64_t samples, std::vector<Row>& rows) {
@@ -186,6 +175,15 @@ std::vector<Row> run_tries(const Plan& plan) {
           nullptr, 0);
   print_heading();
   std::deque<Contender> contenders = started(tries(), 0);
+  for (const int rate_hz : plan.rates_hz) run_condition(contenders, {.rate_hz = rate_hz}, plan.samples, rows);
+  return rows;
+}
+
+std::vector<Row> run_protections(const Plan& plan) {
+  std::vector<Row> rows;
+  print_heading();
+  const TemporaryKeys keys;
+  std::deque<Contender> contenders = started(protections(keys.folder()), 0);
   for (const int rate_hz : plan.rates_hz) run_condition(contenders, {.rate_hz = rate_hz}, plan.samples, rows);
   return rows;
 }

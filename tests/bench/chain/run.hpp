@@ -20,4 +20,7 @@ std::vector<Row> run(const Plan& plan);
 /// row is to the chain as it is.
 std::vector<Row> run_tries(const Plan& plan);
 
+/// The same for what DDS Security may protect, over four processes; the ratio beside a row is to the plain chain.
+std::vector<Row> run_protections(const Plan& plan);
+
 }  // namespace trivela::bench
