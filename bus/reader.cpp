@@ -74,7 +74,7 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
   if (const Hearing* hearing = participant_.hearing()) {
-    silence_.emplace(periodic_ ? RenewalPatience::of_period(period) : kEventSilence, Clock::now());
+    silence_.emplace(periodic_ ? RenewalPatience::of_period(period) : kEventSilence);
     renewals_seen_ = hearing->renewals();
   }
   reader_ = open();

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
 namespace trivela::bus {
 
 /// Knows when a reader that hears nothing is to be made anew: after its first patience, then each time after twice as
-/// long, up to ten seconds. Time in which nobody looked is nobody's silence: this process stood still, and what was
-/// sent to it meanwhile is on its way.
+/// long, up to ten seconds. Time in which nobody looked is nobody's silence: this process stood still or has not begun,
+/// and what was sent to it meanwhile is on its way.
 class RenewalPatience {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -18,8 +19,7 @@ class RenewalPatience {
     return std::max<std::chrono::nanoseconds>(std::chrono::milliseconds{500}, 25 * period);
   }
 
-  RenewalPatience(std::chrono::nanoseconds first, Time now)
-      : first_(first), patience_(first_), since_(now), heard_(now), looked_(now) {}
+  explicit RenewalPatience(std::chrono::nanoseconds first) : first_(first), patience_(first) {}
 
   void heard(Time now) {
     heard_ = since_ = now;
@@ -29,7 +29,9 @@ class RenewalPatience {
 
   /// True once it is time to make the reader anew; begins the next wait. To be asked several times a second.
   bool due(Time now) {
-    since_ += std::max<std::chrono::nanoseconds>(now - looked_ - kLongestLook, std::chrono::nanoseconds::zero());
+    if (!looked_) heard(now);
+    since_ += std::max<std::chrono::nanoseconds>(now - looked_.value_or(now) - kLongestLook,
+                                                 std::chrono::nanoseconds::zero());
     looked_ = now;
     if (now - since_ < patience_) return false;
     since_ = now;
@@ -48,8 +50,8 @@ class RenewalPatience {
   std::chrono::nanoseconds first_;
   std::chrono::nanoseconds patience_;
   Time since_;
-  Time heard_;
-  Time looked_;
+  Time heard_;  // or the first look
+  std::optional<Time> looked_;
   std::size_t attempts_ = 0;
 };
 

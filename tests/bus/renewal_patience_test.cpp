@@ -17,14 +17,13 @@ struct Due {
 };
 Due due_between(RenewalPatience& watch, RenewalPatience::Time from, RenewalPatience::Time to) {
   Due due;
-  for (auto now = from + milliseconds{100}; now < to; now += milliseconds{100})
-    due.before = watch.due(now) || due.before;
+  for (auto now = from; now < to; now += milliseconds{100}) due.before = watch.due(now) || due.before;
   due.then = watch.due(to);
   return due;
 }
 
 TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTenSeconds) {
-  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20})};
   auto now = kStart;
   for (const auto wait : {milliseconds{500}, milliseconds{1000}, milliseconds{2000}, milliseconds{4000},
                           milliseconds{8000}, milliseconds{10'000}, milliseconds{10'000}}) {
@@ -38,7 +37,7 @@ TEST(RenewalPatience, IsDueAfterHalfASecondAndThenEachTimeAfterTwiceAsLongUpToTe
 }
 
 TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
-  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20})};
   EXPECT_TRUE(due_between(watch, kStart, kStart + milliseconds{500}).then);
   watch.heard(kStart + milliseconds{600});
   EXPECT_EQ(watch.attempts(), 0u);
@@ -48,17 +47,26 @@ TEST(RenewalPatience, BeginsAnewOnceSomethingIsHeard) {
 }
 
 TEST(RenewalPatience, WaitsForManyPeriodsOfASlowTopic) {
-  RenewalPatience watch{RenewalPatience::of_period(milliseconds{200}), kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{200})};
   const Due due = due_between(watch, kStart, kStart + milliseconds{5000});
   EXPECT_FALSE(due.before);
   EXPECT_TRUE(due.then);
 }
 
 TEST(RenewalPatience, TimeInWhichThisProcessStoodStillIsNobodysSilence) {
-  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20}), kStart};
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20})};
+  EXPECT_FALSE(watch.due(kStart));
   EXPECT_FALSE(watch.due(kStart + milliseconds{100}));
   EXPECT_FALSE(watch.due(kStart + seconds{3})) << "nobody looked for 2.9 s";
   EXPECT_TRUE(watch.due(kStart + milliseconds{3100})) << "and still nothing comes";
+}
+
+TEST(RenewalPatience, ANodeThatHasNotBegunToLookHasHeardNothingYet) {
+  RenewalPatience watch{RenewalPatience::of_period(milliseconds{20})};
+  EXPECT_FALSE(watch.due(kStart)) << "whenever that is";
+  EXPECT_FALSE(watch.due(kStart + milliseconds{300}));
+  EXPECT_FALSE(watch.due(kStart + milliseconds{499}));
+  EXPECT_TRUE(watch.due(kStart + milliseconds{500}));
 }
 
 }  // namespace

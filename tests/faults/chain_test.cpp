@@ -1,9 +1,10 @@
-// The decision path in one process, in real time: it is killed, and comes back.
+// The decision path in one process, in real time: it is killed or stands still, and comes back.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <csignal>
 #include <stdexcept>
+#include <string>
 
 #include "tests/e2e/log_rows.hpp"
 #include "tests/faults/real_time_stack.hpp"
@@ -19,18 +20,39 @@ std::int64_t fired(const RealTimeStack& stack) {
   }
 }
 
-TEST(Chain, ADriverWhoseChainIsKilledSaysSoAndFiresAgainForTheNextOne) {
+class Chain : public testing::Test {
+ protected:
+  bool driver_misses_it() const {
+    return stack.wait_for(
+        [&] { return stack.errors_of("kicker_driver").find("the decision loop is silent") != std::string::npos; });
+  }
+
+  /// Two kicks more than there were, and all nodes go when they are asked to.
+  void expect_that_it_plays_on() {
+    const std::int64_t before = fired(stack);
+    EXPECT_TRUE(stack.wait_for([&] { return fired(stack) > before + 1; })) << stack.errors_of("chain");
+    EXPECT_EQ(stack.casualties(), "");
+    for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, 0) << node;
+  }
+
   RealTimeStack stack{4.0, {.one_process = true}};
+};
+
+TEST_F(Chain, ADriverWhoseChainIsKilledSaysSoAndFiresAgainForTheNextOne) {
   ASSERT_TRUE(stack.wait_for([&] { return fired(stack) > 1; }));
   stack.signal("chain", SIGKILL);
-  EXPECT_TRUE(stack.wait_for([&] {
-    return stack.errors_of("kicker_driver").find("the decision loop is silent") != std::string::npos;
-  })) << stack.errors_of("kicker_driver");
-  const std::int64_t before = fired(stack);
+  EXPECT_TRUE(driver_misses_it()) << stack.errors_of("kicker_driver");
   stack.restart("chain");
-  EXPECT_TRUE(stack.wait_for([&] { return fired(stack) > before + 1; })) << stack.errors_of("chain");
-  EXPECT_EQ(stack.casualties(), "");
-  for (const auto& [node, code] : stack.stop()) EXPECT_EQ(code, 0) << node;
+  expect_that_it_plays_on();
+}
+
+TEST_F(Chain, ADriverWhoseChainStandsStillSaysSoAndFiresAgainWhenItGoesOn) {
+  ASSERT_TRUE(stack.wait_for([&] { return fired(stack) > 1; }));
+  stack.signal("chain", SIGSTOP);
+  EXPECT_TRUE(driver_misses_it()) << stack.errors_of("kicker_driver");
+  stack.signal("chain", SIGCONT);
+  expect_that_it_plays_on();
+  EXPECT_THAT(stack.errors_of("chain"), testing::HasSubstr("this process stood still for"));
 }
 
 }  // namespace

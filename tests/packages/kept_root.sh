@@ -34,10 +34,11 @@ install() {
   inside apt-get -q -y --no-install-recommends install "$@" >"$root/install.log" 2>&1 || { tail -n 20 "$root/install.log" >&2; stop "cannot install $*"; }
 }
 
-# configure: this root is robot 1 of the team $team, whose network is not there.
+# configure [SETTINGS]: this root is robot 1 of the team $team, whose network is not there; SETTINGS is a text of TOML.
 team=root-$$
 configure() {
-  sed "s/^name = .*/name = \"$team\"/; s/^interface = .*/interface = \"none0\"/" "$root/etc/trivela/teams/example.toml" >"$root/etc/trivela/teams/here.toml"
+  printf '%s\n' "${1-}" >"$root/etc/trivela/teams/here.settings.toml"
+  sed "s/^name = .*/name = \"$team\"/; s/^interface = .*/interface = \"none0\"/; s/^settings = .*/settings = \"here.settings.toml\"/" "$root/etc/trivela/teams/example.toml" >"$root/etc/trivela/teams/here.toml"
   inside trivela team configure /etc/trivela/teams/here.toml --robot 1 --out /etc/trivela/team >"$root/configure.log" || stop "cannot configure"
 }
 

@@ -70,14 +70,22 @@ is_up() { there systemctl is-active --quiet basic.target 2>/dev/null; }
 for _ in {1..150}; do is_up && break; kill -0 "$booted" 2>/dev/null || break; sleep 0.1; done
 is_up || { tail -n 3 "$root/boot.log"; skip "systemd does not come up in namespaces here"; }
 
-say "systemctl start trivela.target"
-there systemctl start trivela.target
-nodes=$(sed -n 's/^TRIVELA_NODES="\(.*\)"/\1/p' "$root/etc/trivela/team/robot.env")
 all_run() { local node; for node in $nodes; do there systemctl is-active --quiet "trivela@$node" || return 1; done; }
-until_ok "not every node of $nodes runs" all_run
+none_runs() { local node; for node in $nodes; do [[ $(pid "$node") == 0 ]] || return 1; done; }
 pid() { there systemctl show "trivela@$1" -p MainPID --value; }
-[[ $(there stat -c %U "/proc/$(pid kick_decision)") == trivela ]] || stop "a node is not the user trivela's"
-say "all run: $nodes"
+start_nodes() {
+  say "systemctl start trivela.target"
+  there systemctl start trivela.target
+  nodes=$(sed -n 's/^TRIVELA_NODES="\(.*\)"/\1/p' "$root/etc/trivela/team/robot.env")
+  until_ok "not every node of $nodes runs" all_run
+  say "all run: $nodes"
+}
+stop_nodes() {
+  there systemctl stop trivela.target
+  until_ok "a node goes on after the target was stopped" none_runs
+  local log
+  for log in "$root"/var/lib/trivela/"$team"-1-*.db; do [[ ! -e $log-wal ]] || stop "the log was not closed"; done
+}
 
 # comes_back NODE SIGNAL: another process of it runs.
 comes_back() {
@@ -88,11 +96,17 @@ comes_back() {
   until_ok "$node stayed away after $2" anew
   say "$node is back after $2: $(awk "BEGIN {printf \"%.1f\", $EPOCHREALTIME - $began}") s"
 }
+start_nodes
+[[ $(there stat -c %U "/proc/$(pid kick_decision)") == trivela ]] || stop "a node is not the user trivela's"
 comes_back world_state KILL
 comes_back kick_decision STOP
+stop_nodes
 
-there systemctl stop trivela.target
-none_runs() { local node; for node in $nodes; do [[ $(pid "$node") == 0 ]] || return 1; done; }
-until_ok "a node goes on after the target was stopped" none_runs
-for log in "$root"/var/lib/trivela/"$team"-1-*.db; do [[ ! -e $log-wal ]] || stop "the log was not closed"; done
+configure $'[run]\none_process = true'
+there systemctl daemon-reload
+start_nodes
+[[ " $nodes " == *" chain "* && " $nodes " != *" odometry "* ]] || stop "$nodes: not the decision path in one process"
+comes_back chain KILL
+comes_back chain STOP
+stop_nodes
 say "all well: started, watched and stopped by systemd"
