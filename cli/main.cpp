@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -76,6 +77,21 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** ar
   return std::nullopt;
 }
 
+/// The option that was probably meant by the first word that looks like one and that the verb does not have.
+std::optional<std::string> meant_option(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* verb = &app;
+  while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view typed = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+    if (typed.starts_with("--") && std::ranges::find(names, typed) == names.end())
+      return trivela::kicking::nearest_word(typed, names);
+  }
+  return std::nullopt;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Trivela: kick decisions, match logs and their evaluation for robot soccer"};
   app.name("trivela");
@@ -93,6 +109,10 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::ExtrasError& error) {
+    app.exit(error);
+    if (const auto meant = meant_option(app, argc, argv)) cli::warn(fmt::format("did you mean {}?", *meant));
+    return cli::kBadUsage;
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return cli::kBadUsage;

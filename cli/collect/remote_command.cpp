@@ -90,7 +90,7 @@ Ran run_on(const std::string& host, const std::string& command, const std::strin
 Ran fetch_files(const std::string& host, const std::vector<std::string>& paths, const std::filesystem::path& folder,
                 const std::string& ssh) {
   std::vector<std::string> words{"rsync", "--times", "--partial", "--protect-args", "--rsh=" + ssh + kQuietSsh};
-  for (const std::string& path : paths) words.push_back(host + ":" + path);
+  for (const std::string& path : paths) words.push_back(fmt::format("{}:{}", host, path));
   words.push_back(folder.string() + "/");
   return run_program(words);
 }

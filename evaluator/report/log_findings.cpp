@@ -91,8 +91,9 @@ void look_at_goal(const log::Reader& reader, Findings& findings) {
   add_finding(
       findings, "goal line", quality.goal_warnings(),
       "measure from the centre spot to the goal line, set goal.y_m; label the kicks by hand until then (trivela label)",
-      quality.turns_at_goal > 0 ? fmt::format("{} balls came back from it", quality.turns_at_goal)
-                                : std::string("no ball came back from anywhere else"));
+      quality.turns_at_goal > 0
+          ? fmt::format("{} ball{} came back from it", quality.turns_at_goal, quality.turns_at_goal == 1 ? "" : "s")
+          : std::string("no ball came back from anywhere else"));
 }
 
 /// Without who says more: that is this.

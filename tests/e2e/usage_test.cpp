@@ -173,6 +173,19 @@ TEST(Usage, AVerbThatIsNoneIsNamed) {
   EXPECT_THAT(none.errors(), HasSubstr("A subcommand is required"));
 }
 
+TEST(Usage, AnOptionThatIsNoneNamesTheNearestOfItsVerb) {
+  const Folder folder;
+  for (const auto& [arguments, says] : std::vector<BadNumber>{{{"match", "--minuts", "1"}, "--minuts"},
+                                                              {{"match", "--minuts=1"}, "--minuts=1"},
+                                                              {{"calibrate", "table", "--minuts"}, "--minuts"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 2);
+    EXPECT_THAT(trivela.errors(), HasSubstr(says));
+    EXPECT_EQ(trivela.errors().find("trivela: did you mean --minutes?") != std::string::npos, arguments[0] == "match")
+        << trivela.errors();
+  }
+}
+
 TEST(Usage, TheHelpGroupsEveryVerbByWhatAPersonWantsWithALineEach) {
   const Folder folder;
   Program help{"trivela", {"--help"}, folder.path()};
