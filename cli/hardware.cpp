@@ -171,8 +171,9 @@ void add_hardware(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<HardwareFlags>();
   verb->footer(
       "Opens what the nodes of this configuration would open. A device that somebody else has is left to them.\n"
-      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer or was not\n"
-      "opened, a wheel did something else, a kick was refused, not confirmed or interrupted; 2 bad usage.");
+      "Exit codes: 0 all that is configured answers, or the test went well; 1 a device does not answer, did not for a\n"
+      "while or was not opened, a wheel did something else, a kick was refused, not confirmed or interrupted;\n"
+      "2 bad usage.");
   verb->add_option("--config", flags->config, "configuration of the nodes")->capture_default_str();
   verb->add_option("--set", flags->overrides, "one setting on top, e.g. --set 'hal.kicker=\"ioboard\"'");
   verb->add_option("--seconds", flags->seconds,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <set>
 #include <string>
 
 #include "cli/output.hpp"
@@ -22,10 +23,16 @@ constexpr std::chrono::milliseconds kGlance{10};   // between two looks at the d
 constexpr std::chrono::milliseconds kRedraw{200};  // on a terminal
 constexpr std::chrono::seconds kBetweenLines{1};   // in a pipe
 
-/// Looks at every device until `end`. False: somebody asked to stop.
-bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals) {
+bool silent(Fixture& fixture) { return fixture.wanted() && !fixture.found(); }
+
+/// Looks at every device until `end`; `lapsed`: which ones were silent at a look. False: somebody asked to stop.
+bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals,
+                std::set<Fixture*>* lapsed = nullptr) {
   do {
-    for (const auto& fixture : fixtures) fixture->look();
+    for (const auto& fixture : fixtures) {
+      fixture->look();
+      if (lapsed != nullptr && silent(*fixture)) lapsed->insert(fixture.get());
+    }
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};
     ::poll(&inbox, 1, static_cast<int>(kGlance.count()));
     if (signals.stop_requested()) return false;
@@ -34,7 +41,7 @@ bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& sig
 }
 
 bool all_found(const Fixtures& fixtures) {
-  return std::ranges::all_of(fixtures, [](const auto& fixture) { return !fixture->wanted() || fixture->found(); });
+  return std::ranges::none_of(fixtures, [](const auto& fixture) { return silent(*fixture); });
 }
 
 std::string line_of(const Fixture& fixture, const std::string& values) {
@@ -101,14 +108,18 @@ int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signal
   const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
   const double lasts_s = std::max(seconds.value_or(1.0), terminal ? 0.0 : 1.0);
   Board board;
+  std::set<Fixture*> lapsed;
   const auto began = WatchClock::now();
   for (int i = 1; goes_on; ++i) {
     if (!(terminal && !seconds) && std::chrono::duration<double>(step).count() * i > lasts_s) break;
-    goes_on = look_until(fixtures, began + i * step, signals);
+    goes_on = look_until(fixtures, began + i * step, signals, &lapsed);
     if (!goes_on) break;
     terminal ? board.draw(fixtures) : say_line(fixtures);
   }
-  return all_answer(fixtures) ? kDone : kFailed;
+  for (Fixture* const fixture : lapsed) {
+    if (!silent(*fixture)) warn(fmt::format("{} did not answer all the time: is its cable loose?", fixture->name()));
+  }
+  return lapsed.empty() && all_answer(fixtures) ? kDone : kFailed;
 }
 
 }  // namespace trivela::cli

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <fstream>
@@ -181,6 +182,25 @@ TEST_F(Hardware, EverythingThatTheConfigurationOpensHasItsRowAndItsValue) {
       EXPECT_EQ(drive.boots() + drive.resets(), 0u) << "a fault would be gone";
     }
   });
+}
+
+TEST_F(Hardware, ACableThatWasLooseForAWhileIsNamedAndFails) {
+  const hal::cia402::Emulator drives{std::uint8_t{3}};
+  const auto trivela =
+      start(on_the_board({"--seconds", "6", "--set", "hal.wheels=\"cia402\"", "--set", "hal.cia402.gear=12", "--set",
+                          "hal.cia402.heartbeat_s=1", "--set", "hal.cia402.port=\"" + drives.address() + "\""}));
+  const auto lines = [&] { return std::ranges::count(trivela->output(), '\n'); };
+  const auto more_lines = [&](std::ptrdiff_t than) {
+    return wait_for_change(folder_.path(), trivela->watch(), [&] { return lines() > than; });
+  };
+  ASSERT_TRUE(wait_for_change(folder_.path(), trivela->watch(), [&] {
+    return trivela->output().find("kicker: charge") != std::string::npos;
+  })) << trivela->errors();
+  board_.pull();
+  ASSERT_TRUE(more_lines(lines() + 1));
+  board_.plug();
+  EXPECT_EQ(trivela->wait(), 1) << trivela->output();
+  EXPECT_EQ(trivela->errors(), "trivela: kicker did not answer all the time: is its cable loose?\n");
 }
 
 TEST_F(Hardware, AnEmulatedBoardOfAProcessOfItsOwnSaysAPulseOnce) {
