@@ -17,7 +17,7 @@ fs::path without_slash(const fs::path& path) {
 
 }  // namespace
 
-Draft::Draft(fs::path place) : place_(without_slash(place)), draft_(place_) {
+Draft::Draft(const fs::path& place) : place_(without_slash(place)), draft_(place_) {
   draft_ += fmt::format(".{}.new", getpid());
 }
 

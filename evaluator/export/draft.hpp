@@ -8,7 +8,7 @@ namespace trivela::evaluator {
 /// stopped leaves nothing by that name, and who is killed leaves the draft.
 class Draft {
  public:
-  explicit Draft(std::filesystem::path place);
+  explicit Draft(const std::filesystem::path& place);
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
   ~Draft();

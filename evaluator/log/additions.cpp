@@ -18,9 +18,9 @@ constexpr int kWait_ms = 5000;
 constexpr std::size_t kLongestName_B = 200;
 constexpr std::size_t kLongestText_B = 10'000;
 
-void check_text(const char* what, std::string_view text, std::size_t longest_B) {
-  if (text.size() > longest_B)
-    throw BadAddition(fmt::format("{} has {} bytes, the most are {}", what, text.size(), longest_B));
+void check_text(const char* what, std::string_view text, std::size_t longest_bytes) {
+  if (text.size() > longest_bytes)
+    throw BadAddition(fmt::format("{} has {} bytes, the most are {}", what, text.size(), longest_bytes));
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t length = kicking::utf8_length(rest);
     if (length == 0 || rest.front() == '\0') throw BadAddition(fmt::format("{} is no text in UTF-8", what));

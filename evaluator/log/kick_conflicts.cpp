@@ -33,8 +33,8 @@ void KickSayings::add(const MergeSource& file) {
         "k.session_id",
         [&](int robot_id, std::int64_t kick_id, std::int64_t t_ns, std::optional<std::int64_t> seed,
             std::int64_t of_experiment, const std::string& policy, std::optional<bool> accepted,
-            std::optional<std::string> refusal, std::optional<std::string> outcome,
-            std::optional<std::string> by_hand) {
+            const std::optional<std::string>& refusal, const std::optional<std::string>& outcome,
+            const std::optional<std::string>& by_hand) {
           const Kick kick{robot_id, kick_id, t_ns, seed, of_experiment};
           say(kick, "policy", source, policy);
           if (accepted) say(kick, "driver", source, *accepted ? "kicked" : "refused: " + refusal.value_or("unknown"));

@@ -87,8 +87,9 @@ ClockedSession clock_of(SQLite::Database& database, std::int64_t session_id) {
 Alignment write_clocks(SQLite::Database& database, const std::vector<MergedSession>& sessions,
                        std::optional<int> reference_robot) {
   std::vector<ClockedSession> clocks;
+  clocks.reserve(sessions.size());
   for (const MergedSession& session : sessions) clocks.push_back(session.clock);
-  const Alignment alignment = align_clocks(clocks, offsets_of(database), reference_robot);
+  Alignment alignment = align_clocks(clocks, offsets_of(database), reference_robot);
   SQLite::Statement insert(database,
                            "INSERT INTO session_clocks (session_id, from_t_ns, utc_offset_ns, rate, error_ns, "
                            "reference_uuid) VALUES (?, ?, ?, ?, ?, ?)");

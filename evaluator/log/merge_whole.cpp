@@ -22,6 +22,7 @@ std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path&
   for (const DigestedTable& table : digested_tables()) {
     std::vector<std::string> names;
     const auto columns = columns_of(database, table.name).value();
+    names.reserve(columns.size());
     for (const Column& column : columns) names.push_back(column.name);
     rows += database.exec(fmt::format("INSERT OR IGNORE INTO main.{0} ({1}) SELECT {1} FROM whole.{0} ORDER BY {2}",
                                       table.name, fmt::join(names, ", "), table.key));

@@ -10,7 +10,7 @@ namespace {
 /// Where S1 begins. By law paper_line that is the robot's centre; by law physical the ball's place at the release,
 /// which the row has not, but of which distance, direction of S1 and offset leave one place alone.
 Eigen::Vector2d start_of_s1(const DecidedAlignment& a) {
-  const Eigen::Vector2d centre(a.robot.x_m, a.robot.y_m);
+  Eigen::Vector2d centre(a.robot.x_m, a.robot.y_m);
   if (!a.offset_right_m || !(a.distance_m > 0.0)) return centre;
   const auto from_centre = kicking::align(a.robot, a.alpha_rad, 0.0, 0.0, a.target_m).offset_right_m;
   if (from_centre && std::abs(*from_centre - *a.offset_right_m) < 1e-6) return centre;

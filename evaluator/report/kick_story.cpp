@@ -41,10 +41,10 @@ std::vector<KickStory> listed_kicks(const log::Reader& reader) {
           double y_m, double heading_rad, double alpha_rad, double target_x_m, double target_y_m, bool aligned,
           std::optional<double> offset_right_m, double left_m, double right_m, std::optional<double> predicted_x_m,
           std::optional<double> predicted_z_m, std::optional<double> flight_s, std::optional<std::int64_t> fired_t_ns,
-          std::optional<std::int64_t> release_t_ns, std::optional<std::string> outcome,
+          std::optional<std::int64_t> release_t_ns, const std::optional<std::string>& outcome,
           std::optional<std::int64_t> settled_t_ns, std::optional<double> x_cross_m, std::optional<double> z_cross_m,
-          std::optional<double> sd_cross_m, std::optional<std::string> truth_outcome, std::optional<double> truth_x_m,
-          std::optional<double> truth_z_m, std::optional<bool> bounced) {
+          std::optional<double> sd_cross_m, const std::optional<std::string>& truth_outcome,
+          std::optional<double> truth_x_m, std::optional<double> truth_z_m, std::optional<bool> bounced) {
         KickStory& story = stories.emplace_back();
         story.session_id = session_id;
         story.robot_id = robot_id;

@@ -108,6 +108,7 @@ std::string differences_text(const std::vector<LogDifference>& differences, std:
           .second.push_back(logs[i]);
     }
     std::vector<std::string> sides;
+    sides.reserve(alike.size());
     for (const auto& [values, names] : alike) sides.push_back(fmt::format("{} in {}", values, fmt::join(names, ", ")));
     const std::string line = fmt::format("{} {}: {}", of.part, of.key, fmt::join(sides, "; "));
     text += "  " + wrapped(kicking::printable(line), "    ") + "\n";

@@ -19,7 +19,7 @@ struct PolicyOfRobot {
   int robot_id = 0;
   std::string policy;  ///< empty: not known
 
-  auto operator<=>(const PolicyOfRobot&) const = default;
+  auto operator<=>(const PolicyOfRobot&) const = default;  // NOLINT(modernize-use-nullptr): the 0 is the compiler's
 };
 
 /// What the robot believed when it first had to decide in a possession.

@@ -111,6 +111,7 @@ Measured of_rows(const Report& report, const Gate& gate) {
     return {"", std::nullopt, gate.robot_id ? fmt::format("no row of robot {}", *gate.robot_id) : "no row"};
   if (!gate.subject.empty()) {
     std::vector<std::string> names;
+    names.reserve(rows.size());
     for (const PolicyRow& row : rows) names.push_back(name_of(row));
     rows = rows_named(rows, gate.subject);
     if (rows.empty())

@@ -91,6 +91,7 @@ ReportPart by_robot_part(const Report& report) {
 
 ReportPart misses_part(const Report& report) {
   std::vector<std::string> names;
+  names.reserve(kMisses.size());
   for (const std::string& miss : kMisses) names.push_back(words(miss));
   std::vector<std::string> rarer;  // that there are
   for (const char* const label : {"outside", kNoGoals[0].label, kNoGoals[1].label}) {

@@ -39,13 +39,11 @@ std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
 std::string outcome_legend(const std::array<std::size_t, 5>& counts, double y) {
   constexpr double kSlot = 172.0;
   std::string svg;
-  std::size_t shown = 0;
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
-    const double x = 14.0 + kSlot * static_cast<double>(shown % 3);
-    const double row = y + 22.0 * static_cast<double>(shown / 3);
-    svg += outcome_mark(static_cast<OutcomeKind>(i), {x, row - 5.0}, 5.0);
-    svg += svg_text(x + 12.0, row, "start", fmt::format("{}: {}", kOutcomeNames[i].words, counts[i]));
-    ++shown;
+    const std::size_t row = i / 3, column = i % 3;
+    const double x = 14.0 + kSlot * static_cast<double>(column), baseline = y + 22.0 * static_cast<double>(row);
+    svg += outcome_mark(static_cast<OutcomeKind>(i), {x, baseline - 5.0}, 5.0);
+    svg += svg_text(x + 12.0, baseline, "start", fmt::format("{}: {}", kOutcomeNames[i].words, counts[i]));
   }
   return svg;
 }

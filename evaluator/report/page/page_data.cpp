@@ -262,6 +262,7 @@ PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& p
   // A file is hashed while its rows are read: in a long log each takes about as long as the other.
   auto hashes = std::async(std::launch::async, [&logs] {
     std::vector<std::string> sha256;
+    sha256.reserve(logs.size());
     for (const fs::path& path : logs) sha256.push_back(sha256_of_file(path));
     return sha256;
   });
