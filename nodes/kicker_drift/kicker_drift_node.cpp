@@ -68,6 +68,7 @@ void KickerDriftNode::listen() {
 void KickerDriftNode::judge() {
   const auto kicks = series_.kicks();
   std::vector<evaluator::KickResidual> residuals;
+  residuals.reserve(kicks.size());
   for (const evaluator::WatchedKick& kick : kicks) residuals.push_back(evaluator::residual_of(kick));
   const evaluator::DriftStory story = evaluator::drifts_of(residuals);
   const msg::KickerDrift message = drift_message(story, kicks);
