@@ -20,7 +20,8 @@ std::string listing(const Fixtures& fixtures);
 
 /// Lists the devices, once all have answered or 3 s are over, and shows their values: on a terminal drawn over five
 /// times a second until somebody asks to stop, else a line each second; both for `seconds`, where it is given, a
-/// pipe's for one. Returns the exit code: kFailed where not all_answer(), or one did not for a while, which it warns of.
+/// pipe's for one. Returns the exit code: kFailed where not all_answer(), or one did not for a while, which it warns
+/// of.
 int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signals);
 
 }  // namespace trivela::cli
