@@ -22,10 +22,10 @@ std::int64_t fired(const RealTimeStack& stack) {
 
 class Chain : public testing::Test {
  protected:
-  bool says(const char* program, const char* what) const {
-    return stack.wait_for([&] { return stack.errors_of(program).find(what) != std::string::npos; });
+  bool driver_misses_it() const {
+    return stack.wait_for(
+        [&] { return stack.errors_of("kicker_driver").find("the decision loop is silent") != std::string::npos; });
   }
-  bool driver_misses_it() const { return says("kicker_driver", "the decision loop is silent"); }
 
   /// Two kicks more than there were, and all nodes go when they are asked to.
   void expect_that_it_plays_on() {
@@ -51,7 +51,6 @@ TEST_F(Chain, ADriverWhoseChainStandsStillSaysSoAndFiresAgainWhenItGoesOn) {
   stack.signal("chain", SIGSTOP);
   EXPECT_TRUE(driver_misses_it()) << stack.errors_of("kicker_driver");
   stack.signal("chain", SIGCONT);
-  EXPECT_TRUE(says("chain", "this process stood still for")) << stack.errors_of("chain");
   expect_that_it_plays_on();
 }
 
