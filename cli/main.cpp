@@ -7,7 +7,6 @@
 #include <exception>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -78,17 +77,14 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** ar
 }
 
 /// The option that was probably meant by the first word that looks like one and that the verb does not have.
-std::optional<std::string> meant_option(const CLI::App& app, int argc, char** argv) {
+std::optional<std::string> meant_option(const CLI::App& app) {
   const CLI::App* verb = &app;
   while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
   std::vector<std::string> names;
-  for (const CLI::Option* option : verb->get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view typed = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-    if (typed.starts_with("--") && std::ranges::find(names, typed) == names.end())
-      return trivela::kicking::nearest_word(typed, names);
-  }
+  for (const cli::ManualFlag& flag : cli::verb_tree(*verb).flags)
+    names.insert(names.end(), flag.names.begin(), flag.names.end());
+  for (const std::string& word : app.remaining(true))
+    if (word.starts_with("--")) return trivela::kicking::nearest_word(word.substr(0, word.find('=')), names);
   return std::nullopt;
 }
 
@@ -111,7 +107,7 @@ int run(int argc, char** argv) {
     return app.exit(help);
   } catch (const CLI::ExtrasError& error) {
     app.exit(error);
-    if (const auto meant = meant_option(app, argc, argv)) cli::warn(fmt::format("did you mean {}?", *meant));
+    if (const auto meant = meant_option(app)) cli::warn(fmt::format("did you mean {}?", *meant));
     return cli::kBadUsage;
   } catch (const CLI::ParseError& error) {
     app.exit(error);

@@ -25,13 +25,24 @@ constexpr std::chrono::seconds kBetweenLines{1};   // in a pipe
 
 bool silent(Fixture& fixture) { return fixture.wanted() && !fixture.found(); }
 
-/// Looks at every device until `end`; `lapsed`: which ones were silent at a look. False: somebody asked to stop.
-bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals,
-                std::set<Fixture*>* lapsed = nullptr) {
+/// Who has answered, and who did not at a later look.
+struct Heard {
+  std::set<const Fixture*> once, lapsed;
+
+  void note(Fixture& fixture) {
+    if (!silent(fixture))
+      once.insert(&fixture);
+    else if (once.contains(&fixture))
+      lapsed.insert(&fixture);
+  }
+};
+
+/// Looks at every device until `end`. False: somebody asked to stop.
+bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals, Heard& heard) {
   do {
     for (const auto& fixture : fixtures) {
       fixture->look();
-      if (lapsed != nullptr && silent(*fixture)) lapsed->insert(fixture.get());
+      heard.note(*fixture);
     }
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};
     ::poll(&inbox, 1, static_cast<int>(kGlance.count()));
@@ -99,27 +110,28 @@ std::string listing(const Fixtures& fixtures) {
 int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signals) {
   const auto patience_ends = WatchClock::now() + kPatienceOfAListing;
   bool goes_on = true;
+  Heard heard;
   while (goes_on && !all_found(fixtures) && WatchClock::now() < patience_ends)
-    goes_on = look_until(fixtures, WatchClock::now(), signals);
-  if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals);
+    goes_on = look_until(fixtures, WatchClock::now(), signals, heard);
+  if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals, heard);
   say(listing(fixtures));
   std::fflush(stdout);
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
   const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
   const double lasts_s = std::max(seconds.value_or(1.0), terminal ? 0.0 : 1.0);
   Board board;
-  std::set<Fixture*> lapsed;
   const auto began = WatchClock::now();
   for (int i = 1; goes_on; ++i) {
     if (!(terminal && !seconds) && std::chrono::duration<double>(step).count() * i > lasts_s) break;
-    goes_on = look_until(fixtures, began + i * step, signals, &lapsed);
+    goes_on = look_until(fixtures, began + i * step, signals, heard);
     if (!goes_on) break;
     terminal ? board.draw(fixtures) : say_line(fixtures);
   }
-  for (Fixture* const fixture : lapsed) {
-    if (!silent(*fixture)) warn(fmt::format("{} did not answer all the time: is its cable loose?", fixture->name()));
+  for (const auto& fixture : fixtures) {
+    if (heard.lapsed.contains(fixture.get()) && !silent(*fixture))
+      warn(fmt::format("{} did not answer all the time: is its cable loose?", fixture->name()));
   }
-  return lapsed.empty() && all_answer(fixtures) ? kDone : kFailed;
+  return heard.lapsed.empty() && all_answer(fixtures) ? kDone : kFailed;
 }
 
 }  // namespace trivela::cli

@@ -19,8 +19,8 @@ namespace trivela::nodes {
 /// the OrderDesk accepts the order. An order may be fired up to a cycle after it was judged: the device has it and
 /// waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the kick
 /// is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game, and so
-/// does a WorldState in which it stands: it hears him by a way of its own. Leaving, by whichever way, makes the device
-/// safe.
+/// does a WorldState that does not play: it hears him by a way of its own, and is of a robot that knows where it is.
+/// Leaving, by whichever way, makes the device safe.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);
