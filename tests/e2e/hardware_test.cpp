@@ -196,9 +196,9 @@ TEST_F(Hardware, ACableThatWasLooseForAWhileIsNamedAndFails) {
   ASSERT_TRUE(wait_for_change(folder_.path(), trivela->watch(), [&] {
     return trivela->output().find("kicker: charge") != std::string::npos;
   })) << trivela->errors();
-  board_.pull();
+  board_.line().pull();
   ASSERT_TRUE(more_lines(lines() + 1));
-  board_.plug();
+  board_.line().plug();
   EXPECT_EQ(trivela->wait(), 1) << trivela->output();
   EXPECT_EQ(trivela->errors(), "trivela: kicker did not answer all the time: is its cable loose?\n");
 }
