@@ -179,7 +179,7 @@ TEST(Usage, AnOptionThatIsNoneNamesTheNearestOfItsVerb) {
                                                                {{"match", "--minuts=1"}, "--minutes"},
                                                                {{"report", "x.db", "--jsno"}, "--json"},
                                                                {{"report", "x.db", "--json", "--ouut", "y"}, "--out"},
-                                                               {{"calibrate", "table", "--minuts"}, ""}}) {
+                                                               {{"match", "--zzzzzz"}, ""}}) {
     Program trivela{"trivela", arguments, folder.path()};
     EXPECT_EQ(trivela.wait(), 2);
     EXPECT_THAT(trivela.errors(), HasSubstr("not expected"));
