@@ -37,8 +37,10 @@ install() {
 # configure [SETTINGS]: this root is robot 1 of the team $team, whose network is not there; SETTINGS is a text of TOML.
 team=root-$$
 configure() {
-  printf '%s\n' "${1-}" >"$root/etc/trivela/teams/here.settings.toml"
-  sed "s/^name = .*/name = \"$team\"/; s/^interface = .*/interface = \"none0\"/; s/^settings = .*/settings = \"here.settings.toml\"/" "$root/etc/trivela/teams/example.toml" >"$root/etc/trivela/teams/here.toml"
+  local settings=
+  if [[ $# != 0 ]]; then settings=here.settings.toml; printf '%s\n' "$1" >"$root/etc/trivela/teams/$settings"; fi
+  sed "s/^name = .*/name = \"$team\"/; s/^interface = .*/interface = \"none0\"/; s/^settings = .*/settings = \"$settings\"/" \
+    "$root/etc/trivela/teams/example.toml" >"$root/etc/trivela/teams/here.toml"
   inside trivela team configure /etc/trivela/teams/here.toml --robot 1 --out /etc/trivela/team >"$root/configure.log" || stop "cannot configure"
 }
 
