@@ -70,11 +70,14 @@ void LaunchedTeam::write_programs() const {
   for (const auto& entry : fs::directory_iterator{TRIVELA_BINARY_DIR})
     if (entry.path().filename().string().starts_with("trivela") && entry.is_regular_file())
       fs::create_symlink(entry.path(), folder_ / "bin" / entry.path().filename());
-  write_script(folder_ / "on",
-               "# on ADDRESS COMMAND...: where the machine's own etc and logs are mounted.\n"
-               "here=$(dirname \"$0\"); address=$1; shift\n"
-               "exec unshare --mount sh -c 'mount --bind \"$0/etc\" \"$1/etc\" && mount --bind \"$0/logs\" \"$1/logs\" "
-               "&& shift && exec \"$@\"' \"$here/$address\" \"$here\" \"$@\"\n");
+  write_script(
+      folder_ / "on",
+      "# on ADDRESS COMMAND...: where the machine's own etc and logs are mounted. What is mounted is private; in a\n"
+      "# chroot the root is no mount of its own, and stays what it is.\n"
+      "here=$(dirname \"$0\"); address=$1; shift\n"
+      "exec unshare --mount --propagation unchanged sh -c 'mount --make-rprivate / 2>/dev/null; mount --bind "
+      "\"$0/etc\" \"$1/etc\" && mount --bind \"$0/logs\" \"$1/logs\" "
+      "&& shift && exec \"$@\"' \"$here/$address\" \"$here\" \"$@\"\n");
   write_script(folder_ / "ssh",
                "while [ \"$1\" = -o ] || [ \"$1\" = -l ]; do shift 2; done\n"
                "address=$1; shift\nexec \"$(dirname \"$0\")/on\" \"$address\" sh -c \"$*\"\n");
