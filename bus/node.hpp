@@ -45,10 +45,8 @@ class Output {
     return writer_->wait_for_readers(n, timeout);
   }
 
-  /// Whether another node of the same name and robot writes T, looking for up to the timeout.
-  [[nodiscard]] bool other_writer_exists(std::chrono::nanoseconds timeout) const {
-    return writer_->other_writer_exists(timeout);
-  }
+  /// Whether another node of the same name and robot writes T.
+  [[nodiscard]] bool other_writer_exists() const { return writer_->other_writer_exists(); }
 
  private:
   std::shared_ptr<Writer<T>> writer_;

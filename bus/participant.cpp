@@ -58,6 +58,7 @@ struct Participant::State {
   std::shared_ptr<const Domain> domain;  // outlives the participant
   std::unique_ptr<Hearing> hearing;
   Entity entity;
+  std::chrono::steady_clock::time_point joined = std::chrono::steady_clock::now();
 };
 
 Participant::Participant(const DomainConfig& config) : Participant(config, nullptr) {}
@@ -78,6 +79,8 @@ bool Participant::believes(std::int64_t t_ns) const {
   const auto latest = std::chrono::steady_clock::now().time_since_epoch() + kFarthestAhead;
   return !state_->hearing || (t_ns >= 0 && std::chrono::nanoseconds{t_ns} <= latest);
 }
+
+std::chrono::steady_clock::time_point Participant::joined() const { return state_->joined; }
 
 Hearing* Participant::hearing() const { return state_->hearing.get(); }
 

@@ -35,6 +35,9 @@ class Participant {
   /// False where an instant cannot be true: in real time, below 0 or over a second ahead of the steady clock.
   bool believes(std::int64_t t_ns) const;
 
+  /// When it joined.
+  std::chrono::steady_clock::time_point joined() const;
+
   /// What the readers of this member miss; nullptr where this is no run in real time. For bus/ alone.
   Hearing* hearing() const;
 

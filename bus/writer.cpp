@@ -68,10 +68,10 @@ bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout
   return true;
 }
 
-bool AnyWriter::other_writer_exists(std::chrono::nanoseconds timeout) const {
+bool AnyWriter::other_writer_exists(std::chrono::nanoseconds since_joining) const {
   // Of a process that has just ended, what it said before can still come, and its farewell after it.
   constexpr std::chrono::milliseconds kFarewell{200};
-  const auto deadline = Clock::now() + timeout;
+  const auto deadline = participant_.joined() + since_joining;
   dds_instance_handle_t self = 0;
   checked(dds_get_instance_handle(writer_.handle(), &self), "dds_get_instance_handle", topic_);
   const Entity publications(

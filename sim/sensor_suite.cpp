@@ -32,6 +32,7 @@ SensorSuite::SensorSuite(const Scenario& scenario)
       flight_period_ns_(kicking::nanoseconds(scenario.flight_camera.period_s)),
       cycle_ns_(kicking::nanoseconds(scenario.cycle_s)),
       slow_keep_(std::exp(-scenario.cycle_s / scenario.vision.slow_time_s)),
+      slow_fresh_(std::sqrt(1.0 - slow_keep_ * slow_keep_)),
       past_(snapshots(scenario)) {
   const Robot& robot = scenario.robot;
   for (const double angle : robot.wheel_angles_rad) {
@@ -66,12 +67,11 @@ void SensorSuite::next_cycle() { ++cycle_; }
 const kicking::Pose& SensorSuite::slow_error() const {
   // First-order Gauss-Markov: e <- a e + sqrt(1 - a^2) sd n, a = exp(-T / tau).
   const Vision& v = scenario_.vision;
-  const double fresh = std::sqrt(1.0 - slow_keep_ * slow_keep_);
   while (slow_cycle_ < cycle_) {
     const auto [x, y, heading, spare] = draws_.normals(kicking::Role::kPoseSlow, ++slow_cycle_);
-    slow_error_ = {slow_keep_ * slow_error_.x_m + fresh * v.position_slow_sd_m * x,
-                   slow_keep_ * slow_error_.y_m + fresh * v.position_slow_sd_m * y,
-                   slow_keep_ * slow_error_.heading_rad + fresh * v.heading_slow_sd_rad * heading};
+    slow_error_ = {slow_keep_ * slow_error_.x_m + slow_fresh_ * v.position_slow_sd_m * x,
+                   slow_keep_ * slow_error_.y_m + slow_fresh_ * v.position_slow_sd_m * y,
+                   slow_keep_ * slow_error_.heading_rad + slow_fresh_ * v.heading_slow_sd_rad * heading};
   }
   return slow_error_;
 }

@@ -9,9 +9,6 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kDiscovery{300};  // as a node looks for a second of its kind
-constexpr std::chrono::milliseconds kKnown{1};        // others have become known by now
-
 void refuse_beside(const char* node, std::uint8_t robot_id) {
   throw std::runtime_error{fmt::format(
       "{} of robot {} runs and has the device, or another trivela hardware: stop it first", node, robot_id)};
@@ -27,9 +24,9 @@ Claims::Claims(const bus::Participant& participant, std::uint8_t robot_id)
       odometry_(odometry_node_.writer<msg::Odometry>()),
       receipts_(driver_node_.writer<msg::KickReceipt>()),
       referee_(referee_node_.writer<msg::Referee>(nodes::referee_of(robot_id))),
-      odometry_runs_(odometry_.other_writer_exists(kDiscovery)),
-      kicker_driver_runs_(receipts_.other_writer_exists(kKnown)),
-      referee_is_written_(referee_.other_writer_exists(kKnown)) {}
+      odometry_runs_(odometry_.other_writer_exists()),
+      kicker_driver_runs_(receipts_.other_writer_exists()),
+      referee_is_written_(referee_.other_writer_exists()) {}
 
 void Claims::require_wheels() const {
   if (odometry_runs_) refuse_beside("odometry", robot_id_);

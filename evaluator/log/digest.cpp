@@ -70,7 +70,7 @@ std::string make_uuid() {
   bytes[6] = static_cast<unsigned char>((bytes[6] & 0x0F) | 0x40);  // version 4
   bytes[8] = static_cast<unsigned char>((bytes[8] & 0x3F) | 0x80);  // variant of RFC 4122
   std::string text = hexadecimal(bytes);
-  for (const std::size_t position : {8, 13, 18, 23}) text.insert(position, "-");
+  for (const std::size_t position : {8, 13, 18, 23}) text.insert(position, 1, '-');
   return text;
 }
 

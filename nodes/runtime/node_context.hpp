@@ -59,7 +59,7 @@ struct NodeContext {
 template <class T>
 void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const std::string& node,
                  std::optional<std::uint32_t> robot_id = {}) {
-  if (!output.other_writer_exists(std::chrono::milliseconds(300))) return;
+  if (!output.other_writer_exists()) return;
   throw std::runtime_error{"another " + node + " of robot " +
                            std::to_string(robot_id.value_or(context.settings.run.robot_id)) + " writes " +
                            std::string(bus::meta<T>::topic) + " in domain " +

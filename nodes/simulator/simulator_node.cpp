@@ -81,11 +81,11 @@ SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
 
 void SimulatorNode::refuse_twins() {
   const std::uint32_t domain_id = context_.settings.domain.domain_id;
-  if (wheels_.other_writer_exists(std::chrono::milliseconds(300))) {
+  if (wheels_.other_writer_exists()) {
     throw std::runtime_error{fmt::format("another simulator of robot {} runs in domain {}: stop it first",
                                          context_.settings.run.robot_id, domain_id)};
   }
-  if (referee_ && referee_->other_writer_exists(std::chrono::milliseconds(1))) {  // others have become known by now
+  if (referee_ && referee_->other_writer_exists()) {
     throw std::runtime_error{fmt::format("a referee of robot {} writes referee in domain {} already: stop it first",
                                          context_.settings.run.robot_id, domain_id)};
   }

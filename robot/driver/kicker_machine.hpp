@@ -43,7 +43,41 @@ struct KickerStand {
 
 /// The kicker's state machine: where `event` leads from `stand`. It charges in charging, ready, firing and cooling, and
 /// in no other state; what empties the capacitor is undone by kArmed alone. docs/kicker.md has the table.
-KickerStand next(KickerStand stand, KickerEvent event);
+constexpr KickerStand next(KickerStand stand, KickerEvent event) {
+  using enum hal::ChargeWord;
+  constexpr KickerStand kCharging{msg::STATE_CHARGING, kUp};
+  const bool fault = stand.state == msg::STATE_FAULT;
+  switch (event) {  // what counts in every state
+    case KickerEvent::kFault:
+      return fault ? stand : KickerStand{msg::STATE_FAULT, kHold};
+    case KickerEvent::kOverVoltage:
+      return {msg::STATE_FAULT, kEmpty};
+    case KickerEvent::kDecisionLost:
+    case KickerEvent::kEnd:
+      return {fault ? msg::STATE_FAULT : msg::STATE_OFF, kEmpty};
+    case KickerEvent::kDisarmed:
+      return fault || stand.state == msg::STATE_OFF ? stand : KickerStand{msg::STATE_OFF, kHold};
+    default:
+      break;
+  }
+  switch (stand.state) {
+    case msg::STATE_OFF:
+      return event == KickerEvent::kArmed ? kCharging : stand;
+    case msg::STATE_CHARGING:
+      return event == KickerEvent::kCharged ? KickerStand{msg::STATE_READY, kUp} : stand;
+    case msg::STATE_READY:
+      if (event == KickerEvent::kAccepted) return {msg::STATE_FIRING, kUp};
+      return event == KickerEvent::kUncharged ? kCharging : stand;
+    case msg::STATE_FIRING:
+      if (event == KickerEvent::kCalledOff) return kCharging;
+      return event == KickerEvent::kShotOver ? KickerStand{msg::STATE_COOLING, kUp} : stand;
+    case msg::STATE_COOLING:
+      return event == KickerEvent::kRested ? kCharging : stand;
+    case msg::STATE_FAULT:
+      return event == KickerEvent::kSound ? KickerStand{msg::STATE_OFF, stand.word} : stand;
+  }
+  return stand;
+}
 
 /// Whether the capacitor's voltage rises while it is charged. One that does not has a charger, a coil or a wire that is
 /// broken, and goes on being heated. A device that measures no voltage is never doubted.

@@ -59,11 +59,11 @@ void OrderDesk::advance(std::int64_t now_t_ns) {
   if (decision_ == DecisionNode::kLost) happened(KickerEvent::kDecisionLost);
   const bool armed = gate_.armed() && decision_ == DecisionNode::kThere;
   happened(armed ? KickerEvent::kArmed : KickerEvent::kDisarmed);
-  if (!gate_.under_way(now_t_ns)) happened(KickerEvent::kShotOver);
-  if (gate_.rested(now_t_ns)) happened(KickerEvent::kRested);
+  const bool over = !gate_.under_way(now_t_ns), rested = gate_.rested(now_t_ns);
+  if (over) happened(KickerEvent::kShotOver);
+  if (rested) happened(KickerEvent::kRested);
   // A stop or a fault soon after a shot leads past cooling: what is armed again has to rest all the same.
-  const bool at_rest = gate_.rested(now_t_ns) && !gate_.under_way(now_t_ns);
-  happened(gate_.charged() && at_rest ? KickerEvent::kCharged : KickerEvent::kUncharged);
+  happened(gate_.charged() && over && rested ? KickerEvent::kCharged : KickerEvent::kUncharged);
 }
 
 void OrderDesk::decision_node(DecisionNode known, std::int64_t now_t_ns) {

@@ -1,1 +1,0 @@
-// Nothing: the library of the headers that tests share needs a source.
