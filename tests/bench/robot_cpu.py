@@ -3,12 +3,14 @@
 
 Plays the simulator in real time at that cycle with the programs of BUILD, first without the recorder, then with it, and both with
 the decision path in one process (run.one_process), and reads what each process has used from /proc: its threads, those of the DDS library among them. The simulator, which stands in for
-the hardware, is shown apart. A robot has nobody beside it: how busy this machine was stands in the last line.
+the hardware, is shown apart. Beside the recorder also how long after the wheels' instant the driver had the orders. A robot has nobody beside it: how busy this machine was stands in the last line.
 """
 import argparse
 import os
 import pathlib
 import re
+import sqlite3
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -85,6 +87,12 @@ def play(build, folder, nodes, seconds, flags):
             process.wait()
 
 
+def ages_us(log):
+    """From the instant of the wheels' sample until the driver took the order, each, in microseconds."""
+    with sqlite3.connect(log) as rows:
+        return [us for (us,) in rows.execute("SELECT (received_steady_ns - order_t_ns) * 1e-3 FROM kick_receipts WHERE received_steady_ns > 0")]
+
+
 def row(name, percent, nodes):
     each = "  ".join(f"{node} {percent[node]:.2f}" for node in nodes)
     print(f"{name:<18} {sum(percent[node] for node in nodes):5.2f} % of a core  ({each}; beside it simulator {percent['simulator']:.2f})")
@@ -108,6 +116,9 @@ def main():
             folder = pathlib.Path(temporary)
             write_files(folder, args.hz, os.getpid() % 100 + 1)
             row(name, play(args.build.resolve(), folder, nodes, args.seconds, flags), nodes)
+            if "recorder" in nodes:
+                ages = ages_us(folder / "match.db")
+                print(f"{'':<18} wheels to driver: median {statistics.median(ages):.0f}, most {max(ages):.0f} us of {len(ages)} orders" if ages else f"{'':<18} no order")
     used_after, total_after = machine()
     print(f"{args.hz} Hz, {args.seconds:g} s each; all processors together were {100 * (used_after - used) / (total_after - total):.0f} % busy, all of this included")
 
