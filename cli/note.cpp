@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -50,12 +52,32 @@ int list_notes(const NoteArguments& arguments) {
   return kDone;
 }
 
-int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> notes) {
+/// Where nothing of the kind holds there is nothing to withdraw.
+void require_something_to_withdraw(const NoteArguments& arguments, const evaluator::log::Reader& reader) {
+  if (arguments.withdraw.empty()) return;
+  const auto notes = evaluator::session_notes(reader);
+  if (std::ranges::any_of(notes, [&](const evaluator::SessionNote& note) {
+        return note.kind == arguments.withdraw && note.holds && note.text && note.uuid.starts_with(arguments.session);
+      }))
+    return;
+  throw std::runtime_error{
+      fmt::format("{}: no {} is noted that holds: nothing is withdrawn", arguments.log, arguments.withdraw)};
+}
+
+/// Those that are meant; throws std::runtime_error where there is none, or nothing to withdraw.
+std::vector<std::int64_t> sessions_of(const NoteArguments& arguments) {
   std::vector<std::int64_t> sessions;
-  for (const evaluator::log::RecordedSession& session : evaluator::log::Reader(arguments.log).sessions())
+  const evaluator::log::Reader reader(arguments.log);
+  for (const evaluator::log::RecordedSession& session : reader.sessions())
     if (session.uuid.starts_with(arguments.session)) sessions.push_back(session.session_id);
   if (sessions.empty())
     throw std::runtime_error{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
+  require_something_to_withdraw(arguments, reader);
+  return sessions;
+}
+
+int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> notes) {
+  const std::vector<std::int64_t> sessions = sessions_of(arguments);
   evaluator::log::Additions additions(arguments.log);
   const auto now_utc_ns = std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
   for (evaluator::log::Note& note : notes) {

@@ -106,6 +106,15 @@ TEST_F(AfterTheMatch, NotesStandInTheReport) {
               AllOf(HasSubstr("Venue: Hall 3 (Ada) - no longer holds"), HasSubstr("Venue: (withdrawn)")));
 }
 
+TEST_F(AfterTheMatch, WhatNobodyNotedOrWhatIsWithdrawnAlreadyIsNotWithdrawn) {
+  const Words withdraw{"note", log_, "--withdraw", "venue", "--by", "Ada"};
+  EXPECT_THAT(why_refused<std::runtime_error>(withdraw), HasSubstr("no venue is noted that holds"));
+  said({"note", log_, "--venue", "Hall 3", "--by", "Ada"});
+  said(withdraw);
+  EXPECT_THAT(why_refused<std::runtime_error>(withdraw), HasSubstr("no venue is noted that holds"));
+  EXPECT_THAT(said({"query", log_, "SELECT count(*) AS n FROM notes", "--csv"}), HasSubstr("n\n2\n"));
+}
+
 TEST_F(AfterTheMatch, TheDoctorsExitCodeIsTheWorstThatHeFound) {
   EXPECT_THAT(said({"doctor", log_}), HasSubstr("ok   integrity"));
   EXPECT_EQ(exit_code_, kDone);
