@@ -1,7 +1,6 @@
 #include "nodes/team_link/team_link_node.hpp"
 
 #include <fmt/core.h>
-#include <malloc.h>
 
 #include <filesystem>
 
@@ -147,8 +146,6 @@ void TeamLinkNode::note_twin() {
 }
 
 int team_link_main(int argc, char** argv) {
-  // Heaps of each thread's own would each keep the most that strangers' announcements ever took.
-  mallopt(M_ARENA_MAX, 1);
   return node_main(argc, argv, "team_link", [](NodeContext& context) {
     TeamLinkNode node{context, team_domain(context.settings, context.keys)};
     // On the team's bus silence is no fault of this node: nobody watches its inputs.
