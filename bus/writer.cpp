@@ -71,7 +71,8 @@ bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout
 bool AnyWriter::other_writer_exists(std::chrono::nanoseconds since_joining) const {
   // Of a process that has just ended, what it said before can still come, and its farewell after it.
   constexpr std::chrono::milliseconds kFarewell{200};
-  const auto deadline = participant_.joined() + since_joining;
+  constexpr std::chrono::milliseconds kGlance{50};  // for who starts at the same moment
+  const auto deadline = std::max(participant_.joined() + since_joining, Clock::now() + kGlance);
   dds_instance_handle_t self = 0;
   checked(dds_get_instance_handle(writer_.handle(), &self), "dds_get_instance_handle", topic_);
   const Entity publications(

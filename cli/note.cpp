@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,41 +52,45 @@ int list_notes(const NoteArguments& arguments) {
   return kDone;
 }
 
-/// Where nothing of the kind holds there is nothing to withdraw.
-void require_something_to_withdraw(const NoteArguments& arguments, const evaluator::log::Reader& reader) {
-  if (arguments.withdraw.empty()) return;
-  const auto notes = evaluator::session_notes(reader);
-  if (std::ranges::any_of(notes, [&](const evaluator::SessionNote& note) {
-        return note.kind == arguments.withdraw && note.holds && note.text && note.uuid.starts_with(arguments.session);
-      }))
-    return;
-  throw std::runtime_error{
-      fmt::format("{}: no {} is noted that holds: nothing is withdrawn", arguments.log, arguments.withdraw)};
-}
+/// Sessions that are meant, and those of them in which something holds of the kind that is withdrawn.
+struct Meant {
+  std::vector<std::int64_t> all;
+  std::set<std::int64_t> to_withdraw;
+};
 
-/// Those that are meant; throws std::runtime_error where there is none, or nothing to withdraw.
-std::vector<std::int64_t> sessions_of(const NoteArguments& arguments) {
-  std::vector<std::int64_t> sessions;
+/// Throws std::runtime_error where no session is meant, or nothing is to be withdrawn.
+Meant sessions_meant(const NoteArguments& arguments) {
+  Meant meant;
   const evaluator::log::Reader reader(arguments.log);
   for (const evaluator::log::RecordedSession& session : reader.sessions())
-    if (session.uuid.starts_with(arguments.session)) sessions.push_back(session.session_id);
-  if (sessions.empty())
+    if (session.uuid.starts_with(arguments.session)) meant.all.push_back(session.session_id);
+  if (meant.all.empty())
     throw std::runtime_error{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
-  require_something_to_withdraw(arguments, reader);
-  return sessions;
+  if (arguments.withdraw.empty()) return meant;
+  for (const evaluator::SessionNote& note : evaluator::session_notes(reader))
+    if (note.kind == arguments.withdraw && note.holds && note.text && note.uuid.starts_with(arguments.session))
+      meant.to_withdraw.insert(note.session_id);
+  if (meant.to_withdraw.empty())
+    throw std::runtime_error{fmt::format("{}: no {} is noted that holds{}: nothing is written", arguments.log,
+                                         arguments.withdraw,
+                                         arguments.session.empty() ? "" : " of session " + arguments.session)};
+  return meant;
 }
 
 int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> notes) {
-  const std::vector<std::int64_t> sessions = sessions_of(arguments);
+  const Meant meant = sessions_meant(arguments);
   evaluator::log::Additions additions(arguments.log);
   const auto now_utc_ns = std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
+  std::set<std::int64_t> noted;
   for (evaluator::log::Note& note : notes) {
-    for (const std::int64_t session_id : sessions) {
+    for (const std::int64_t session_id : meant.all) {
+      if (!note.text && !meant.to_withdraw.contains(session_id)) continue;
       note.session_id = session_id;
       additions.add(note, now_utc_ns);
+      noted.insert(session_id);
     }
   }
-  say(fmt::format("{}: noted of {} session{}\n", arguments.log, sessions.size(), sessions.size() == 1 ? "" : "s"));
+  say(fmt::format("{}: noted of {} session{}\n", arguments.log, noted.size(), noted.size() == 1 ? "" : "s"));
   return kDone;
 }
 

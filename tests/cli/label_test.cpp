@@ -115,6 +115,22 @@ TEST_F(AfterTheMatch, WhatNobodyNotedOrWhatIsWithdrawnAlreadyIsNotWithdrawn) {
   EXPECT_THAT(said({"query", log_, "SELECT count(*) AS n FROM notes", "--csv"}), HasSubstr("n\n2\n"));
 }
 
+TEST_F(AfterTheMatch, ANoteOfOneOfTwoSessionsIsWithdrawnOfThatOneAlone) {
+  {
+    evaluator::MatchLog other(path("other.db"), session(), options());
+    other.kicks(1, "on_target", 1);
+    other.close();
+  }
+  const std::string both = path("both.db").string();
+  run_verbs({add_merge}, {"merge", both, log_, path("other.db").string()});
+  const std::string uuid =
+      said({"query", both, "SELECT uuid FROM sessions ORDER BY session_id DESC LIMIT 1", "--csv"}).substr(5, 8);
+  said({"note", both, "--venue", "Hall 3", "--by", "Ada", "--session", uuid});
+  EXPECT_EQ(said({"note", both, "--withdraw", "venue", "--by", "Ada"}), both + ": noted of 1 session\n");
+  EXPECT_THAT(said({"query", both, "SELECT count(*) AS n, count(DISTINCT session_id) AS s FROM notes", "--csv"}),
+              HasSubstr("n,s\n2,1\n"));
+}
+
 TEST_F(AfterTheMatch, TheDoctorsExitCodeIsTheWorstThatHeFound) {
   EXPECT_THAT(said({"doctor", log_}), HasSubstr("ok   integrity"));
   EXPECT_EQ(exit_code_, kDone);
