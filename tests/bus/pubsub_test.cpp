@@ -232,6 +232,7 @@ TEST(PubSub, ASecondWriterOfTheSameOwnerIsNoticed) {
   const Writer<msg::KickerStatus> second(there, {.owner = "kicker_driver/1"});
   EXPECT_TRUE(driver.other_writer_exists(seconds(10)));
   EXPECT_TRUE(second.other_writer_exists(seconds(10)));
+  EXPECT_TRUE(driver.other_writer_exists(milliseconds(0))) << "who is known is seen at a glance";
 }
 
 TEST(PubSub, AWriterThatIsLeavingIsNoSecondOne) {
