@@ -10,9 +10,8 @@ namespace trivela::bus {
 Error::Error(std::string_view call, std::string_view about, std::string_view reason)
     : std::runtime_error(fmt::format("bus: {} ({}): {}", call, about, reason)) {}
 
-std::int32_t checked(std::int32_t result, std::string_view call, std::string_view about) {
-  if (result < 0) throw Error(call, about, dds_strretcode(-result));
-  return result;
+void refuse(std::int32_t result, std::string_view call, std::string_view about) {
+  throw Error(call, about, dds_strretcode(-result));
 }
 
 Entity& Entity::operator=(Entity&& other) noexcept {

@@ -12,8 +12,14 @@ class Error : public std::runtime_error {
   Error(std::string_view call, std::string_view about, std::string_view reason);
 };
 
-/// Returns a result of Cyclone's API as it is, or throws Error with Cyclone's text if it is negative.
-std::int32_t checked(std::int32_t result, std::string_view call, std::string_view about);
+/// Throws Error with Cyclone's text of a negative result.
+[[noreturn]] void refuse(std::int32_t result, std::string_view call, std::string_view about);
+
+/// Returns a result of Cyclone's API as it is, or throws as refuse() does if it is negative.
+inline std::int32_t checked(std::int32_t result, std::string_view call, std::string_view about) {
+  if (result < 0) refuse(result, call, about);
+  return result;
+}
 
 /// Owns one handle of Cyclone's; deleted with its owner. 0: none.
 class Entity {

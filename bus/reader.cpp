@@ -29,7 +29,8 @@ struct DeleteListener {
 // Samples on loan from a reader, returned on every way out.
 class Loan {
  public:
-  explicit Loan(dds_entity_t reader) : reader_(reader) {}
+  /// Of at most `most` samples. Cyclone lends room for so many, and clears all of it when it is returned.
+  Loan(dds_entity_t reader, std::size_t most) : reader_(reader), most_(static_cast<std::uint32_t>(most)) {}
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
   ~Loan() {
@@ -37,7 +38,7 @@ class Loan {
   }
 
   std::int32_t take() {
-    count_ = dds_take(reader_, samples_.data(), infos_.data(), kMost, kMost);
+    count_ = dds_take(reader_, samples_.data(), infos_.data(), most_, most_);
     return count_;
   }
   const void* sample(std::size_t i) const { return samples_[i]; }
@@ -47,6 +48,7 @@ class Loan {
 
  private:
   dds_entity_t reader_;
+  std::uint32_t most_;
   std::int32_t count_ = 0;
   std::array<void*, kMost> samples_{};
   std::array<dds_sample_info_t, kMost> infos_;
@@ -174,9 +176,11 @@ std::size_t AnyReader::take_raw(Sink sink, void* context) {
 }
 
 std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) {
+  // As a rule one has come; whose reader keeps all is to catch up.
+  const std::size_t most = options_.keep_all ? Loan::kMost : 2;
   std::size_t taken = 0;
   for (;;) {
-    Loan loan(reader);
+    Loan loan(reader, most);
     const auto count = static_cast<std::size_t>(checked(loan.take(), "dds_take", topic_));
     for (std::size_t i = 0; i < count; ++i) {
       const auto& info = loan.info(i);
@@ -189,7 +193,7 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
       sink(context, loan.sample(i), {info.source_timestamp, writer.number, writer.owner});
       ++taken;
     }
-    if (count < Loan::kMost) return taken;
+    if (count < most) return taken;
   }
 }
 

@@ -13,7 +13,7 @@ struct bare_chain {
   void* context;
 };
 
-enum { kState, kOrder, kMost = 16 };
+enum { kState, kOrder, kMost = 2 };
 
 static dds_qos_t* agreed(int profile) {
   dds_qos_t* qos = dds_create_qos();
