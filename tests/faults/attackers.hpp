@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/team.hpp"
@@ -37,13 +38,14 @@ class Attackers : public AirTest {
   }
 
   /// A base with the referee's word and two robots, with keys or without, their links started by the launcher.
-  void start_team(bool with_keys = true) {
+  void start_team(bool with_keys = true, std::vector<std::string> settings = {}) {
     const auto week = security::days_from(security::this_second(), 9);
     for (const std::uint32_t machine : {0u, 1u, 2u}) keys.keys().issue(machine, security::usual_nodes(machine), week);
     TeamPlan plan = this->plan();
     plan.robots = {Plays::kNothing, Plays::kNothing};
     if (with_keys) plan.keys = keys.keys().path();
     plan.link_launched = true;
+    plan.settings = std::move(settings);
     team = std::make_unique<TeamOnAir>(plan);
     team->start();
     ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return rows("referee WHERE playing = 1") > 50; }))

@@ -150,7 +150,9 @@ void TeamOnAir::start() {
         set("simulator.max_possessions=30");
       }
     }
-    start_process(machine, "trivela-team_link", flags);
+    std::vector<std::string> of_link = flags;
+    for (const std::string& setting : plan_.settings) of_link.insert(of_link.end(), {"--set", setting});
+    start_process(machine, "trivela-team_link", of_link);
     start_process(machine, "trivela-recorder", flags);
     if (machine == 0 && !plan_.script.empty()) {
       start_process(0, "trivela",

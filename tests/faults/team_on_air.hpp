@@ -33,6 +33,7 @@ struct TeamPlan {
   std::string script;                  ///< of the base's emulated referee box (hal/refbox/box_script.hpp)
   bool by_group = true;                ///< discovery by multicast, else peers
   std::filesystem::path keys;          ///< of a secured team; empty: none
+  std::vector<std::string> settings;   ///< of every team_link, e.g. "run.memory_limit_mb=64"
   bool link_launched = false;          ///< every team_link by packaging/trivela-launch, which starts it again
   std::uint64_t seed = 1;
 };
