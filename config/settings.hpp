@@ -25,8 +25,9 @@ struct Run {
   double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
-  std::string field_file;          ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
-  std::string log_level = "info";  ///< trace, debug, info, warn, error, off
+  std::string field_file;  ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
+  std::uint32_t memory_limit_mb = 1024;  ///< a node that takes more ends, to be started again
+  std::string log_level = "info";        ///< trace, debug, info, warn, error, off
 };
 
 /// The DDS domain.

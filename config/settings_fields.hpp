@@ -169,6 +169,7 @@ void fields(V& v, Run& r) {
   v("robot", r.robot);
   v("scenario", r.scenario);
   v("field_file", r.field_file);
+  v("memory_limit_mb", r.memory_limit_mb, Range{8, 1'000'000});
   v("log_level", r.log_level);
 }
 

@@ -23,6 +23,7 @@ constexpr IdleKey kIdleKeys[] = {
     {"run.scenario", "--scenario names the world"},
     {"run.session", "--seed says which matches are played"},
     {"run.lockstep", "every match in process is played in lockstep"},
+    {"run.memory_limit_mb", "no node runs whose memory is watched"},
     {"run.log_level", "no node runs that could log"},
     {"domain", "there is no bus; trivela match has one"},
     {"goal", "goal and rules are the scenario's [field] and [rules] (--scenario)"},

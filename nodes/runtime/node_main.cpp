@@ -21,6 +21,7 @@
 #include "config/installation.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
+#include "nodes/runtime/flood_watch.hpp"
 #include "nodes/runtime/input_watch.hpp"
 #include "nodes/runtime/limited_sink.hpp"
 #include "nodes/runtime/node_flags.hpp"
@@ -114,6 +115,12 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
   }
 }
 
+/// Past the log, of which a flood leaves a few lines a second; the service manager is not to wait for signs of life.
+void end_by_itself(const char* name, const std::string& why) {
+  std::fprintf(stderr, "%s: %s\n", name, why.c_str());
+  if (const auto manager = Supervisor::of_environment()) manager->stopping();
+}
+
 void warn_of_refusals(const bus::Realtime& granted, spdlog::logger& logger) {
   if (!granted.scheduled) logger.warn("real-time scheduling was not permitted");
   if (!granted.memory_locked) logger.warn("memory could not be locked: what was swapped out comes back late");
@@ -146,12 +153,17 @@ int node_main(int argc, char** argv, const char* name, const std::function<void(
     const config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
     const auto logger = make_logger(name, settings.run.log_level);
     if (flags.processor >= 0) bus::stay_on(flags.processor);
-    if (flags.realtime_priority > 0) warn_of_refusals(bus::set_realtime(flags.realtime_priority), *logger);
+    FloodWatch flood{settings.run.memory_limit_mb, stop, [name](const std::string& why) { end_by_itself(name, why); }};
+    if (flags.realtime_priority > 0) {
+      const bus::Realtime granted = bus::set_realtime(flags.realtime_priority);
+      warn_of_refusals(granted, *logger);
+      if (granted.memory_locked) flood.memory_is_locked();
+    }
     const bus::LibraryLog library{
         [logger](bool severe, std::string_view text) { logger->log(level_of(severe, text), "dds: {}", text); }};
     run_as_member(settings, robot, domain_of(settings, flags.keys, name), flags.keys, logger, stop, body);
     logger->info("stopped");
-    return 0;
+    return flood.ended() ? 1 : 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", name,
                  kicking::printable_lines(error.what()).c_str());  // does not throw where nobody listens

@@ -27,6 +27,9 @@ class Supervisor {
   /// watchdog's time and no more. Never waits: what nobody takes now is said again at the next call.
   void alive(Clock::time_point now = Clock::now());
 
+  /// "STOPPING=1": this process ends of its own accord, in the time that it has after a SIGTERM.
+  void stopping() const { say("STOPPING=1"); }
+
  private:
   bool say(const char* line) const;
 

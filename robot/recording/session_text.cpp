@@ -19,6 +19,7 @@ config::Settings set_up(config::Settings settings) {
   settings.run.robot = config::Run{}.robot;
   settings.run.scenario = config::Run{}.scenario;
   settings.run.field_file = config::Run{}.field_file;
+  settings.run.memory_limit_mb = config::Run{}.memory_limit_mb;
   settings.run.log_level = config::Run{}.log_level;
   settings.hal.replay_log = std::filesystem::path{settings.hal.replay_log}.filename().string();
   return settings;

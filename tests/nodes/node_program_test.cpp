@@ -94,6 +94,18 @@ TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
   EXPECT_TRUE(log.sessions()[0].closed_t_ns);
 }
 
+TEST_F(NodeProgramTest, OneThatTakesMoreMemoryThanItMayEndsByItself) {
+  for (const std::string name : {"world_state", "recorder"}) {
+    SCOPED_TRACE(name);
+    Spawned node{program(name), {"--config", (folder / "node.toml").string(), "--set", "run.memory_limit_mb=8"}};
+    EXPECT_EQ(node.exit_code(), 1);
+    EXPECT_THAT(node.said(), HasSubstr("more than run.memory_limit_mb = 8: ends, to be started again"));
+  }
+  const evaluator::log::Reader log{folder / "out.db"};
+  ASSERT_EQ(log.sessions().size(), 1u);
+  EXPECT_TRUE(log.sessions()[0].closed_t_ns) << "it ends as it does when told to";
+}
+
 TEST_F(NodeProgramTest, TheRecorderStartsWithARobotsOwnFileThatNamesNoWorld) {
   std::ofstream{folder / "robot.toml"} << "[domain]\ndomain_id = 17\ntag = \"" << tag << "\"\n[recorder]\nlog = \""
                                        << (folder / "out.db").string()

@@ -26,6 +26,11 @@ struct SupervisorTest : testing::Test {
   Supervisor::Clock::time_point start{std::chrono::hours{1}};
 };
 
+TEST_F(SupervisorTest, IsToldOfAnEndOfTheProcessesOwnAccord) {
+  Supervisor{path, std::nullopt}.stopping();
+  EXPECT_EQ(socket.next(kAtOnce), "STOPPING=1");
+}
+
 TEST_F(SupervisorTest, HearsReadyOnceAndThenOneWordInAQuarterOfTheWatchdogsTime) {
   Supervisor manager{path, std::chrono::seconds{2}};
   EXPECT_EQ(socket.next(kAtOnce), std::nullopt);
