@@ -19,8 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kGlancesBetween = 10;  // of what is looked at less often than memory
 constexpr std::int64_t kMb = std::int64_t{1} << 20;
-constexpr std::int64_t kGrown = 32 * kMb;   // a node starts with less
-constexpr const char* kHandshakes = "fsm";  // Cyclone's name for the thread, src/security/core/src/dds_security_fsm.c
+constexpr std::int64_t kGrown = 32 * kMb;  // a node starts with less
 
 std::string first_word(const fs::path& file) {
   std::ifstream in{file};

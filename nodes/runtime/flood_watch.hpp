@@ -27,6 +27,9 @@ class FloodWatch {
  public:
   using Tell = std::function<void(const std::string& why)>;
 
+  /// Cyclone's name for the thread of a member's handshakes (src/security/core/src/dds_security_fsm.c).
+  static constexpr const char* kHandshakes = "fsm";
+
   /// Beyond the limit, or where the handshakes' thread has run and not paused for ten glances, it requests the stop and
   /// tells why, in its own thread. Where the process has not ended within `grace`, since a participant of such a
   /// library may never be deleted, or takes twice the limit, it ends it with exit code 1. Memory that is free is given

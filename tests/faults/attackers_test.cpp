@@ -69,14 +69,13 @@ struct Memory {
     }
     return text;
   }
-  /// Of a short flood, whether all that was added is little. A longer one has as many strangers in memory as come in
-  /// the ten seconds of their lease: whether that is what they take, and whether the second half added little to it.
+  /// Whether all that was added is little, and the second half of a long flood added less still: what is invented is
+  /// forgotten after its lease of ten seconds, so that a shorter one cannot show where it ends.
   bool stays(milliseconds flood) const {
-    constexpr std::int64_t kMb = std::int64_t{1} << 20;
+    constexpr std::int64_t kMost = std::int64_t{64} << 20, kLittle = std::int64_t{8} << 20;
     const std::size_t half = bytes.size() / 2;
     const std::int64_t first = most(0, half) - bytes.front(), second = most(half, bytes.size()) - most(0, half);
-    const std::int64_t added = first + std::max(second, std::int64_t{0});
-    return flood < kLong ? added < 64 * kMb : added < 128 * kMb && second < 8 * kMb;
+    return first + std::max(second, std::int64_t{0}) < kMost && (flood < kLong || second < kLittle);
   }
   static constexpr milliseconds kLong{60'000};
 };

@@ -53,7 +53,7 @@ TEST(FloodWatch, LeavesAProcessBelowItsLimitAlone) {
 template <class Turn>
 std::jthread handshakes(Turn turn) {
   return std::jthread{[turn](const std::stop_token& over) {
-    pthread_setname_np(pthread_self(), "fsm");
+    pthread_setname_np(pthread_self(), FloodWatch::kHandshakes);
     while (!over.stop_requested()) turn();
   }};
 }
