@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr int kLongestCell_B = 16 << 20;       // of a text or a blob
 constexpr std::int64_t kMemory_B = 1LL << 30;  // of SQLite in this program
-constexpr int kStepsACall = 100'000;           // of SQLite's machine between two looks at the budget
+constexpr int kStepsALook = 100'000;           // of SQLite's machine between two looks at the budget
 constexpr std::int64_t kSteps = 300'000'000;   // that any statement may take: some seconds
 constexpr std::int64_t kStepsAByte = 20;       // of the file, on top; scanning takes far below one
 
@@ -119,12 +119,12 @@ std::string LogFile::unreadable(const SQLite::Exception& error) const {
 
 void LogFile::allow_steps() const {
   const auto steps = kSteps + kStepsAByte * static_cast<std::int64_t>(size_of(path_));
-  budget_->calls = steps / kStepsACall;
+  budget_->calls = steps / kStepsALook;
 }
 
 void LogFile::open() {
   database_ = connect(path_, may_be_damaged());
-  sqlite3_progress_handler(database_->getHandle(), kStepsACall, Budget::spend, budget_.get());
+  sqlite3_progress_handler(database_->getHandle(), kStepsALook, Budget::spend, budget_.get());
   allow_steps();
   database_->exec("PRAGMA temp_store = MEMORY; PRAGMA cell_size_check = ON; PRAGMA ignore_check_constraints = ON;");
   const int application_id = database_->execAndGet("PRAGMA application_id").getInt();

@@ -1,5 +1,7 @@
 #include "evaluator/mcap/ros_types.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -113,8 +115,7 @@ Schema standard_schema(std::string_view type) {
   std::vector<const Definition*> rest;
   add_types_of(schema.text, rest);
   for (const Definition* const definition : rest)
-    schema.text +=
-        std::string(80, '=') + "\nMSG: " + std::string(definition->type) + "\n" + std::string(definition->text);
+    schema.text += fmt::format("{:=<80}\nMSG: {}\n{}", "", definition->type, definition->text);
   return schema;
 }
 

@@ -14,7 +14,7 @@ namespace trivela::evaluator {
 namespace {
 
 using kicking::Pose;
-using Cells = std::span<const log::Value>;
+using Values = std::span<const log::Value>;
 
 constexpr double kRobotJump_m = 0.5, kFastestRobot_mps = 10.0;  // what is farther apart was not driven
 
@@ -106,7 +106,7 @@ class KickStreams {
     world_.clear();
     std::vector<StoryPlace> ball;
     rows(story, "world_states", {"t_ns", "x_m", "y_m", "heading_rad", "ball_known", "ball_x_m", "ball_y_m"}, from_ns_,
-         [&](Cells cells) {
+         [&](Values cells) {
            const auto t_ns = log::cell_as<std::int64_t>(cells[0], 0) - story.t_ns;
            world_.push_back({t_ns,
                              {log::cell_as<double>(cells[1], 1), log::cell_as<double>(cells[2], 2),
@@ -147,7 +147,7 @@ class KickStreams {
   void read_flight(KickStory& story) const {
     std::optional<std::int64_t> step;
     rows(story, "flight_frames", {"t_exposure_ns", "ball_seen", "ball_x_m", "ball_y_m", "ball_z_m"}, story.t_ns,
-         [&](Cells cells) {
+         [&](Values cells) {
            const auto t_ns = log::cell_as<std::int64_t>(cells[0], 0);
            const auto x_m = log::cell_as<std::optional<double>>(cells[2], 2);
            const auto y_m = log::cell_as<std::optional<double>>(cells[3], 3);
@@ -162,7 +162,7 @@ class KickStreams {
     if (world_.empty()) return;
     std::optional<std::int64_t> step;
     rows(story, "vision_frames", {"t_exposure_ns", "opponent_seen", "opponent_x_m", "opponent_y_m"}, from_ns_,
-         [&](Cells cells) {
+         [&](Values cells) {
            const auto t_ns = log::cell_as<std::int64_t>(cells[0], 0);
            const auto x_m = log::cell_as<std::optional<double>>(cells[2], 2);
            const auto y_m = log::cell_as<std::optional<double>>(cells[3], 3);
@@ -204,7 +204,7 @@ void add_half_time(const log::Reader& reader, KickStory& story) {
   constexpr double kWord_s = 1.0;  // within which the referee says it again
   reader.for_each_row_between(
       "referee", {"t_ns", "half", "half_time_s"},
-      {story.session_id, story.robot_id, story.t_ns - kicking::nanoseconds(kWord_s), story.t_ns}, [&](Cells cells) {
+      {story.session_id, story.robot_id, story.t_ns - kicking::nanoseconds(kWord_s), story.t_ns}, [&](Values cells) {
         const auto half_time_s = log::cell_as<std::optional<double>>(cells[2], 2);
         if (log::cell_as<int>(cells[1], 1) != story.half || !half_time_s) return;
         story.half_time_s = *half_time_s + kicking::seconds(story.t_ns - log::cell_as<std::int64_t>(cells[0], 0));

@@ -21,15 +21,15 @@ using Json = nlohmann::json;
 const std::string kVectors = std::string(TRIVELA_SOURCE_DIR) + "/tests/vectors/";
 constexpr kicking::lob::ScannerPlace kPlace{4.0, 0.05};
 
-struct Ran {
+struct PointsRan {
   int code = kDone;
   std::string out, err;
 };
 
-Ran run(const PointsFlags& flags) {
+PointsRan run(const PointsFlags& flags) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  Ran ran;
+  PointsRan ran;
   ran.code = run_lob_points(flags, kPlace);
   ran.out = testing::internal::GetCapturedStdout();
   ran.err = testing::internal::GetCapturedStderr();
@@ -44,7 +44,7 @@ PointsFlags parsed(const std::string& line) {
   return flags;
 }
 
-Ran run(const std::string& line) { return run(parsed(line)); }
+PointsRan run(const std::string& line) { return run(parsed(line)); }
 
 /// The vector without the scans from `first_left_out` on.
 std::string shortened(int first_left_out) {
@@ -58,7 +58,7 @@ std::string shortened(int first_left_out) {
 }
 
 TEST(LobPoints, JsonHoldsBothFitsWithTheirStandardErrors) {
-  const Ran ran = run("--points " + kVectors + "lob_scan_utm_under.csv --json");
+  const PointsRan ran = run("--points " + kVectors + "lob_scan_utm_under.csv --json");
   EXPECT_EQ(ran.code, kDone) << ran.err;
   const Json lob = Json::parse(ran.out);
   EXPECT_NEAR(lob["effective"]["exit_angle_deg"].get<double>(), 37.61, 0.1);
@@ -80,7 +80,7 @@ TEST(LobPoints, JsonHoldsBothFitsWithTheirStandardErrors) {
 }
 
 TEST(LobPoints, TextIsForHumans) {
-  const Ran ran = run("--points " + kVectors + "lob_scan_utm_under.csv");
+  const PointsRan ran = run("--points " + kVectors + "lob_scan_utm_under.csv");
   EXPECT_THAT(ran.out, StartsWith("41 centres of the ball: a lob\n"));
   EXPECT_THAT(ran.out, HasSubstr("true, from the times, with drag:\n  exit angle    36."));
 }
@@ -97,11 +97,11 @@ TEST(LobPoints, TakesDragAndCentreFromTheFlags) {
 }
 
 TEST(LobPoints, RefusedFlightFailsAndStillComesOut) {
-  const Ran few = run("--json --points " + shortened(6));
+  const PointsRan few = run("--json --points " + shortened(6));
   EXPECT_EQ(few.code, kFailed);
   EXPECT_EQ(Json::parse(few.out)["refusal"], "too_few_points");
   EXPECT_EQ(Json::parse(few.out)["accepted"], false);
-  const Ran rising = run("--points " + shortened(16));
+  const PointsRan rising = run("--points " + shortened(16));
   EXPECT_EQ(rising.code, kFailed);
   EXPECT_THAT(rising.out, HasSubstr("refused (one_side_of_apex): the ball was seen from x = "));
 }
@@ -109,7 +109,7 @@ TEST(LobPoints, RefusedFlightFailsAndStillComesOut) {
 TEST(LobPoints, WithoutAnyReturnThereIsNoFit) {
   const std::string path = testing::TempDir() + "lob_points_empty.csv";
   std::ofstream(path) << "scan,t_scan_start_s,t_beam_s,angle_deg,range_m\n";
-  const Ran ran = run("--json --points " + path);
+  const PointsRan ran = run("--json --points " + path);
   EXPECT_EQ(ran.code, kFailed);
   const Json lob = Json::parse(ran.out);
   EXPECT_TRUE(lob["effective"].is_null());

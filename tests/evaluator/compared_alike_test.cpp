@@ -12,9 +12,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const LoggedKick kIn{"on_target", "on_target", 4.0};
-const LoggedKick kOut{"over", "over", 5.0};
-
 struct PlayedArm {
   std::string name;
   std::string policy;

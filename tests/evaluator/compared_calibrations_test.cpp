@@ -37,9 +37,6 @@ class ComparedCalibrationsTest : public LogTest {
     }
     experiment.finish();
   }
-
-  const LoggedKick kIn{"on_target", "on_target", 4.0};
-  const LoggedKick kOut{"over", "over", 5.0};
 };
 
 TEST_F(ComparedCalibrationsTest, CrossedWithTheMatchesTheyWidenTheInterval) {

@@ -20,6 +20,8 @@ struct LoggedKick {
   bool bounced = false;  ///< by the simulator's truth
 };
 
+inline const LoggedKick kIn{"on_target", "on_target", 4.0}, kOut{"over", "over", 5.0};
+
 /// Writes an experiment: many sessions in one file, with possessions, who was in charge of them, and their kicks.
 class TestExperiment {
  public:

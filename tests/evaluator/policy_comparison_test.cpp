@@ -15,9 +15,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const LoggedKick kIn{"on_target", "on_target", 4.0};
-const LoggedKick kOut{"over", "over", 5.0};
-
 class PolicyComparisonTest : public LogTest {
  protected:
   PolicyComparison compared(LogKicks options = {}, std::vector<std::string> files = {"match.db"}) const {

@@ -7,14 +7,13 @@
 
 #include "kicking/kick_id.hpp"
 #include "robot/decision/decision_message.hpp"
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 /// A node that decides, its inputs and what it says; the kicker is ready unless told otherwise.
 class KickDecisionNodeTest : public NodeTest {

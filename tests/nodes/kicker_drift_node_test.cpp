@@ -6,14 +6,13 @@
 #include <random>
 
 #include "idl/none.hpp"
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// A kick 6 m before the line that was predicted at 0.8 m of height, and was `higher_m` than that.
 struct Kick {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/robot/wheel_speeds.hpp"
 
@@ -11,8 +12,6 @@ namespace {
 
 using bus::Executor;
 using kicking::Twist;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 class OdometryNodeTest : public NodeTest {
  protected:

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "nodes/kick_decision/kick_decision_node.hpp"
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/path_hooks.hpp"
 
@@ -15,8 +16,6 @@ namespace trivela::nodes {
 namespace {
 
 using tests::PathHooks;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 std::size_t sum(const std::vector<tests::Asked>& asked) {
   std::size_t times = 0;

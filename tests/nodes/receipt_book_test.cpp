@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/instants.hpp"
+
 namespace trivela::nodes {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 TEST(ReceiptBook, APulseIsTheKickWhoseReceiptIsTheNearest) {
   ReceiptBook book;

@@ -14,6 +14,7 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 #include "nodes/world_state/world_state_node.hpp"
 #include "security/rights.hpp"
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -21,8 +22,6 @@ namespace trivela::nodes {
 namespace {
 
 using ::testing::Contains;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 class WholeGraphTest : public NodeTest {
  protected:

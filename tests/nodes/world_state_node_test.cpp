@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 class WorldStateNodeTest : public NodeTest {
  protected:

@@ -8,11 +8,11 @@
 #include <random>
 
 #include "robot/team/team_book.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kS = 1'000'000'000;
 
 TEST(ClockExchange, TheHandCase) {

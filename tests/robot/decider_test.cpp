@@ -5,12 +5,12 @@
 #include "config/robot.hpp"
 #include "idl/none.hpp"
 #include "kicking/kick_id.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
 constexpr std::uint32_t kSession = 5;
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 /// A robot 6 m before the goal at rest with the ball, aligned, whose policy kicks at once.
 struct Robot {

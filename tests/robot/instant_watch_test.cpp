@@ -4,10 +4,10 @@
 
 #include <limits>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 TEST(InstantWatch, DoubtsAnInstantFarFromItsPredecessorAndGoesOnAfterwards) {
   InstantWatch watch;

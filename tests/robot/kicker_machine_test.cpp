@@ -9,14 +9,13 @@
 #include <string>
 
 #include "robot/driver/order_desk.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
 using enum KickerEvent;
 using hal::ChargeWord;
-
-constexpr std::int64_t kMs = 1'000'000;
 
 constexpr std::array kStates{msg::STATE_OFF,    msg::STATE_CHARGING, msg::STATE_READY,
                              msg::STATE_FIRING, msg::STATE_COOLING,  msg::STATE_FAULT};

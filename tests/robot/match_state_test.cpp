@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
 
@@ -12,8 +14,6 @@ using hal::refbox::Command;
 using hal::refbox::CommandKind;
 using hal::refbox::Side;
 using enum hal::refbox::CommandKind;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 class MatchStateTest : public testing::Test {
  protected:

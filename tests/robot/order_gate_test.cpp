@@ -10,10 +10,11 @@
 #include <set>
 #include <vector>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kNow_ns = 10'000 * kMs;
 constexpr double kCycle_s = 0.02;
 constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();

@@ -6,14 +6,14 @@
 #include <limits>
 #include <random>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
 
 using kicking::Pose;
 using kicking::TurnedPose;
 using kicking::Twist;
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 double distance_m(const Pose& a, const Pose& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
 

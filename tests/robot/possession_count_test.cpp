@@ -4,10 +4,10 @@
 
 #include <limits>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 // A robot that has the ball in a half that it has heard from its beginning.
 struct Half {

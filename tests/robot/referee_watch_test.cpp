@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 msg::Referee word(std::int64_t t_ns, bool playing) {
   msg::Referee out{};

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "robot/referee/match_state.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
 using hal::refbox::CommandKind;
 using hal::refbox::Side;
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 class SetPieceClockTest : public testing::Test {
  protected:

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "robot/watch/silence_lines.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -14,7 +15,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kPeriod = 20 * kMs;
 
 class SilenceWatchTest : public testing::Test {

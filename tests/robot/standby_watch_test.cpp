@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
-
-constexpr std::int64_t kCycle_ns = 20'000'000;
 
 /// Lets `cycles` pass, in each of which the first one speaks or not; whether the second was in charge in the last.
 bool pass(StandbyWatch& watch, std::int64_t& now_ns, int cycles, bool first_speaks) {

@@ -7,11 +7,11 @@
 #include "idl/none.hpp"
 #include "robot/team/alarms.hpp"
 #include "robot/team/team_summary.hpp"
+#include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kS = 1'000'000'000;
 
 /// A state that `from` sent at `sent_ns` of its clock.

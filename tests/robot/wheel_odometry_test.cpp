@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/instants.hpp"
 #include "tests/robot/wheel_speeds.hpp"
 
 namespace trivela::robot {
@@ -17,7 +18,6 @@ using kicking::OmniKinematics;
 using kicking::Twist;
 
 const kicking::WheelBase kBase{};
-constexpr std::int64_t kCycle_ns = 20'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 hal::WheelSample sample(std::int64_t t_ns, const std::vector<double>& wheel_radps, std::optional<double> gyro_radps) {
@@ -98,10 +98,11 @@ TEST(WheelOdometry, TheTurnRateIsTheMeanOfWheelsAndGyroByTheirVariances) {
 }
 
 TEST(WheelOdometry, WithoutAGyroTheWheelsAloneTurn) {
-  for (const std::optional<double> gyro : {std::optional<double>{}, std::optional{kNaN}}) {
+  for (const auto gyro : {std::optional<double>{}, std::optional{kNaN}, std::optional{HUGE_VAL}, std::optional{2e3}}) {
     robot::Driven driven;
     const auto estimate = driven.cycle({0.0, 0.0, 1.0}, gyro);
     ASSERT_TRUE(estimate);
+    EXPECT_EQ(std::isnan(estimate->gyro_radps), gyro != 2e3);
     EXPECT_NEAR(estimate->omega_radps, 1.0, 1e-12);
     EXPECT_NEAR(estimate->var_omega_rad2ps2, OmniKinematics{kBase}.twist_variance(driven.noise.wheel_sd_radps).z(),
                 1e-15);

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/instants.hpp"
+
 namespace trivela::robot {
 namespace {
 
 using kicking::Pose;
 using kicking::Twist;
 
-constexpr std::int64_t kCycle_ns = 20'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBallOffset_m = 0.27;
 
