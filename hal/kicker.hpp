@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "kicking/maybe.hpp"
+
 namespace trivela::hal {
 
 enum class KickerFault { kNone, kCharger, kCoil, kLink };
@@ -16,8 +18,8 @@ struct KickerSample {
   bool armed = false;     ///< the arm switch
   KickerFault fault = KickerFault::kNone;
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
-  std::optional<double> voltage_v{};  ///< of the capacitor; none: not measured
-  bool emulated = false;              ///< the board is a program
+  kicking::Maybe voltage_v{};    ///< of the capacitor; none, or not finite: not measured
+  bool emulated = false;         ///< the board is a program
 };
 
 /// What a device can do beyond firing and saying whether it may. Aligned so that an atomic one needs no lock.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::hal {
 
@@ -15,7 +16,7 @@ struct WheelSample {
   std::int64_t t_ns = 0;                ///< of the sample on the steady clock, as in hal/kicker.hpp
   int wheel_count = 0;                  ///< entries of wheel_radps that count, 3 or 4
   std::array<double, 4> wheel_radps{};  ///< counter-clockwise about the robot's centre is positive
-  std::optional<double> gyro_radps;     ///< counter-clockwise
+  kicking::Maybe gyro_radps;            ///< counter-clockwise
   bool emulated = false;                ///< the base is a program
   bool gyro_emulated = false;           ///< gyro_radps is a program's
 };

@@ -7,6 +7,7 @@
 
 #include "kicking/geometry/frames.hpp"
 #include "kicking/lob/scan.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::sim {
 
@@ -55,7 +56,7 @@ struct RefereeWord {
   std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
   std::uint32_t goals = 0;          ///< ours; the opponents only defend
   std::uint32_t commands = 0;       ///< how often play was stopped or started
-  std::optional<double> half_s;     ///< since the first start of play in the half
+  kicking::Maybe half_s;            ///< since the first start of play in the half
   bool set_piece = false;           ///< the next start of play is a set piece of ours
 };
 

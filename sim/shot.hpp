@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kicking/geometry/goal.hpp"
+#include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/random/draws.hpp"
 #include "sim/flight.hpp"
@@ -23,7 +24,7 @@ struct ShotResult {
   std::int64_t t_ns = 0;
   kicking::Outcome outcome{};
   std::optional<Crossing> crossing;
-  std::optional<double> margin_m;
+  kicking::Maybe margin_m;
   bool saved = false;    ///< on target, but the keeper had it
   bool bounced = false;  ///< touched the floor before the first of these
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::sim {
@@ -31,7 +32,7 @@ struct KickTruth {
   Eigen::Vector3d release_velocity_mps{0.0, 0.0, 0.0};  ///< over ground
   /// Distance of the crossing from the nearest edge that would change the outcome; for a short ball, of its nearest
   /// point from the goal line; none for a blocked one.
-  std::optional<double> margin_m;
+  kicking::Maybe margin_m;
 };
 
 /// kStopped: the referee whistled.

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::evaluator {
 
@@ -18,8 +19,8 @@ struct WatchedKick {
   double x_m = 0.0, z_m = 0.0, t_flight_s = 0.0;  ///< predicted crossing and flight
   bool seen_to_the_line = false;                  ///< not blocked, outcome known
   bool bounced = false;                           ///< it touched the floor before the line
-  std::optional<double> z_cross_m{};              ///< observed
-  std::optional<double> exit_speed_mps{};         ///< observed, of the ball over ground
+  kicking::Maybe z_cross_m{};                     ///< observed
+  kicking::Maybe exit_speed_mps{};                ///< observed, of the ball over ground
 };
 
 /// By how much a kick was stronger than predicted, measured twice: 0.03 is 3 % more speed out of the kicker. It is ln f

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::evaluator {
 
@@ -14,7 +14,7 @@ struct DecidedAlignment {
   Eigen::Vector2d target_m{};
   double distance_m = 0.0;
   bool aligned = false;
-  std::optional<double> offset_right_m;
+  kicking::Maybe offset_right_m;
   double left_m = 0.0;
   double right_m = 0.0;
 };

@@ -6,9 +6,9 @@
 
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "experiment/play/play_match.hpp"
-#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/lob/analyzer.hpp"
+#include "kicking/maybe.hpp"
 #include "sim/laser/field_laser.hpp"
 
 namespace trivela::experiment {
@@ -16,8 +16,8 @@ namespace {
 
 template <class Message>
 evaluator::log::RecordedOutcome crossing_of(const Message& message) {
-  return {std::string{bus::label(message.outcome)}, msg::optional_of(message.x_cross_m),
-          msg::optional_of(message.z_cross_m)};
+  return {std::string{bus::label(message.outcome)}, kicking::Maybe{message.x_cross_m},
+          kicking::Maybe{message.z_cross_m}};
 }
 
 /// The last message of a kick.

@@ -10,7 +10,6 @@
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/robot_chain.hpp"
 #include "hal/sim/sim_messages.hpp"
-#include "idl/none.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/random/draws.hpp"
 #include "robot/observer/observer.hpp"
@@ -146,7 +145,7 @@ class Game {
     kick.vx_mps = world.vx_mps;
     kick.vy_mps = world.vy_mps;
     kick.omega_radps = world.omega_radps;
-    kick.opponent_distance_m = msg::optional_of(world.opponent_distance_m);
+    kick.opponent_distance_m = world.opponent_distance_m;
     kick.power = receipt.power;
     kick.v_kick_mps = judgement.v_kick_mps.value_or(0.0);
     kick.p_on_target = judgement.p_on_target;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/policy/policy.hpp"
 #include "sim/truth.hpp"
@@ -16,10 +17,10 @@ struct PlayedKick {
   double vx_mps = 0.0;      ///< twist in R
   double vy_mps = 0.0;
   double omega_radps = 0.0;
-  std::optional<double> opponent_distance_m;  ///< of the nearest opponent from the ball
+  kicking::Maybe opponent_distance_m;  ///< of the nearest opponent from the ball
   double power = 0.0;
   double v_kick_mps = 0.0;
-  std::optional<double> p_on_target;                       ///< predicted
+  kicking::Maybe p_on_target;                              ///< predicted
   std::optional<kicking::PredictedCrossing> predicted;     ///< crossing of the goal line
   kicking::Outcome observed = kicking::Outcome::kUnknown;  ///< by the shot observer
   std::optional<kicking::Outcome> truth;                   ///< of the simulator; none: the ball never left

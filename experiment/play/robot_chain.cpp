@@ -4,6 +4,7 @@
 
 #include "experiment/play/oracle.hpp"
 #include "hal/sim/sim_messages.hpp"
+#include "kicking/in_place.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -33,12 +34,13 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
                                               const std::optional<msg::KickOutcome>& outcome,
                                               const sim::TrueState* truth) {
   receipt_.reset();
+  const hal::KickerSample kicker = kicker_sample(sensors);
+  const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
   const auto odometry = odometry_.update(wheel_sample(sensors));
   if (!odometry) return nullptr;
-  status_ = desk_.status(kicker_sample(sensors),
-                         referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop, sensors.t_ns);
-  const msg::VisionFrame frame = hal::vision_message(sensors.t_ns, sensors.vision);
-  world_ = model_.update(*odometry, &frame, &referee, &status_);
+  const auto says = referee.playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
+  kicking::make_in_place(status_, [&] { return desk_.status(kicker, says, sensors.t_ns); });
+  kicking::make_in_place(world_, [&] { return model_.update(*odometry, &frame, &referee, &status_); });
   world_.robot_id = robot_id_;
   std::optional<kicking::PolicyInput> told;
   if (truth != nullptr)
@@ -47,7 +49,7 @@ const robot::CycleDecision* RobotChain::cycle(const sim::Sensors& sensors, const
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
   arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.judgement.drive, sensors.t_ns);
-  drive_ = arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession});
+  kicking::make_in_place(drive_, [&] { return arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession}); });
   return &decision;
 }
 

@@ -6,6 +6,7 @@
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
 #include "idl/none.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -37,7 +38,7 @@ bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(s
 std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
   if (!received) return std::nullopt;
-  const auto voltage_v = msg::optional_of(received->voltage_v);
+  const kicking::Maybe voltage_v = received->voltage_v;
   capabilities_ = {.charge_control = received->charge_control,
                    .voltage = voltage_v.has_value(),
                    .discharge = received->discharge,

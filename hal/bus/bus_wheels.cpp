@@ -6,7 +6,6 @@
 
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
-#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::hal {
@@ -30,7 +29,7 @@ std::optional<WheelSample> BusWheels::read(std::chrono::nanoseconds timeout) {
   WheelSample sample{.t_ns = received->t_ns,
                      .wheel_count = std::min<int>(received->wheel_count, 4),
                      .wheel_radps = {},
-                     .gyro_radps = msg::optional_of(received->gyro_radps),
+                     .gyro_radps = received->gyro_radps,
                      .emulated = received->emulated,
                      .gyro_emulated = false};
   std::copy_n(std::begin(received->wheel_radps), sample.wheel_count, sample.wheel_radps.begin());
@@ -43,7 +42,7 @@ void BusWheels::add_gyro(WheelSample& sample) {
   constexpr double kSameTime_s = 0.05;  // a gyro of 50 Hz may lose a sample
   if (const auto said = read_newer(turns_, robot_id_, turn_t_ns_, std::chrono::nanoseconds::zero())) turn_ = *said;
   if (!turn_t_ns_ || std::abs(kicking::seconds(sample.t_ns - *turn_t_ns_)) > kSameTime_s) return;
-  sample.gyro_radps = msg::optional_of(turn_.gyro_radps);
+  sample.gyro_radps = turn_.gyro_radps;
   sample.gyro_emulated = turn_.emulated;
 }
 

@@ -1,7 +1,6 @@
 #include "hal/replay/replay_kicker.hpp"
 
 #include "hal/open.hpp"
-#include "idl/none.hpp"
 
 namespace trivela::hal {
 
@@ -9,12 +8,9 @@ std::optional<KickerSample> ReplayKicker::read(std::chrono::nanoseconds) {
   const auto status = samples_.next();
   if (!status) return std::nullopt;
   now_t_ns_ = status->t_ns;
-  return KickerSample{status->t_ns,
-                      status->charge,
-                      status->armed,
-                      static_cast<KickerFault>(status->fault),
-                      status->charge_modelled,
-                      msg::optional_of(status->voltage_v)};
+  return KickerSample{
+      status->t_ns,     status->charge, status->armed, static_cast<KickerFault>(status->fault), status->charge_modelled,
+      status->voltage_v};
 }
 
 void ReplayKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {

@@ -6,17 +6,16 @@
 #include <stdexcept>
 
 #include "hal/open.hpp"
-#include "idl/none.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::hal {
 
 std::optional<WheelSample> ReplayWheels::read(std::chrono::nanoseconds) {
   const auto row = samples_.next();
   if (!row) return std::nullopt;
-  WheelSample sample{
-      .t_ns = row->t_ns, .wheel_count = 0, .wheel_radps = {}, .gyro_radps = msg::optional_of(row->gyro_radps)};
-  for (const double wire : {row->wheel_0_radps, row->wheel_1_radps, row->wheel_2_radps, row->wheel_3_radps}) {
-    const auto speed_radps = msg::optional_of(wire);
+  WheelSample sample{.t_ns = row->t_ns, .wheel_count = 0, .wheel_radps = {}, .gyro_radps = row->gyro_radps};
+  for (const kicking::Maybe speed_radps :
+       {row->wheel_0_radps, row->wheel_1_radps, row->wheel_2_radps, row->wheel_3_radps}) {
     if (!speed_radps) break;
     sample.wheel_radps[static_cast<std::size_t>(sample.wheel_count++)] = *speed_radps;
   }

@@ -31,7 +31,7 @@ T message_of(std::span<const evaluator::log::Value> cells) {
       if (!value) throw evaluator::log::WrongCell{column, "a label of its enum"};
       field = *value;
     } else if constexpr (std::is_floating_point_v<Field>) {
-      field = msg::wire_of(cell_as<std::optional<Field>>(cells[column], column));
+      field = cell_as<std::optional<Field>>(cells[column], column).value_or(msg::kNone);
     } else {
       field = cell_as<Field>(cells[column], column);
     }

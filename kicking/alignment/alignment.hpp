@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/frames.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::kicking {
 
@@ -24,9 +24,8 @@ struct AlignmentRule {
 struct Alignment {
   bool aligned = false;
   double centre_distance_m = 0.0;  ///< robot centre to target
-  std::optional<double>
-      offset_right_m;   ///< where S1 meets the line of S2, right of the target; none: it does not, ahead
-  double left_m = 0.0;  ///< reach of S2 to the left of the target
+  Maybe offset_right_m;            ///< where S1 meets the line of S2, right of the target; none: it does not, ahead
+  double left_m = 0.0;             ///< reach of S2 to the left of the target
   double right_m = 0.0;
 };
 

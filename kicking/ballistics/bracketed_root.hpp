@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "kicking/maybe.hpp"
+
 namespace trivela::kicking {
 
 /// Root of f in [low, high] where f(low) <= 0 <= f(high): false position with the Illinois rule, halving where that is
 /// slow. None if the ends do not bracket a root.
 template <typename Function>
-std::optional<double> bracketed_root(const Function& f, double low, double high) {
+Maybe bracketed_root(const Function& f, double low, double high) {
   double f_low = f(low);
   double f_high = f(high);
   if (!(f_low <= 0.0 && f_high >= 0.0)) return std::nullopt;
@@ -37,7 +39,7 @@ std::optional<double> bracketed_root(const Function& f, double low, double high)
 
 /// The first of start, 2 start, 4 start, ... where f >= 0; none below the limit.
 template <typename Function>
-std::optional<double> doubled_until_positive(const Function& f, double start, double limit) {
+Maybe doubled_until_positive(const Function& f, double start, double limit) {
   for (double x = start; x < limit; x *= 2.0) {
     if (f(x) >= 0.0) return x;
   }

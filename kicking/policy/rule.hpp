@@ -9,6 +9,7 @@
 #include "kicking/alignment/release_predictor.hpp"
 #include "kicking/geometry/frames.hpp"
 #include "kicking/geometry/goal.hpp"
+#include "kicking/maybe.hpp"
 #include "kicking/model/robot_model.hpp"
 #include "kicking/policy/policy_config.hpp"
 
@@ -40,7 +41,7 @@ const char* name(Reason reason);
 struct SeenKick {
   std::int64_t kick_id = 0;
   std::uint32_t possession_id = 0;  ///< that it ended
-  std::optional<double> x_cross_m;  ///< ball centre at the goal line, in F; none: it was not seen to cross
+  Maybe x_cross_m;                  ///< ball centre at the goal line, in F; none: it was not seen to cross
 };
 
 /// What one cycle knows.
@@ -55,18 +56,18 @@ struct PolicyInput {
   double state_age_s = 0.0;    ///< of the older of world state and kicker status
   double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
   double sd_heading_rad = 0.0;
-  std::optional<double> opponent_distance_m;   ///< nearest opponent to the ball; stopped and moving do not look at it
-  std::optional<double> opponent_closing_mps;  ///< how fast it comes, where both are known exactly: the oracle alone
-  std::optional<SeenKick> last_kick;           ///< the latest one with an outcome; the turn drive alone looks at it
-  std::optional<double> set_piece_left_s;      ///< a kick that takes our set piece is released until then
+  Maybe opponent_distance_m;          ///< nearest opponent to the ball; stopped and moving do not look at it
+  Maybe opponent_closing_mps;         ///< how fast it comes, where both are known exactly: the oracle alone
+  std::optional<SeenKick> last_kick;  ///< the latest one with an outcome; the turn drive alone looks at it
+  Maybe set_piece_left_s;             ///< a kick that takes our set piece is released until then
 };
 
 /// What the kick of one cycle needs, and where it would go.
 struct ShotNumbers {
-  double distance_m = 0.0;           ///< ball centre to target, horizontal
-  std::optional<double> v0_mps;      ///< exit speed for a robot at rest; none: the angle is too flat for the height
-  std::optional<double> v_kick_mps;  ///< exit speed asked of the kicker
-  std::optional<double> power;       ///< set-point, fractional
+  double distance_m = 0.0;  ///< ball centre to target, horizontal
+  Maybe v0_mps;             ///< exit speed for a robot at rest; none: the angle is too flat for the height
+  Maybe v_kick_mps;         ///< exit speed asked of the kicker
+  Maybe power;              ///< set-point, fractional
   std::optional<PredictedCrossing> predicted;  ///< where that set-point sends the ball, if the order goes out now
 };
 
@@ -77,11 +78,11 @@ struct Judgement : Alignment, ShotNumbers {
   double target_x_m = 0.0;  ///< aim point in F
   double target_y_m = 0.0;
   double target_z_m = 0.0;
-  double alpha_rad = 0.0;             ///< right positive
-  double beta_rad = 0.0;              ///< with the sign of omega
-  std::optional<double> p_on_target;  ///< predicted probability that this kick is on target; none: not computed
-  double fire_after_s = 0.0;          ///< energise the coil so much later than the input's instant, within a cycle
-  Twist drive{};                      ///< command until the next cycle, in R
+  double alpha_rad = 0.0;     ///< right positive
+  double beta_rad = 0.0;      ///< with the sign of omega
+  Maybe p_on_target;          ///< predicted probability that this kick is on target; none: not computed
+  double fire_after_s = 0.0;  ///< energise the coil so much later than the input's instant, within a cycle
+  Twist drive{};              ///< command until the next cycle, in R
 
   Alignment& alignment() { return *this; }
   ShotNumbers& shot() { return *this; }
@@ -89,8 +90,8 @@ struct Judgement : Alignment, ShotNumbers {
 
 /// A number of the predicted crossing.
 template <double PredictedCrossing::*number>
-std::optional<double> predicted(const Judgement& judgement) {
-  return judgement.predicted ? std::optional((*judgement.predicted).*number) : std::nullopt;
+Maybe predicted(const Judgement& judgement) {
+  return judgement.predicted ? Maybe((*judgement.predicted).*number) : std::nullopt;
 }
 
 /// A part of a judgement that is recorded, by its name in the messages. A new field of Judgement stands below, too.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -59,8 +59,8 @@ evaluator::WatchedKick KickSeries::watched(const Words& words) {
                               .twist = {decision.vx_mps, decision.vy_mps, decision.omega_radps},
                               .lead_s = kicking::seconds(words.receipt->release_t_ns - decision.t_ns),
                               .goal_y_m = decision.target_y_m};
-  const auto x_m = msg::optional_of(decision.predicted_x_cross_m), z_m = msg::optional_of(decision.predicted_z_cross_m),
-             t_flight_s = msg::optional_of(decision.predicted_t_flight_s);
+  const kicking::Maybe x_m = decision.predicted_x_cross_m, z_m = decision.predicted_z_cross_m,
+                       t_flight_s = decision.predicted_t_flight_s;
   if (!words.outcome || !x_m || !z_m || !t_flight_s) return kick;
   kick.x_m = *x_m;
   kick.z_m = *z_m;
@@ -68,8 +68,8 @@ evaluator::WatchedKick KickSeries::watched(const Words& words) {
   const msg::Outcome outcome = words.outcome->outcome;
   kick.seen_to_the_line = outcome != msg::OUTCOME_BLOCKED && outcome != msg::OUTCOME_UNKNOWN;
   kick.bounced = words.outcome->bounced;
-  kick.z_cross_m = msg::optional_of(words.outcome->z_cross_m);
-  kick.exit_speed_mps = msg::optional_of(words.outcome->exit_speed_mps);
+  kick.z_cross_m = words.outcome->z_cross_m;
+  kick.exit_speed_mps = words.outcome->exit_speed_mps;
   return kick;
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "idl/none.hpp"
-
 namespace trivela::pages {
 namespace {
 
@@ -80,8 +78,8 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
                                      .t_ns = decision.t_ns,
                                      .policy = decision.policy,
                                      .distance_m = decision.distance_m,
-                                     .power = msg::optional_of(decision.power),
-                                     .p_on_target = msg::optional_of(decision.p_on_target),
+                                     .power = decision.power,
+                                     .p_on_target = decision.p_on_target,
                                      .goal_counts = counts};
 }
 
@@ -94,8 +92,7 @@ void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {
 void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {
   KnownKick* const kick = kick_of(outcome.robot_id, outcome.kick_id, heard_ns);
   if (kick == nullptr || (kick->ended && kick->ended->seq >= outcome.seq)) return;
-  kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, msg::optional_of(outcome.x_cross_m),
-                                 msg::optional_of(outcome.z_cross_m)};
+  kick->ended = KnownKick::Ended{outcome.seq, outcome.outcome, outcome.x_cross_m, outcome.z_cross_m};
 }
 
 std::map<std::optional<msg::Policy>, KickTally> KickLedger::tallies(const LedgerNow& now) const {

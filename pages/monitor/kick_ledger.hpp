@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "idl/messages.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::pages {
 
@@ -19,8 +20,8 @@ struct KnownKick {
     std::int64_t t_ns = 0;
     msg::Policy policy{};
     double distance_m = 0.0;
-    std::optional<double> power;
-    std::optional<double> p_on_target;
+    kicking::Maybe power;
+    kicking::Maybe p_on_target;
     bool goal_counts = true;  ///< by the rules, if the ball goes in
   };
   struct Answered {
@@ -31,8 +32,8 @@ struct KnownKick {
   struct Ended {
     std::uint64_t seq = 0;
     msg::Outcome outcome{};
-    std::optional<double> x_m;  ///< ball centre at the goal line, in F
-    std::optional<double> z_m;
+    kicking::Maybe x_m;  ///< ball centre at the goal line, in F
+    kicking::Maybe z_m;
   };
 
   std::int64_t kick_id = 0;

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluator/report/decided_segments.hpp"
-#include "idl/none.hpp"
 #include "pages/monitor/running_table.hpp"
 
 namespace trivela::pages {
@@ -30,7 +29,7 @@ Json segments_json(const msg::KickDecision& d) {
                                                      {d.target_x_m, d.target_y_m},
                                                      d.distance_m,
                                                      d.aligned,
-                                                     msg::optional_of(d.offset_right_m),
+                                                     d.offset_right_m,
                                                      d.left_m,
                                                      d.right_m});
   return {{"s1", {point(segments.s1_from_m), point(segments.s1_to_m)}},

@@ -96,8 +96,8 @@ msg::WorldState WorldModel::describe(std::int64_t t_ns) const {
   out.ball_known = ball.has_value();
   if (!ball) return out;
   // A held ball moves with the robot.
-  const TurnedPose from = out.possession ? pose : seen_from(ball_.seen_t_ns());
-  const Eigen::Vector2d in_field = from.to_field(ball->x(), ball->y());
+  const Eigen::Vector2d in_field = out.possession ? pose.to_field(ball->x(), ball->y())
+                                                  : seen_from(ball_.seen_t_ns()).to_field(ball->x(), ball->y());
   out.ball_x_m = in_field.x();
   out.ball_y_m = in_field.y();
   out.ball_age_s = kicking::seconds(t_ns - ball_.seen_t_ns());

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <new>
-#include <type_traits>
 #include <utility>
 
-#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/in_place.hpp"
 #include "robot/decision/decision_message.hpp"
 
 namespace trivela::robot {
@@ -24,8 +22,6 @@ static_assert(std::ranges::none_of(kicking::kPolicyFacts,
                                      return facts.rides_along && facts.needs_truth();
                                    }),
               "the truth is for who is in charge");
-static_assert(std::is_trivially_destructible_v<Shadow> && std::is_trivially_destructible_v<kicking::Judgement>,
-              "decide() writes over the last cycle's");
 
 /// An instant that no gate accepts where the policy's is not one.
 std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
@@ -82,29 +78,44 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   kicking::PolicyInput input = policy_input(world, kicker);
   if (kicker != nullptr && kicked_by_another(world.t_ns, *kicker)) input.kicker_ready = false;
   input.state_age_s = std::max(input.state_age_s, std::abs(world_age_s));
-  if (const auto seen = last_kick(outcome)) input.last_kick = seen;
+  see_last_kick(outcome, input);
   input.set_piece_left_s = set_piece_.left_s(world);
   const PolicyName policy = decision_.in_charge.policy;
   const bool told = facts(policy).needs_truth();
   assert(!told || (oracle_ && truth != nullptr));
-  const auto memory = [&](PolicyName of) -> kicking::PolicyMemory& { return memory_[static_cast<std::size_t>(of)]; };
-  // In its place at once: a judgement is some hundred bytes, and who copies what was just written waits for it.
-  new (&decision_.judgement)
-      kicking::Judgement(kicking::judge(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
-                                        told ? *truth : input, memory(policy)));
+  kicking::make_in_place(decision_.judgement, [&] {
+    return kicking::judge(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
+                          told ? *truth : input, memory(policy));
+  });
+  judge_shadows(input);
+  decision_.order.reset();
+  const kicking::Judgement& judgement = decision_.judgement;
+  said_ = world.possession || judgement.fire;  // the oracle alone may fire where the robot sees no ball
+  if (said_) ++decisions_;
+  if (!judgement.fire) return decision_;
+  kick_id_.counter = ++orders_;
+  msg::KickOrder& order = decision_.order.emplace();
+  order.robot_id = robot_id_;
+  order.seq = orders_;
+  order.t_ns = world.t_ns;
+  order.kick_id = kick_id_.number();
+  order.power = *judgement.power;
+  order.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
+  order.valid_until_t_ns = world.t_ns + validity_ns_;
+  order.possession = world.possession;
+  order_before_ = std::exchange(last_order_, order);
+  possession_before_id_ = std::exchange(last_order_possession_id_, world.possession_id);
+  return decision_;
+}
+
+void Decider::judge_shadows(const kicking::PolicyInput& input) {
   decision_.shadow_count = 0;
   for (const PolicyName shadow : shadows_) {
-    if (shadow == policy) continue;
-    new (&decision_.shadows[decision_.shadow_count++])
-        Shadow{shadow, kicking::judge(shadow, policy_, model_, goal_, input, memory(shadow))};
+    if (shadow == decision_.in_charge.policy) continue;
+    kicking::make_in_place(decision_.shadows[decision_.shadow_count++], [&] {
+      return Shadow{shadow, kicking::judge(shadow, policy_, model_, goal_, input, memory(shadow))};
+    });
   }
-  decision_.order.reset();
-  const bool fire = decision_.judgement.fire;
-  said_ = world.possession || fire;  // the oracle alone may fire where the robot sees no ball
-  if (!said_) return decision_;
-  ++decisions_;
-  if (fire) decision_.order = order(world, decision_.judgement);
-  return decision_;
 }
 
 void Decider::unsay() {
@@ -115,8 +126,7 @@ void Decider::unsay() {
   --orders_;
   last_order_ = order_before_;
   last_order_possession_id_ = possession_before_id_;
-  std::visit([](kicking::PossessionMemory& any) { any.fired_t_ns.reset(); },
-             memory_[static_cast<std::size_t>(decision_.in_charge.policy)]);
+  std::visit([](kicking::PossessionMemory& any) { any.fired_t_ns.reset(); }, memory(decision_.in_charge.policy));
 }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
@@ -138,25 +148,9 @@ bool Decider::awaits_outcome(const msg::WorldState& world, const msg::KickerStat
 }
 
 /// What was seen of the last order's kick, once the observer has said it.
-std::optional<kicking::SeenKick> Decider::last_kick(const std::optional<msg::KickOutcome>& outcome) const {
-  if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return std::nullopt;
-  return kicking::SeenKick{outcome->kick_id, last_order_possession_id_, msg::optional_of(outcome->x_cross_m)};
-}
-
-msg::KickOrder Decider::order(const msg::WorldState& world, const kicking::Judgement& judgement) {
-  msg::KickOrder out{};
-  out.robot_id = robot_id_;
-  out.seq = ++orders_;
-  out.t_ns = world.t_ns;
-  kick_id_.counter = orders_;
-  out.kick_id = kick_id_.number();
-  out.power = *judgement.power;
-  out.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
-  out.valid_until_t_ns = world.t_ns + validity_ns_;
-  out.possession = world.possession;
-  order_before_ = std::exchange(last_order_, out);
-  possession_before_id_ = std::exchange(last_order_possession_id_, world.possession_id);
-  return out;
+void Decider::see_last_kick(const std::optional<msg::KickOutcome>& outcome, kicking::PolicyInput& input) const {
+  if (orders_ == 0 || !outcome || outcome->kick_id != last_order_.kick_id) return;
+  input.last_kick.emplace(kicking::SeenKick{outcome->kick_id, last_order_possession_id_, outcome->x_cross_m});
 }
 
 }  // namespace trivela::robot

@@ -77,8 +77,9 @@ class Decider {
  private:
   void begin_possession(std::uint8_t half, std::uint32_t possession_id);
   bool kicked_by_another(std::int64_t t_ns, const msg::KickerStatus& kicker);
-  std::optional<kicking::SeenKick> last_kick(const std::optional<msg::KickOutcome>& outcome) const;
-  msg::KickOrder order(const msg::WorldState& world, const kicking::Judgement& judgement);
+  void see_last_kick(const std::optional<msg::KickOutcome>& outcome, kicking::PolicyInput& input) const;
+  void judge_shadows(const kicking::PolicyInput& input);
+  kicking::PolicyMemory& memory(kicking::PolicyName policy) { return memory_[static_cast<std::size_t>(policy)]; }
 
   const kicking::RobotModel& model_;
   kicking::PolicyConfig policy_;

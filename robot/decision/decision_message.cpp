@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -19,7 +19,7 @@ static_assert(int{msg::REASON_OWN_HALF} == int(kicking::Reason::kOwnHalf));
 
 constexpr bool wire(bool value) { return value; }
 constexpr double wire(double value) { return value; }
-constexpr double wire(const std::optional<double>& value) { return msg::wire_of(value); }
+constexpr double wire(kicking::Maybe value) { return value.wire(); }
 msg::DecisionReason wire(kicking::Reason reason) { return to_wire(reason); }
 
 /// Place of the message's field of that name; their number: it has none.
@@ -65,7 +65,7 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
   if (kicker != nullptr) in.state_age_s = std::abs(kicking::seconds(world.t_ns - kicker->t_ns));
   in.sd_position_m = world.sd_position_m;
   in.sd_heading_rad = world.sd_heading_rad;
-  in.opponent_distance_m = msg::optional_of(world.opponent_distance_m);
+  in.opponent_distance_m = world.opponent_distance_m;
   return in;
 }
 

@@ -27,11 +27,11 @@ OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const
 void OrderDesk::began(std::int64_t now_t_ns) { gate_.rest_from(now_t_ns + cycle_ns_); }
 
 msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays says, std::int64_t now_t_ns) {
-  hal::KickerSample judged = sample;
   over_voltage_ = over_voltage(sample) || (over_voltage_ && sample.armed);  // until somebody opens the switch
   const bool stuck = voltage_.stuck(sample, stand_.state == msg::STATE_CHARGING);
-  if (judged.fault == hal::KickerFault::kNone && (stuck || over_voltage_)) judged.fault = hal::KickerFault::kCharger;
-  gate_.device(judged);
+  const bool charger = sample.fault == hal::KickerFault::kNone && (stuck || over_voltage_);
+  const hal::KickerFault fault = charger ? hal::KickerFault::kCharger : sample.fault;
+  gate_.device(sample, fault);
   gate_.referee(says);
   advance(now_t_ns);
   msg::KickerStatus out{};
@@ -40,10 +40,10 @@ msg::KickerStatus OrderDesk::status(const hal::KickerSample& sample, RefereeSays
   out.t_ns = sample.t_ns;
   out.charge = sample.charge;
   out.charge_modelled = sample.charge_modelled;
-  out.voltage_v = msg::wire_of(sample.voltage_v);
+  out.voltage_v = sample.voltage_v.wire();
   out.armed = gate_.armed();
   out.ready = stand_.state == msg::STATE_READY;
-  out.fault = static_cast<msg::KickerFault>(judged.fault);
+  out.fault = static_cast<msg::KickerFault>(fault);
   out.state = stand_.state;
   out.last_kick_id = gate_.last_kick_id();
   out.last_accepted = gate_.last_accepted();

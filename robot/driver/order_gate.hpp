@@ -39,7 +39,12 @@ class OrderGate {
   /// Somebody before it may have fired at `t_ns`: the next kick is min_interval_s after that.
   void rest_from(std::int64_t t_ns) { last_fire_t_ns_ = t_ns; }
 
-  void device(const hal::KickerSample& sample) { sample_ = sample; }
+  void device(const hal::KickerSample& sample) { device(sample, sample.fault); }
+  /// The same of a device that has another fault than it says.
+  void device(const hal::KickerSample& sample, hal::KickerFault fault) {
+    sample_ = sample;
+    sample_->fault = fault;
+  }
   void referee(RefereeSays says) { referee_ = says; }
 
   /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.

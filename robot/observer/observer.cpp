@@ -18,19 +18,19 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.kick_id = shot.kick_id;
   out.outcome = static_cast<msg::Outcome>(shot.verdict.outcome);
   out.on_target = shot.verdict.outcome == kicking::Outcome::kOnTarget;
-  out.x_cross_m = msg::wire_of(shot.verdict.x_cross_m);
-  out.z_cross_m = msg::wire_of(shot.verdict.z_cross_m);
-  out.sd_cross_m = msg::wire_of(shot.verdict.sd_cross_m);
+  out.x_cross_m = shot.verdict.x_cross_m.wire();
+  out.z_cross_m = shot.verdict.z_cross_m.wire();
+  out.sd_cross_m = shot.verdict.sd_cross_m.wire();
   out.observations = static_cast<std::uint32_t>(shot.sightings);
-  out.exit_speed_mps = msg::wire_of(shot.verdict.exit_speed_mps);
-  out.exit_elevation_rad = msg::wire_of(shot.verdict.exit_elevation_rad);
+  out.exit_speed_mps = shot.verdict.exit_speed_mps.wire();
+  out.exit_elevation_rad = shot.verdict.exit_elevation_rad.wire();
   double* const probabilities[] = {&out.p_on_target, &out.p_wide_left, &out.p_wide_right, &out.p_over,
                                    &out.p_short,     &out.p_post,      &out.p_bar,        &out.p_blocked};
   static_assert(std::size(probabilities) == std::tuple_size_v<kicking::OutcomeProbabilities>);
   for (std::size_t i = 0; i < std::size(probabilities); ++i)
     *probabilities[i] = shot.verdict.probabilities ? (*shot.verdict.probabilities)[i] : msg::kNone;
   out.bounced = shot.verdict.bounced;
-  out.residual_sd_m = msg::wire_of(shot.verdict.residual_sd_m);
+  out.residual_sd_m = shot.verdict.residual_sd_m.wire();
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "config/settings.hpp"
 #include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/goal.hpp"
+#include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::robot {
@@ -16,13 +17,13 @@ namespace trivela::robot {
 struct ShotVerdict {
   kicking::Outcome outcome = kicking::Outcome::kUnknown;
   std::optional<kicking::OutcomeProbabilities> probabilities;  ///< none: not computed
-  std::optional<double> x_cross_m;                             ///< ball centre at the goal line, in F
-  std::optional<double> z_cross_m;
-  std::optional<double> sd_cross_m;      ///< the larger one of both
-  std::optional<double> exit_speed_mps;  ///< over ground, of the first sightings
-  std::optional<double> exit_elevation_rad;
+  kicking::Maybe x_cross_m;                                    ///< ball centre at the goal line, in F
+  kicking::Maybe z_cross_m;
+  kicking::Maybe sd_cross_m;      ///< the larger one of both
+  kicking::Maybe exit_speed_mps;  ///< over ground, of the first sightings
+  kicking::Maybe exit_elevation_rad;
   bool bounced = false;  ///< it touched the floor before the line, or before it was seen last
-  std::optional<double> residual_sd_m;
+  kicking::Maybe residual_sd_m;
 };
 
 /// How the sightings ended.
@@ -39,10 +40,10 @@ struct ShotTrack {
   std::span<const kicking::Sighting> sightings;  ///< from the expected release on
   FlightEnd end{};
   std::int64_t release_t_ns = 0;
-  std::int64_t end_t_ns = 0;                   ///< when it was over; the last sighting or later
-  double expected_speed_mps = 0.0;             ///< over ground, that the kick should have given
-  std::optional<double> expected_climb_mps{};  ///< the same upwards; none: not known
-  double ball_sd_m = 0.03;                     ///< of a sighting
+  std::int64_t end_t_ns = 0;            ///< when it was over; the last sighting or later
+  double expected_speed_mps = 0.0;      ///< over ground, that the kick should have given
+  kicking::Maybe expected_climb_mps{};  ///< the same upwards; none: not known
+  double ball_sd_m = 0.03;              ///< of a sighting
 };
 
 /// Weighs the outcomes by their likelihood in the light of the sightings:

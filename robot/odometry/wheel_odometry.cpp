@@ -45,7 +45,7 @@ std::optional<msg::Odometry> WheelOdometry::update(const hal::WheelSample& sampl
   last_t_ns_ = sample.t_ns;
   for (std::size_t i = 0; i < std::size(kWheels); ++i)
     now_.*kWheels[i] = i < wheel_radps.size() ? wheel_radps[i] : msg::kNone;
-  now_.gyro_radps = msg::wire_of(sample.gyro_radps);
+  now_.gyro_radps = sample.gyro_radps.wire();
   now_.vx_mps = twist.vx_mps;
   now_.vy_mps = twist.vy_mps;
   now_.omega_radps = twist.omega_radps;

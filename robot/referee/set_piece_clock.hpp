@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "idl/messages.hpp"
+#include "kicking/maybe.hpp"
 
 namespace trivela::robot {
 
@@ -18,7 +19,7 @@ class SetPieceClock {
   void hear(const msg::Referee& word);
 
   /// At the belief's instant [s]; none: no set piece of ours is under way.
-  std::optional<double> left_s(const msg::WorldState& world);
+  kicking::Maybe left_s(const msg::WorldState& world);
 
  private:
   double limit_s_;

@@ -131,7 +131,7 @@ tests::Played set_piece(std::optional<double> left_s, const PolicyInput& from, s
     if (left_s && *left_s > played.seconds) {
       input.set_piece_left_s = *left_s - played.seconds;
     } else {
-      input.set_piece_left_s.reset();
+      input.set_piece_left_s = std::nullopt;
     }
     const Judgement judgement = judge(PolicyName::kPredictive, config, {}, {}, input, memory);
     if (reasons != nullptr) reasons->push_back(judgement.reason);

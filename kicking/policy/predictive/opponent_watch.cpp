@@ -13,11 +13,11 @@ constexpr double kLeastHeld = 1e-3;
 
 }  // namespace
 
-void OpponentWatch::update(const PredictiveConfig& config, std::int64_t now_ns, bool playing,
-                           std::optional<double> observed_m, std::optional<double> known_closing_mps) {
+void OpponentWatch::update(const PredictiveConfig& config, std::int64_t now_ns, bool playing, Maybe observed_m,
+                           Maybe known_closing_mps) {
   const double dt_s = std::clamp(seconds(now_ns - t_ns), 0.0, 0.2);
   t_ns = now_ns;
-  if (observed_m && !(std::isfinite(*observed_m) && *observed_m >= 0.0)) observed_m.reset();
+  if (observed_m && *observed_m < 0.0) observed_m = std::nullopt;
   if (known_closing_mps) {
     *this = {observed_m.has_value(), now_ns, observed_m.value_or(0.0), playing ? *known_closing_mps : 0.0, 0, 0, 0};
     return;
