@@ -4,10 +4,13 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <random>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/instants.hpp"
@@ -56,6 +59,55 @@ struct Case {
   }
   msg::Refusal answer() const { return gate().judge(order, now_ns, OrderBy::kOwnDecision); }
 };
+
+/// The first cells of the table below `heading`, in its order, without the head.
+std::vector<std::string> first_cells(const std::string& file, const std::string& heading) {
+  std::ifstream in(file);
+  std::vector<std::string> cells;
+  bool below = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("## ")) below = line == heading;
+    if (!below || !line.starts_with("| ") || line.starts_with("| refusal")) continue;
+    cells.push_back(line.substr(2, line.find(" |", 2) - 2));
+  }
+  return cells;
+}
+
+TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
+  Case c;  // everything is wrong with it; each step mends what was refused
+  c.sample = {kNow_ns - 10'000 * kMs, 0.0, false, hal::KickerFault::kCoil};
+  c.referee = RefereeSays::kSilent;
+  c.before = {order_at(kNow_ns - 5'000 * kMs, 7)};
+  c.order = order_at(kNow_ns - 5'000 * kMs, 0);
+  c.order.possession = false;
+  c.order.power = 500.0;
+  auto by = OrderBy::kStranger;
+  const std::vector<std::pair<msg::Refusal, std::pair<std::string, std::function<void()>>>> steps{
+      {msg::REFUSAL_STRANGER, {"stranger", [&] { by = OrderBy::kOwnDecision; }}},
+      {msg::REFUSAL_FAULT, {"fault", [&] { c.sample = {kNow_ns, 0.0, false, hal::KickerFault::kNone}; }}},
+      {msg::REFUSAL_OUT_OF_RANGE, {"out_of_range",
+                                   [&] {
+                                     c.order.power = 25.0;
+                                     c.order.kick_id = 7;
+                                   }}},
+      {msg::REFUSAL_NO_BALL, {"no_ball", [&] { c.order.possession = true; }}},
+      {msg::REFUSAL_UNARMED, {"unarmed", [&] { c.sample.armed = true; }}},
+      {msg::REFUSAL_REFEREE_SILENT, {"referee_silent", [&] { c.referee = RefereeSays::kPlay; }}},
+      {msg::REFUSAL_STALE, {"stale",
+                            [&] {
+                              c.order = order_at(kNow_ns, 7);
+                            }}},
+      {msg::REFUSAL_DOUBLE, {"double", [&] { c.order.kick_id = 8; }}},
+      {msg::REFUSAL_CHARGING, {"charging", [&] { c.sample.charge = 1.0; }}}};
+  std::vector<std::string> names;
+  for (const auto& [refusal, step] : steps) {
+    EXPECT_EQ(c.gate().judge(c.order, c.now_ns, by), refusal) << step.first;
+    names.push_back(step.first);
+    step.second();
+  }
+  EXPECT_EQ(c.gate().judge(c.order, c.now_ns, by), msg::REFUSAL_NONE);
+  EXPECT_EQ(names, first_cells(TRIVELA_SOURCE_DIR "/docs/operations.md", "## The kicker's last word"));
+}
 
 TEST(OrderGate, LetsAnOrderPassWhenEverythingIsWell) {
   Case c;
