@@ -72,7 +72,8 @@ Settings settings_of_base(const Team& team) {
 std::vector<kicking::PolicyName> in_charge(const Settings& settings) {
   const KickDecision& k = settings.kick_decision;
   if (!k.random.empty()) return k.random;
-  if (settings.run.robot_id <= k.policy_by_robot.size()) return {k.policy_by_robot[settings.run.robot_id - 1]};
+  const std::size_t robot_id = settings.run.robot_id;  // 0 where the team's file has no usable number
+  if (robot_id >= 1 && robot_id <= k.policy_by_robot.size()) return {k.policy_by_robot[robot_id - 1]};
   return k.policy_by_half;
 }
 

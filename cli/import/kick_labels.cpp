@@ -23,6 +23,7 @@ using config::CellError;
 
 constexpr std::array<std::string_view, 4> kNeeded{"time", "policy", "outcome", "by"};
 constexpr std::array<std::string_view, 2> kOptional{"half", "robot"};
+constexpr int kParts = 4;  // two halves and the two of the overtime
 constexpr double kLongestVideo_s = 86'400.0;
 
 std::string needed_word(const config::Row& row, const char* column) {
@@ -101,7 +102,7 @@ KickLabel label_of(const config::Row& row) {
   kick.policy = policy_of(needed_word(row, "policy"));
   set_outcome(kick, needed_word(row, "outcome"));
   kick.by = needed_word(row, "by");
-  kick.half = whole_in(row, "half", 1, 2, 1);
+  kick.half = whole_in(row, "half", 1, kParts, 1);
   kick.robot_id = whole_in(row, "robot", 1, 255, 0);
   return kick;
 }

@@ -17,6 +17,12 @@ bool within(const Numbers& numbers, std::size_t n, double most) {
   return true;
 }
 
+std::string shown(const Numbers& numbers) {
+  std::string text;
+  for (const auto& number : numbers.at) text += number ? fmt::format("{}, ", *number) : "null, ";
+  return fmt::format("{}... ({} numbers)", text, numbers.size);
+}
+
 }  // namespace
 
 void WorldstateCheck::begin_record() {
@@ -118,6 +124,10 @@ bool WorldstateCheck::position_usable(std::string_view whose, std::size_t n) {
     fault(fmt::format("{} without position", whose), "", "");
     return false;
   }
+  if (part_.position->size > Numbers{}.at.size()) {
+    fault(fmt::format("{} with too long a position", whose), whose, shown(*part_.position));
+    return false;
+  }
   if (!part_.position->has(n)) {
     const bool shorter = part_.position->size < n;
     fault(shorter ? fmt::format("{} with too short a position", whose) : std::string("null position"), whose, "");
@@ -131,6 +141,10 @@ bool WorldstateCheck::position_usable(std::string_view whose, std::size_t n) {
 std::optional<Numbers> WorldstateCheck::usable_velocity(std::string_view whose, std::size_t n) {
   if (!part_.velocity) {
     fault(fmt::format("{} without velocity", whose), "", "");
+    return std::nullopt;
+  }
+  if (part_.velocity->size > Numbers{}.at.size()) {
+    fault(fmt::format("{} with too long a velocity", whose), whose, shown(*part_.velocity));
     return std::nullopt;
   }
   if (!part_.velocity->has(n)) {

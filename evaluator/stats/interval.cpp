@@ -62,6 +62,7 @@ std::optional<double> relative_gain(Counts older, Counts newer) {
 
 std::optional<Ratio> risk_ratio(Counts older, Counts newer, double confidence) {
   if (older.inside == 0 || newer.inside == 0) return std::nullopt;
+  if (older.inside == older.n && newer.inside == newer.n) return std::nullopt;
   const auto variance = [](Counts counts) {
     return 1.0 / static_cast<double>(counts.inside) - 1.0 / static_cast<double>(counts.n);
   };

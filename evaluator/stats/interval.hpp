@@ -26,7 +26,7 @@ Interval agresti_caffo(Counts older, Counts newer, double confidence = kConfiden
 std::optional<double> relative_gain(Counts older, Counts newer);
 
 /// Risk ratio p_new / p_old with Katz's interval on the logarithm, variance 1/k2 - 1/n2 + 1/k1 - 1/n1 (Katz 1978).
-/// None: nothing inside in either group.
+/// None: nothing inside in one of the groups, or nothing outside in both, where the variance would be 0.
 std::optional<Ratio> risk_ratio(Counts older, Counts newer, double confidence = kConfidence);
 
 /// Sample odds ratio with Woolf's interval on the logarithm, variance the sum of 1 / cell (Woolf 1955).

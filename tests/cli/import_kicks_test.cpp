@@ -129,7 +129,9 @@ TEST(KickLabels, BadRowsAreRefusedWithFileLineColumnAndValue) {
     EXPECT_THAT(refusal_of(std::string(time) + ",moving,inside,A\n"), HasSubstr(std::string("column time: '") + time));
   EXPECT_THAT(refusal_of(",moving,inside\n"), HasSubstr("k.csv:2: column by: is missing"));
   const std::string more = "time,policy,outcome,by,half,robot";
-  EXPECT_EQ(refusal_of(",moving,inside,A,3,\n", more), "k.csv:2: column half: '3' is not from 1 to 2");
+  EXPECT_EQ(refusal_of(",moving,inside,A,5,\n", more), "k.csv:2: column half: '5' is not from 1 to 4");
+  EXPECT_EQ(refusal_of(",moving,inside,A,0,\n", more), "k.csv:2: column half: '0' is not from 1 to 4");
+  EXPECT_EQ(refusal_of(",moving,inside,A,4,\n", more), "");
   EXPECT_EQ(refusal_of(",moving,inside,A,1,1.5\n", more), "k.csv:2: column robot: '1.5' is not whole");
 }
 

@@ -65,6 +65,21 @@ TEST_F(TeamVerb, CheckSaysEverythingThatIsWrongWithItsLine) {
           AllOf(HasSubstr("team.toml:33: base.adress"), HasSubstr("address"), HasSubstr("10.0.0.1"))));
 }
 
+TEST_F(TeamVerb, CheckNamesARobotsNumberThatIsNone) {
+  const std::string whole = [&] {
+    std::ifstream in(team());
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  }();
+  const std::string line = "[[robot]]\nnumber = 1\n";
+  for (const char* const number : {"number = 0", "number = -1", "number = 256", "number = 1.5", "number = \"1\"",
+                                   "number = true", ""}) {
+    std::string text = whole;
+    std::ofstream(team()) << text.replace(text.find(line), line.size(), std::string("[[robot]]\n") + number + "\n");
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"check", team()}, configure()})
+      EXPECT_THAT([&] { run(words); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("number"))) << number;
+  }
+}
+
 TEST_F(TeamVerb, ConfigureWritesOnceAndNeverOverWhatWasEdited) {
   EXPECT_EQ(run(configure()), kDone);
   EXPECT_THAT(said, AllOf(HasSubstr("settings.toml"), HasSubstr("team_bus.xml"), HasSubstr("robot.env"),

@@ -79,6 +79,8 @@ TEST(Intervals, SayNothingWhereThereIsNothingToSay) {
   EXPECT_FALSE(relative_gain({0, 5}, kNew));
   EXPECT_FALSE(relative_gain(kOld, none));
   EXPECT_FALSE(risk_ratio(kOld, {0, 5}));
+  EXPECT_FALSE(risk_ratio({1, 1}, {1, 1}));
+  EXPECT_FALSE(risk_ratio({5, 5}, {100, 100}));
   EXPECT_FALSE(odds_ratio(kOld, {5, 5}));
 }
 

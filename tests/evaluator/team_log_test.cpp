@@ -91,6 +91,11 @@ TEST(TeamLog, FaultsOfRobotsAreNamedAndTheRobotIsUsedWhereItHasAPlace) {
               Contains("x.A.msl: robot without an id from 0 to 255 in record 1: id = 300"));
   EXPECT_THAT(faults_of(with_robot(R"({"id":3,"pose":[0,0]})")),
               Contains(HasSubstr("robot with too short a position")));
+  EXPECT_EQ(use(R"({"id":3,"pose":[1,5, 2,5, 0,1]})"), 0u);  // a decimal comma
+  EXPECT_THAT(faults_of(with_robot(R"({"id":3,"pose":[1,5, 2,5, 0,1]})")),
+              Contains(HasSubstr("robot with too long a position in record 1: robot = 1, 5, 2, ... (6 numbers)")));
+  EXPECT_THAT(faults_of(with_robot(R"({"id":3,"pose":[1,5,0],"velocity":[0,5,1,0]})")),
+              Contains(HasSubstr("robot with too long a velocity in record 1: robot = 0, 5, 1, ... (4 numbers)")));
 }
 
 TEST(TeamLog, FaultsOfBallsAreNamedAndTheMostTrustedOneIsUsed) {

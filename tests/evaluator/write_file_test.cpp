@@ -1,8 +1,10 @@
 #include "evaluator/report/write_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -38,6 +40,31 @@ TEST_F(WriteFile, ReplacesWhatWasThere) {
   replace_file(path("a"), "newer\n", "the text");
   EXPECT_EQ(text_of("a"), "newer\n");
   EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WriteFile, KeepsTheLastPageWhereTheNewOneDoesNotFit) {
+  write_file(path("a"), "the last page");
+  const rlimit small{4096, RLIM_INFINITY};  // as a full disk: the write ends within the text
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_file(path("a"), std::string(100'000, 'x')), std::runtime_error);
+  EXPECT_THROW(write_file(path("b"), std::string(100'000, 'x')), std::runtime_error);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(text_of("a"), "the last page");
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WriteFile, FollowsALinkAndKeepsPermissions) {
+  write_file(path("a"), "old");
+  fs::permissions(path("a"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink(path("a"), path("link"));
+  write_file(path("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(text_of("a"), "new");
+  EXPECT_EQ(fs::status(path("a")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 TEST_F(WriteFile, NamesWhatCannotBeWritten) {
