@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,31 @@ struct alignas(4) KickerCapabilities {
 /// What a capacitor shall do: stay as it is, be charged, be emptied.
 enum class ChargeWord { kHold, kUp, kEmpty };
 
+/// The deadline of a kick that has none, as in lockstep and replay.
+constexpr std::int64_t kNoDeadline_ns = std::numeric_limits<std::int64_t>::max();
+
+/// A kick for the device. The instants are of the clock in Kicker.
+struct Shot {
+  std::int64_t kick_id = 0;
+  double power = 0.0;                       ///< set-point
+  std::int64_t t_ns = 0;                    ///< when the coil is to be energised
+  std::int64_t until_ns = kNoDeadline_ns;   ///< the coil is not energised after it
+  std::int64_t judged_ns = kNoDeadline_ns;  ///< when the order was judged: a call_off() after it holds for the shot
+};
+
+/// What became of a shot.
+struct ShotResult {
+  enum class What {
+    kFired,      ///< the device was told
+    kLate,       ///< not told: the deadline was over
+    kCalledOff,  ///< not told: the game was stopped
+    kDevice      ///< not told: the device does not answer, or has no such pulse
+  };
+  std::int64_t kick_id = 0;
+  What what = What::kDevice;
+  std::int64_t t_ns = 0;  ///< when that was known; kFired: after the write
+};
+
 /// The kicker: its state in, kicks out. read() is for one thread at a time, the commands for another.
 ///
 /// Every t_ns is of one clock, the one that the orders' t_ns are of: in real time this machine's steady clock
@@ -52,13 +78,24 @@ class Kicker {
   /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
   virtual std::optional<KickerSample> read(std::chrono::nanoseconds timeout) = 0;
 
-  /// Energises the coil at `t_ns` for the set-point `power`. The device does what it is told: whether the order is
-  /// fresh, in range and wanted is its caller's business. Ignored after make_safe().
-  virtual void fire(std::int64_t kick_id, double power, std::int64_t t_ns) = 0;
+  /// Energises the coil. Whoever writes to the device compares the clock with shot.until_ns immediately before, so
+  /// that no stall of this process makes a kick late. The device does what it is told: whether the order is fresh, in
+  /// range and wanted is its caller's business. Ignored after make_safe().
+  virtual void fire(const Shot& shot) = 0;
 
-  /// The kick `kick_id` is not carried out, if its instant still lies ahead; one that was carried out, or never
-  /// ordered, changes nothing.
+  /// The kick `kick_id` is not carried out, if the device was not told of it yet or its instant still lies ahead; one
+  /// that was carried out, or never ordered, changes nothing.
   virtual void withdraw(std::int64_t kick_id) = 0;
+
+  /// The game is stopped: no shot that was judged before is written from now on. Waits for nobody, for any thread.
+  virtual void call_off() noexcept {}
+
+  /// What became of the oldest shot of which it was not said yet. A shot that was withdrawn has no result. None: there
+  /// is no other, or the device's results are not known here.
+  virtual std::optional<ShotResult> take_result() { return std::nullopt; }
+
+  /// Why the device has no pulse for the set-point `power`. Empty: it has one.
+  virtual std::string beyond(double power) const { return static_cast<void>(power), std::string{}; }
 
   /// What the capacitor shall do from now on, where the device can be told: kUp and kHold need charge_control, kEmpty
   /// needs discharge. Said again with each sample. By default nobody listens.

@@ -78,7 +78,11 @@ msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) 
 int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder& order, SignalInbox& signals) {
   std::optional<hal::KickerSample> newest;
   const std::string before = kicker.status();
-  kicker.fire(order.kick_id, order.power, order.t_ns);
+  kicker.fire({.kick_id = order.kick_id,
+               .power = order.power,
+               .t_ns = order.t_ns,
+               .until_ns = order.valid_until_t_ns,
+               .judged_ns = order.t_ns});
   listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
   const std::string status = kicker.status();
   if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));

@@ -74,8 +74,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 void replace_file(const std::filesystem::path& path, const std::string& text, const std::string& what,
                   const std::function<void(const std::filesystem::path&)>& check) {
   require_no_database(what, path);
-  if (!is_replaced(path, text, check))
-    throw std::runtime_error{fmt::format("cannot write {} {}", what, path.string())};
+  if (!is_replaced(path, text, check)) throw std::runtime_error{fmt::format("cannot write {} {}", what, path.string())};
 }
 
 }  // namespace trivela::evaluator

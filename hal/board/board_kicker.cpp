@@ -34,9 +34,8 @@ int new_event() {
 
 }  // namespace
 
-BoardKicker::BoardKicker(std::unique_ptr<KickerBoard> board, std::chrono::nanoseconds latest)
+BoardKicker::BoardKicker(std::unique_ptr<KickerBoard> board)
     : board_(std::move(board)),
-      latest_(latest),
       capabilities_(board_->capabilities()),
       wake_(new_event()),
       status_(board_->status()),
@@ -63,18 +62,28 @@ std::optional<KickerSample> BoardKicker::read(std::chrono::nanoseconds timeout) 
   return std::exchange(sample_, std::nullopt);
 }
 
-void BoardKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
+void BoardKicker::fire(const Shot& shot) {
   {
     const std::lock_guard lock{mutex_};
     if (safe_) return;
-    shots_.add({kick_id, power, t_ns, steady_ns()});
+    shots_.add(shot);
   }
   wake();
 }
 
 void BoardKicker::withdraw(std::int64_t kick_id) {
   const std::lock_guard lock{mutex_};
-  shots_.withdraw(kick_id, steady_ns());
+  shots_.withdraw(kick_id);
+}
+
+void BoardKicker::call_off() noexcept { called_off_ns_ = steady_ns(); }
+
+std::optional<ShotResult> BoardKicker::take_result() {
+  const std::lock_guard lock{mutex_};
+  if (results_.empty()) return std::nullopt;
+  const ShotResult oldest = results_.front();
+  results_.erase(results_.begin());
+  return oldest;
 }
 
 /// The thread holds the mutex while it writes a shot: none leaves after this has returned.
@@ -108,19 +117,27 @@ std::int64_t BoardKicker::next_shot_ns() const {
 /// False: the thread is to end.
 bool BoardKicker::fire_due() {
   const std::lock_guard lock{mutex_};
-  while (const auto shot = shots_.take_due(steady_ns())) {
-    const std::string why = send(*shot, steady_ns());
-    dropped_ = why.empty() ? why : fmt::format("kick {} was not fired: {}", shot->kick_id, why);
-  }
+  while (const auto shot = shots_.take_due(steady_ns())) send(*shot);
   return !stopping_;
 }
 
-std::string BoardKicker::send(const Shot& shot, std::int64_t now_ns) {
-  if (!board_->up()) return "the board did not answer at its instant";
-  const std::int64_t late_ns = shot.late_ns(now_ns);
-  if (late_ns > latest_.count())
-    return fmt::format("it had waited {:.3f} s too long", static_cast<double>(late_ns) / kNsPerS);
-  return board_->shoot(shot.power, now_ns);
+/// The clock is looked at last: a stall before that drops the shot.
+void BoardKicker::send(const Shot& shot) {
+  using What = ShotResult::What;
+  dropped_.clear();
+  if (!board_->up()) return drop(shot, What::kDevice, "the board did not answer at its instant");
+  const std::int64_t now_ns = steady_ns();
+  if (now_ns > shot.until_ns)
+    return drop(shot, What::kLate,
+                fmt::format("it was {:.3f} s too late", static_cast<double>(now_ns - shot.until_ns) / kNsPerS));
+  if (shot.judged_ns <= called_off_ns_) return drop(shot, What::kCalledOff, "the game was stopped before its instant");
+  if (const std::string why = board_->shoot(shot.power, now_ns); !why.empty()) return drop(shot, What::kDevice, why);
+  results_.push_back({shot.kick_id, What::kFired, steady_ns()});
+}
+
+void BoardKicker::drop(const Shot& shot, ShotResult::What what, const std::string& why) {
+  dropped_ = fmt::format("kick {} was not fired: {}", shot.kick_id, why);
+  results_.push_back({shot.kick_id, what, steady_ns()});
 }
 
 /// Hands out what the board has said.

@@ -34,6 +34,9 @@ class KickerBoard {
   /// also that the line has been doubtful for kDoubt_ns.
   virtual std::string shoot(double power, std::int64_t now_ns) = 0;
 
+  /// Kicker::beyond(). For any thread.
+  virtual std::string beyond(double power) const = 0;
+
   /// The newest sample that was not taken yet. While the line is down they say KickerFault::kLink.
   virtual std::optional<KickerSample> take_sample() = 0;
 

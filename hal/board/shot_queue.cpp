@@ -8,8 +8,8 @@ void ShotQueue::add(const Shot& shot) {
   shots_.insert(std::ranges::upper_bound(shots_, shot.t_ns, {}, &Shot::t_ns), shot);
 }
 
-void ShotQueue::withdraw(std::int64_t kick_id, std::int64_t now_ns) {
-  std::erase_if(shots_, [=](const Shot& shot) { return shot.kick_id == kick_id && shot.t_ns > now_ns; });
+void ShotQueue::withdraw(std::int64_t kick_id) {
+  std::erase_if(shots_, [=](const Shot& shot) { return shot.kick_id == kick_id; });
 }
 
 std::optional<Shot> ShotQueue::take_due(std::int64_t now_ns) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
@@ -23,6 +24,8 @@ KickerFault fault_of(msg::KickerFault fault) {
       return KickerFault::kLink;
   }
 }
+
+std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
 }  // namespace
 
@@ -52,16 +55,22 @@ std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
                       .emulated = received->emulated};
 }
 
-void BusKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
-  if (safe_) return;
+void BusKicker::fire(const Shot& shot) {
   msg::DeviceFire order{};
   order.robot_id = robot_id_;
   order.seq = ++fire_seq_;
-  order.t_ns = t_ns;
-  order.kick_id = kick_id;
-  order.power = power;
+  order.t_ns = shot.t_ns;
+  order.kick_id = shot.kick_id;
+  order.power = shot.power;
+  if (safe_) return;
+  if (shot.until_ns != kNoDeadline_ns && now_ns() > shot.until_ns) {
+    late_ = ShotResult{shot.kick_id, ShotResult::What::kLate, now_ns()};
+    return;
+  }
   fires_.write(order);
 }
+
+std::optional<ShotResult> BusKicker::take_result() { return std::exchange(late_, std::nullopt); }
 
 void BusKicker::withdraw(std::int64_t kick_id) {
   msg::DeviceFire word{};
@@ -91,7 +100,7 @@ void BusKicker::write_charge(ChargeWord word) {
   msg::DeviceCharge out{};
   out.robot_id = robot_id_;
   out.seq = ++charge_seq_;
-  out.t_ns = std::chrono::steady_clock::now().time_since_epoch().count();
+  out.t_ns = now_ns();
   out.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
              : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
                                           : msg::CHARGE_HOLD;

@@ -25,8 +25,9 @@ class BusKicker final : public Kicker {
 
   bool connected(std::chrono::nanoseconds timeout) override;
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
-  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
+  std::optional<ShotResult> take_result() override;
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;
   bool ended() const override { return false; }
@@ -45,6 +46,7 @@ class BusKicker final : public Kicker {
   std::atomic<std::uint64_t> charge_seq_ = 0;
   std::atomic<KickerCapabilities> capabilities_{};
   std::atomic<bool> safe_ = false;
+  std::optional<ShotResult> late_;
 };
 
 }  // namespace trivela::hal

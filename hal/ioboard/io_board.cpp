@@ -60,11 +60,15 @@ std::int64_t IoBoard::next_ns() const {
   return std::min({asked, shot, fault});
 }
 
+std::string IoBoard::beyond(double power) const {
+  if (pulse_of(power, settings_.pulse_us_per_power)) return {};
+  return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 0 to {:g}", power,
+                     power * settings_.pulse_us_per_power, kLongestPulse * kPulseUnit_us);
+}
+
 std::string IoBoard::shoot(double power, std::int64_t now_ns) {
   const auto pulse = pulse_of(power, settings_.pulse_us_per_power);
-  if (!pulse)
-    return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 0 to {:g}", power,
-                       power * settings_.pulse_us_per_power, kLongestPulse * kPulseUnit_us);
+  if (!pulse) return beyond(power);
   if (question_ && now_ns - question_->first_ns > kDoubt_ns)
     return fmt::format("the board has not answered for {:.0f} ms", 1e3 * kicking::seconds(question_->first_ns, now_ns));
   charging_since_ns_ = now_ns;

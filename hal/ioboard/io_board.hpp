@@ -35,6 +35,7 @@ class IoBoard final : public KickerBoard {
   int descriptor() const override { return line_->descriptor(); }
   bool up() const override { return phase_ == Phase::kUp; }
   std::string shoot(double power, std::int64_t now_ns) override;
+  std::string beyond(double power) const override;
   std::optional<KickerSample> take_sample() override;
   KickerCapabilities capabilities() const override { return {}; }
   const std::string& status() const override { return status_; }

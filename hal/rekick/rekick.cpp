@@ -44,11 +44,15 @@ std::int64_t ReKick::next_ns() const {
   return std::min({due, ping, fault});
 }
 
+std::string ReKick::beyond(double power) const {
+  if (pulse_of(power, settings_.pulse_us_per_power)) return {};
+  return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 1 to {:g}", power,
+                     power * settings_.pulse_us_per_power, kLongestPulse_us);
+}
+
 std::string ReKick::shoot(double power, std::int64_t now_ns) {
   const auto pulse_us = pulse_of(power, settings_.pulse_us_per_power);
-  if (!pulse_us)
-    return fmt::format("set-point {:g} is a pulse of {:g} us, the board's are 1 to {:g}", power,
-                       power * settings_.pulse_us_per_power, kLongestPulse_us);
+  if (!pulse_us) return beyond(power);
   if (last_kick_ns_ && now_ns - *last_kick_ns_ < kBetweenKicks_ns) return "the last kick was less than 0.1 s before";
   if (unanswered_since_ns_ && now_ns - *unanswered_since_ns_ > kDoubt_ns)
     return fmt::format("the board has not answered for {:.0f} ms",

@@ -34,6 +34,7 @@ class ReKick final : public KickerBoard {
   int descriptor() const override { return bus_->descriptor(); }
   bool up() const override { return phase_ == Phase::kUp; }
   std::string shoot(double power, std::int64_t now_ns) override;
+  std::string beyond(double power) const override;
   std::optional<KickerSample> take_sample() override;
   KickerCapabilities capabilities() const override {
     return {.charge_control = false, .voltage = true, .discharge = false, .watchdog = false};

@@ -13,8 +13,8 @@ std::optional<KickerSample> ReplayKicker::read(std::chrono::nanoseconds) {
       status->voltage_v};
 }
 
-void ReplayKicker::fire(std::int64_t kick_id, double power, std::int64_t t_ns) {
-  if (!safe_) fires_.push_back({t_ns, kick_id, power});
+void ReplayKicker::fire(const Shot& shot) {
+  if (!safe_) fires_.push_back({shot.t_ns, shot.kick_id, shot.power});
 }
 
 void ReplayKicker::withdraw(std::int64_t kick_id) {

@@ -19,7 +19,7 @@ class ReplayKicker final : public Kicker {
 
   /// Never waits.
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
-  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override;
+  void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
   void make_safe() noexcept override { safe_ = true; }
   bool ended() const override { return samples_.peek() == nullptr; }

@@ -34,6 +34,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       step_done_(step_done_writer(context, node_)),
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
+  demand_pulses();
   refuse_twin(context_, receipt_out_, "kicker_driver");
   if (!context_.settings.run.lockstep) desk_.began(context_.steady_ns());
   node_.on_device(
@@ -96,6 +97,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   kicker_->charge(desk_.charge_word());  // before anybody hears of the state that it belongs to
   status_out_.write(status);
   withdraw();
+  take_results();
   report_done(sample.t_ns);
 }
 
@@ -115,12 +117,23 @@ void KickerDriverNode::demand_capabilities() const {
                                        config::text_of(context_.settings.hal.kicker), lacking)};
 }
 
+/// A set-point of the robot's table that the device has no pulse for would be a kick that is accepted and never fired.
+void KickerDriverNode::demand_pulses() const {
+  const auto& table = context_.robot.model.table;
+  for (const double power : {table.front().power, table.back().power}) {
+    if (const std::string why = kicker_->beyond(power); !why.empty())
+      throw std::runtime_error{fmt::format("the robot's table and the kicker \"{}\" do not fit: {}",
+                                           config::text_of(context_.settings.hal.kicker), why)};
+  }
+}
+
 /// Where no sample comes the capacitor is spoken to all the same.
 void KickerDriverNode::tell_charge() {
   if (context_.settings.run.lockstep) return;
   const std::lock_guard lock{mutex_};
   look_for_decision();
   kicker_->charge(desk_.charge_word());
+  take_results();
 }
 
 /// A decision node that has gone takes the charge with it, and before it was heard there is none. It says `drive` every
@@ -173,12 +186,14 @@ void KickerDriverNode::say_link(bool lost) {
 }
 
 void KickerDriverNode::on_referee(const msg::Referee& word) {
+  if (!word.playing) kicker_->call_off();  // before it waits for anybody
   const std::lock_guard lock{mutex_};
   referee_.heard(word, now_t_ns());
   if (!word.playing) stop();
 }
 
 void KickerDriverNode::on_world(const msg::WorldState& world) {
+  if (!world.playing) kicker_->call_off();
   const std::lock_guard lock{mutex_};
   world_stands_ = !world.playing;
   if (world_stands_) stop();
@@ -198,8 +213,23 @@ void KickerDriverNode::withdraw() {
   receipt_out_.write(*receipt);
 }
 
+/// A shot that the device was not told of is no kick: a second receipt says so.
+void KickerDriverNode::take_results() {
+  while (const auto result = kicker_->take_result()) {
+    const auto receipt = desk_.result(*result, now_t_ns());
+    if (!receipt) continue;
+    context_.logger->warn("kick {} was not fired: {}", receipt->kick_id, bus::label(receipt->refusal));
+    receipt_out_.write(*receipt);
+  }
+}
+
 bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) const {
   return std::ranges::find(own_decisions_, info.owner) != own_decisions_.end();
+}
+
+/// Until when the coil may be energised: while the order is valid, and while the referee's last word counts.
+std::int64_t KickerDriverNode::deadline_ns(const msg::KickOrder& order) const {
+  return std::min(order.valid_until_t_ns, referee_.counts_until_ns());
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {
@@ -208,10 +238,15 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
   if (by == robot::OrderBy::kOwnDecision) decision_heard_ns_ = context_.steady_ns();
   const std::lock_guard lock{mutex_};
   if (real_time) desk_.referee(referee_says({}));
-  msg::KickReceipt receipt = desk_.answer(order, now_t_ns(), by);
+  const std::int64_t judged_ns = now_t_ns();
+  msg::KickReceipt receipt = desk_.answer(order, judged_ns, by);
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
-    kicker_->fire(receipt.kick_id, receipt.power, receipt.fired_t_ns);
+    kicker_->fire({.kick_id = receipt.kick_id,
+                   .power = receipt.power,
+                   .t_ns = receipt.fired_t_ns,
+                   .until_ns = real_time ? deadline_ns(order) : hal::kNoDeadline_ns,
+                   .judged_ns = judged_ns});
     if (real_time) receipt.fired_steady_ns = context_.steady_ns();
     context_.logger->info("kick {} fired with power {:.2f}", order.kick_id, order.power);
   } else {

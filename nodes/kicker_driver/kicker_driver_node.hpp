@@ -38,11 +38,14 @@ class KickerDriverNode {
   void on_world(const msg::WorldState& world);
   void stop();
   void withdraw();
+  void take_results();
+  std::int64_t deadline_ns(const msg::KickOrder& order) const;
   std::int64_t now_t_ns() const;
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
   void check_clock(const hal::KickerSample& sample);
   void say_link(bool lost);
   void demand_capabilities() const;
+  void demand_pulses() const;
   void tell_charge();
   void look_for_decision();
   void report_done(std::int64_t t_ns);

@@ -99,15 +99,33 @@ msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now
 std::optional<msg::KickReceipt> OrderDesk::withdrawal(std::int64_t now_t_ns) {
   const auto withdrawn = gate_.withdraw(now_t_ns);
   if (!withdrawn) return std::nullopt;
+  return refused_after_all(*withdrawn, now_t_ns);
+}
+
+std::optional<msg::KickReceipt> OrderDesk::result(const hal::ShotResult& result, std::int64_t now_t_ns) {
+  using What = hal::ShotResult::What;
+  if (result.what == What::kFired) {
+    gate_.fired(result.kick_id, result.t_ns);
+    return std::nullopt;
+  }
+  const msg::Refusal reason = result.what == What::kLate        ? msg::REFUSAL_STALE
+                              : result.what == What::kCalledOff ? msg::REFUSAL_UNARMED
+                                                                : msg::REFUSAL_FAULT;
+  const auto dropped = gate_.drop(result.kick_id, reason);
+  if (!dropped) return std::nullopt;
+  return refused_after_all(*dropped, now_t_ns);
+}
+
+msg::KickReceipt OrderDesk::refused_after_all(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns) {
   happened(KickerEvent::kCalledOff);
   advance(now_t_ns);
   msg::KickReceipt receipt{};
   receipt.robot_id = robot_id_;
   receipt.seq = ++receipts_;
   receipt.t_ns = now_t_ns;
-  receipt.kick_id = withdrawn->kick_id;
-  receipt.refusal = withdrawn->reason;
-  receipt.order_t_ns = withdrawn->order_t_ns;
+  receipt.kick_id = withdrawn.kick_id;
+  receipt.refusal = withdrawn.reason;
+  receipt.order_t_ns = withdrawn.order_t_ns;
   return receipt;
 }
 

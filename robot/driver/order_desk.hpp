@@ -51,6 +51,10 @@ class OrderDesk {
   /// the device is not well. The device is to be told. To be asked after every status() and referee().
   std::optional<msg::KickReceipt> withdrawal(std::int64_t now_t_ns);
 
+  /// What became of a shot that the device was given. A second receipt where it was not fired: `refusal` is stale,
+  /// unarmed or fault. A shot that was fired late moves the next one.
+  std::optional<msg::KickReceipt> result(const hal::ShotResult& result, std::int64_t now_t_ns);
+
   std::uint32_t handled() const { return gate_.handled(); }
 
   /// Kicks given to the device so far.
@@ -59,6 +63,7 @@ class OrderDesk {
  private:
   void happened(KickerEvent event) { stand_ = next(stand_, event); }
   void advance(std::int64_t now_t_ns);
+  msg::KickReceipt refused_after_all(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns);
 
   OrderGate gate_;
   KickerStand stand_;

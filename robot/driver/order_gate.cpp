@@ -99,13 +99,23 @@ msg::Refusal OrderGate::judge(const msg::KickOrder& order, std::int64_t now_t_ns
 
 std::optional<OrderGate::Withdrawal> OrderGate::withdraw(std::int64_t now_t_ns) {
   if (!accepted_ || accepted_->fire_t_ns <= now_t_ns || (sound(now_t_ns) && armed())) return std::nullopt;
-  const Withdrawal withdrawal{accepted_->kick_id, accepted_->order_t_ns,
-                              sound(now_t_ns) ? disarmed() : msg::REFUSAL_FAULT};
+  return drop(accepted_->kick_id, sound(now_t_ns) ? disarmed() : msg::REFUSAL_FAULT);
+}
+
+std::optional<OrderGate::Withdrawal> OrderGate::drop(std::int64_t kick_id, msg::Refusal reason) {
+  if (!accepted_ || accepted_->kick_id != kick_id) return std::nullopt;
+  const Withdrawal withdrawal{kick_id, accepted_->order_t_ns, reason};
   last_fire_t_ns_ = accepted_->fire_before_t_ns;
-  if (last_kick_id_ == accepted_->kick_id) last_accepted_ = false;
+  if (last_kick_id_ == kick_id) last_accepted_ = false;
   ++refused_;
   accepted_.reset();
   return withdrawal;
+}
+
+void OrderGate::fired(std::int64_t kick_id, std::int64_t t_ns) {
+  if (!accepted_ || accepted_->kick_id != kick_id) return;
+  accepted_->fire_t_ns = std::max(accepted_->fire_t_ns, t_ns);
+  last_fire_t_ns_ = accepted_->fire_t_ns;
 }
 
 }  // namespace trivela::robot

@@ -61,6 +61,12 @@ class OrderGate {
   /// counts as refused from then on, and the next order as if it had not been.
   std::optional<Withdrawal> withdraw(std::int64_t now_t_ns);
 
+  /// The device was not told of the last accepted order `kick_id` after all. As withdraw(), for `reason`.
+  std::optional<Withdrawal> drop(std::int64_t kick_id, msg::Refusal reason);
+
+  /// The device was told of the kick `kick_id` at `t_ns`: the next one is min_interval_s after that.
+  void fired(std::int64_t kick_id, std::int64_t t_ns);
+
   /// Switch on, device heard of, game playing.
   bool armed() const { return sample_ && sample_->armed && referee_ == RefereeSays::kPlay; }
 

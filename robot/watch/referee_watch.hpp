@@ -45,6 +45,9 @@ class RefereeWatch {
     return deserted_ || age_s(now_ns) > timeout_s_ ? RefereeSays::kSilent : RefereeSays::kPlay;
   }
 
+  /// When the last word, which is to play, ends to count. 0: there is none.
+  std::int64_t counts_until_ns() const { return word_ ? word_->t_ns + kicking::nanoseconds(timeout_s_) : 0; }
+
   /// A sentence whenever he falls silent or is heard again; none in between.
   std::optional<std::string> news(std::int64_t now_ns) {
     const bool silent = says(now_ns) == RefereeSays::kSilent;

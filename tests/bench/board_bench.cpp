@@ -100,7 +100,7 @@ std::vector<std::int64_t> fire(Kicker& kicker, std::atomic<std::int64_t>& shot_n
   for (int i = 0; i < shots; ++i) {
     shot_ns = 0;
     const std::int64_t t_ns = steady_ns() + ahead_ns;
-    kicker.fire(i + 1, 1.0, t_ns);
+    kicker.fire({i + 1, 1.0, t_ns});
     std::this_thread::sleep_for(std::chrono::nanoseconds(ahead_ns) + std::chrono::milliseconds(7));
     while (shot_ns == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     late_ns.push_back(shot_ns - t_ns);
@@ -159,8 +159,7 @@ std::vector<Row> by_the_backend(const Plan& plan) {
   std::atomic<std::int64_t> shot_ns = 0;
   const trivela::config::IoBoardDevice settings{.port = emulator.address()};
   BoardKicker kicker{
-      std::make_unique<ioboard::IoBoard>(std::make_unique<StampedLine>(settings.port, shot_ns), settings),
-      std::chrono::minutes(1)};  // none is dropped
+      std::make_unique<ioboard::IoBoard>(std::make_unique<StampedLine>(settings.port, shot_ns), settings)};
   if (!kicker.connected(std::chrono::seconds(10))) throw std::runtime_error{kicker.status()};
   std::vector<Row> rows{
       {"bare write", write_bare(other.address(), plan.shots)},

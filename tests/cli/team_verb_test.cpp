@@ -71,8 +71,8 @@ TEST_F(TeamVerb, CheckNamesARobotsNumberThatIsNone) {
     return std::string{std::istreambuf_iterator<char>(in), {}};
   }();
   const std::string line = "[[robot]]\nnumber = 1\n";
-  for (const char* const number : {"number = 0", "number = -1", "number = 256", "number = 1.5", "number = \"1\"",
-                                   "number = true", ""}) {
+  for (const char* const number :
+       {"number = 0", "number = -1", "number = 256", "number = 1.5", "number = \"1\"", "number = true", ""}) {
     std::string text = whole;
     std::ofstream(team()) << text.replace(text.find(line), line.size(), std::string("[[robot]]\n") + number + "\n");
     for (const std::vector<std::string>& words : {std::vector<std::string>{"check", team()}, configure()})

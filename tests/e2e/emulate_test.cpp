@@ -39,10 +39,9 @@ TEST_F(Emulate, AnIoBoardIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
   Program trivela{"trivela", {"emulate", "ioboard", "--faults", "lost=7"}, folder_.path()};
   ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
   const config::IoBoardDevice settings{.port = trivela.output().substr(0, trivela.output().find('\n'))};
-  hal::BoardKicker kicker{std::make_unique<hal::ioboard::IoBoard>(hal::serial_line(settings.port), settings),
-                          std::chrono::seconds(20)};
+  hal::BoardKicker kicker{std::make_unique<hal::ioboard::IoBoard>(hal::serial_line(settings.port), settings)};
   ASSERT_TRUE(kicker.connected(kPatience)) << kicker.status();
-  kicker.fire(1, 100.0, now_ns());
+  kicker.fire({1, 100.0, now_ns()});
   EXPECT_TRUE(says(trivela, "pulse of 12.800 ms\n")) << trivela.output();
   trivela.signal(SIGTERM);
   EXPECT_EQ(trivela.wait(), 0) << trivela.errors();
@@ -52,10 +51,9 @@ TEST_F(Emulate, AReKickIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {
   Program trivela{"trivela", {"emulate", "rekick", "--faults", "lost=7,strangers=2"}, folder_.path()};
   ASSERT_TRUE(says(trivela, "\n")) << trivela.errors();
   const config::ReKickDevice settings{.port = trivela.output().substr(0, trivela.output().find('\n'))};
-  hal::BoardKicker kicker{std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port), settings),
-                          std::chrono::seconds(20)};
+  hal::BoardKicker kicker{std::make_unique<hal::rekick::ReKick>(hal::can::can_line(settings.port), settings)};
   ASSERT_TRUE(kicker.connected(kPatience)) << kicker.status();
-  kicker.fire(1, 30.0, now_ns());
+  kicker.fire({1, 30.0, now_ns()});
   EXPECT_TRUE(says(trivela, "pulse of 1.000 ms\n")) << trivela.output();
   trivela.signal(SIGTERM);
   EXPECT_EQ(trivela.wait(), 0) << trivela.errors();

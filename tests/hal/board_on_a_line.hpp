@@ -25,9 +25,9 @@ inline std::int64_t steady_ns() {
       .count();
 }
 
-/// A kicker on a board's line. A busy machine wakes a thread late: here no shot is dropped for that.
+/// A kicker on a board's line.
 inline std::unique_ptr<hal::Kicker> kicker_on(std::unique_ptr<hal::KickerBoard> board) {
-  return std::make_unique<hal::BoardKicker>(std::move(board), kPatience);
+  return std::make_unique<hal::BoardKicker>(std::move(board));
 }
 
 /// Reads until `done` of a sample; false: it did not come.

@@ -73,7 +73,7 @@ TYPED_TEST(EmulatedKickerTest, AnOrderIsOnePulseAtItsInstantWithItsPowerToTheBoa
   ASSERT_TRUE(until_armed(*this->kicker));
   for (const double power : {15.0, 27.3}) {
     const std::int64_t t_ns = steady_ns() + 105'000'000;  // a ReKick is not told to kick again within 0.1 s
-    this->kicker->fire(1, power, t_ns);
+    this->kicker->fire({1, power, t_ns});
     const auto pulses = this->pulses(1);
     ASSERT_EQ(pulses.size(), 1u);
     EXPECT_GE(pulses[0].t_ns, t_ns);

@@ -37,7 +37,7 @@ TEST_F(IoBoardKickerTest, FiresOnceAtItsInstantAndNotBefore) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience)) << kicker->status();
   const std::int64_t t_ns = steady_ns() + 60 * kMs;
-  kicker->fire(1, 100.0, t_ns);
+  kicker->fire({1, 100.0, t_ns});
   ASSERT_TRUE(wait_for_pulses(1));
   wait_for_looks(3);
   const EmulatedBoard seen = board();
@@ -80,7 +80,7 @@ TEST_F(IoBoardKickerTest, AShotWhoseAnswerIsLostGarbledOrWrongIsNotSentAgain) {
   std::size_t shots = 0;
   for (const auto fault : kFaults) {
     emulator_.with_board([=](EmulatedBoard& board) { board.faults.*fault = 1; });  // every answer
-    kicker->fire(static_cast<std::int64_t>(++shots), 20.0, steady_ns());
+    kicker->fire({static_cast<std::int64_t>(++shots), 20.0, steady_ns()});
     ASSERT_TRUE(wait_for_pulses(shots)) << kicker->status();
     EXPECT_TRUE(until_link_fault(*kicker)) << "no answer comes any more";
     emulator_.with_board([](EmulatedBoard& board) { board.faults = {}; });
@@ -103,9 +103,9 @@ TEST_F(IoBoardKickerTest, SomeLostAnswersCostSamplesAndNotTheLine) {
 TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(1, 100.0, steady_ns() + 30 * kMs);
+  kicker->fire({1, 100.0, steady_ns() + 30 * kMs});
   kicker->make_safe();
-  kicker->fire(2, 100.0, steady_ns());
+  kicker->fire({2, 100.0, steady_ns()});
   wait_for_looks(10);
   EXPECT_EQ(board().shots_told(), 0u);
   EXPECT_TRUE(until_armed(*kicker)) << "it still speaks";
@@ -114,7 +114,7 @@ TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
 TEST_F(IoBoardKickerTest, DestructionFiresNothing) {
   auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(1, 100.0, steady_ns() + 500 * kMs);
+  kicker->fire({1, 100.0, steady_ns() + 500 * kMs});
   kicker.reset();
   kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
@@ -128,8 +128,8 @@ TEST_F(IoBoardKickerTest, APulledCableIsALinkFaultAndIsOpenedAgainByItself) {
   EXPECT_EQ(board().lever(), 120);
   emulator_.line().pull();
   EXPECT_TRUE(until_link_fault(*kicker));
-  kicker->fire(1, 100.0, steady_ns());             // nobody is there
-  kicker->fire(2, 100.0, steady_ns() + 10 * kMs);  // nor then
+  kicker->fire({1, 100.0, steady_ns()});             // nobody is there
+  kicker->fire({2, 100.0, steady_ns() + 10 * kMs});  // nor then
   EXPECT_TRUE(tests::until_status_says(*kicker, "kick 2"));
   emulator_.line().plug();
   EXPECT_TRUE(until_armed(*kicker)) << kicker->status();
@@ -137,7 +137,7 @@ TEST_F(IoBoardKickerTest, APulledCableIsALinkFaultAndIsOpenedAgainByItself) {
   const EmulatedBoard seen = board();
   EXPECT_EQ(seen.shots_told(), 0u) << "nothing fires late";
   EXPECT_EQ(seen.heights_told(), 2u) << "once on each line";
-  kicker->fire(3, 100.0, steady_ns());
+  kicker->fire({3, 100.0, steady_ns()});
   EXPECT_TRUE(wait_for_pulses(1));
 }
 
@@ -145,7 +145,7 @@ TEST_F(IoBoardKickerTest, AShotThatStoodInTheCableDoesNotFireWhenItIsPluggedInAg
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.line().hold(true);
-  kicker->fire(1, 100.0, steady_ns());
+  kicker->fire({1, 100.0, steady_ns()});
   EXPECT_TRUE(until_link_fault(*kicker));
   emulator_.line().pull();
   emulator_.line().hold(false);
@@ -168,23 +168,38 @@ TEST_F(IoBoardKickerTest, ABoardThatIsNotThereYetIsWaitedFor) {
 TEST_F(IoBoardKickerTest, ASetPointOutsideOfThePulseIsNotFiredAndSaid) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(7, 300.0, steady_ns());
+  kicker->fire({7, 300.0, steady_ns()});
   EXPECT_TRUE(tests::until_status_says(*kicker, "kick 7"));
   EXPECT_EQ(board().shots_told(), 0u);
 }
 
-TEST(BoardKickerTest, AShotThatWaitedTooLongIsNotFired) {
-  Emulator emulator;
-  const config::IoBoardDevice settings{.port = emulator.address()};
-  // Every shot is later than that: its instant is over when the thread looks at it.
-  BoardKicker kicker{std::make_unique<IoBoard>(serial_line(settings.port), settings), std::chrono::nanoseconds(-1)};
-  ASSERT_TRUE(kicker.connected(kPatience));
-  kicker.fire(1, 100.0, steady_ns());
-  std::uint64_t looks = 0;
-  emulator.with_board([&](const EmulatedBoard& board) { looks = board.looks(); });
-  EXPECT_TRUE(emulator.wait(kPatience, [=](const EmulatedBoard& board) { return board.looks() > looks + 2; }));
-  emulator.with_board([](const EmulatedBoard& board) { EXPECT_EQ(board.shots_told(), 0u); });
-  EXPECT_NE(kicker.status().find("kick 1 was not fired: it had waited"), std::string::npos) << kicker.status();
+TEST_F(IoBoardKickerTest, AShotWhoseDeadlineIsOverIsNotFiredAndSaid) {
+  const auto kicker = open();
+  ASSERT_TRUE(kicker->connected(kPatience));
+  const std::int64_t now_ns = steady_ns();
+  kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = now_ns - 2'000 * kMs, .until_ns = now_ns - 1});
+  wait_for_looks(board().looks() + 3);
+  EXPECT_EQ(board().shots_told(), 0u);
+  EXPECT_NE(kicker->status().find("kick 1 was not fired: it was"), std::string::npos) << kicker->status();
+  const auto dropped = kicker->take_result();
+  ASSERT_TRUE(dropped);
+  EXPECT_EQ(dropped->kick_id, 1);
+  EXPECT_EQ(dropped->what, ShotResult::What::kLate);
+  EXPECT_FALSE(kicker->take_result());
+}
+
+TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheCallOffIsNotFired) {
+  const auto kicker = open();
+  ASSERT_TRUE(kicker->connected(kPatience));
+  const std::int64_t judged_ns = steady_ns();
+  kicker->call_off();
+  // The order of a thread that stood still between the judgement and this call.
+  kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = judged_ns, .judged_ns = judged_ns});
+  wait_for_looks(board().looks() + 3);
+  EXPECT_EQ(board().shots_told(), 0u);
+  EXPECT_EQ(kicker->take_result().value_or(ShotResult{}).what, ShotResult::What::kCalledOff);
+  kicker->fire({.kick_id = 2, .power = 100.0, .t_ns = steady_ns(), .judged_ns = steady_ns()});
+  EXPECT_TRUE(wait_for_pulses(1)) << "what is judged afterwards is fired";
 }
 
 TEST(EmulatedIoBoard, IgnoresAShotWhileAPulseRunsAndAHeightWhileTheLeverMoves) {

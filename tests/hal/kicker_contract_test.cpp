@@ -71,6 +71,7 @@ class BusRig : public ToldDevice {
     world.samples.write(sample);
   }
 
+  void wait_for_first() {}
   /// Everything that the coil was told, up to a word that takes the same way after it: the device's own, or where it is
   /// gone that of another.
   std::vector<Fired> energised() {
@@ -111,6 +112,7 @@ class ReplayRig : public ToldDevice {
     device = std::make_unique<ReplayKicker>(ReplayLog::open(log.file(), kRobot));
   }
   void say(std::size_t) {}
+  void wait_for_first() {}
   std::vector<Fired> energised() {
     std::vector<Fired> fired;
     for (const auto& f : dynamic_cast<ReplayKicker&>(*device).fires()) fired.push_back({f.kick_id, f.power, f.t_ns});
@@ -152,6 +154,10 @@ class BoardRig {
   }
   bool is_last(const KickerSample& sample) const { return sample.t_ns > said_t_ns_; }
 
+  /// What the board was told can be withdrawn no more.
+  void wait_for_first() {
+    EXPECT_TRUE(board.emulator.wait(kPlenty, [](const auto& emulated) { return !emulated.pulses().empty(); }));
+  }
   /// What the coil did so far and does within the next while.
   std::vector<Fired> energised() {
     tests::wait_for_looks(board.emulator, 2, tests::steady_ns() + kAhead_ns + 100'000'000);
@@ -214,18 +220,18 @@ TYPED_TEST(KickerContract, ASampleThatWaitedKeepsItsInstant) {
     last_t_ns = sample->t_ns;
     last = this->rig_.is_last(*sample);
   }
-  kicker.fire(11, 22.5, kSaid.front().t_ns);                                          // the driver's word waited, too
+  kicker.fire({11, 22.5, kSaid.front().t_ns});                                        // the driver's word waited, too
   this->rig_.expect_fired(this->rig_.energised(), {{11, 22.5, kSaid.front().t_ns}});  // the device sees its age
 }
 
 TYPED_TEST(KickerContract, FiresAtAnyTime) {
   auto& kicker = *this->rig_.device;
-  kicker.fire(11, 22.5, 5);
+  kicker.fire({11, 22.5, 5});
   const std::vector<Fired> first = this->rig_.energised();
   this->rig_.expect_fired(first, {{11, 22.5, 5}});
   this->rig_.say(0);
   kicker.read(kPlenty);
-  kicker.fire(12, 50.0, 30'000'000);
+  kicker.fire({12, 50.0, 30'000'000});
   const std::vector<Fired> fired = this->rig_.energised();
   ASSERT_FALSE(fired.empty());
   this->rig_.expect_fired({fired.back()}, {{12, 50.0, 30'000'000}});
@@ -237,9 +243,10 @@ TYPED_TEST(KickerContract, AKickThatLiesAheadIsCalledOffAndNoOther) {
   const auto sample = kicker.read(kPlenty);
   ASSERT_TRUE(sample);
   constexpr std::int64_t ahead_ns = TypeParam::kAhead_ns;
-  kicker.fire(11, 22.5, sample->t_ns - 1);
-  kicker.fire(12, 30.0, sample->t_ns + ahead_ns);
-  kicker.fire(13, 40.0, sample->t_ns + ahead_ns + 3'000'000);
+  kicker.fire({11, 22.5, sample->t_ns - 1});
+  this->rig_.wait_for_first();
+  kicker.fire({12, 30.0, sample->t_ns + ahead_ns});
+  kicker.fire({13, 40.0, sample->t_ns + ahead_ns + 3'000'000});
   kicker.withdraw(12);
   kicker.withdraw(12);
   kicker.withdraw(11);  // was carried out
@@ -252,7 +259,7 @@ TYPED_TEST(KickerContract, NothingIsEnergisedOnceItIsSafe) {
   auto& kicker = *this->rig_.device;
   kicker.make_safe();
   kicker.make_safe();
-  kicker.fire(11, 22.5, 5);
+  kicker.fire({11, 22.5, 5});
   EXPECT_TRUE(this->rig_.energised().empty());
   this->rig_.say(0);
   EXPECT_TRUE(kicker.read(kPlenty));  // it still speaks

@@ -35,7 +35,7 @@ TEST_F(ReKickKickerTest, FiresOnceAtItsInstantAndNotBefore) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience)) << kicker->status();
   const std::int64_t t_ns = steady_ns() + 60 * kMs;
-  kicker->fire(1, 30.0, t_ns);
+  kicker->fire({1, 30.0, t_ns});
   ASSERT_TRUE(wait_for_pulses(1));
   tests::wait_for_looks(emulator_, 3);
   EXPECT_EQ(kicks_told(), 1u);
@@ -49,7 +49,7 @@ TEST_F(ReKickKickerTest, ChargesUpAndShowsWhatAKickTook) {
   const auto kicker = open();
   double full = 0.0;
   ASSERT_TRUE(tests::read_until(*kicker, [&](const KickerSample& sample) { return (full = sample.charge) >= 0.3; }));
-  kicker->fire(1, 100.0, steady_ns());
+  kicker->fire({1, 100.0, steady_ns()});
   EXPECT_TRUE(tests::read_until(*kicker, [](const KickerSample& sample) { return sample.charge < 0.2; }));
   EXPECT_TRUE(tests::read_until(*kicker, [](const KickerSample& sample) { return sample.charge > 0.25; }));
 }
@@ -61,7 +61,7 @@ TEST_F(ReKickKickerTest, LostAnswersAndStrangersCostNoKickAndAddNone) {
   });
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker)) << kicker->status();
-  kicker->fire(1, 30.0, steady_ns());
+  kicker->fire({1, 30.0, steady_ns()});
   ASSERT_TRUE(wait_for_pulses(1));
   tests::wait_for_looks(emulator_, 10);
   EXPECT_EQ(kicks_told(), 1u);
@@ -79,9 +79,9 @@ TEST_F(ReKickKickerTest, ItsErrorFlagIsAFaultForAsLongAsItStands) {
 TEST_F(ReKickKickerTest, NothingLeavesAfterItIsSafe) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
-  kicker->fire(1, 30.0, steady_ns() + 30 * kMs);
+  kicker->fire({1, 30.0, steady_ns() + 30 * kMs});
   kicker->make_safe();
-  kicker->fire(2, 30.0, steady_ns());
+  kicker->fire({2, 30.0, steady_ns()});
   tests::wait_for_looks(emulator_, 10);
   EXPECT_EQ(kicks_told(), 0u);
 }
@@ -91,7 +91,7 @@ TEST_F(ReKickKickerTest, APulledCableIsALinkFaultAndIsOpenedAgainByItself) {
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.line().pull();
   EXPECT_TRUE(until_link_fault(*kicker));
-  kicker->fire(1, 30.0, steady_ns());
+  kicker->fire({1, 30.0, steady_ns()});
   EXPECT_TRUE(tests::until_status_says(*kicker, "kick 1 was not fired"));
   emulator_.line().plug();
   EXPECT_TRUE(until_armed(*kicker)) << kicker->status();
@@ -105,7 +105,7 @@ TEST_F(ReKickKickerTest, ABoardThatIsSilentAndHeardAgain) {
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.with_board([](EmulatedBoard& board) { board.faults.silent = true; });
   EXPECT_TRUE(until_link_fault(*kicker));
-  kicker->fire(1, 30.0, steady_ns());
+  kicker->fire({1, 30.0, steady_ns()});
   EXPECT_TRUE(tests::until_status_says(*kicker, "kick 1 was not fired"));
   emulator_.with_board([](EmulatedBoard& board) { board.faults.silent = false; });
   EXPECT_TRUE(until_armed(*kicker)) << kicker->status();

@@ -151,8 +151,8 @@ class FakeKicker : public hal::Kicker {
   ~FakeKicker() override { far_side_->safe = true; }
   bool connected(std::chrono::nanoseconds) override { return true; }
   std::optional<hal::KickerSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
-  void fire(std::int64_t kick_id, double power, std::int64_t t_ns) override {
-    if (!far_side_->safe) far_side_->command({kick_id, power, t_ns, std::this_thread::get_id()});
+  void fire(const hal::Shot& shot) override {
+    if (!far_side_->safe) far_side_->command({shot.kick_id, shot.power, shot.t_ns, std::this_thread::get_id()});
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
   void make_safe() noexcept override { far_side_->safe = true; }

@@ -84,19 +84,21 @@ TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
   auto by = OrderBy::kStranger;
   const std::vector<std::pair<msg::Refusal, std::pair<std::string, std::function<void()>>>> steps{
       {msg::REFUSAL_STRANGER, {"stranger", [&] { by = OrderBy::kOwnDecision; }}},
-      {msg::REFUSAL_FAULT, {"fault", [&] { c.sample = {kNow_ns, 0.0, false, hal::KickerFault::kNone}; }}},
-      {msg::REFUSAL_OUT_OF_RANGE, {"out_of_range",
-                                   [&] {
-                                     c.order.power = 25.0;
-                                     c.order.kick_id = 7;
-                                   }}},
+      {msg::REFUSAL_FAULT,
+       {"fault",
+        [&] {
+          c.sample = {kNow_ns, 0.0, false, hal::KickerFault::kNone};
+        }}},
+      {msg::REFUSAL_OUT_OF_RANGE,
+       {"out_of_range",
+        [&] {
+          c.order.power = 25.0;
+          c.order.kick_id = 7;
+        }}},
       {msg::REFUSAL_NO_BALL, {"no_ball", [&] { c.order.possession = true; }}},
       {msg::REFUSAL_UNARMED, {"unarmed", [&] { c.sample.armed = true; }}},
       {msg::REFUSAL_REFEREE_SILENT, {"referee_silent", [&] { c.referee = RefereeSays::kPlay; }}},
-      {msg::REFUSAL_STALE, {"stale",
-                            [&] {
-                              c.order = order_at(kNow_ns, 7);
-                            }}},
+      {msg::REFUSAL_STALE, {"stale", [&] { c.order = order_at(kNow_ns, 7); }}},
       {msg::REFUSAL_DOUBLE, {"double", [&] { c.order.kick_id = 8; }}},
       {msg::REFUSAL_CHARGING, {"charging", [&] { c.sample.charge = 1.0; }}}};
   std::vector<std::string> names;
