@@ -105,6 +105,7 @@ struct Fired {
   std::int64_t kick_id;
   double power;
   std::int64_t t_ns;
+  std::int64_t until_ns;
   std::thread::id thread;
 };
 
@@ -115,6 +116,19 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<std::int64_t> withdrawn = 0;  ///< kick_id that was called off last
   std::atomic<hal::KickerCapabilities> can{};
   std::atomic<hal::ChargeWord> told = hal::ChargeWord::kHold;  ///< the capacitor, last
+
+  std::atomic<int> call_offs = 0;
+  std::atomic<double> most_power = 1e9;
+
+  /// What becomes of a shot.
+  void say_result(const hal::ShotResult& result) {
+    const std::lock_guard lock{link_mutex_};
+    result_ = result;
+  }
+  std::optional<hal::ShotResult> take_result() {
+    const std::lock_guard lock{link_mutex_};
+    return std::exchange(result_, std::nullopt);
+  }
 
   /// What the device says of its link.
   void say_link(const std::string& link) {
@@ -129,6 +143,7 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
  private:
   mutable std::mutex link_mutex_;
   std::string link_;
+  std::optional<hal::ShotResult> result_;
 };
 
 class FakeWheels : public hal::Wheels {
@@ -152,9 +167,15 @@ class FakeKicker : public hal::Kicker {
   bool connected(std::chrono::nanoseconds) override { return true; }
   std::optional<hal::KickerSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
   void fire(const hal::Shot& shot) override {
-    if (!far_side_->safe) far_side_->command({shot.kick_id, shot.power, shot.t_ns, std::this_thread::get_id()});
+    if (!far_side_->safe)
+      far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
+  void call_off() noexcept override { ++far_side_->call_offs; }
+  std::optional<hal::ShotResult> take_result() override { return far_side_->take_result(); }
+  std::string beyond(double power) const override {
+    return power > far_side_->most_power ? "it has no such pulse" : std::string{};
+  }
   void make_safe() noexcept override { far_side_->safe = true; }
   void charge(hal::ChargeWord word) override { far_side_->told = word; }
   hal::KickerCapabilities capabilities() const override { return far_side_->can; }

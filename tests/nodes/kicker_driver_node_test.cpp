@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "tests/nodes/node_fixture.hpp"
 
@@ -403,6 +405,67 @@ TEST_F(NodeTest, TheKickerDriverSaysWhenTheDecisionLoopFallsSilent) {
   clock_ns += 400'000'000;
   loop.assert_liveliness();
   EXPECT_TRUE(log_lines->wait_for("the decision loop is silent"));
+}
+
+TEST_F(KickerDriverNodeTest, AShotThatTheDeviceWasNotToldOfIsNoKick) {
+  using What = hal::ShotResult::What;
+  start();
+  sample();
+  play();
+  sample();
+  std::int64_t kick_id = 4;
+  for (const auto& [what, refusal] :
+       std::vector<std::pair<What, msg::Refusal>>{{What::kLate, msg::REFUSAL_STALE},
+                                                  {What::kCalledOff, msg::REFUSAL_UNARMED},
+                                                  {What::kDevice, msg::REFUSAL_FAULT}}) {
+    ASSERT_TRUE(answer(wish(++kick_id)).accepted);
+    kicker->say_result({kick_id, what, t_ns});
+    sample(1.0, true, hal::KickerFault::kNone, 60'000'000);
+    const msg::KickReceipt second = receipt.nth(++orders);
+    EXPECT_EQ(second.kick_id, kick_id);
+    EXPECT_FALSE(second.accepted);
+    EXPECT_EQ(second.refusal, refusal);
+    play();
+    sample();
+  }
+}
+
+TEST_F(KickerDriverNodeTest, TheShotEndsWithTheOrderOrWithTheRefereesWord) {
+  start();
+  sample();
+  play();
+  sample();
+  const msg::KickOrder wished = wish(5);
+  ASSERT_TRUE(answer(wished).accepted);
+  EXPECT_EQ(kicker->commands(1).at(0).until_ns, wished.valid_until_t_ns);
+}
+
+TEST_F(KickerDriverNodeTest, TheNextKickRestsFromTheRealPulse) {
+  start();
+  sample();
+  play();
+  sample();
+  ASSERT_TRUE(answer(wish(5)).accepted);
+  kicker->say_result({5, hal::ShotResult::What::kFired, t_ns + 40'000'000});
+  sample(1.0, true, hal::KickerFault::kNone, 60'000'000);
+  play();
+  sample(1.0, true, hal::KickerFault::kNone, 450'000'000);  // 0.51 s after the order, 0.47 s after the pulse
+  play();
+  EXPECT_EQ(answer(wish(6)).refusal, msg::REFUSAL_DOUBLE);
+}
+
+TEST_F(KickerDriverNodeTest, AStopCallsOffWhateverTheGateKnows) {
+  start();
+  sample();
+  play();
+  play(false);
+  EXPECT_TRUE(eventually([&] { return kicker->call_offs > 0; }));
+}
+
+TEST_F(KickerDriverNodeTest, ASetPointBeyondThePulseEndsItAtItsStart) {
+  long_ago();
+  kicker->most_power = context.robot.model.table.back().power - 1.0;
+  EXPECT_THROW(node.emplace(context, fake_kicker()), std::runtime_error);
 }
 
 }  // namespace
