@@ -18,6 +18,12 @@ double real(std::int64_t n) { return static_cast<double>(n); }
 
 void add(Counts& sum, Counts counts) { sum = {sum.inside + counts.inside, sum.n + counts.n}; }
 
+/// p (1 - p) / n after one kick inside and one outside are added, so that it is never 0 (Agresti and Caffo 2000).
+double smoothed_variance(Counts counts) {
+  const double n = real(counts.n) + 2.0, p = (real(counts.inside) + 1.0) / n;
+  return p * (1.0 - p) / n;
+}
+
 struct StratumTotal {
   Counts older;
   Counts newer;
@@ -95,12 +101,13 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
   const auto totals = totals_of(cells);
   if (totals.empty()) return std::nullopt;
   Clustered result;
-  double independent = 0.0;
+  double independent = 0.0, smoothed = 0.0;
   for (const auto& [number, total] : totals) {
     const double p1 = *efficiency(total.older), p2 = *efficiency(total.newer);
     result.value += total.weight * (p2 - p1);
     independent +=
         square(total.weight) * (p1 * (1.0 - p1) / real(total.older.n) + p2 * (1.0 - p2) / real(total.newer.n));
+    smoothed += square(total.weight) * (smoothed_variance(total.older) + smoothed_variance(total.newer));
   }
   const DifferenceParts sum = parts_of(cells, totals);
   result.older_matches = sum.with_older.size();
@@ -108,8 +115,11 @@ std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells
   if (std::min(result.older_matches, result.newer_matches) < kFewestMatches) return std::nullopt;
   const ClusterVariance by_both = *cluster_variance(sum.influences);
   const BiasReduced spread = with_calibrations(bias_reduced(sum.parts, merged(sum.cells)), by_both);
-  const double variance = spread.variance;
   result.df = spread.df;
+  // Few matches that happen to be alike show less than independent kicks would: their interval is no narrower.
+  const bool few = std::min(result.older_matches, result.newer_matches) < kManyMatches || spread.variance == 0.0;
+  const double floor = few ? smoothed * square(z_of(confidence) / t_of(confidence, result.df)) : 0.0;
+  const double variance = std::max(spread.variance, floor);
   result.calibrations = by_both.calibrations;
   result.by_calibration = by_both.by_calibration;
   result.standard_error = std::sqrt(variance);

@@ -14,6 +14,9 @@ namespace trivela::evaluator::stats {
 /// Matches that a side needs; with fewer no inference from matches is possible.
 inline constexpr std::size_t kFewestMatches = 5;
 
+/// With fewer on a side a spread below that of independent kicks is not believed.
+inline constexpr std::size_t kManyMatches = 30;
+
 /// What one match has of both policies, of one stratum of situations.
 struct MatchCounts {
   std::uint32_t match = 0;    ///< number of the match; matches are independent, kicks within one are not
@@ -42,6 +45,8 @@ struct Clustered {
 /// stratum has w = 1. What the policies of a match have in common cancels, so that with the same opportunities for both
 /// it is the paired interval. From kFewestCalibrations calibrations on the variance is no less, and the degrees of
 /// freedom no more, than those by match and calibration (cluster_variance()).
+/// With fewer than kManyMatches on a side, or where the matches show no spread at all, the interval is no narrower than
+/// Agresti and Caffo's of the same kicks taken as independent: so few matches can be alike by chance.
 /// None: fewer than kFewestMatches on a side, or no stratum with both.
 std::optional<Clustered> clustered_difference(std::span<const MatchCounts> cells, double confidence = kConfidence);
 

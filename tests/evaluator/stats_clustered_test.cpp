@@ -25,17 +25,17 @@ TEST(ClusteredDifference, OfMatchesWithBothIsStudentsIntervalOfTheirDifferences)
   // Equal sizes: the mean of the matches' own differences with their standard deviation.
   const std::vector<double> differences = {0.1, 0.3, 0.2, 0.0, 0.4, 0.2};
   std::vector<MatchCounts> cells;
-  for (std::uint32_t match = 0; match < 6; ++match) {
-    const auto newer = static_cast<std::int64_t>(std::lround(10.0 * differences[match])) + 3 + match % 2;
+  for (std::uint32_t match = 0; match < 30; ++match) {  // kManyMatches: what they show is believed
+    const auto newer = static_cast<std::int64_t>(std::lround(10.0 * differences[match % 6])) + 3 + match % 2;
     cells.push_back({match, 0, {3 + match % 2, 10}, {newer, 10}});
   }
   double squares = 0.0;
-  for (const double d : differences) squares += (d - 0.2) * (d - 0.2);
+  for (const double d : differences) squares += 5.0 * (d - 0.2) * (d - 0.2);
   const auto result = *clustered_difference(cells);
   EXPECT_NEAR(result.value, 0.2, 1e-12);
-  EXPECT_NEAR(result.standard_error, std::sqrt(squares / 5.0 / 6.0), 1e-12);
-  EXPECT_EQ(result.df, 5.0);
-  EXPECT_NEAR(result.ci.hi, 0.2 + 2.570581836 * result.standard_error, 1e-9);
+  EXPECT_NEAR(result.standard_error, std::sqrt(squares / 29.0 / 30.0), 1e-12);
+  EXPECT_NEAR(result.df, 29.0, 1e-9);
+  EXPECT_NEAR(result.ci.hi, 0.2 + 2.045229642 * result.standard_error, 1e-9);
 }
 
 TEST(ClusteredDifference, OfSeparateMatchesIsWelchs) {
@@ -63,10 +63,23 @@ TEST(ClusteredDifference, WeighsStrataByTheirShare) {
   EXPECT_NEAR(clustered_difference(cells)->value, 0.4 * (9.0 - 6.0) / 24.0 + 0.6 * (18.0 - 21.0) / 36.0, 1e-12);
 }
 
-TEST(ClusteredDifference, OfPerfectPoliciesIsExact) {
+TEST(ClusteredDifference, IsNeverNarrowerThanThatOfIndependentKicksWhereMatchesAreFew) {
+  for (const std::int64_t inside : {0, 1, 2}) {
+    std::vector<MatchCounts> cells;  // all alike: by match alone there is no spread
+    for (std::uint32_t m = 0; m < 6; ++m) cells.push_back({m, 0, {inside, 2}, {inside, 2}});
+    const auto result = *clustered_difference(cells);
+    const Interval independent = agresti_caffo({6 * inside, 12}, {6 * inside, 12});
+    EXPECT_NEAR(result.ci.hi - result.ci.lo, independent.hi - independent.lo, 1e-12) << inside;
+    EXPECT_GT(result.standard_error, 0.0);
+  }
+}
+
+TEST(ClusteredDifference, HasWidthWhereNothingDiffersInManyMatches) {
   std::vector<MatchCounts> cells;
-  for (std::uint32_t m = 0; m < 6; ++m) cells.push_back({m, 0, {0, 4}, {4, 4}});
-  EXPECT_EQ(clustered_difference(cells)->ci.lo, 1.0);
+  for (std::uint32_t m = 0; m < 40; ++m) cells.push_back({m, 0, {4, 4}, {4, 4}});
+  const auto result = *clustered_difference(cells);
+  EXPECT_LT(result.ci.lo, -0.01);
+  EXPECT_GT(result.ci.hi, 0.01);
 }
 
 TEST(ClusteredWilson, IsWilsonsWithFewerKicksAndNeverNarrower) {
