@@ -6,18 +6,20 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/csv_rows.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/metrics/metrics.hpp"
+#include "evaluator/report/escaped_text.hpp"
+#include "evaluator/report/log_opportunities.hpp"
 #include "evaluator/report/text_table.hpp"
 
 namespace trivela::cli {
 namespace {
 
 using LogCell = evaluator::log::Value;
+using Json = nlohmann::ordered_json;
 
 struct QueryArguments {
   std::string log;
@@ -41,11 +43,21 @@ std::string text_of_cell(const LogCell& cell) {
   return digits;
 }
 
-nlohmann::ordered_json json_of_cell(const LogCell& cell) {
+Json json_of_cell(const LogCell& cell) {
   if (std::holds_alternative<std::monostate>(cell)) return nullptr;
   if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return *whole;
   if (const auto* const number = std::get_if<double>(&cell)) return *number;
   return text_of_cell(cell);
+}
+
+/// Numbers as they are, texts so that neither a terminal nor a spreadsheet obeys them.
+std::string csv_line_of(std::span<const LogCell> row) {
+  std::string line;
+  for (const LogCell& cell : row) {
+    if (&cell != row.data()) line += ',';
+    line += std::holds_alternative<std::string>(cell) ? evaluator::csv_text(text_of_cell(cell)) : text_of_cell(cell);
+  }
+  return line + '\n';
 }
 
 std::vector<std::string> texts_of(std::span<const LogCell> row) {
@@ -68,24 +80,28 @@ std::string question(const QueryArguments& arguments) {
 }
 
 void print_rows(const evaluator::log::Reader& reader, const QueryArguments& arguments) {
+  const std::string asked = question(arguments);
+  // As report counts: what several sessions recorded of one play, and what a merge holds twice, counts once.
+  if (asked.find("counted_kicks") != std::string::npos) evaluator::read_opportunities(reader, arguments.log, false);
   std::vector<std::vector<std::string>> rows;  // of a text alone: its columns are as wide as their widest cell
   std::vector<std::string> names;
   std::size_t count = 0;
   reader.ask(
-      question(arguments),
+      asked,
       [&](const std::vector<std::string>& columns) {
         names = columns;
-        if (arguments.csv) fmt::print("{}", csv_line(names));
+        const std::vector<LogCell> head(names.begin(), names.end());
+        if (arguments.csv) fmt::print("{}", csv_line_of(head));
         if (!arguments.csv && !arguments.json) rows.push_back(names);
       },
       [&](std::span<const LogCell> row) {
         ++count;
         if (arguments.csv) {
-          fmt::print("{}", csv_line(texts_of(row)));
+          fmt::print("{}", csv_line_of(row));
         } else if (arguments.json) {
-          nlohmann::ordered_json object = nlohmann::ordered_json::object();
+          Json object = Json::object();
           for (std::size_t i = 0; i < names.size(); ++i) object[names[i]] = json_of_cell(row[i]);
-          fmt::print("{}{}", count == 1 ? "[\n" : ",\n", object.dump());
+          fmt::print("{}{}", count == 1 ? "[\n" : ",\n", object.dump(-1, ' ', true, Json::error_handler_t::replace));
         } else {
           rows.push_back(texts_of(row));
         }

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "evaluator/export/draft.hpp"
+#include "evaluator/report/escaped_text.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -23,16 +24,6 @@ void append_number(std::string& line, Number number) {
   std::array<char, 32> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
   line.append(digits.data(), end);
-}
-
-void append_text(std::string& line, const std::string& text) {
-  if (!text.empty() && text.find_first_of("\",\r\n") == std::string::npos) {
-    line += text;
-    return;
-  }
-  line += '"';
-  for (const char c : text) line.append(c == '"' ? 2 : 1, c);
-  line += '"';
 }
 
 /// A file that is begun with its first row.
@@ -77,7 +68,7 @@ class CsvFile {
 void append_csv_cell(std::string& line, const log::Value& cell) {
   if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return append_number(line, *whole);
   if (const auto* const number = std::get_if<double>(&cell)) return append_number(line, *number);
-  if (const auto* const text = std::get_if<std::string>(&cell)) append_text(line, *text);
+  if (const auto* const text = std::get_if<std::string>(&cell)) line += text->empty() ? "\"\"" : csv_text(*text);
 }
 
 ExportedRows export_csv(const log::Reader& reader, const ExportPlan& plan, const fs::path& folder,

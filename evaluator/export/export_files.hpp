@@ -8,7 +8,7 @@
 namespace trivela::evaluator {
 
 /// A cell as CSV (RFC 4180): a number as the shortest decimal that is read back to the same bits, NULL as nothing, the
-/// empty text as "" in quotes, so that the two differ.
+/// empty text as "" in quotes, so that the two differ, another text as csv_text().
 void append_csv_cell(std::string& line, const log::Value& cell);
 
 /// Writes STREAM.csv into a new folder for each stream that has rows: names of the columns, which say the units, then

@@ -58,7 +58,11 @@ TEST_F(QueryVerb, AnswersAQuestionOfOnesOwn) {
 }
 
 TEST_F(QueryVerb, WhatATerminalCouldObeyIsWrittenOut) {
-  EXPECT_THAT(said({path(), "SELECT char(27) || '[31m' AS red"}), HasSubstr("\\x1b[31m"));
+  const std::string sql = "SELECT char(27) || '[31m' || char(8238) AS red, '=1+1' AS formula, -1 AS number";
+  EXPECT_THAT(said({path(), sql}), HasSubstr("\\x1b[31m"));
+  EXPECT_EQ(said({path(), sql, "--csv"}), "red,formula,number\n\\x1b[31m\\xe2\\x80\\xae,'=1+1,-1\n");
+  EXPECT_EQ(said({path(), sql, "--json"}),
+            "[\n{\"red\":\"\\u001b[31m\\u202e\",\"formula\":\"=1+1\",\"number\":-1}\n]\n");
 }
 
 TEST_F(QueryVerb, ListsEachMetricWithItsColumns) {
