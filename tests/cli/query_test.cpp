@@ -48,6 +48,22 @@ TEST_F(QueryVerb, AnswersAMetricAsTextCsvAndJson) {
                                             {"policy": "moving", "outcome": "over", "kicks": 1}])"));
 }
 
+TEST_F(QueryVerb, CountsAKickOfTwoRecordersOnceAsReportDoes) {
+  auto recording = session();
+  recording.simulated = recording.simulated_clock = false;
+  recording.seed.reset();
+  recording.realtime_offset_ns = 1'000'000'000'000'000'000;
+  for (const char* const name : {"one.db", "two.db"}) {
+    evaluator::MatchLog match(path(name), recording, options());
+    match.kicks(1, "on_target", 3);
+    match.close();
+  }
+  EXPECT_EQ(run_verbs({add_merge}, {"merge", path("both.db"), path("one.db"), path("two.db")}).exit_code, kDone);
+  EXPECT_EQ(said({path("both.db"), "SELECT count(*) AS n FROM kicks", "--csv"}), "n\n6\n");
+  EXPECT_EQ(said({path("both.db"), "--metric", "outcomes_by_policy", "--csv"}),
+            "policy,outcome,kicks\nstopped,on_target,3\n");
+}
+
 TEST_F(QueryVerb, AnswersAQuestionOfOnesOwn) {
   const std::string sql = "SELECT 'a \"b\", c' AS text, NULL AS nobody, 0.25 AS quarter, x'00ff' AS bytes";
   EXPECT_EQ(said({path(), sql, "--csv"}), "text,nobody,quarter,bytes\n\"a \"\"b\"\", c\",,0.25,00ff\n");

@@ -112,7 +112,9 @@ TEST(CsvCell, TellsNullFromTheEmptyTextAndQuotesWhatNeedsIt) {
   };
   EXPECT_EQ(cell({}), "");
   EXPECT_EQ(cell(std::string()), "\"\"");
-  EXPECT_EQ(cell(std::string("a, \"b\"\n")), "\"a, \"\"b\"\"\n\"");
+  EXPECT_EQ(cell(std::string("a, \"b\"\n")), "\"a, \"\"b\"\"\\x0a\"");
+  EXPECT_EQ(cell(std::string("=cmd()")), "'=cmd()");
+  EXPECT_EQ(cell(std::string("\x1b[31m")), "\\x1b[31m");
   EXPECT_EQ(cell(std::string("plain")), "plain");
   EXPECT_EQ(cell(-0.0), "-0");
   EXPECT_EQ(cell(std::int64_t{-9223372036854775807 - 1}), "-9223372036854775808");
