@@ -77,11 +77,22 @@ double Row::positive(std::string_view column) const {
   return value;
 }
 
-double Row::length_m(std::string_view column, double most_m) const {
-  const double value = positive(column);
-  if (value > most_m)
-    throw CellError(column, *word(column), fmt::format("is above {} m: lengths are in metres", most_m));
+double Row::measured(std::string_view column, double most, const Unit& unit) const {
+  const double value = number(column);
+  if (value > most)
+    throw CellError(column, *word(column), fmt::format("is above {:g} {}: {}", most, unit.symbol, unit.rule));
+  if (value < -most)
+    throw CellError(column, *word(column), fmt::format("is below {:g} {}: {}", -most, unit.symbol, unit.rule));
   return value;
+}
+
+double Row::measured_above_zero(std::string_view column, double most, const Unit& unit) const {
+  positive(column);
+  return measured(column, most, unit);
+}
+
+double Row::length_m(std::string_view column, double most_m) const {
+  return measured_above_zero(column, most_m, kMetres);
 }
 
 double Row::acute_angle_rad(std::string_view column) const {

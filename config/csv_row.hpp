@@ -15,6 +15,17 @@ struct CellError : std::runtime_error {
   CellError(std::string_view column_name, const std::string& text, const std::string& reason);
 };
 
+/// What a column is measured in.
+struct Unit {
+  const char* symbol;
+  const char* rule;  ///< the end of an error's sentence
+};
+inline constexpr Unit kMetres{"m", "lengths are in metres"};
+inline constexpr Unit kSeconds{"s", "times are in seconds"};
+inline constexpr Unit kMetresPerSecond{"m/s", "speeds are in metres a second"};
+inline constexpr Unit kRadiansPerSecond{"rad/s", "rates of turn are in radians a second"};
+inline constexpr Unit kDegreesPerSecond{"degrees/s", "rates of turn are in degrees a second"};
+
 /// The cells of one record by column name. A column that is absent or empty has no value.
 class Row {
  public:
@@ -31,7 +42,12 @@ class Row {
   double number_in(std::string_view column, double low, double high) const;
   /// The number if it is above zero. Throws CellError
   double positive(std::string_view column) const;
-  /// Above 0 and at most `most_m`: what lies beyond was written in centimetres.
+  /// A measured number of either sign: at most `most` of `unit` from 0, for what lies beyond was written in another
+  /// unit. Throws CellError
+  double measured(std::string_view column, double most, const Unit& unit) const;
+  /// The same above 0. Throws CellError
+  double measured_above_zero(std::string_view column, double most, const Unit& unit) const;
+  /// Above 0 and at most `most_m`: what lies beyond was written in centimetres. Throws CellError
   double length_m(std::string_view column, double most_m) const;
   /// Angle in degrees between 0 and 90, both excluded, in radians. Throws CellError
   double acute_angle_rad(std::string_view column) const;

@@ -13,6 +13,13 @@ namespace trivela::calibration {
 
 /// No field is longer: a distance beyond it was not written in metres.
 inline constexpr double kFieldLength_m = 40.0;
+// Beyond these a column was measured in another unit.
+inline constexpr double kFastestRobot_mps = 10.0;
+inline constexpr double kFastestBall_mps = 40.0;
+inline constexpr double kFastestTurn_radps = 20.0;
+inline constexpr double kHighestCrossing_m = 15.0;
+inline constexpr double kWidestCrossing = 3.0;  ///< of the distance to the goal line
+inline constexpr double kLongestDelay_s = 1.0;
 
 /// Rows of a measured table: CSV, or columns apart by blanks. What follows a '#' at the start of a line, in a table
 /// with blanks anywhere, is a comment.

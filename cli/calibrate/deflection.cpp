@@ -41,7 +41,7 @@ class Deflection {
 
   Json to_json() const;
   std::string to_text() const;
-  std::vector<std::string> warnings() const { return kicks_.left_out; }
+  std::vector<std::string> warnings() const;
   evaluator::Chart chart(bool simulated) const;
   void set(calibration::RobotUpdate& update, const std::vector<std::string>& files) const {
     update.set_deflection(fit_, files);
@@ -56,14 +56,27 @@ Deflection::Rows Deflection::rows(const calibration::NumberTable& table, const F
   for (const char* column : {"vx_mps", "d_m", "b_m"}) table.require_one_of({column});
   Rows rows;
   table.for_each([&](const config::Row& row) {
-    rows.rows.push_back({.vx_mps = row.number("vx_mps"),
-                         .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
-                         .b_m = row.number("b_m")});
+    const double distance_m = row.length_m("d_m", calibration::kFieldLength_m);
+    rows.rows.push_back({.vx_mps = row.measured("vx_mps", calibration::kFastestRobot_mps, config::kMetresPerSecond),
+                         .distance_m = distance_m,
+                         .b_m = row.measured("b_m", calibration::kWidestCrossing * distance_m, config::kMetres)});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
-    if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
+    if (row.word("v_h_mps"))
+      v_h_mps = row.measured_above_zero("v_h_mps", calibration::kFastestBall_mps, config::kMetresPerSecond);
   });
   return rows;
+}
+
+/// The robot's motion carries the ball along: where it does not, somebody counted to the other side.
+std::vector<std::string> Deflection::warnings() const {
+  std::vector<std::string> all = kicks_.left_out;
+  const auto against = std::ranges::count_if(kicks_.rows, [](const auto& row) { return row.vx_mps * row.b_m < 0.0; });
+  if (2 * against > std::ssize(kicks_.rows))
+    all.push_back(fmt::format(
+        "the ball goes against the robot's motion in {} of {} rows: are vx_mps and b_m positive to the right?", against,
+        kicks_.rows.size()));
+  return all;
 }
 
 Json Deflection::to_json() const {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
@@ -39,6 +40,16 @@ class Delay {
   kicking::DelayFit fit_;
 };
 
+double delay_s_of(const config::Row& row, bool differences) {
+  if (!differences) return row.measured("delay_s", calibration::kLongestDelay_s, config::kSeconds);
+  const double delay_s = row.number("release_t_s") - row.number("order_t_s");
+  if (std::abs(delay_s) > calibration::kLongestDelay_s)
+    throw config::CellError("release_t_s", *row.word("release_t_s"),
+                            fmt::format("is {:g} s from order_t_s, more than {:g} s: times are in seconds", delay_s,
+                                        calibration::kLongestDelay_s));
+  return delay_s;
+}
+
 Delay::Rows Delay::rows(const calibration::NumberTable& table, const Flags&, const Robot&) {
   const bool differences = !table.has("delay_s");
   if (differences) {
@@ -46,9 +57,7 @@ Delay::Rows Delay::rows(const calibration::NumberTable& table, const Flags&, con
     if (table.has("order_t_s") != table.has("release_t_s")) table.require_one_of({"delay_s"});
   }
   Rows delays;
-  table.for_each([&](const config::Row& row) {
-    delays.rows.push_back(differences ? row.number("release_t_s") - row.number("order_t_s") : row.number("delay_s"));
-  });
+  table.for_each([&](const config::Row& row) { delays.rows.push_back(delay_s_of(row, differences)); });
   return delays;
 }
 
@@ -80,6 +89,9 @@ std::string Delay::to_text() const {
 
 std::vector<std::string> Delay::warnings() const {
   std::vector<std::string> all = delays_.left_out;
+  if (const auto early = std::ranges::count_if(delays_.rows, [](double delay_s) { return delay_s <= 0.0; }); early > 0)
+    all.push_back(fmt::format("the ball leaves before the order in {} of {} readings: do both times have one clock?",
+                              early, delays_.rows.size()));
   if (!fit_.rejected.empty()) {
     all.push_back(fmt::format("{} of {} readings left out, farther from the median than 3.5 times 1.4826 MAD",
                               fit_.rejected.size(), delays_.rows.size()));

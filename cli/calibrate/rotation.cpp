@@ -64,12 +64,17 @@ Rotation::Rows Rotation::rows(const calibration::NumberTable& table, const Flags
   Rows rows;
   table.for_each([&](const config::Row& row) {
     rows.rows.push_back(
-        {.omega_radps = in_degrees ? kicking::radians(row.number("omega_degps")) : row.number("omega_radps"),
-         .allowed_error_m = row.number(error),
+        {.omega_radps =
+             in_degrees
+                 ? kicking::radians(row.measured("omega_degps", kicking::degrees(calibration::kFastestTurn_radps),
+                                                 config::kDegreesPerSecond))
+                 : row.measured("omega_radps", calibration::kFastestTurn_radps, config::kRadiansPerSecond),
+         .allowed_error_m = row.measured(error, calibration::kFieldLength_m, config::kMetres),
          .distance_m = row.word("d_m") ? row.length_m("d_m", calibration::kFieldLength_m) : flags.distance_m});
     auto& v_h_mps = rows.rows.back().v_h_mps;
     v_h_mps = flags.v_h_mps;
-    if (row.word("v_h_mps")) v_h_mps = row.positive("v_h_mps");
+    if (row.word("v_h_mps"))
+      v_h_mps = row.measured_above_zero("v_h_mps", calibration::kFastestBall_mps, config::kMetresPerSecond);
   });
   return rows;
 }

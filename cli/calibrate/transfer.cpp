@@ -74,12 +74,13 @@ Transfer::Rows Transfer::rows(const calibration::NumberTable& table, const Flags
   }
   Rows rows;
   table.for_each([&](const config::Row& row) {
-    rows.rows.push_back(
-        {.vy_mps = row.number("vy_mps"),
-         .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power")) : row.positive("v0_mps"),
-         .exit_angle_rad = exit_angle_rad(row, flags, robot),
-         .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
-         .z_cross_m = row.number("z_cross_m")});
+    rows.rows.push_back({.vy_mps = row.measured("vy_mps", calibration::kFastestRobot_mps, config::kMetresPerSecond),
+                         .v0_mps = by_power ? robot->model.table.speed_for(row.positive("power"))
+                                            : row.measured_above_zero("v0_mps", calibration::kFastestBall_mps,
+                                                                      config::kMetresPerSecond),
+                         .exit_angle_rad = exit_angle_rad(row, flags, robot),
+                         .distance_m = row.length_m("d_m", calibration::kFieldLength_m),
+                         .z_cross_m = row.measured("z_cross_m", calibration::kHighestCrossing_m, config::kMetres)});
   });
   return rows;
 }
@@ -142,6 +143,11 @@ std::string Transfer::to_text() const {
 std::vector<std::string> Transfer::warnings() const {
   std::vector<std::string> all = kicks_.left_out;
   all.insert(all.end(), fit_.failed.begin(), fit_.failed.end());
+  for (const auto& [name, direction] : {std::pair{"forward", &fit_.forward}, {"backward", &fit_.backward}}) {
+    if (*direction && (*direction)->exact.value < 0.0)
+      all.push_back(
+          fmt::format("{}: the ball loses speed where the robot gains it: is vy_mps positive towards the goal?", name));
+  }
   if (!fit_.standing_ratio) all.push_back("fewer than two kicks at rest: an error of the table is taken for transfer");
   return all;
 }

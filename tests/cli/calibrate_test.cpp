@@ -297,6 +297,15 @@ TEST_F(CalibrateVerb, ChartsAreWrittenWhereAsked) {
   EXPECT_THAT(run("plot lobs.csv --out 5.svg --csv").out, StartsWith("power,trials,exit_speed_mps,"));
 }
 
+TEST_F(CalibrateVerb, DeflectionsToTheOtherSideAreWarnedOf) {
+  write("left.csv", "vx_mps,d_m,b_m\n0.5,6,-0.5\n1,6,-1.0\n2,6,-1.8\n");
+  EXPECT_THAT(run("deflection left.csv --robot cambada_1").out,
+              HasSubstr("the ball goes against the robot's motion in 3 of 3 rows: are vx_mps and b_m positive to the "
+                        "right?"));
+  write("right.csv", "vx_mps,d_m,b_m\n0.5,6,0.5\n-1,6,-1.0\n2,6,1.8\n");
+  EXPECT_THAT(run("deflection right.csv --robot cambada_1").out, testing::Not(HasSubstr("against")));
+}
+
 TEST_F(CalibrateVerb, LengthsInCentimetresAreNamedWithTheirRow) {
   write("lobs.csv", "power,height_m,distance_m\n15,0.6,3.3\n20,95,505\n");
   const Result cm = run("table lobs.csv --robot seven");
@@ -308,6 +317,18 @@ TEST_F(CalibrateVerb, LengthsInCentimetresAreNamedWithTheirRow) {
   EXPECT_THAT(run("table fast.csv --robot seven --exit-angle-deg 37").err, HasSubstr("'597' is above 40 m/s"));
   write("t1.csv", "vx_mps,d_m,b_m\n0.5,600,50\n1,600,100\n");
   EXPECT_THAT(run("deflection t1.csv").err, HasSubstr("t1.csv:2: column d_m: '600' is above 40 m"));
+  write("mm.csv", "vx_mps,d_m,b_m\n500,6,0.5\n");
+  EXPECT_THAT(run("deflection mm.csv").err,
+              HasSubstr("mm.csv:2: column vx_mps: '500' is above 10 m/s: speeds are in metres a second"));
+  write("wide.csv", "vx_mps,d_m,b_m\n0.5,6,-50\n");
+  EXPECT_THAT(run("deflection wide.csv").err, HasSubstr("wide.csv:2: column b_m: '-50' is below -18 m"));
+  write("ms.csv", "delay_s\n60\n61\n");
+  EXPECT_THAT(run("delay ms.csv --robot cambada_1").err,
+              HasSubstr("ms.csv:2: column delay_s: '60' is above 1 s: times are in seconds"));
+  write("degrees.csv", "omega_radps,b_m\n90,0.5\n180,1\n");
+  EXPECT_THAT(run("rotation degrees.csv").err, HasSubstr("column omega_radps: '90' is above 20 rad/s"));
+  write("kmh.csv", "vy_mps,v0_mps,d_m,z_cross_m\n1000,8,6,0.5\n");
+  EXPECT_THAT(run("transfer kmh.csv --exit-angle-deg 37").err, HasSubstr("column vy_mps: '1000' is above 10 m/s"));
   write("turns.csv", "omega_degps,b_m,d_m\n30,0.5,600\n60,1.0,600\n");
   EXPECT_THAT(run("rotation turns.csv").err, HasSubstr("turns.csv:2: column d_m: '600' is above 40 m"));
   EXPECT_FALSE(fs::exists("seven.toml"));
