@@ -41,6 +41,8 @@ void Executor::run() {
     if (kind_ == kListener) catch_up();
     start_threads();
     wait_for_stop();
+    for (const Node* node : nodes_)
+      if (node->on_stop_) node->on_stop_();
   });
   finish();
   if (failure_) std::rethrow_exception(failure_);

@@ -123,6 +123,9 @@ class Node {
     };
   }
 
+  /// Calls react() once, as soon as the executor's stop is requested and while it still runs; from the thread of run().
+  void on_stop(std::function<void()> react) { on_stop_ = std::move(react); }
+
   /// Calls react() again and again, a period apart, in a thread of its own; one that comes late puts off the next ones.
   template <class F>
   void every(std::chrono::nanoseconds period, const std::string& name, F react, std::vector<std::string> outputs = {}) {
@@ -185,6 +188,7 @@ class Node {
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<std::string> stored_;
   std::vector<Input> inputs_;
+  std::function<void()> on_stop_;
   std::vector<std::function<void()>> mailboxes_;  // each call looks whether one has fallen silent
 };
 

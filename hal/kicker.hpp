@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -44,7 +45,7 @@ struct Shot {
   double power = 0.0;                       ///< set-point
   std::int64_t t_ns = 0;                    ///< when the coil is to be energised
   std::int64_t until_ns = kNoDeadline_ns;   ///< the coil is not energised after it
-  std::int64_t judged_ns = kNoDeadline_ns;  ///< when the order was judged: a call_off() after it holds for the shot
+  std::int64_t judged_ns = kNoDeadline_ns;  ///< when the order was judged, see hold_when()
 };
 
 /// What became of a shot.
@@ -87,8 +88,10 @@ class Kicker {
   /// that was carried out, or never ordered, changes nothing.
   virtual void withdraw(std::int64_t kick_id) = 0;
 
-  /// The game is stopped: no shot that was judged before is written from now on. Waits for nobody, for any thread.
-  virtual void call_off() noexcept {}
+  /// Whether a shot that was judged at `judged_ns` must not be written any more: the game was stopped since, or the
+  /// program ends. Asked by whoever writes to the device, immediately before. To be set before the first fire().
+  using Hold = std::function<bool(std::int64_t judged_ns)>;
+  virtual void hold_when(Hold hold) { static_cast<void>(hold); }
 
   /// What became of the oldest shot of which it was not said yet. A shot that was withdrawn has no result. None: there
   /// is no other, or the device's results are not known here.

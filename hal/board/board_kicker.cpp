@@ -76,7 +76,10 @@ void BoardKicker::withdraw(std::int64_t kick_id) {
   shots_.withdraw(kick_id);
 }
 
-void BoardKicker::call_off() noexcept { called_off_ns_ = steady_ns(); }
+void BoardKicker::hold_when(Hold hold) {
+  const std::lock_guard lock{mutex_};
+  hold_ = std::move(hold);
+}
 
 std::optional<ShotResult> BoardKicker::take_result() {
   const std::lock_guard lock{mutex_};
@@ -130,7 +133,7 @@ void BoardKicker::send(const Shot& shot) {
   if (now_ns > shot.until_ns)
     return drop(shot, What::kLate,
                 fmt::format("it was {:.3f} s too late", static_cast<double>(now_ns - shot.until_ns) / kNsPerS));
-  if (shot.judged_ns <= called_off_ns_) return drop(shot, What::kCalledOff, "the game was stopped before its instant");
+  if (hold_ && hold_(shot.judged_ns)) return drop(shot, What::kCalledOff, "it was called off before its instant");
   if (const std::string why = board_->shoot(shot.power, now_ns); !why.empty()) return drop(shot, What::kDevice, why);
   results_.push_back({shot.kick_id, What::kFired, steady_ns()});
 }

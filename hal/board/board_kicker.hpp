@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -21,7 +20,7 @@ namespace trivela::hal {
 /// the board and holds each shot back until its instant; then it makes the one write, or none. It drops a shot:
 /// - whose instant comes while the board does not answer,
 /// - whose deadline is over when it looks at the clock, immediately before the write,
-/// - that was ordered before the last call_off().
+/// - that hold_when() holds.
 /// What was dropped stands in status() and in take_result(). read() gives the newest sample.
 class BoardKicker final : public Kicker {
  public:
@@ -35,7 +34,7 @@ class BoardKicker final : public Kicker {
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
-  void call_off() noexcept override;
+  void hold_when(Hold hold) override;
   std::optional<ShotResult> take_result() override;
   std::string beyond(double power) const override { return board_->beyond(power); }
   void make_safe() noexcept override;
@@ -56,11 +55,11 @@ class BoardKicker final : public Kicker {
   const std::unique_ptr<KickerBoard> board_;  // the thread's
   const KickerCapabilities capabilities_;
   const Descriptor wake_;
-  std::atomic<std::int64_t> called_off_ns_ = 0;  // by the steady clock
 
   mutable std::mutex mutex_;  // of all that follows
   std::condition_variable changed_;
   ShotQueue shots_;
+  Hold hold_;
   std::optional<KickerSample> sample_;  // not yet read
   std::string status_;
   std::string dropped_;  // what status() says of the last shot

@@ -63,14 +63,15 @@ void BusKicker::fire(const Shot& shot) {
   order.kick_id = shot.kick_id;
   order.power = shot.power;
   if (safe_) return;
-  if (shot.until_ns != kNoDeadline_ns && now_ns() > shot.until_ns) {
-    late_ = ShotResult{shot.kick_id, ShotResult::What::kLate, now_ns()};
+  const bool late = shot.until_ns != kNoDeadline_ns && now_ns() > shot.until_ns;
+  if (late || (hold_ && hold_(shot.judged_ns))) {
+    dropped_ = ShotResult{shot.kick_id, late ? ShotResult::What::kLate : ShotResult::What::kCalledOff, now_ns()};
     return;
   }
   fires_.write(order);
 }
 
-std::optional<ShotResult> BusKicker::take_result() { return std::exchange(late_, std::nullopt); }
+std::optional<ShotResult> BusKicker::take_result() { return std::exchange(dropped_, std::nullopt); }
 
 void BusKicker::withdraw(std::int64_t kick_id) {
   msg::DeviceFire word{};

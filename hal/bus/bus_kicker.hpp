@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
@@ -27,6 +28,7 @@ class BusKicker final : public Kicker {
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
+  void hold_when(Hold hold) override { hold_ = std::move(hold); }
   std::optional<ShotResult> take_result() override;
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;
@@ -46,7 +48,8 @@ class BusKicker final : public Kicker {
   std::atomic<std::uint64_t> charge_seq_ = 0;
   std::atomic<KickerCapabilities> capabilities_{};
   std::atomic<bool> safe_ = false;
-  std::optional<ShotResult> late_;
+  Hold hold_;
+  std::optional<ShotResult> dropped_;
 };
 
 }  // namespace trivela::hal

@@ -36,7 +36,16 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       first_(context.settings.run.lockstep) {
   demand_pulses();
   refuse_twin(context_, receipt_out_, "kicker_driver");
-  if (!context_.settings.run.lockstep) desk_.began(context_.steady_ns());
+  if (!context_.settings.run.lockstep) {
+    desk_.began(context_.steady_ns());
+    kicker_->hold_when(
+        [this](std::int64_t judged_ns) { return judged_ns <= called_off_ns_ || context_.stop.requested(); });
+    node_.on_stop([this] {
+      const std::lock_guard lock{mutex_};
+      stop();
+      take_results();
+    });
+  }
   node_.on_device(
       "kicker",
       [this](std::chrono::nanoseconds timeout) {
@@ -103,7 +112,9 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
 
 KickerDriverNode::~KickerDriverNode() {
   try {
+    if (!context_.settings.run.lockstep) take_results();
     kicker_->charge(desk_.end());
+    kicker_->make_safe();  // from here on it does not ask this node any more
   } catch (const std::exception& error) {
     context_.logger->error("the board cannot be told to empty: {}", error.what());
   }
@@ -160,6 +171,7 @@ void KickerDriverNode::look_for_decision() {
 robot::RefereeSays KickerDriverNode::referee_says(const std::optional<msg::Referee>& word_of_cycle) {
   if (referee_of_cycle_)
     return word_of_cycle && word_of_cycle->playing ? robot::RefereeSays::kPlay : robot::RefereeSays::kStop;
+  if (context_.stop.requested()) return robot::RefereeSays::kStop;  // this program ends
   const std::int64_t now_ns = now_t_ns();
   if (const auto news = referee_.news(now_ns)) context_.logger->warn(*news);
   const robot::RefereeSays says = referee_.says(now_ns);
@@ -186,14 +198,14 @@ void KickerDriverNode::say_link(bool lost) {
 }
 
 void KickerDriverNode::on_referee(const msg::Referee& word) {
-  if (!word.playing) kicker_->call_off();  // before it waits for anybody
+  if (!word.playing) called_off_ns_ = now_t_ns();  // before it waits for anybody
   const std::lock_guard lock{mutex_};
   referee_.heard(word, now_t_ns());
   if (!word.playing) stop();
 }
 
 void KickerDriverNode::on_world(const msg::WorldState& world) {
-  if (!world.playing) kicker_->call_off();
+  if (!world.playing) called_off_ns_ = now_t_ns();
   const std::lock_guard lock{mutex_};
   world_stands_ = !world.playing;
   if (world_stands_) stop();
@@ -235,8 +247,8 @@ std::int64_t KickerDriverNode::deadline_ns(const msg::KickOrder& order) const {
 void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {
   const bool real_time = !context_.settings.run.lockstep;
   const std::int64_t received_ns = real_time ? context_.steady_ns() : 0;
-  if (by == robot::OrderBy::kOwnDecision) decision_heard_ns_ = context_.steady_ns();
   const std::lock_guard lock{mutex_};
+  look_for_decision();
   if (real_time) desk_.referee(referee_says({}));
   const std::int64_t judged_ns = now_t_ns();
   msg::KickReceipt receipt = desk_.answer(order, judged_ns, by);

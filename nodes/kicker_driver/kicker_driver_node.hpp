@@ -55,6 +55,7 @@ class KickerDriverNode {
   std::unique_ptr<hal::Kicker> kicker_;
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;
+  std::atomic<std::int64_t> called_off_ns_ = 0;  // the last stop, by the steady clock
   bool clock_differs_ = false;
   robot::DecisionNode decision_ = robot::DecisionNode::kUnheard;
   std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet

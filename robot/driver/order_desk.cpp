@@ -22,7 +22,9 @@ OrderDesk::OrderDesk(const config::KickerDriver& settings, double cycle_s, const
       decision_(decision),
       cycle_ns_(kicking::nanoseconds(cycle_s)),
       delay_ns_(kicking::nanoseconds(model.delay_s)),
-      robot_id_(robot_id) {}
+      robot_id_(robot_id) {
+  gate_.decision_node(decision_ == DecisionNode::kThere);
+}
 
 void OrderDesk::began(std::int64_t now_t_ns) { gate_.rest_from(now_t_ns + cycle_ns_); }
 
@@ -68,6 +70,7 @@ void OrderDesk::advance(std::int64_t now_t_ns) {
 
 void OrderDesk::decision_node(DecisionNode known, std::int64_t now_t_ns) {
   decision_ = known;
+  gate_.decision_node(known == DecisionNode::kThere);
   advance(now_t_ns);
 }
 
@@ -77,7 +80,6 @@ hal::ChargeWord OrderDesk::end() {
 }
 
 msg::KickReceipt OrderDesk::answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) {
-  if (by == OrderBy::kOwnDecision) decision_ = DecisionNode::kThere;
   advance(now_t_ns);
   const msg::Refusal refusal = gate_.judge(order, now_t_ns, by);
   msg::KickReceipt receipt{};

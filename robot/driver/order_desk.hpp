@@ -35,7 +35,8 @@ class OrderDesk {
   /// now or the order's own instant if that lies ahead. The steady clock's fields are its owner's.
   msg::KickReceipt answer(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by);
 
-  /// What is known of the decision node by now; an order of it says that it is there. To be followed by charge_word().
+  /// What is known of the decision node by now; an order alone is no sign that it lives. To be followed by
+  /// charge_word().
   void decision_node(DecisionNode known, std::int64_t now_t_ns);
 
   /// What the capacitor shall do by now.

@@ -53,7 +53,7 @@ void OrderGate::remember(const msg::KickOrder& order, bool accepted) {
 }
 
 bool OrderGate::ready(std::int64_t now_t_ns) const {
-  return sound(now_t_ns) && armed() && !under_way(now_t_ns) && rested(now_t_ns) && charged();
+  return sound(now_t_ns) && armed() && decision_there_ && !under_way(now_t_ns) && rested(now_t_ns) && charged();
 }
 
 msg::Refusal OrderGate::disarmed() const {
@@ -66,7 +66,7 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
   if (!power_.contains(order.power) || order.kick_id <= 0) return msg::REFUSAL_OUT_OF_RANGE;
   if (!order.possession) return msg::REFUSAL_NO_BALL;
-  if (!armed()) return disarmed();
+  if (!armed() || !decision_there_) return disarmed();
   if (seconds_from(order.t_ns, now_t_ns) > settings_.max_order_age_s) return msg::REFUSAL_STALE;
   const double ahead_s = seconds_from(now_t_ns, std::max(order.t_ns, order.fire_t_ns));
   if (now_t_ns > order.valid_until_t_ns || ahead_s > settings_.future_tolerance_s) return msg::REFUSAL_STALE;

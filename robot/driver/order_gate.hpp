@@ -21,12 +21,12 @@ enum class OrderBy { kOwnDecision, kStranger };
 /// An order passes when, in this order, the robot's own decision node wrote it, the device is sound (no fault, samples
 /// neither older than link_timeout_s nor from more than future_tolerance_s ahead), the power is finite and inside the
 /// set-points and the kick_id above 0, the ball lay in the handler where it was judged, the kicker is armed (switch on,
-/// referee heard and playing), the order was judged at most max_order_age_s ago and is not older than its
-/// valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be fired before it
-/// was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and the last kick is
-/// over and at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition that fails is
-/// the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A
-/// stranger's order is counted and leaves nothing else behind.
+/// referee heard and playing) and the decision node lives, the order was judged at most max_order_age_s ago and is not
+/// older than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be
+/// fired before it was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and
+/// the last kick is over and at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition
+/// that fails is the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is
+/// a double. A stranger's order is counted and leaves nothing else behind.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.
@@ -46,6 +46,8 @@ class OrderGate {
     sample_->fault = fault;
   }
   void referee(RefereeSays says) { referee_ = says; }
+  /// Whether the robot's own decision node is known to live.
+  void decision_node(bool there) { decision_there_ = there; }
 
   /// Judges `order` at `now_t_ns` and remembers it as answered. REFUSAL_NONE: fire.
   msg::Refusal judge(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by);
@@ -100,6 +102,7 @@ class OrderGate {
   double cycle_s_;
   std::optional<hal::KickerSample> sample_;
   RefereeSays referee_ = RefereeSays::kNothing;
+  bool decision_there_ = true;
   std::optional<std::int64_t> last_fire_t_ns_;
   struct Accepted {
     std::int64_t kick_id;

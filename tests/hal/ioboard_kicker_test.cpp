@@ -188,11 +188,11 @@ TEST_F(IoBoardKickerTest, AShotWhoseDeadlineIsOverIsNotFiredAndSaid) {
   EXPECT_FALSE(kicker->take_result());
 }
 
-TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheCallOffIsNotFired) {
+TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheStopIsNotFired) {
   const auto kicker = open();
   ASSERT_TRUE(kicker->connected(kPatience));
   const std::int64_t judged_ns = steady_ns();
-  kicker->call_off();
+  kicker->hold_when([stopped_ns = judged_ns](std::int64_t judged) { return judged <= stopped_ns; });
   // The order of a thread that stood still between the judgement and this call.
   kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = judged_ns, .judged_ns = judged_ns});
   wait_for_looks(board().looks() + 3);

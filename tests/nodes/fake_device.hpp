@@ -117,8 +117,17 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<hal::KickerCapabilities> can{};
   std::atomic<hal::ChargeWord> told = hal::ChargeWord::kHold;  ///< the capacitor, last
 
-  std::atomic<int> call_offs = 0;
   std::atomic<double> most_power = 1e9;
+
+  void hold_when(hal::Kicker::Hold hold) {
+    const std::lock_guard lock{link_mutex_};
+    hold_ = std::move(hold);
+  }
+  /// Whether a shot that was judged then is held.
+  bool holds(std::int64_t judged_ns) const {
+    const std::lock_guard lock{link_mutex_};
+    return hold_ && hold_(judged_ns);
+  }
 
   /// What becomes of a shot.
   void say_result(const hal::ShotResult& result) {
@@ -144,6 +153,7 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   mutable std::mutex link_mutex_;
   std::string link_;
   std::optional<hal::ShotResult> result_;
+  hal::Kicker::Hold hold_;
 };
 
 class FakeWheels : public hal::Wheels {
@@ -171,7 +181,7 @@ class FakeKicker : public hal::Kicker {
       far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
-  void call_off() noexcept override { ++far_side_->call_offs; }
+  void hold_when(Hold hold) override { far_side_->hold_when(std::move(hold)); }
   std::optional<hal::ShotResult> take_result() override { return far_side_->take_result(); }
   std::string beyond(double power) const override {
     return power > far_side_->most_power ? "it has no such pulse" : std::string{};

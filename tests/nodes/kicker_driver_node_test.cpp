@@ -252,6 +252,9 @@ TEST_F(KickerDriverNodeTest, ADriverThatBeginsRestsAsIfOneBeforeItHadAKickStillT
   ASSERT_TRUE(eventually([&] { return sample(1.0, true, hal::KickerFault::kNone, 1'000).armed; }));
   EXPECT_EQ(answer(wish(1)).refusal, msg::REFUSAL_DOUBLE);
   sample(1.0, true, hal::KickerFault::kNone, began_ns + cycle_ns + interval_ns - 1 - t_ns);
+  play();
+  ASSERT_TRUE(eventually([&] { return sample(1.0, true, hal::KickerFault::kNone, 0).state != msg::STATE_OFF; }))
+      << "the drive command was heard";
   EXPECT_EQ(answer(wish(2)).refusal, msg::REFUSAL_DOUBLE);
   sample(1.0, true, hal::KickerFault::kNone, 1);
   EXPECT_TRUE(answer(wish(3)).accepted);
@@ -458,8 +461,50 @@ TEST_F(KickerDriverNodeTest, AStopCallsOffWhateverTheGateKnows) {
   start();
   sample();
   play();
+  EXPECT_FALSE(kicker->holds(t_ns));
   play(false);
-  EXPECT_TRUE(eventually([&] { return kicker->call_offs > 0; }));
+  EXPECT_TRUE(eventually([&] { return kicker->holds(t_ns); }));
+  EXPECT_FALSE(kicker->holds(t_ns + 1)) << "what is judged afterwards";
+}
+
+TEST_F(KickerDriverNodeTest, NothingIsFiredAfterTheStopAndWhatWasPendingGetsItsReceipt) {
+  context.settings.run.cycle_s = 3600.0;  // a cycle as long as the test may take
+  context.settings.kicker_driver.future_tolerance_s = 3600.0;
+  start();
+  sample();
+  play();
+  sample();
+  auto later = wish(5);
+  later.fire_t_ns += 1800'000'000'000;
+  later.valid_until_t_ns = later.fire_t_ns;
+  ASSERT_TRUE(answer(later).accepted);
+  stop.request();
+  EXPECT_TRUE(kicker->holds(t_ns + 1));
+  const auto off = receipt.nth(++orders);
+  EXPECT_FALSE(off.accepted);
+  EXPECT_EQ(off.kick_id, 5);
+  EXPECT_EQ(kicker->withdrawn, 5);
+}
+
+TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {
+  start();
+  sample();
+  msg::Referee word{};
+  word.t_ns = t_ns;
+  word.playing = true;
+  (*referee)(word);
+  sample();
+  EXPECT_EQ(answer(wish(5)).refusal, msg::REFUSAL_UNARMED) << "no drive command was heard";
+  play();
+  sample();
+  EXPECT_TRUE(answer(wish(6)).accepted);
+  sample(1.0, true, hal::KickerFault::kNone, 700'000'000);
+  (*referee)([&] {
+    word.t_ns = t_ns;
+    return word;
+  }());
+  sample();
+  EXPECT_EQ(answer(wish(7)).refusal, msg::REFUSAL_UNARMED) << "the last one is 0.7 s ago";
 }
 
 TEST_F(KickerDriverNodeTest, ASetPointBeyondThePulseEndsItAtItsStart) {
