@@ -1,11 +1,17 @@
 #include "bus/qos.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
 #include <string_view>
 
 namespace trivela::bus {
 namespace {
 
 constexpr int kPeriodsPerDeadline = 3;
+
+// In a writer's user data, between its owner and when it began.
+constexpr char kBehindOwner = '\n';
 
 // The user data of a reader that looks on.
 constexpr std::string_view kObserver = "observer";
@@ -52,7 +58,7 @@ Qos profile_qos(Profile profile, std::optional<std::chrono::nanoseconds> period)
 
 }  // namespace
 
-Qos writer_qos(Profile profile, const WriterOptions& options) {
+Qos writer_qos(Profile profile, const WriterOptions& options, std::int64_t begun_ns) {
   Qos qos = profile_qos(profile, options.period);
   if (profile == Profile::kOrder) {
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC,
@@ -65,7 +71,10 @@ Qos writer_qos(Profile profile, const WriterOptions& options) {
   dds_qset_writer_data_lifecycle(qos.get(), false);
   // A budget above 0 leaves samples in the send queue until the next one.
   dds_qset_latency_budget(qos.get(), 0);
-  if (!options.owner.empty()) dds_qset_userdata(qos.get(), options.owner.data(), options.owner.size());
+  if (!options.owner.empty()) {
+    const std::string data = fmt::format("{}{}{}", options.owner, kBehindOwner, begun_ns);
+    dds_qset_userdata(qos.get(), data.data(), data.size());
+  }
   return qos;
 }
 
@@ -82,6 +91,17 @@ Qos reader_qos(Profile profile, const ReaderOptions& options) {
 
 bool is_observer(const dds_qos_t* qos) { return userdata_of(qos) == kObserver; }
 
-std::string owner_of(const dds_qos_t* qos) { return userdata_of(qos); }
+std::string owner_of(const dds_qos_t* qos) {
+  const std::string data = userdata_of(qos);
+  return data.substr(0, data.find(kBehindOwner));
+}
+
+std::int64_t begun_ns_of(const dds_qos_t* qos) {
+  const std::string data = userdata_of(qos);
+  const auto end = data.find(kBehindOwner);
+  std::int64_t begun_ns = 0;
+  if (end != std::string::npos) std::from_chars(data.data() + end + 1, data.data() + data.size(), begun_ns);
+  return begun_ns;
+}
 
 }  // namespace trivela::bus

@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -23,7 +24,8 @@ inline constexpr dds_duration_t kAutomaticLease = DDS_SECS(1);
 /// The same without an order or the word that it is still there, of an order topic.
 inline constexpr dds_duration_t kOrderLease = DDS_MSECS(100);
 
-Qos writer_qos(Profile profile, const WriterOptions& options);
+/// `begun_ns`: when the writer was made, by the steady clock of its machine; told to others beside its owner.
+Qos writer_qos(Profile profile, const WriterOptions& options, std::int64_t begun_ns = 0);
 Qos reader_qos(Profile profile, const ReaderOptions& options);
 
 /// Whether a reader with this QoS merely looks on (ReaderOptions::observer).
@@ -31,5 +33,8 @@ bool is_observer(const dds_qos_t* qos);
 
 /// WriterOptions::owner of a writer with this QoS; empty: none.
 std::string owner_of(const dds_qos_t* qos);
+
+/// When it was made, by the steady clock of its machine [ns]; 0: it does not say.
+std::int64_t begun_ns_of(const dds_qos_t* qos);
 
 }  // namespace trivela::bus

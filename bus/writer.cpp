@@ -34,10 +34,13 @@ std::size_t observers_among(dds_entity_t writer, std::size_t matched) {
 
 AnyWriter::AnyWriter(const Participant& participant, const dds_topic_descriptor& descriptor, std::string_view topic,
                      Profile profile, const WriterOptions& options)
-    : participant_(participant), topic_(topic), owner_(options.owner) {
+    : participant_(participant),
+      topic_(topic),
+      owner_(options.owner),
+      begun_ns_(Clock::now().time_since_epoch().count()) {
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
-  const Qos qos = writer_qos(profile, options);
+  const Qos qos = writer_qos(profile, options, begun_ns_);
   writer_ = Entity(checked(dds_create_writer(participant.handle(), topic_entity_.handle(), qos.get(), nullptr),
                            "dds_create_writer", topic_));
   checked(dds_set_status_mask(writer_.handle(), DDS_PUBLICATION_MATCHED_STATUS), "dds_set_status_mask", topic_);
@@ -69,6 +72,17 @@ bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout
 }
 
 bool AnyWriter::other_writer_exists(std::chrono::nanoseconds since_joining) const {
+  return writer_exists(since_joining, [](std::int64_t, std::int64_t) { return true; });
+}
+
+bool AnyWriter::elder_writer_exists() const {
+  return writer_exists(kSinceJoining, [](std::int64_t own_ns, std::int64_t other_ns) {
+    const bool younger = other_ns > own_ns && other_ns - own_ns < std::chrono::nanoseconds(kTogether).count();
+    return !younger;
+  });
+}
+
+bool AnyWriter::writer_exists(std::chrono::nanoseconds since_joining, Counts counts) const {
   // Of a process that has just ended, what it said before can still come, and its farewell after it.
   constexpr std::chrono::milliseconds kFarewell{200};
   constexpr std::chrono::milliseconds kGlance{50};  // for who starts at the same moment
@@ -91,7 +105,7 @@ bool AnyWriter::other_writer_exists(std::chrono::nanoseconds since_joining) cons
       if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
         others.erase(info.instance_handle);
       } else if (info.valid_data && info.instance_handle != self && topic_ == endpoint.topic_name &&
-                 owner_of(endpoint.qos) == owner_) {
+                 owner_of(endpoint.qos) == owner_ && counts(begun_ns_, begun_ns_of(endpoint.qos))) {
         others.try_emplace(info.instance_handle, Clock::now());
       }
       checked(dds_return_loan(publications.handle(), &sample, 1), "dds_return_loan", "DCPSPublication");

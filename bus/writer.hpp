@@ -28,7 +28,13 @@ class AnyWriter {
   /// Whether another writer of this topic carries the same WriterOptions::owner. Looks until this member has been
   /// in the domain for so long, and for 50 ms at least: what others write is known by then. One that is heard of counts
   /// once it has stayed for 200 ms: a process that is leaving is none.
-  bool other_writer_exists(std::chrono::nanoseconds since_joining = std::chrono::milliseconds{300}) const;
+  static constexpr std::chrono::milliseconds kSinceJoining{300};
+  bool other_writer_exists(std::chrono::nanoseconds since_joining = kSinceJoining) const;
+
+  /// The same, but of two that begin within kTogether of each other the younger one does not count, so that one of them
+  /// stays. By the steady clock, which processes of one machine share.
+  static constexpr std::chrono::seconds kTogether{2};
+  bool elder_writer_exists() const;
 
   const std::string& topic() const { return topic_; }
 
@@ -41,9 +47,13 @@ class AnyWriter {
   void write_raw(const void* sample);
 
  private:
+  using Counts = bool (*)(std::int64_t own_begun_ns, std::int64_t other_begun_ns);
+  bool writer_exists(std::chrono::nanoseconds since_joining, Counts counts) const;
+
   Participant participant_;
   std::string topic_;
   std::string owner_;
+  std::int64_t begun_ns_ = 0;  // by the steady clock
   Entity topic_entity_;
   Entity writer_;
 };

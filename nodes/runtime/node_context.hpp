@@ -54,12 +54,13 @@ struct NodeContext {
   void idle(std::chrono::nanoseconds timeout) const;
 };
 
-/// Refuses to run beside another node of the same kind and robot: two of them would both write.
+/// Refuses to run beside another node of the same kind and robot: two of them would both write. The elder of two that
+/// begin together stays.
 /// Throws std::runtime_error naming node, robot and topic.
 template <class T>
 void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const std::string& node,
                  std::optional<std::uint32_t> robot_id = {}) {
-  if (!output.other_writer_exists()) return;
+  if (!output.elder_writer_exists()) return;
   throw std::runtime_error{"another " + node + " of robot " +
                            std::to_string(robot_id.value_or(context.settings.run.robot_id)) + " writes " +
                            std::string(bus::meta<T>::topic) + " in domain " +

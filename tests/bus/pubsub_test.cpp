@@ -235,6 +235,16 @@ TEST(PubSub, ASecondWriterOfTheSameOwnerIsNoticed) {
   EXPECT_TRUE(driver.other_writer_exists(milliseconds(0))) << "who is known is seen at a glance";
 }
 
+TEST(PubSub, OfTwoWritersThatBeginTogetherTheElderSeesNoElder) {
+  const auto wire = fresh_wire_pair();
+  const Participant here(wire.a), there(wire.b);
+  const Writer<msg::KickerStatus> elder(here, {.owner = "kicker_driver/1"});
+  const Writer<msg::KickerStatus> younger(there, {.owner = "kicker_driver/1"});
+  EXPECT_TRUE(younger.elder_writer_exists());
+  EXPECT_TRUE(elder.other_writer_exists());
+  EXPECT_FALSE(elder.elder_writer_exists());
+}
+
 TEST(PubSub, AWriterThatIsLeavingIsNoSecondOne) {
   const auto wire = fresh_wire_pair();
   const Participant here(wire.a), there(wire.b);

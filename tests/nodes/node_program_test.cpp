@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <poll.h>
+
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -79,6 +82,22 @@ TEST_F(NodeProgramTest, EveryKindOfNodeTellsItsSupervisorThatItLives) {
     EXPECT_EQ(manager.next(kPlenty), "WATCHDOG=1");
     node.send(SIGTERM);
     EXPECT_EQ(node.exit_code(), 0) << node.said();
+  }
+}
+
+TEST_F(NodeProgramTest, OfTwoDriversThatStartTogetherOneStays) {
+  for (int i = 0; i < 8; ++i) {
+    bus::Writer<msg::KickOrder> writer{participant};
+    Spawned one{program("kicker_driver"), arguments()}, other{program("kicker_driver"), arguments()};
+    std::array<pollfd, 2> ends{{{one.end(), POLLIN, 0}, {other.end(), POLLIN, 0}}};
+    ASSERT_GT(poll(ends.data(), ends.size(), 30'000), 0) << "neither has ended";
+    Spawned& ended = ends[0].revents != 0 ? one : other;
+    Spawned& stays = ends[0].revents != 0 ? other : one;
+    EXPECT_EQ(ended.exit_code(), 1);
+    EXPECT_THAT(ended.said(), HasSubstr("another kicker_driver of robot 1"));
+    ASSERT_TRUE(writer.wait_for_readers(1, kPlenty)) << stays.said();
+    stays.send(SIGTERM);
+    EXPECT_EQ(stays.exit_code(), 0) << stays.said();
   }
 }
 

@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,9 +44,15 @@ class Spawned {
       ::waitpid(pid_, nullptr, 0);
     }
     ::close(output_);
+    if (end_ >= 0) ::close(end_);
   }
 
   pid_t pid() const { return pid_; }
+  /// Readable once the process has ended; -1: the system cannot say.
+  int end() {
+    if (end_ < 0) end_ = static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0));
+    return end_;
+  }
   void send(int signal) const { ::kill(pid_, signal); }
 
   /// Its exit code, -1 if it died of a signal or does not end within 30 s.
@@ -80,6 +87,7 @@ class Spawned {
 
   pid_t pid_ = -1;
   int output_ = -1;
+  int end_ = -1;
   bool closed_ = false;
   std::optional<int> status_;
   std::string said_;
