@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,10 +21,18 @@ namespace trivela::bus {
 template <Message T>
 class Mailbox {
  public:
-  /// With a robot_id only that robot's samples count. The interrupt, if given, ends waits once it is set.
+  using OnEach = std::function<void(const T& sample, const SampleInfo& info)>;
+
+  /// With a robot_id only that robot's samples count. The interrupt, if given, ends waits once it is set. `on_each` is
+  /// called with each sample that is taken, one at a time, by whichever thread takes it.
   explicit Mailbox(const Participant& participant, std::optional<std::uint8_t> robot_id = {},
-                   const ReaderOptions& options = {}, std::shared_ptr<const Guard> interrupt = nullptr)
-      : reader_(participant, options), robot_id_(robot_id), interrupt_(std::move(interrupt)), waitset_(participant) {
+                   const ReaderOptions& options = {}, std::shared_ptr<const Guard> interrupt = nullptr,
+                   OnEach on_each = {})
+      : reader_(participant, options),
+        robot_id_(robot_id),
+        interrupt_(std::move(interrupt)),
+        waitset_(participant),
+        on_each_(std::move(on_each)) {
     waitset_.attach(reader_.condition(), 0);
     if (interrupt_) waitset_.attach(interrupt_->condition(), 1);
   }
@@ -70,8 +79,9 @@ class Mailbox {
 
  private:
   void take() {
-    reader_.take([this](const T& sample) {
+    reader_.take([this](const T& sample, const SampleInfo& info) {
       if (robot_id_ && sample.robot_id != *robot_id_) return;
+      if (on_each_) on_each_(sample, info);
       latest_ = sample;
       heard_.now();
     });
@@ -82,6 +92,7 @@ class Mailbox {
   std::optional<std::uint8_t> robot_id_;
   std::shared_ptr<const Guard> interrupt_;
   Waitset waitset_;
+  OnEach on_each_;
   std::optional<T> latest_;
   LastHeard heard_;
 };

@@ -73,9 +73,9 @@ class Node {
 
   /// T is merely kept when it arrives. Waits in the mailbox end when the executor stops.
   template <Message T>
-  std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}) {
+  std::shared_ptr<Mailbox<T>> stores(const ReaderOptions& options = {}, typename Mailbox<T>::OnEach on_each = {}) {
     stored_.emplace_back(meta<T>::topic);
-    auto mailbox = std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_);
+    auto mailbox = std::make_shared<Mailbox<T>>(participant_, robot_id_, options, interrupt_, std::move(on_each));
     // The mailbox goes with its owner, whom its reader may call.
     add_input(std::string(meta<T>::topic), meta<T>::period_s, [weak = std::weak_ptr(mailbox)](std::int64_t before_ns) {
       const auto owned = weak.lock();

@@ -66,7 +66,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
     referee_of_cycle_ = node_.stores<msg::Referee>();
   } else {
     words.on_liveliness = [this](const bus::Liveliness& writers) { referee_.writers(writers.alive); };
-    node_.on<msg::Referee>([this](const msg::Referee& word) { on_referee(word); },
+    node_.on<msg::Referee>([this](const msg::Referee& word, const bus::SampleInfo& info) { on_referee(word, info); },
                            bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), words);
     node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); },
                               bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge>(), {.observer = true});
@@ -197,10 +197,10 @@ void KickerDriverNode::say_link(bool lost) {
   if (!link_said_.empty()) context_.logger->log(lost ? spdlog::level::warn : spdlog::level::info, "{}", link_said_);
 }
 
-void KickerDriverNode::on_referee(const msg::Referee& word) {
+void KickerDriverNode::on_referee(const msg::Referee& word, const bus::SampleInfo& info) {
   if (!word.playing) called_off_ns_ = now_t_ns();  // before it waits for anybody
   const std::lock_guard lock{mutex_};
-  referee_.heard(word, now_t_ns());
+  referee_.heard(word, now_t_ns(), info.writer);
   if (!word.playing) stop();
 }
 

@@ -34,7 +34,7 @@ class KickerDriverNode {
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
   bool by_own_decision(const bus::SampleInfo& info) const;
-  void on_referee(const msg::Referee& word);
+  void on_referee(const msg::Referee& word, const bus::SampleInfo& info);
   void on_world(const msg::WorldState& world);
   void stop();
   void withdraw();

@@ -18,7 +18,11 @@ WorldStateNode::WorldStateNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>(
           {.period = {},
            .keep_all = false,
-           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }})),
+           .on_liveliness = [this](const bus::Liveliness& writers) { referee_watch_.writers(writers.alive); }},
+          [this](const msg::Referee& word, const bus::SampleInfo& info) {
+            const std::lock_guard lock{referee_mutex_};
+            referee_watch_.heard(word, context_.steady_ns(), info.writer);
+          })),
       kicker_(node_.stores<msg::KickerStatus>()),
       first_(context.settings.run.lockstep) {
   refuse_twin(context_, world_out_, "world_state");
@@ -56,8 +60,7 @@ void WorldStateNode::warn_of_contradictions(const msg::WorldState& world, const 
 void WorldStateNode::trust_no_silence(std::optional<msg::Referee>& word) {
   if (!word) return;
   const std::int64_t now_ns = context_.steady_ns();
-  if (!heard_ || heard_->seq != word->seq || heard_->t_ns != word->t_ns) referee_watch_.heard(*word, now_ns);
-  heard_ = word;
+  const std::lock_guard lock{referee_mutex_};
   if (const auto news = referee_watch_.news(now_ns)) context_.logger->warn(*news);
   word->playing = referee_watch_.says(now_ns) == robot::RefereeSays::kPlay;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mutex>
+
 #include "nodes/runtime/node_context.hpp"
 #include "robot/belief/field_watch.hpp"
 #include "robot/belief/goal_watch.hpp"
@@ -29,9 +31,9 @@ class WorldStateNode {
   bus::Node node_;
   bus::Output<msg::WorldState> world_out_;
   std::shared_ptr<bus::Mailbox<msg::VisionFrame>> vision_;
+  std::mutex referee_mutex_;
   robot::RefereeWatch referee_watch_;  // real time
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
-  std::optional<msg::Referee> heard_;
   std::shared_ptr<bus::Mailbox<msg::KickerStatus>> kicker_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;

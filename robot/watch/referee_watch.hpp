@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "idl/messages.hpp"
 #include "kicking/geometry/time.hpp"
@@ -22,34 +24,43 @@ enum class RefereeSays {
 };
 
 /// Whether the referee's last word still counts: "play" does until timeout_s after the word's own t_ns, on the steady
-/// clock, and while somebody is there to take it back. heard() and says() are for one thread at a time, writers() for
-/// any.
+/// clock, and while somebody is there to take it back. One program is to write it. Where several do, the stricter word
+/// counts: "stop" of any that was heard within timeout_s. heard() and says() are for one thread at a time, writers()
+/// for any.
 class RefereeWatch {
  public:
   explicit RefereeWatch(double timeout_s) : timeout_s_(timeout_s) {}
 
-  /// A word from the future is as good as one of now.
-  void heard(const msg::Referee& word, std::int64_t now_ns) {
+  /// A word from the future is as good as one of now. `writer` tells the programs that write apart.
+  void heard(const msg::Referee& word, std::int64_t now_ns, std::uint64_t writer = 0) {
+    std::erase_if(others_, [&](const Other& other) { return other.writer == writer || is_old(other, now_ns); });
+    if (word_ && writer != writer_ && others_.size() < kMostOthers) others_.push_back({writer_, heard_ns_, *word_});
+    heard_ns_ = now_ns;
     word_ = Word{std::min(word.t_ns, now_ns), word.playing};
+    writer_ = writer;
     deserted_ = false;
   }
 
-  /// To be told of each change among his writers: how many live.
+  /// To be told of each change among the writers: how many live.
   void writers(std::uint32_t alive) {
     if (alive == 0) deserted_ = true;
   }
 
   RefereeSays says(std::int64_t now_ns) const {
     if (!word_) return RefereeSays::kNothing;
-    if (!word_->playing) return RefereeSays::kStop;
+    if (!word_->playing || other_stops(now_ns)) return RefereeSays::kStop;
     return deserted_ || age_s(now_ns) > timeout_s_ ? RefereeSays::kSilent : RefereeSays::kPlay;
   }
 
   /// When the last word, which is to play, ends to count. 0: there is none.
   std::int64_t counts_until_ns() const { return word_ ? word_->t_ns + kicking::nanoseconds(timeout_s_) : 0; }
 
-  /// A sentence whenever he falls silent or is heard again; none in between.
+  /// A sentence whenever it falls silent or is heard again, or a second program begins to write; none in between.
   std::optional<std::string> news(std::int64_t now_ns) {
+    const bool contested = std::ranges::any_of(others_, [&](const Other& other) { return !is_old(other, now_ns); });
+    if (std::exchange(contested_, contested) != contested)
+      return contested ? "several programs write referee for this robot: the stricter word counts; stop all but one"
+                       : "one program writes referee again";
     const bool silent = says(now_ns) == RefereeSays::kSilent;
     if (silent == silent_) return std::nullopt;
     silent_ = silent;
@@ -59,16 +70,34 @@ class RefereeWatch {
   }
 
  private:
-  double age_s(std::int64_t now_ns) const { return kicking::seconds(now_ns - word_->t_ns); }
-
   struct Word {
     std::int64_t t_ns;
     bool playing;
   };
+  struct Other {
+    std::uint64_t writer;
+    std::int64_t heard_ns;
+    Word word;
+  };
+  static constexpr std::size_t kMostOthers = 8;
+
+  double age_s(std::int64_t now_ns) const { return kicking::seconds(now_ns - word_->t_ns); }
+  bool is_old(const Other& other, std::int64_t now_ns) const {
+    return kicking::seconds(now_ns - other.heard_ns) > timeout_s_;
+  }
+  bool other_stops(std::int64_t now_ns) const {
+    return std::ranges::any_of(others_,
+                               [&](const Other& other) { return !other.word.playing && !is_old(other, now_ns); });
+  }
+
   double timeout_s_;
   std::optional<Word> word_;
+  std::uint64_t writer_ = 0;   // of word_
+  std::int64_t heard_ns_ = 0;  // word_
+  std::vector<Other> others_;  // last words of other writers
   std::atomic<bool> deserted_ = false;
   bool silent_ = false;
+  bool contested_ = false;
 };
 
 }  // namespace trivela::robot

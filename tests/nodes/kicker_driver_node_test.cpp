@@ -486,6 +486,24 @@ TEST_F(KickerDriverNodeTest, NothingIsFiredAfterTheStopAndWhatWasPendingGetsItsR
   EXPECT_EQ(kicker->withdrawn, 5);
 }
 
+TEST_F(KickerDriverNodeTest, ASecondWriterOfTheRefereeCannotLetPlayWhereTheFirstStops) {
+  Says<msg::Referee> forger{participant};
+  start();
+  sample();
+  play();
+  play(false);
+  ASSERT_FALSE(sample().armed);
+  const auto forged = [&] {
+    msg::Referee word{};
+    word.t_ns = t_ns;
+    word.playing = true;
+    forger(word);
+    return sample().armed;
+  };
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(forged()) << i;
+  EXPECT_EQ(answer(wish(5)).refusal, msg::REFUSAL_UNARMED);
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {
   start();
   sample();

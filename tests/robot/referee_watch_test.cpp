@@ -56,6 +56,31 @@ TEST(RefereeWatch, WithoutAWriterThatLivesHisWordIsVoidUntilTheNext) {
   EXPECT_EQ(watch.says(10 * kSecond_ns + 5), RefereeSays::kPlay);
 }
 
+TEST(RefereeWatch, OfTwoWritersTheStricterWordCounts) {
+  RefereeWatch watch{1.0};
+  constexpr std::uint64_t kBox = 1, kForger = 2;
+  watch.heard(word(10 * kSecond_ns, false), 10 * kSecond_ns, kBox);
+  EXPECT_FALSE(watch.news(10 * kSecond_ns));
+  for (std::int64_t t_ns = 10 * kSecond_ns + 1; t_ns < 13 * kSecond_ns; t_ns += kSecond_ns / 2) {
+    watch.heard(word(t_ns, false), t_ns, kBox);
+    watch.heard(word(t_ns + 1, true), t_ns + 1, kForger);
+    EXPECT_EQ(watch.says(t_ns + 1), RefereeSays::kStop);
+    EXPECT_EQ(watch.news(t_ns + 1).has_value(), t_ns == 10 * kSecond_ns + 1) << "said once";
+  }
+  watch.heard(word(14 * kSecond_ns, true), 14 * kSecond_ns, kForger);
+  EXPECT_EQ(watch.says(14 * kSecond_ns), RefereeSays::kPlay) << "the other has said nothing for its time";
+  EXPECT_EQ(watch.news(14 * kSecond_ns), "one program writes referee again");
+}
+
+TEST(RefereeWatch, AnotherWritersStopHoldsAtOnce) {
+  RefereeWatch watch{1.0};
+  watch.heard(word(10 * kSecond_ns, true), 10 * kSecond_ns, 1);
+  watch.heard(word(10 * kSecond_ns, false), 10 * kSecond_ns, 2);
+  EXPECT_EQ(watch.says(10 * kSecond_ns), RefereeSays::kStop);
+  watch.heard(word(10 * kSecond_ns + 1, true), 10 * kSecond_ns + 1, 1);
+  EXPECT_EQ(watch.says(10 * kSecond_ns + 1), RefereeSays::kStop);
+}
+
 TEST(RefereeWatch, TellsEachEdgeOnce) {
   RefereeWatch watch{1.0};
   watch.heard(word(10 * kSecond_ns, true), 10 * kSecond_ns);
