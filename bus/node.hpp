@@ -45,6 +45,9 @@ class Output {
     return writer_->wait_for_readers(n, timeout);
   }
 
+  /// Whether another node of the same name and robot writes T.
+  [[nodiscard]] bool other_writer_exists() const { return writer_->other_writer_exists(); }
+
   /// Whether another node of the same name and robot writes T, and is not the younger of two that begin together.
   [[nodiscard]] bool elder_writer_exists() const { return writer_->elder_writer_exists(); }
 

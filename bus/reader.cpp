@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "bus/cyclone.hpp"
@@ -21,6 +22,16 @@ constexpr std::chrono::seconds kPause{2};
 
 // Of a topic without a period silence means nothing, or that its reader alone was broken.
 constexpr std::chrono::seconds kEventSilence{10};
+
+// RTPS: the participant's part of a GUID.
+constexpr std::size_t kGuidPrefix_B = 12;
+
+// FNV-1a
+std::uint64_t hash_of(std::span<const unsigned char> bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ULL;
+  return hash;
+}
 
 struct DeleteListener {
   void operator()(dds_listener_t* listener) const noexcept { dds_delete_listener(listener); }
@@ -160,14 +171,14 @@ const AnyReader::KnownWriter& AnyReader::writer_of(std::int32_t reader, std::uin
   const auto known = std::find_if(writers_.begin(), writers_.end(), [&](const auto& w) { return w.handle == handle; });
   if (known != writers_.end()) return *known;
   dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader, handle);
-  if (endpoint == nullptr) return gone_ = {handle, handle, {}};
-  std::uint64_t number = 14695981039346656037ULL;  // FNV-1a
-  for (const unsigned char byte : endpoint->key.v) number = (number ^ byte) * 1099511628211ULL;
+  if (endpoint == nullptr) return gone_ = {handle, handle, handle, {}};
+  const std::span<const unsigned char> guid(endpoint->key.v);
+  const std::uint64_t number = hash_of(guid), member = hash_of(guid.first(kGuidPrefix_B));
   std::string owner = owner_of(endpoint->qos);
   dds_builtintopic_free_endpoint(endpoint);
   constexpr std::size_t kMost = 64;  // writers come and go
   if (writers_.size() == kMost) writers_.erase(writers_.begin());
-  return writers_.emplace_back(KnownWriter{handle, number, std::move(owner)});
+  return writers_.emplace_back(KnownWriter{handle, number, member, std::move(owner)});
 }
 
 std::size_t AnyReader::take_raw(Sink sink, void* context) {
@@ -190,7 +201,7 @@ std::size_t AnyReader::take_from(std::int32_t reader, Sink sink, void* context) 
         if (!is_new(writer.number, info.source_timestamp)) continue;
         silence_->heard(Clock::now());
       }
-      sink(context, loan.sample(i), {info.source_timestamp, writer.number, writer.owner});
+      sink(context, loan.sample(i), {info.source_timestamp, writer.number, writer.member, writer.owner});
       ++taken;
     }
     if (count < most) return taken;
@@ -230,6 +241,19 @@ bool AnyReader::wait_for_writers(std::size_t n, std::chrono::nanoseconds timeout
     waitset.wait(left);
   }
   return true;
+}
+
+std::size_t AnyReader::writers_of(std::string_view owner) const {
+  std::vector<dds_instance_handle_t> handles(64);
+  const auto found = dds_get_matched_publications(reader_.handle(), handles.data(), handles.size());
+  handles.resize(std::min(handles.size(), static_cast<std::size_t>(std::max(found, dds_return_t{0}))));
+  return static_cast<std::size_t>(std::ranges::count_if(handles, [&](dds_instance_handle_t handle) {
+    dds_builtintopic_endpoint_t* const endpoint = dds_get_matched_publication_data(reader_.handle(), handle);
+    if (endpoint == nullptr) return false;
+    const bool same = owner_of(endpoint->qos) == owner;
+    dds_builtintopic_free_endpoint(endpoint);
+    return same;
+  }));
 }
 
 Liveliness AnyReader::liveliness() const {

@@ -24,6 +24,7 @@ namespace trivela::bus {
 struct SampleInfo {
   std::int64_t source_t_ns = 0;  // the writer's real-time clock when it was written
   std::uint64_t writer = 0;  // tells the writers of a topic apart: of its GUID, the same when it is lost and comes back
+  std::uint64_t member = 0;  // the same of the participant that it belongs to
   std::string_view
       owner{};  // its WriterOptions::owner; empty: none, or it has gone. Valid while the sample is handed out
 };
@@ -47,6 +48,9 @@ class AnyReader {
 
   /// Waits until at least n writers are matched; false if the timeout came first.
   [[nodiscard]] bool wait_for_writers(std::size_t n, std::chrono::nanoseconds timeout);
+
+  /// How many matched writers carry this WriterOptions::owner. Not for listeners.
+  std::size_t writers_of(std::string_view owner) const;
 
   /// How many writers are matched now.
   std::size_t writers() const;
@@ -96,6 +100,7 @@ class AnyReader {
   struct KnownWriter {
     std::uint64_t handle;  // Cyclone's, which changes when one comes back
     std::uint64_t number;
+    std::uint64_t member;
     std::string owner;
   };
   const KnownWriter& writer_of(std::int32_t reader, std::uint64_t handle);

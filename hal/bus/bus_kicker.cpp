@@ -1,9 +1,12 @@
 #include "hal/bus/bus_kicker.hpp"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <exception>
 #include <utility>
 
+#include "bus/node.hpp"
 #include "hal/bus/bus_streams.hpp"
 #include "hal/open.hpp"
 #include "idl/none.hpp"
@@ -33,14 +36,19 @@ BusKicker::BusKicker(const bus::Participant& participant, std::uint8_t robot_id)
     : robot_id_(robot_id),
       samples_(participant),
       // The coil hears one driver, however long that says nothing.
-      fires_(participant, {.period = {}, .lease = std::chrono::hours(24), .strength = 0, .owner = {}}),
+      fires_(participant, {.period = {},
+                           .lease = std::chrono::hours(24),
+                           .strength = 0,
+                           .owner = bus::owner_of_robot("kicker_driver", robot_id)}),
       charges_(participant) {}
 
 bool BusKicker::connected(std::chrono::nanoseconds timeout) { return both_ways(samples_, fires_, timeout); }
 
 std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
-  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout);
+  const auto see = [this](const bus::SampleInfo& info) { bridges_.see(info.writer, now_ns()); };
+  const auto received = read_newer(samples_, robot_id_, read_t_ns_, timeout, see);
   if (!received) return std::nullopt;
+  contested_ = bridges_.contested(now_ns());
   const kicking::Maybe voltage_v = received->voltage_v;
   capabilities_ = {.charge_control = received->charge_control,
                    .voltage = voltage_v.has_value(),
@@ -49,7 +57,7 @@ std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   return KickerSample{.t_ns = received->t_ns,
                       .charge = received->charge,
                       .armed = received->armed,
-                      .fault = fault_of(received->fault),
+                      .fault = contested_ ? KickerFault::kLink : fault_of(received->fault),
                       .charge_modelled = received->charge_modelled,
                       .voltage_v = voltage_v,
                       .emulated = received->emulated};
@@ -80,6 +88,11 @@ void BusKicker::withdraw(std::int64_t kick_id) {
   word.kick_id = kick_id;
   word.withdrawn = true;
   fires_.write(word);
+}
+
+std::string BusKicker::status() const {
+  if (!contested_) return {};
+  return fmt::format("several programs write device/kicker of robot {}: nothing is fired; stop all but one", robot_id_);
 }
 
 void BusKicker::charge(ChargeWord word) {

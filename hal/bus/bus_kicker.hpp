@@ -8,6 +8,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "bus/writer_watch.hpp"
 #include "hal/kicker.hpp"
 #include "idl/messages.hpp"
 
@@ -33,6 +34,8 @@ class BusKicker final : public Kicker {
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;
   bool ended() const override { return false; }
+  /// That several bridges write, which is a fault of the link while it lasts.
+  std::string status() const override;
   /// As the latest sample says.
   KickerCapabilities capabilities() const override { return capabilities_; }
 
@@ -43,6 +46,8 @@ class BusKicker final : public Kicker {
   bus::Reader<msg::DeviceKicker> samples_;
   bus::Writer<msg::DeviceFire> fires_;
   std::optional<std::int64_t> read_t_ns_;
+  bus::WriterWatch bridges_;
+  std::atomic<bool> contested_ = false;
   bus::Writer<msg::DeviceCharge> charges_;
   std::uint64_t fire_seq_ = 0;
   std::atomic<std::uint64_t> charge_seq_ = 0;

@@ -57,9 +57,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       [this](const hal::KickerSample& sample) { on_sample(sample); },
       bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
                   msg::StepDone>());
-  node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) {
-    if (by_own_decision(info)) decision_heard_ns_ = context_.steady_ns();
-  });
+  node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) { on_drive(info); });
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -235,7 +233,24 @@ void KickerDriverNode::take_results() {
   }
 }
 
-bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) const {
+/// Two programs in the decision node's name: nobody can tell whose orders are the robot's, and none is fired.
+void KickerDriverNode::on_drive(const bus::SampleInfo& info) {
+  if (!owns_decisions(info)) return;
+  const std::int64_t now_ns = context_.steady_ns();
+  const std::lock_guard lock{drives_mutex_};
+  if (drives_.see(info.member, now_ns))
+    context_.logger->warn("several programs write drive as {}: nothing is fired; stop all but one", info.owner);
+  decision_heard_ns_ = drives_.contested(now_ns) ? 0 : now_ns;
+}
+
+/// An order of the program whose drive commands are heard, where one is.
+bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) {
+  const std::lock_guard lock{drives_mutex_};
+  const bool drives = drives_.last() == 0 || drives_.last() == info.member;
+  return owns_decisions(info) && (context_.settings.run.lockstep || drives);
+}
+
+bool KickerDriverNode::owns_decisions(const bus::SampleInfo& info) const {
   return std::ranges::find(own_decisions_, info.owner) != own_decisions_.end();
 }
 

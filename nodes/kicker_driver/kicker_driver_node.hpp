@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/writer_watch.hpp"
 #include "hal/kicker.hpp"
 #include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -33,7 +34,9 @@ class KickerDriverNode {
  private:
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
-  bool by_own_decision(const bus::SampleInfo& info) const;
+  void on_drive(const bus::SampleInfo& info);
+  bool by_own_decision(const bus::SampleInfo& info);
+  bool owns_decisions(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word, const bus::SampleInfo& info);
   void on_world(const msg::WorldState& world);
   void stop();
@@ -59,6 +62,8 @@ class KickerDriverNode {
   bool clock_differs_ = false;
   robot::DecisionNode decision_ = robot::DecisionNode::kUnheard;
   std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
+  std::mutex drives_mutex_;
+  bus::WriterWatch drives_;  // by the participants that write them
   std::string link_said_;
   robot::LoopWatch loop_;
   std::vector<std::string> own_decisions_;  // owners of the writers whose orders count

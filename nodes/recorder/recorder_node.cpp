@@ -64,6 +64,9 @@ template <class T>
 std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableId id, StreamWatch& watch, T sample,
                                                 std::uint64_t writer) {
   if (watch.repeats(sample.robot_id, sample.seq, sample.t_ns)) return std::nullopt;
+  if (watch.writers[sample.robot_id].see(writer, now_ns(std::chrono::steady_clock::now())))
+    context_.logger->warn("several programs write {} of robot {}: the log has the rows of all of them", table,
+                          sample.robot_id);
   robot::SequenceWatch::Finding finding{.believed = false};
   if (context_.settings.run.lockstep) {
     finding = watch.numbers.see(sample.robot_id, sample.seq, writer);

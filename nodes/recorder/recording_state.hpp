@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bus/writer_watch.hpp"
 #include "nodes/recorder/silence_record.hpp"
 #include "robot/watch/instant_watch.hpp"
 #include "robot/watch/sequence_watch.hpp"
@@ -19,6 +20,7 @@ namespace trivela::nodes {
 struct StreamWatch {
   robot::SequenceWatch numbers;
   robot::InstantWatch instants;
+  std::map<std::uint8_t, bus::WriterWatch> writers{};                       ///< by robot
   std::map<std::uint8_t, std::pair<std::uint64_t, std::int64_t>> latest{};  ///< seq and t_ns of a robot's last sample
   bool events = false;  ///< without a period: what is skipped has no silence of its own
 

@@ -196,9 +196,9 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   if (kicker_) bus::renew_if_silent(fire_);
   if (!has_drives()) drive_.keep_hearing();
   const auto take_fires = [&] {
-    fire_.take([&](const msg::DeviceFire& fire) {
+    fire_.take([&](const msg::DeviceFire& fire, const bus::SampleInfo& info) {
       if (fire.robot_id != context_.robot_id()) return;
-      order(fire, out);
+      if (fire.withdrawn || is_of_the_driver(fire, info)) order(fire, out);
     });
     return fires_ >= barrier_.fires();
   };
@@ -217,6 +217,16 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
   if (has_drives()) out.drive = devices_->set_point();
   if (drive) out.drive = {drive->vx_mps, drive->vy_mps, drive->omega_radps};
   return out;
+}
+
+/// As a bridge of a real coil has to: it obeys one driver, and nobody where two have its name.
+bool SimulatorNode::is_of_the_driver(const msg::DeviceFire& fire, const bus::SampleInfo& info) {
+  const std::string driver = bus::owner_of_robot("kicker_driver", context_.robot_id());
+  if (info.owner == driver && (context_.settings.run.lockstep || fire_.writers_of(driver) == 1)) return true;
+  context_.logger->warn(
+      "kick {} by device/fire of {}: not fired", fire.kick_id,
+      info.owner == driver ? "several programs that call themselves " + driver : "another program than " + driver);
+  return false;
 }
 
 /// What the simulated kicker does with the driver's word.

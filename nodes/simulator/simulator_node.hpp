@@ -57,6 +57,7 @@ class SimulatorNode {
 
   template <class T>
   void write(bus::Writer<T>& writer, T message, std::uint64_t seq);
+  bool is_of_the_driver(const msg::DeviceFire& fire, const bus::SampleInfo& info);
   void order(const msg::DeviceFire& fire, sim::Commands& out);
   void take_pulses(sim::Commands& out);
   std::int64_t kick_of_pulse(std::int64_t t_ns);

@@ -504,6 +504,25 @@ TEST_F(KickerDriverNodeTest, ASecondWriterOfTheRefereeCannotLetPlayWhereTheFirst
   EXPECT_EQ(answer(wish(5)).refusal, msg::REFUSAL_UNARMED);
 }
 
+TEST_F(KickerDriverNodeTest, WhereTwoProgramsDriveInTheDecisionNodesNameNothingIsFired) {
+  const bus::Participant elsewhere{domain};
+  Says<msg::DriveCommand> forged_drive{elsewhere, 1, "kick_decision/1"};
+  Says<msg::KickOrder> forged_order{elsewhere, 1, "kick_decision/1", 7};
+  start();
+  sample();
+  play();
+  sample();
+  forged_order.expect_reader();
+  forged_order(wish(5));
+  EXPECT_EQ(receipt.nth(++orders).refusal, msg::REFUSAL_STRANGER) << "whose drive commands nobody hears";
+  const auto both_drive = [&] {
+    forged_drive({});
+    drive({});
+    return sample(1.0, true, hal::KickerFault::kNone, 1'000).state == msg::STATE_OFF;
+  };
+  EXPECT_TRUE(eventually(both_drive));
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {
   start();
   sample();
