@@ -6,8 +6,10 @@
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "device.h"
@@ -41,10 +43,30 @@ static dds_entity_t endpoint(dds_entity_t bus, const dds_topic_descriptor_t* typ
   return checked(written ? dds_create_writer(bus, on, qos, NULL) : dds_create_reader(bus, on, qos, NULL), topic);
 }
 
-static int take(dds_entity_t reader, void* sample) {
+static dds_sample_info_t take(dds_entity_t reader, void* sample) {
   dds_sample_info_t info = {.valid_data = false};
   while (dds_take(reader, &sample, &info, 1, 1) > 0 && !info.valid_data) continue;
-  return info.valid_data;
+  return info;
+}
+
+// Whether `writer` is the one that calls itself the robot's driver. Where two do, neither is believed.
+static bool is_driver(dds_entity_t fires, dds_instance_handle_t writer) {
+  static const char kDriver[] = "kicker_driver/1\n";
+  dds_instance_handle_t all[16];
+  bool found = false;
+  int drivers = 0;
+  for (int i = dds_get_matched_publications(fires, all, 16) - 1; i >= 0; --i) {
+    dds_builtintopic_endpoint_t* const endpoint = i < 16 ? dds_get_matched_publication_data(fires, all[i]) : NULL;
+    void* name = NULL;
+    size_t size = 0;
+    const bool told = endpoint && dds_qget_userdata(endpoint->qos, &name, &size);
+    const bool driver = told && size >= strlen(kDriver) && memcmp(name, kDriver, strlen(kDriver)) == 0;
+    drivers += driver;
+    found = found || (driver && all[i] == writer);
+    dds_free(name);
+    if (endpoint) dds_builtintopic_free_endpoint(endpoint);
+  }
+  return found && drivers == 1;
 }
 
 // MODEL: motors, below encoders. `v` is how it moves, m/s to the right, m/s forward, rad/s; beside it the gyro.
@@ -77,8 +99,8 @@ int main(int argc, char** argv) {
   for (uint64_t seq = 0; !g_ended;) {
     const int64_t left_ns = (shot.kick_id && shot.t_ns < tick_ns ? shot.t_ns : tick_ns) - now_ns();
     if (left_ns > 0) dds_waitset_wait(wake, NULL, 0, left_ns);
-    while (take(fires, &word)) {
-      if (word.robot_id != kRobot) continue;
+    for (dds_sample_info_t info; (info = take(fires, &word)).valid_data;) {
+      if (word.robot_id != kRobot || !(word.withdrawn || is_driver(fires, info.publication_handle))) continue;
       if (word.withdrawn && word.kick_id == shot.kick_id) shot.kick_id = 0;
       if (!word.withdrawn && word.kick_id != last_kick_id) shot = word;
     }
@@ -93,7 +115,7 @@ int main(int argc, char** argv) {
     }
     if (t_ns < tick_ns) continue;
     tick_ns = t_ns + kPeriod_ns;
-    while (take(drives, &command)) drive = command.robot_id == kRobot ? command : drive;
+    while (take(drives, &command).valid_data) drive = command.robot_id == kRobot ? command : drive;
     const trivela_msg_DeviceWheels base = turn(v, &drive, ++seq, t_ns);
     dds_write(wheels, &base);
     trivela_msg_DeviceKicker board = {.robot_id = kRobot, .seq = seq, .t_ns = t_ns, .armed = true, .voltage_v = NAN};
