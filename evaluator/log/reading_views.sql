@@ -89,13 +89,17 @@ WHERE k.session_id NOT IN (SELECT session_id FROM left_out_sessions)
 
 -- Kicks that the driver accepted: the decision with what was given to the device and what the robot saw of the flight
 -- (NULL: nothing). An order may be sent twice, an outcome corrected: the first decision, the first receipt that accepts
--- and the latest outcome count; what people say of the kick comes before the robot's outcome.
+-- and the latest outcome count; a kick that a later receipt says was not fired is none; what people say of the kick comes before the robot's outcome.
 CREATE TEMP VIEW accepted_kicks AS
 SELECT d.*, r.order_t_ns, r.power AS given_power, coalesce(h.outcome, c.outcome) AS outcome, c.x_cross_m, c.z_cross_m
 FROM kick_decisions AS d
 JOIN kick_receipts AS r ON r.session_id = d.session_id AND r.robot_id = d.robot_id AND r.seq = (
   SELECT min(seq) FROM main.kick_receipts INDEXED BY kick_receipts_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id AND accepted = 1)
+  AND NOT EXISTS (
+    SELECT 1 FROM main.kick_receipts AS n INDEXED BY kick_receipts_kick
+    WHERE n.session_id = d.session_id AND n.robot_id = d.robot_id AND n.kick_id = d.kick_id AND n.seq > r.seq
+      AND n.accepted = 0 AND n.refusal <> 'double')
 LEFT JOIN kick_outcomes AS c ON c.session_id = d.session_id AND c.robot_id = d.robot_id AND c.seq = (
   SELECT max(seq) FROM main.kick_outcomes INDEXED BY kick_outcomes_kick
   WHERE session_id = d.session_id AND robot_id = d.robot_id AND kick_id = d.kick_id)

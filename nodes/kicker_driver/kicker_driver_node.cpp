@@ -38,8 +38,10 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   refuse_twin(context_, receipt_out_, "kicker_driver");
   if (!context_.settings.run.lockstep) {
     desk_.began(context_.steady_ns());
-    kicker_->hold_when(
-        [this](std::int64_t judged_ns) { return judged_ns <= called_off_ns_ || context_.stop.requested(); });
+    pending_.emplace(PendingKick::name_of(context_.settings.domain, context_.robot_id()));
+    if (!pending_->why().empty())
+      context_.logger->warn("a kick that is lost with this program will not be told: {}", pending_->why());
+    kicker_->hold_when([this](std::int64_t judged_ns) { return holds(judged_ns); });
     node_.on_stop([this] {
       const std::lock_guard lock{mutex_};
       stop();
@@ -221,15 +223,35 @@ void KickerDriverNode::withdraw() {
   kicker_->withdraw(receipt->kick_id);
   context_.logger->warn("kick {} called off: {}", receipt->kick_id, bus::label(receipt->refusal));
   receipt_out_.write(*receipt);
+  if (pending_) pending_->settled();
+}
+
+/// Asked by whoever writes to the device, immediately before.
+bool KickerDriverNode::holds(std::int64_t judged_ns) {
+  if (judged_ns <= called_off_ns_ || context_.stop.requested()) return true;
+  pending_->settled();
+  return false;
+}
+
+/// What the predecessor accepted and never told the device, once somebody hears it.
+void KickerDriverNode::complete_predecessor() {
+  if (!pending_ || !pending_->left() || receipt_out_.readers() == 0) return;
+  const auto left = *pending_->left();
+  context_.logger->warn("kick {} was accepted by a driver that ended before it fired", left.kick_id);
+  receipt_out_.write(desk_.not_fired(left.kick_id, left.order_t_ns, now_t_ns()));
+  pending_->forget();
+  pending_->settled();
 }
 
 /// A shot that the device was not told of is no kick: a second receipt says so.
 void KickerDriverNode::take_results() {
+  complete_predecessor();
   while (const auto result = kicker_->take_result()) {
     const auto receipt = desk_.result(*result, now_t_ns());
     if (!receipt) continue;
     context_.logger->warn("kick {} was not fired: {}", receipt->kick_id, bus::label(receipt->refusal));
     receipt_out_.write(*receipt);
+    pending_->settled();
   }
 }
 
@@ -269,6 +291,7 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
   msg::KickReceipt receipt = desk_.answer(order, judged_ns, by);
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
+    if (pending_) pending_->accepted(receipt.kick_id, receipt.order_t_ns);
     kicker_->fire({.kick_id = receipt.kick_id,
                    .power = receipt.power,
                    .t_ns = receipt.fired_t_ns,

@@ -9,6 +9,7 @@
 
 #include "bus/writer_watch.hpp"
 #include "hal/kicker.hpp"
+#include "nodes/kicker_driver/pending_kick.hpp"
 #include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/driver/order_desk.hpp"
@@ -42,6 +43,8 @@ class KickerDriverNode {
   void stop();
   void withdraw();
   void take_results();
+  bool holds(std::int64_t judged_ns);
+  void complete_predecessor();
   std::int64_t deadline_ns(const msg::KickOrder& order) const;
   std::int64_t now_t_ns() const;
   robot::RefereeSays referee_says(const std::optional<msg::Referee>& word_of_cycle);
@@ -54,7 +57,8 @@ class KickerDriverNode {
   void report_done(std::int64_t t_ns);
 
   NodeContext& context_;
-  std::mutex mutex_;  // device thread and order reaction
+  std::mutex mutex_;                    // device thread and order reaction
+  std::optional<PendingKick> pending_;  // real time
   std::unique_ptr<hal::Kicker> kicker_;
   robot::OrderDesk desk_;
   std::int64_t sample_t_ns_ = 0;

@@ -121,6 +121,14 @@ std::optional<msg::KickReceipt> OrderDesk::result(const hal::ShotResult& result,
 msg::KickReceipt OrderDesk::refused_after_all(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns) {
   happened(KickerEvent::kCalledOff);
   advance(now_t_ns);
+  return refusal_of(withdrawn, now_t_ns);
+}
+
+msg::KickReceipt OrderDesk::not_fired(std::int64_t kick_id, std::int64_t order_t_ns, std::int64_t now_t_ns) {
+  return refusal_of({kick_id, order_t_ns, msg::REFUSAL_FAULT}, now_t_ns);
+}
+
+msg::KickReceipt OrderDesk::refusal_of(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns) {
   msg::KickReceipt receipt{};
   receipt.robot_id = robot_id_;
   receipt.seq = ++receipts_;

@@ -56,6 +56,9 @@ class OrderDesk {
   /// unarmed or fault. A shot that was fired late moves the next one.
   std::optional<msg::KickReceipt> result(const hal::ShotResult& result, std::int64_t now_t_ns);
 
+  /// The receipt of a kick that a driver before this one accepted and did not tell the device of.
+  msg::KickReceipt not_fired(std::int64_t kick_id, std::int64_t order_t_ns, std::int64_t now_t_ns);
+
   std::uint32_t handled() const { return gate_.handled(); }
 
   /// Kicks given to the device so far.
@@ -65,6 +68,7 @@ class OrderDesk {
   void happened(KickerEvent event) { stand_ = next(stand_, event); }
   void advance(std::int64_t now_t_ns);
   msg::KickReceipt refused_after_all(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns);
+  msg::KickReceipt refusal_of(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns);
 
   OrderGate gate_;
   KickerStand stand_;

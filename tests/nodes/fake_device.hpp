@@ -177,7 +177,7 @@ class FakeKicker : public hal::Kicker {
   bool connected(std::chrono::nanoseconds) override { return true; }
   std::optional<hal::KickerSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
   void fire(const hal::Shot& shot) override {
-    if (!far_side_->safe)
+    if (!far_side_->safe && !far_side_->holds(shot.judged_ns))
       far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }

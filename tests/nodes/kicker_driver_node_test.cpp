@@ -523,6 +523,22 @@ TEST_F(KickerDriverNodeTest, WhereTwoProgramsDriveInTheDecisionNodesNameNothingI
   EXPECT_TRUE(eventually(both_drive));
 }
 
+TEST_F(KickerDriverNodeTest, WhatAKilledDriverAcceptedAndNeverToldTheDeviceGetsAReceiptOfItsSuccessor) {
+  const std::string name = PendingKick::name_of(context.settings.domain, 1);
+  PendingKick{name}.accepted(41, 900'000'000);  // and there it was killed
+  start();
+  sample();
+  const auto left = receipt.nth(++orders);
+  EXPECT_EQ(left.kick_id, 41);
+  EXPECT_EQ(left.order_t_ns, 900'000'000);
+  EXPECT_FALSE(left.accepted);
+  EXPECT_EQ(left.refusal, msg::REFUSAL_FAULT);
+  play();
+  sample();
+  ASSERT_TRUE(answer(wish(42)).accepted);
+  EXPECT_FALSE(PendingKick{name}.left()) << "the device was told";
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {
   start();
   sample();

@@ -157,6 +157,7 @@ class NodeTest : public testing::Test {
  protected:
   NodeTest() {
     context.settings.domain.domain_id = domain.domain_id;
+    context.settings.domain.tag = fmt::format("nodes-{}", getpid());
     context.settings.run.session = 5;
     context.steady_ns = [this] { return clock_ns.load(); };
   }
