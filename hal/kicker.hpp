@@ -91,7 +91,7 @@ class Kicker {
   /// Whether a shot that was judged at `judged_ns` must not be written any more: the game was stopped since, or the
   /// program ends. Asked by whoever writes to the device, immediately before. To be set before the first fire().
   using Hold = std::function<bool(std::int64_t judged_ns)>;
-  virtual void hold_when(Hold hold) { static_cast<void>(hold); }
+  virtual void hold_when(const Hold& hold) { static_cast<void>(hold); }
 
   /// What became of the oldest shot of which it was not said yet. A shot that was withdrawn has no result. None: there
   /// is no other, or the device's results are not known here.

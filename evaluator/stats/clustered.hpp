@@ -15,7 +15,7 @@ namespace trivela::evaluator::stats {
 inline constexpr std::size_t kFewestMatches = 5;
 
 /// With fewer on a side a spread below that of independent kicks is not believed.
-inline constexpr std::size_t kManyMatches = 30;
+inline constexpr std::size_t kManyMatches = 12;
 
 /// What one match has of both policies, of one stratum of situations.
 struct MatchCounts {

@@ -76,9 +76,9 @@ void BoardKicker::withdraw(std::int64_t kick_id) {
   shots_.withdraw(kick_id);
 }
 
-void BoardKicker::hold_when(Hold hold) {
+void BoardKicker::hold_when(const Hold& hold) {
   const std::lock_guard lock{mutex_};
-  hold_ = std::move(hold);
+  hold_ = hold;
 }
 
 std::optional<ShotResult> BoardKicker::take_result() {

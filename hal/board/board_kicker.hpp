@@ -34,7 +34,7 @@ class BoardKicker final : public Kicker {
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
-  void hold_when(Hold hold) override;
+  void hold_when(const Hold& hold) override;
   std::optional<ShotResult> take_result() override;
   std::string beyond(double power) const override { return board_->beyond(power); }
   void make_safe() noexcept override;

@@ -29,7 +29,7 @@ class BusKicker final : public Kicker {
   std::optional<KickerSample> read(std::chrono::nanoseconds timeout) override;
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
-  void hold_when(Hold hold) override { hold_ = std::move(hold); }
+  void hold_when(const Hold& hold) override { hold_ = hold; }
   std::optional<ShotResult> take_result() override;
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;

@@ -119,9 +119,9 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
 
   std::atomic<double> most_power = 1e9;
 
-  void hold_when(hal::Kicker::Hold hold) {
+  void hold_when(const hal::Kicker::Hold& hold) {
     const std::lock_guard lock{link_mutex_};
-    hold_ = std::move(hold);
+    hold_ = hold;
   }
   /// Whether a shot that was judged then is held.
   bool holds(std::int64_t judged_ns) const {
@@ -181,7 +181,7 @@ class FakeKicker : public hal::Kicker {
       far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
-  void hold_when(Hold hold) override { far_side_->hold_when(std::move(hold)); }
+  void hold_when(const Hold& hold) override { far_side_->hold_when(hold); }
   std::optional<hal::ShotResult> take_result() override { return far_side_->take_result(); }
   std::string beyond(double power) const override {
     return power > far_side_->most_power ? "it has no such pulse" : std::string{};
