@@ -26,7 +26,7 @@ void check(const cli::KickLabels& labels, const std::string& text) {
   require(labels.file == "x.csv" && labels.text == text && !labels.kicks.empty());
   for (const cli::KickLabel& kick : labels.kicks) {
     require(!kick.time_s || (*kick.time_s >= 0.0 && *kick.time_s <= kLongestVideo_s));
-    require(kick.half >= 1 && kick.half <= 2 && kick.robot_id >= 0 && kick.robot_id <= 255 && !kick.by.empty());
+    require(kick.half >= 1 && kick.half <= 4 && kick.robot_id >= 0 && kick.robot_id <= 255 && !kick.by.empty());
     require(!(kick.outside && kick.outcome == msg::OUTCOME_ON_TARGET));
   }
   require(!labels.labellers().empty() && labels.timed() <= static_cast<std::int64_t>(labels.kicks.size()));
