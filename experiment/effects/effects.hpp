@@ -13,11 +13,12 @@ namespace trivela::experiment {
 struct MatchTally {
   std::int64_t opportunities = 0;
   std::int64_t kicks = 0;
-  std::int64_t on_target = 0;     ///< observed
-  std::int64_t blocked = 0;       ///< observed
-  std::int64_t bounced = 0;       ///< on target, and by the simulator's truth it touched the floor before
-  std::int64_t goals = 0;         ///< by the simulator's truth: on target and past the keeper, where there is one
-  std::uint32_t calibration = 0;  ///< number of the evening that its robots were calibrated on
+  std::int64_t on_target = 0;       ///< observed
+  std::int64_t blocked = 0;         ///< observed
+  std::int64_t bounced = 0;         ///< on target, and by the simulator's truth it touched the floor before
+  std::int64_t goals = 0;           ///< by the simulator's truth: on target and past the keeper, where there is one
+  std::uint32_t calibration = 0;    ///< number of the evening that its robots were calibrated on
+  std::int64_t true_on_target = 0;  ///< by the simulator's truth; 0 where it was not counted
 };
 
 /// Shares that arms are compared by.

@@ -172,7 +172,22 @@ std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std
   count("kick_receipts USING (session_id) WHERE accepted = 1", &MatchTally::kicks);
   count("kick_outcomes USING (session_id) WHERE on_target = 1", &MatchTally::on_target);
   count("kick_truths USING (session_id) WHERE outcome = 'on_target' AND saved = 0", &MatchTally::goals);
+  count("kick_truths USING (session_id) WHERE outcome = 'on_target'", &MatchTally::true_on_target);
   return arms;
+}
+
+/// Where the simulator's truth lies outside of what the labels say: a robot's file that is far from the robot makes
+/// wrong labels. Empty: nowhere.
+std::string label_warning(const std::string& arm, const ArmTally& observed) {
+  if (total_of(observed).kicks == 0) return {};
+  ArmTally truth = observed;
+  for (MatchTally& match : truth) match.on_target = match.true_on_target;
+  const Effect said = share_of(observed, Measure::kPerOpportunity), is = share_of(truth, Measure::kPerOpportunity);
+  if (!has_interval(said) || (is.value >= said.ci.lo && is.value <= said.ci.hi)) return {};
+  return fmt::format(
+      "{}: the observer's labels are wrong: {:.4f} ({:.4f} to {:.4f}) on target an opportunity by them, {:.4f} by the "
+      "simulator's truth\n",
+      arm, said.value, said.ci.lo, said.ci.hi, is.value);
 }
 
 }  // namespace
@@ -206,6 +221,7 @@ std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsign
                         plan.evenings.size(), plan.evenings.size());
   }
   if (keeper) text += fmt::format("goals: by the simulator's truth, on target and past its keeper\n");
+  for (const Arm& arm : plan.arms) text += label_warning(arm.name, arms.at(arm.name));
   const double opportunities =
       static_cast<double>(run.matches) * plan.possessions * static_cast<double>(plan.arms.size());
   return text + fmt::format("{:.0f} opportunities in {:.2f} s with {} job{}: {:.0f} a second\n", opportunities,

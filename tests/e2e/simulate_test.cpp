@@ -28,6 +28,16 @@ TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
   EXPECT_THAT(loose_ends_of(folder / "two.db"), IsEmpty());
 }
 
+TEST(Simulate, SaysBelowTheTableWhereTheLabelsAreWrong) {
+  const Folder folder;
+  Program late{"trivela", simulate("late.db", 10, {"--world", "kicker.delay_s=0.2"}), folder.path()};
+  ASSERT_EQ(late.wait(), 0) << late.errors();
+  EXPECT_THAT(late.output(), HasSubstr("moving@old: the observer's labels are wrong: 0.0000 (0.0000 to "));
+  Program right{"trivela", simulate("right.db", 10), folder.path()};
+  ASSERT_EQ(right.wait(), 0) << right.errors();
+  EXPECT_THAT(right.output(), Not(HasSubstr("labels are wrong")));
+}
+
 // The starts are the same situations; what the arms did with them is not.
 TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
   const Folder folder;
