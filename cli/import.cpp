@@ -33,6 +33,10 @@ const imports::RefereeLog& one_text_log(const imports::BoxLogs& logs) {
   return logs.referee.front();
 }
 
+imports::BoxSide side_called(const std::string& name) {
+  return name == "magenta" || name == "right" ? imports::BoxSide::kMagenta : imports::BoxSide::kCyan;
+}
+
 const imports::SidedTeamLog* team_of(const imports::BoxLogs& logs, const std::string& side) {
   const auto of_side = [&](const imports::SidedTeamLog& team) { return side == side_name(team.side); };
   const auto team = std::ranges::find_if(logs.teams, of_side);
@@ -60,8 +64,10 @@ std::vector<std::string> sentences_of(const imports::RefereeLog& referee, const 
 
 std::string write_log(const imports::BoxLogs& logs, const RefboxArguments& arguments) {
   const imports::RefereeLog& referee = one_text_log(logs);
-  const imports::SidedTeamLog* const team = team_of(logs, arguments.team);
-  const ImportedRows rows = write_match_log(referee, team, sentences_of(referee, team, logs.faults()), arguments.out);
+  const imports::BoxSide ours = side_called(arguments.team);
+  const imports::SidedTeamLog* const team = team_of(logs, side_name(ours));
+  const ImportedRows rows =
+      write_match_log(referee, ours, team, sentences_of(referee, team, logs.faults()), arguments.out);
   std::string text =
       fmt::format("{}: {} words of the referee, {} world states", arguments.out, rows.referee, rows.world_states);
   if (team != nullptr) text += fmt::format(" of the {} team", arguments.team);
@@ -95,8 +101,10 @@ void add_import_refbox(CLI::App& verb, int& exit_code) {
       ->required()
       ->type_name("FILE");
   subcommand->add_option("--out", arguments->out, "Match log to make of one match, must not exist")->type_name("DB");
-  subcommand->add_option("--team", arguments->team, "Whose robots stand in it: cyan or magenta (cyan)")
-      ->check(CLI::IsMember({"cyan", "magenta"}));
+  subcommand
+      ->add_option("--team", arguments->team,
+                   "Our side, whose robots stand in it: cyan or left, magenta or right (cyan)")
+      ->check(CLI::IsMember({"cyan", "magenta", "left", "right"}));
   subcommand->add_flag("--json", arguments->json, "JSON instead of text");
   subcommand->footer(
       "Records count in the order of the file and by game time. Ends with 1 where nothing could be used, with 3\n"

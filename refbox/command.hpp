@@ -79,15 +79,45 @@ static_assert(kCommandNames.size() == std::size_t{static_cast<std::uint8_t>(Comm
 /// The league's word for a kind.
 constexpr std::string_view name(CommandKind kind) { return kCommandNames[static_cast<std::size_t>(kind)]; }
 
-/// The kind of a word, spaces around it left out. Beside the code's names those that other boxes say: "GAME_OVER" (the
-/// league's jsonCommands.pdf), "WELCOM" (Hibikino-Musashi's test server). None: nobody knows it.
+/// Whether two words have the same letters, digits and signs: case, spaces and underscores do not count.
+constexpr bool same_word(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  const auto skip = [](std::string_view& text) {
+    while (text.starts_with(' ') || text.starts_with('_')) text.remove_prefix(1);
+  };
+  for (skip(a), skip(b); !a.empty() && !b.empty(); skip(a), skip(b)) {
+    if (lower(a.front()) != lower(b.front())) return false;
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+  return a.empty() && b.empty();
+}
+
+/// Words that are no kind's name: of the league's jsonCommands.pdf ("GAME_OVER" is GAMEOVER by same_word()), of
+/// Hibikino-Musashi's test server, and those that the boxes of 2020 and later write into their logs in place of the
+/// name (RoboCup-MSL/RefBox, mslrb2015/Comms.pde, its table of descriptions).
+struct OtherWord {
+  std::string_view word;
+  CommandKind kind;
+};
+inline constexpr std::array<OtherWord, 10> kOtherWords{{{"WELCOM", CommandKind::kWelcome},
+                                                        {"Reset Game", CommandKind::kReset},
+                                                        {"1st half", CommandKind::kFirstHalf},
+                                                        {"2nd half", CommandKind::kSecondHalf},
+                                                        {"Overtime 1st half", CommandKind::kFirstHalfOvertime},
+                                                        {"Overtime 2nd half", CommandKind::kSecondHalfOvertime},
+                                                        {"Goal+", CommandKind::kGoal},
+                                                        {"Goal-", CommandKind::kSubGoal},
+                                                        {"Repair ended", CommandKind::kRepairEnd},
+                                                        {"Dropped Ball", CommandKind::kDropBall}}};
+
+/// The kind of a word, as the box's protocol or its log has it. None: nobody knows it.
 constexpr std::optional<CommandKind> kind_of(std::string_view word) {
-  while (word.starts_with(' ')) word.remove_prefix(1);
-  while (word.ends_with(' ')) word.remove_suffix(1);
-  if (word == "GAME_OVER") return CommandKind::kGameOver;
-  if (word == "WELCOM") return CommandKind::kWelcome;
+  for (const OtherWord& other : kOtherWords) {
+    if (same_word(word, other.word)) return other.kind;
+  }
   for (std::size_t i = 0; i < kCommandNames.size(); ++i) {
-    if (kCommandNames[i] == word) return static_cast<CommandKind>(i);
+    if (same_word(word, kCommandNames[i])) return static_cast<CommandKind>(i);
   }
   return std::nullopt;
 }

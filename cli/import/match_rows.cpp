@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "idl/messages.hpp"
 #include "idl/none.hpp"
 #include "robot/recording/message_row.hpp"
+#include "robot/referee/match_state.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -22,36 +24,42 @@ namespace imports = evaluator::imports;
 
 constexpr std::int64_t kLongestStep_ms = 500;  // between poses that a velocity follows from
 
-/// Which part of the match it is and whether the ball is in play, command by command.
+/// The match command by command, as the live client has it. The log may begin in any part.
 class GameState {
  public:
-  explicit GameState(const imports::RefereeLog& log) : part_(imports::first_part(log)) {}
-
-  void hear(imports::BoxCommand command) {
-    if (const auto begun = refbox::begun_part(command)) part_ = *begun;
-    if (command == imports::BoxCommand::kStart) playing_ = true;
-    if (command == imports::BoxCommand::kStop || refbox::begun_part(command) || refbox::ends_part(command))
-      playing_ = false;
+  GameState(const imports::RefereeLog& log, imports::BoxSide ours) : ours_(ours) {
+    using enum imports::BoxCommand;
+    constexpr std::array kBegins{kFirstHalf, kSecondHalf, kFirstHalfOvertime, kSecondHalfOvertime};
+    const bool before = log.lines.front().state.starts_with("Pre");
+    if (!before) match_.command({kBegins.at(static_cast<std::size_t>(imports::first_part(log) - 1)), {}}, 0);
   }
-  std::uint8_t half() const { return static_cast<std::uint8_t>(part_); }
-  bool playing() const { return playing_; }
+
+  void hear(const imports::RefereeLine& line, std::int64_t t_ns) {
+    if (refbox::begun_part(line.command)) match_.command({imports::BoxCommand::kStop, {}}, t_ns);
+    match_.command({line.command, side_of(line.side)}, t_ns);
+  }
+  msg::Referee message(std::int64_t t_ns) const { return match_.message(t_ns); }
 
  private:
-  int part_;
-  bool playing_ = false;
+  hal::refbox::Side side_of(imports::BoxSide side) const {
+    if (side == imports::BoxSide::kBoth) return hal::refbox::Side::kBoth;
+    return side == ours_ ? hal::refbox::Side::kOurs : hal::refbox::Side::kTheirs;
+  }
+
+  imports::BoxSide ours_;
+  robot::MatchState match_;
 };
 
 std::int64_t nanoseconds_since(std::int64_t start_ms, std::int64_t t_ms) { return (t_ms - start_ms) * 1'000'000; }
 
-void write_referee(RowWriting& rows, const imports::RefereeLog& log, std::int64_t start_ms) {
-  GameState game(log);
-  msg::Referee row{};
+void write_referee(RowWriting& rows, const imports::RefereeLog& log, imports::BoxSide ours, std::int64_t start_ms) {
+  GameState game(log, ours);
+  std::uint64_t seq = 0;
   for (const imports::RefereeLine& line : log.lines) {
-    game.hear(line.command);
-    ++row.seq;
-    row.t_ns = nanoseconds_since(start_ms, line.t_ms);
-    row.half = game.half();
-    row.playing = game.playing();
+    const std::int64_t t_ns = nanoseconds_since(start_ms, line.t_ms);
+    game.hear(line, t_ns);
+    msg::Referee row = game.message(t_ns);
+    row.seq = row.command_counter = ++seq;
     rows.write(row);
   }
 }
@@ -59,10 +67,10 @@ void write_referee(RowWriting& rows, const imports::RefereeLog& log, std::int64_
 /// The game as it was at instants that never fall.
 class GameAt {
  public:
-  explicit GameAt(const imports::RefereeLog& log) : log_(log), game_(log) {}
-  const GameState& at(std::int64_t t_ms) {
-    while (next_ < log_.lines.size() && log_.lines[next_].t_ms <= t_ms) game_.hear(log_.lines[next_++].command);
-    return game_;
+  explicit GameAt(const imports::RefereeLog& log) : log_(log), game_(log, imports::BoxSide::kBoth) {}
+  msg::Referee at(std::int64_t t_ms) {
+    for (; next_ < log_.lines.size() && log_.lines[next_].t_ms <= t_ms; ++next_) game_.hear(log_.lines[next_], 0);
+    return game_.message(0);
   }
 
  private:
@@ -122,7 +130,7 @@ void write_team(RowWriting& rows, const imports::TeamLog& team, const std::vecto
   Velocities velocities;
   std::map<int, std::uint64_t> seqs;
   for (std::size_t i = 0; i < team.usable.size(); ++i) {
-    const GameState& now = game.at(times_ms[i]);
+    const msg::Referee now = game.at(times_ms[i]);
     for (const imports::ToldRobot& robot : team.usable[i].robots) {
       const auto velocity = velocities.of(robot, times_ms[i]);
       imported.without_velocity += velocity ? 0 : 1;
@@ -130,8 +138,8 @@ void write_team(RowWriting& rows, const imports::TeamLog& team, const std::vecto
       msg::WorldState row = world_state(robot, *velocity, team.usable[i].ball);
       row.seq = ++seqs[robot.id];
       row.t_ns = nanoseconds_since(start_ms, times_ms[i]);
-      row.half = now.half();
-      row.playing = now.playing();
+      row.half = now.half;
+      row.playing = now.playing;
       rows.write(row);
       ++imported.world_states;
     }
@@ -153,8 +161,9 @@ void check_same_match(const imports::RefereeLog& referee, const std::string& tea
 
 }  // namespace
 
-ImportedRows write_match_log(const imports::RefereeLog& referee, const imports::SidedTeamLog* team,
-                             const std::vector<std::string>& sentences, const std::filesystem::path& out) {
+ImportedRows write_match_log(const imports::RefereeLog& referee, imports::BoxSide ours,
+                             const imports::SidedTeamLog* team, const std::vector<std::string>& sentences,
+                             const std::filesystem::path& out) {
   if (referee.lines.empty()) throw std::runtime_error(referee.file + ": no command in it, so there is no match to log");
   const auto times_ms = team != nullptr ? imports::record_times_ms(team->log, &referee) : std::vector<std::int64_t>();
   if (team != nullptr) check_same_match(referee, team->log.file, times_ms);
@@ -162,7 +171,7 @@ ImportedRows write_match_log(const imports::RefereeLog& referee, const imports::
   if (!times_ms.empty()) start_ms = std::min(start_ms, times_ms.front());
   ImportedRows imported{.referee = std::ssize(referee.lines)};
   RowWriting rows(out, imported_session(referee.file, sentences, "", start_ms * 1'000'000));
-  write_referee(rows, referee, start_ms);
+  write_referee(rows, referee, ours, start_ms);
   if (team != nullptr) write_team(rows, team->log, times_ms, referee, start_ms, imported);
   rows.finish();
   return imported;

@@ -20,7 +20,8 @@ struct ImportedRows {
 /// box's own word), a world state a robot and record, in the team's own F. Standard deviations stand as 0, the ball's
 /// age and opponents as NULL: the box is not told them. `sentences` stand in the log. Throws std::runtime_error where
 /// the log cannot be written; what was begun is removed.
-ImportedRows write_match_log(const evaluator::imports::RefereeLog& referee,
+/// `ours`: the side whose goals and restarts are our own.
+ImportedRows write_match_log(const evaluator::imports::RefereeLog& referee, evaluator::imports::BoxSide ours,
                              const evaluator::imports::SidedTeamLog* team, const std::vector<std::string>& sentences,
                              const std::filesystem::path& out);
 

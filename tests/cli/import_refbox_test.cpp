@@ -58,6 +58,22 @@ class ImportRefbox : public evaluator::LogTest {
   }
 };
 
+TEST_F(ImportRefbox, RestartsGoalsAndStagesAreThoseOfTheSideThatIsOurs) {
+  const std::string box = std::string(TRIVELA_SOURCE_DIR) + "/tests/data/refbox/20240719_101500.msl";
+  const std::string sql =
+      "SELECT seq, stage, restart, ours, goals_own, goals_other FROM referee WHERE seq IN (2, 6, 12, 24)";
+  using Word = std::tuple<std::int64_t, std::string, std::string, std::int64_t, std::int64_t, std::int64_t>;
+  EXPECT_EQ(run("import refbox " + box + " --out " + path().string()).exit_code, kDone);
+  EXPECT_THAT((rows<std::int64_t, std::string, std::string, std::int64_t, std::int64_t, std::int64_t>(sql)),
+              ElementsAre(Word{2, "unknown", "kickoff", 1, 0, 0}, Word{6, "first_half", "throwin", 0, 0, 0},
+                          Word{12, "first_half", "kickoff", 0, 1, 0}, Word{24, "game_over", "none", 0, 1, 0}));
+  std::filesystem::remove(path());
+  EXPECT_EQ(run("import refbox " + box + " --team right --out " + path().string()).exit_code, kDone);
+  EXPECT_THAT((rows<std::int64_t, std::string, std::string, std::int64_t, std::int64_t, std::int64_t>(sql)),
+              ElementsAre(Word{2, "unknown", "kickoff", 0, 0, 0}, Word{6, "first_half", "throwin", 1, 0, 0},
+                          Word{12, "first_half", "kickoff", 1, 0, 1}, Word{24, "game_over", "none", 0, 0, 1}));
+}
+
 TEST_F(ImportRefbox, ARealMatchIsPrintedAsItWasMeasured) {
   const VerbRun result = run("import refbox " + kMatchOf2018);
   EXPECT_EQ(result.exit_code, kDone);

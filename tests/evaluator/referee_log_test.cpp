@@ -91,6 +91,52 @@ TEST(RefereeLog, FaultsAreCountedByNameWithTheirFirstPlaceAndTheRestIsUsed) {
   EXPECT_EQ(log.lines[1].t_ms, 2000);
 }
 
+RefereeLog recorded(const std::string& name) {
+  std::ifstream in(std::string(TRIVELA_SOURCE_DIR) + "/tests/data/refbox/" + name);
+  EXPECT_TRUE(in);
+  return read_referee_log(in, name);
+}
+
+TEST(RefereeLog, ReadsTheWordsOfTheBoxesSince2020WithTheirTeams) {
+  const RefereeLog log = recorded("20240719_101500.msl");
+  EXPECT_THAT(log.faults.sentences(), IsEmpty());
+  ASSERT_EQ(log.lines.size(), 24u);
+  const std::vector<std::pair<BoxCommand, BoxSide>> begin{
+      {BoxCommand::kWelcome, BoxSide::kCyan},    {BoxCommand::kKickOff, BoxSide::kCyan},
+      {BoxCommand::kFirstHalf, BoxSide::kBoth},  {BoxCommand::kStart, BoxSide::kBoth},
+      {BoxCommand::kStop, BoxSide::kBoth},       {BoxCommand::kThrowIn, BoxSide::kMagenta},
+      {BoxCommand::kStart, BoxSide::kBoth},      {BoxCommand::kStop, BoxSide::kBoth},
+      {BoxCommand::kGoal, BoxSide::kCyan},       {BoxCommand::kRepair, BoxSide::kMagenta},
+      {BoxCommand::kYellowCard, BoxSide::kCyan}, {BoxCommand::kKickOff, BoxSide::kMagenta}};
+  for (std::size_t i = 0; i < begin.size(); ++i) {
+    EXPECT_EQ(log.lines[i].command, begin[i].first) << i;
+    EXPECT_EQ(log.lines[i].side, begin[i].second) << i;
+  }
+  EXPECT_EQ(log.lines.back().command, BoxCommand::kPark);
+}
+
+TEST(RefereeLog, AClockThatIsSetDuringTheMatchIsOneFaultAndCostsNoTime) {
+  const RefereeLog forward = recorded("clock_set_forward.msl");
+  EXPECT_THAT(forward.faults.sentences(), ElementsAre("clock_set_forward.msl: clock set in line 6: s = 3600"));
+  EXPECT_NEAR(play_statistics(forward).played_s(), 75.4, 0.01);
+  for (const int set_s : {-3600, -40, 40, 86'400}) {
+    std::string text;
+    for (int i = 0; i < 5; ++i)
+      text += std::to_string(1'000'000'000LL + 10'000 * i + (i >= 3 ? 1000LL * set_s : 0)) +
+              ",00:" + std::to_string(10 + 10 * i) + "(00:10),1st Half,s,START\n";
+    const RefereeLog log = read(text);
+    EXPECT_THAT(log.faults.sentences(), ElementsAre("x.msl: clock set in line 4: s = " + std::to_string(set_s)));
+    EXPECT_EQ(log.lines.back().t_ms, 1'000'040'000);
+  }
+}
+
+TEST(RefereeLog, AByteOrderMarkCostsNoCommand) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "0,00:00(00:00),1st Half,s,START\n")
+                .lines.size(),
+            1u);
+}
+
 TEST(RefereeLog, AnEmptyFileSaysSo) {
   EXPECT_THAT(read("").faults.sentences(), ElementsAre("x.msl: no command in it"));
 }
@@ -132,6 +178,12 @@ TEST(BoxCommand, EveryNameLeadsBackToItsCommand) {
   }
   EXPECT_EQ(refbox::kind_of(" WELCOME"), BoxCommand::kWelcome);
   EXPECT_EQ(refbox::kind_of("HELLO"), std::nullopt);
+  EXPECT_EQ(refbox::kind_of("Throw In"), BoxCommand::kThrowIn);
+  EXPECT_EQ(refbox::kind_of("Test Mode off"), BoxCommand::kTestModeOff);
+  EXPECT_EQ(refbox::kind_of("Overtime 2nd half"), BoxCommand::kSecondHalfOvertime);
+  EXPECT_EQ(refbox::kind_of("Goal-"), BoxCommand::kSubGoal);
+  EXPECT_EQ(refbox::kind_of("Goal"), BoxCommand::kGoal);
+  EXPECT_EQ(refbox::kind_of(""), std::nullopt);
   EXPECT_EQ(side_of(refbox::word_of_letter('T')->team), BoxSide::kCyan);
   EXPECT_EQ(side_of(refbox::word_of_letter('t')->team), BoxSide::kMagenta);
   EXPECT_EQ(side_of(refbox::word_of_letter('s')->team), BoxSide::kBoth);
