@@ -106,6 +106,21 @@ class LoggedTeams {
     return from(*command);
   }
 
+  /// Of a box since 2020: "robotID:N," where it is of a robot, then the team's name. The first name is the left one's.
+  Said said(CommandKind kind, std::string_view behind) {
+    Said said{.kind = kind};
+    constexpr std::string_view kRobot = "robotID:";
+    if (const auto place = behind.find(kRobot); place != std::string_view::npos) {
+      const std::string_view number = behind.substr(place + kRobot.size());
+      said.robot_id = number_of<int>(number.substr(0, number.find(',')));
+    }
+    const std::string_view name = behind.substr(behind.rfind(',') + 1);
+    if (name.empty()) return said;
+    if (left_.empty()) left_ = name;
+    said.team = name == left_ ? 0 : 1;
+    return said;
+  }
+
   static Said from(const Command& command) {
     Said said{.kind = command.kind, .robot_id = command.robot_id};
     if (command.side != Side::kBoth) said.team = command.side == Side::kOurs ? 0 : 1;
@@ -126,7 +141,9 @@ std::optional<Said> logged(std::string_view code, LoggedTeams& teams) {
     return command ? std::optional{LoggedTeams::from(*command)} : std::nullopt;
   }
   const auto kind = kind_of(word);
-  return kind ? std::optional{Said{.kind = *kind}} : std::nullopt;
+  if (!kind) return std::nullopt;
+  if (name(*kind) == word) return Said{.kind = *kind};
+  return teams.said(*kind, code.substr(std::min(word.size() + 1, code.size())));
 }
 
 }  // namespace

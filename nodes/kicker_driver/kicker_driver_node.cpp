@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hal/open.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -260,16 +261,22 @@ void KickerDriverNode::on_drive(const bus::SampleInfo& info) {
   if (!owns_decisions(info)) return;
   const std::int64_t now_ns = context_.steady_ns();
   const std::lock_guard lock{drives_mutex_};
-  if (drives_.see(info.member, now_ns))
+  bus::WriterWatch& drives = drives_.try_emplace(std::string(info.owner)).first->second;
+  if (drives.see(info.member, now_ns))
     context_.logger->warn("several programs write drive as {}: nothing is fired; stop all but one", info.owner);
-  decision_heard_ns_ = drives_.contested(now_ns) ? 0 : now_ns;
+  decision_heard_ns_ = drives.contested(now_ns) ? 0 : now_ns;
 }
 
-/// An order of the program whose drive commands are heard, where one is.
+/// The name is what an order is known by. One of another program than that whose drive commands are heard is named.
 bool KickerDriverNode::by_own_decision(const bus::SampleInfo& info) {
+  if (!owns_decisions(info)) return false;
   const std::lock_guard lock{drives_mutex_};
-  const bool drives = drives_.last() == 0 || drives_.last() == info.member;
-  return owns_decisions(info) && (context_.settings.run.lockstep || drives);
+  const auto drives = drives_.find(info.owner);
+  const bool another =
+      !context_.settings.run.lockstep && drives != drives_.end() && drives->second.last() != info.member;
+  if (std::exchange(other_orders_, another) != another && another)
+    context_.logger->warn("another program than that whose drive is heard writes kick_order as {}", info.owner);
+  return true;
 }
 
 bool KickerDriverNode::owns_decisions(const bus::SampleInfo& info) const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -67,7 +69,8 @@ class KickerDriverNode {
   robot::DecisionNode decision_ = robot::DecisionNode::kUnheard;
   std::atomic<std::int64_t> decision_heard_ns_ = 0;  // 0: not yet
   std::mutex drives_mutex_;
-  bus::WriterWatch drives_;  // by the participants that write them
+  std::map<std::string, bus::WriterWatch, std::less<>> drives_;  // by owner: the participants that write them
+  bool other_orders_ = false;                                    // the last order was of another participant
   std::string link_said_;
   robot::LoopWatch loop_;
   std::vector<std::string> own_decisions_;  // owners of the writers whose orders count

@@ -86,6 +86,20 @@ TEST(BoxLog, OfObjectsHasItsTeamsByTheirGroups) {
   EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kCorner, {}, {}}));
 }
 
+TEST(BoxLog, OfWordsHasItsTeamsByTheirNames) {
+  const auto steps = read_box_log(
+      "1721384160000,03:00(00:00),Pre-Game,Kickoff,TeamA\n"
+      "1721384170001,00:00(00:00),1st Half,START,\n"
+      "1721384205000,00:35(00:30),1st Half - STOP,Throw In,TeamB\n"
+      "1721384256000,01:26(01:05),1st Half - STOP,Repair,robotID:3,TeamB\n",
+      "e.msl");
+  ASSERT_EQ(steps.size(), 4U);
+  EXPECT_EQ(std::get<Said>(steps[0].act), (Said{CommandKind::kKickOff, 0, {}}));
+  EXPECT_EQ(std::get<Said>(steps[1].act), (Said{CommandKind::kStart, {}, {}}));
+  EXPECT_EQ(std::get<Said>(steps[2].act), (Said{CommandKind::kThrowIn, 1, {}}));
+  EXPECT_EQ(std::get<Said>(steps[3].act), (Said{CommandKind::kRepair, 1, 3}));
+}
+
 TEST(BoxLog, TimesFarApartAreASpanLikeAnyOther) {
   const auto steps = read_box_log("-9223372036854775808,a,b,START\n9223372036854775807,a,b,STOP\n", "d.msl");
   ASSERT_EQ(steps.size(), 2U);

@@ -507,14 +507,10 @@ TEST_F(KickerDriverNodeTest, ASecondWriterOfTheRefereeCannotLetPlayWhereTheFirst
 TEST_F(KickerDriverNodeTest, WhereTwoProgramsDriveInTheDecisionNodesNameNothingIsFired) {
   const bus::Participant elsewhere{domain};
   Says<msg::DriveCommand> forged_drive{elsewhere, 1, "kick_decision/1"};
-  Says<msg::KickOrder> forged_order{elsewhere, 1, "kick_decision/1", 7};
   start();
   sample();
   play();
   sample();
-  forged_order.expect_reader();
-  forged_order(wish(5));
-  EXPECT_EQ(receipt.nth(++orders).refusal, msg::REFUSAL_STRANGER) << "whose drive commands nobody hears";
   const auto both_drive = [&] {
     forged_drive({});
     drive({});
