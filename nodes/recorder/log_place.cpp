@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <functional>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "nodes/recorder/recorder_node.hpp"
@@ -18,10 +20,20 @@ namespace fs = std::filesystem;
 using evaluator::log::Session;
 using evaluator::log::Writer;
 
-// Where a log goes whose own folder refuses: the last one is memory, gone when the machine is switched off.
+// Where a log goes whose own folder refuses: the last one is memory, gone when the machine is switched off. A service
+// has its state folder ($STATE_DIRECTORY, of systemd); its /tmp and /var/tmp may be its own and go with it
+// (PrivateTmp=).
 std::vector<fs::path> other_folders() {
+  std::vector<fs::path> folders;
+  if (const char* const states = std::getenv("STATE_DIRECTORY")) {
+    std::istringstream list{states};
+    for (std::string folder; std::getline(list, folder, ':');)
+      if (!folder.empty()) folders.emplace_back(folder);
+  }
   std::error_code none;
-  return {fs::temp_directory_path(none), "/var/tmp", "/dev/shm"};
+  if (folders.empty()) folders = {fs::temp_directory_path(none), "/var/tmp"};
+  folders.emplace_back("/dev/shm");
+  return folders;
 }
 
 // Names to try after the configured one, in this order.

@@ -118,6 +118,15 @@ TEST_F(LogPlaceTest, AFolderThatRefusesIsReplacedByTheTemporaryOne) {
   std::filesystem::remove(placed.path);
 }
 
+TEST_F(LogPlaceTest, AServicesFolderThatRefusesIsReplacedByItsStateFolder) {
+  std::filesystem::create_directory(folder / "state");
+  setenv("STATE_DIRECTORY", ((folder / "none").string() + ":" + (folder / "state").string()).c_str(), 1);
+  context.settings.recorder.log = folder / "nowhere/match.db";
+  const auto placed = place();
+  unsetenv("STATE_DIRECTORY");
+  EXPECT_EQ(placed.path.parent_path(), folder / "state");
+}
+
 TEST_F(LogPlaceTest, AFolderIsFilledWithNamesOfTeamRobotAndTime) {
   context.settings.recorder.log = (folder / "any").parent_path();
   context.settings.run.team = "cambada";

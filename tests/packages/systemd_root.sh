@@ -109,4 +109,11 @@ start_nodes
 comes_back chain KILL
 comes_back chain STOP
 stop_nodes
+# A recorder whose folder refuses: its log is still there when the service has gone.
+sed -i 's|^log = .*|log = "/media/stick/{team}-{robot}-{time}.db"|' "$root/etc/trivela/team/settings.toml"
+grep -q /media/stick "$root/etc/trivela/team/settings.toml" || stop "the recorder's folder cannot be set"
+before=$(find "$root/var/lib/trivela" -name '*.db' | wc -l)
+start_nodes
+stop_nodes
+[[ $(find "$root/var/lib/trivela" -name '*.db' | wc -l) -gt $before ]] || stop "the log of a recorder whose folder refuses is gone"
 say "all well: started, watched and stopped by systemd"
