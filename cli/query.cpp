@@ -71,8 +71,7 @@ std::string question(const QueryArguments& arguments) {
   if (asked != 1) throw UsageError{"give one of SQL, --metric NAME and --file FILE; --list explains the metrics"};
   if (!arguments.sql.empty()) return arguments.sql;
   if (arguments.metric.empty()) {
-    std::ifstream in = open_file(arguments.file);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return config::read_text_file(arguments.file);
   }
   const auto metric = evaluator::metric(arguments.metric);
   if (!metric) throw UsageError{fmt::format("there is no metric '{}': trivela query --list", arguments.metric)};

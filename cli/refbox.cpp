@@ -142,11 +142,6 @@ class BoxSession {
   BoxClock::time_point began_{};
 };
 
-std::string file_text(const std::string& path) {
-  std::ifstream file = open_file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 int run_refbox(const RefboxFlags& flags) {
   if (!flags.emulate) throw UsageError{"refbox needs --emulate; a robot's own client is the program trivela-refbox"};
   box::BoxConfig config = flags.teams;
@@ -154,8 +149,8 @@ int run_refbox(const RefboxFlags& flags) {
   config.on_network = flags.network;
   if (flags.letters) config.protocol = box::Protocol::kLetters;
   std::vector<box::BoxStep> steps;
-  if (!flags.script.empty()) steps = box::read_box_script(file_text(flags.script), flags.script);
-  if (!flags.replay.empty()) steps = box::read_box_log(file_text(flags.replay), flags.replay);
+  if (!flags.script.empty()) steps = box::read_box_script(config::read_text_file(flags.script), flags.script);
+  if (!flags.replay.empty()) steps = box::read_box_log(config::read_text_file(flags.replay), flags.replay);
   BoxSession session(config, flags.speed);
   if (flags.script.empty() && flags.replay.empty()) {
     session.take_keys();

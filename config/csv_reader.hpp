@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/open_file.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::config {
@@ -27,7 +28,8 @@ class CsvReader {
   explicit CsvReader(std::istream& in, std::string file = "CSV") : in_(in), file_(std::move(file)) {}
 
   /// The next record, none at the end. Throws std::runtime_error naming file, line and column (from 1) for a quote
-  /// that is never closed or closed within a cell, a byte that is not UTF-8, and a control character.
+  /// that is never closed or closed within a cell, a line or cell of more than 1 MB, a byte that is not UTF-8, and a
+  /// control character.
   std::optional<CsvRecord> next() {
     std::string text;
     while (read_line(text)) {
@@ -40,7 +42,7 @@ class CsvReader {
 
  private:
   bool read_line(std::string& text) {
-    if (!std::getline(in_, text)) return false;
+    if (!get_line(in_, text, file_, line_ + 1)) return false;
     ++line_;
     if (!text.empty() && text.back() == '\r') text.pop_back();
     return true;
@@ -85,10 +87,14 @@ class CsvReader {
         }
       }
       if (quoted) record.cells.back() += '\n';
+      if (record.cells.back().size() > kLongestCell_B)
+        fail(opened_on, record.cells.size(), fmt::format("more than {} MB in a cell", kLongestCell_B >> 20));
     } while (quoted && read_line(text));
     if (quoted) fail(opened_on, record.cells.size(), "the quote that opens here is never closed");
     return record;
   }
+
+  static constexpr std::size_t kLongestCell_B = 1 << 20;
 
   std::istream& in_;
   std::string file_;

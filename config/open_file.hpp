@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "kicking/text/bounded_text.hpp"
+
 namespace trivela::config {
 
 /// Why a file cannot be read, and where a relative name was looked for; empty if it can.
@@ -27,6 +29,15 @@ inline std::ifstream open_file(const std::filesystem::path& path) {
   if (const std::string why = why_unreadable(path); !why.empty())
     throw std::runtime_error{fmt::format("cannot read {}: {}", path.string(), why)};
   return std::ifstream{path, std::ios::binary};
+}
+
+using kicking::get_line;
+using kicking::read_text;
+
+/// read_text() of a file. Throws as open_file(), too.
+inline std::string read_text_file(const std::filesystem::path& path, std::size_t most_B = kicking::kMostOfText_B) {
+  std::ifstream in = open_file(path);
+  return read_text(in, path.string(), most_B);
 }
 
 }  // namespace trivela::config

@@ -91,6 +91,12 @@ void read_robots(const TomlSource& source, ReadTeam& read) {
         fmt::format("{}:{}: robot: expected [[robot]] tables", source.file, robots->source().begin.line));
     return;
   }
+  constexpr std::size_t kMost = 255;  // numbers that there are
+  if (robots->as_array()->size() > kMost) {
+    read.findings.push_back(fmt::format("{}:{}: robot: {} tables: at most {}", source.file, robots->source().begin.line,
+                                        robots->as_array()->size(), kMost));
+    return;
+  }
   for (const toml::node& table : *robots->as_array())
     read_table(source, table, "robot", read.team.robots.emplace_back(), read.findings);
 }

@@ -13,6 +13,7 @@
 
 #include "config/csv_row.hpp"
 #include "config/installation.hpp"
+#include "config/open_file.hpp"
 #include "kicking/text/nearest_word.hpp"
 
 namespace trivela::config {
@@ -61,7 +62,13 @@ TomlSource parse_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream in{path, std::ios::binary};
   if (!in) fail(errno == 0 ? "not a file" : std::strerror(errno));
-  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  constexpr std::size_t kMost_B = 1 << 20;
+  std::string text;
+  try {
+    text = read_text(in, path.string(), kMost_B);
+  } catch (const std::runtime_error& too_large) {
+    throw Error{too_large.what()};
+  }
   if (in.bad()) fail("reading it failed");
   return parse_text(text, path.string());
 }

@@ -15,9 +15,7 @@ namespace {
 using config::CsvRecord;
 
 std::string text_of(const std::string& file) {
-  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::ifstream in = config::open_file(file);
-  return {std::istreambuf_iterator<char>(in), {}};
+  return file == "-" ? config::read_text(std::cin, "-") : config::read_text_file(file);
 }
 
 std::vector<std::string> words_of(const std::string& line) {

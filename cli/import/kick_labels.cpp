@@ -120,7 +120,7 @@ std::int64_t KickLabels::timed() const {
 }
 
 KickLabels read_kick_labels(std::istream& in, const std::string& file) {
-  KickLabels labels{.file = file, .text = {std::istreambuf_iterator<char>(in), {}}, .kicks = {}};
+  KickLabels labels{.file = file, .text = config::read_text(in, file), .kicks = {}};
   std::istringstream text(labels.text);
   config::CsvReader reader(text, file);
   const auto head = reader.next();

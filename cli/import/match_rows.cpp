@@ -28,7 +28,7 @@ constexpr std::int64_t kLongestStep_ms = 500;  // between poses that a velocity 
 class GameState {
  public:
   GameState(const imports::RefereeLog& log, imports::BoxSide ours) : ours_(ours) {
-    using enum imports::BoxCommand;
+    using enum refbox::CommandKind;
     constexpr std::array kBegins{kFirstHalf, kSecondHalf, kFirstHalfOvertime, kSecondHalfOvertime};
     const bool before = log.lines.front().state.starts_with("Pre");
     if (!before) match_.command({kBegins.at(static_cast<std::size_t>(imports::first_part(log) - 1)), {}}, 0);

@@ -56,6 +56,12 @@ void read_file(const fs::path& file, BoxLogs& logs) {
   if (!in || fs::is_directory(file))
     throw std::runtime_error(
         fmt::format("cannot read {}: {}", file.string(), in ? "it is a folder" : std::strerror(errno)));
+  constexpr std::uintmax_t kMost_B = 512U << 20;
+  std::error_code unknown;
+  if (const auto size = fs::file_size(file, unknown); !unknown && size > kMost_B)
+    throw std::runtime_error(fmt::format("{}: more than {} MB: not read", file.string(), kMost_B >> 20));
+  if (!fs::is_regular_file(file) && !fs::is_fifo(file))
+    throw std::runtime_error(fmt::format("cannot read {}: it is no file", file.string()));
   if (is_zip(file)) return read_archive(file, logs);
   read_one(in, file.filename().string(), logs, [&] { return std::string(in.bad() ? "the disk refuses" : ""); });
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "kicking/text/bounded_text.hpp"
+
 namespace trivela::evaluator::imports {
 namespace {
 
@@ -211,11 +213,11 @@ class RefereeLogReading {
 
 RefereeLog read_referee_log(std::istream& in, const std::string& file) {
   RefereeLogReading reading(file);
-  std::int64_t line = 0;
-  for (std::string text; std::getline(in, text);) {
+  std::size_t line = 0;
+  for (std::string text; kicking::get_line(in, text, file, line + 1);) {
     if (line == 0 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // a byte order mark
     if (text.ends_with('\r')) text.pop_back();
-    reading.read(text, ++line);
+    reading.read(text, static_cast<std::int64_t>(++line));
   }
   return std::move(reading).finish();
 }

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kPause_ms = 2000.0;  // longer steps of the game time are pauses of the team, no rate
+constexpr std::int64_t kMostRecords = 1'000'000;  // an hour and more at 200 Hz
+constexpr double kPause_ms = 2000.0;              // longer steps of the game time are pauses of the team, no rate
 
 /// Follows one record through its objects and arrays.
 class RecordEvents final : public nlohmann::json_sax<Json> {
@@ -37,6 +38,7 @@ class RecordEvents final : public nlohmann::json_sax<Json> {
   }
 
   bool start_object(std::size_t) override {
+    if (levels_.size() == kDeepest) return false;
     levels_.push_back(object_level());
     if (levels_.back() == Level::kRecord) check_.begin_record();
     if (levels_.back() == Level::kState) check_.begin_state();
@@ -55,6 +57,7 @@ class RecordEvents final : public nlohmann::json_sax<Json> {
   }
 
   bool start_array(std::size_t) override {
+    if (levels_.size() == kDeepest) return false;
     levels_.push_back(array_level());
     if (levels_.back() == Level::kNumbers) numbers_ = {};
     return true;
@@ -69,6 +72,8 @@ class RecordEvents final : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
 
  private:
+  static constexpr std::size_t kDeepest = 64;
+
   enum class Level { kRecord, kState, kRobots, kRobot, kBalls, kBall, kObstacles, kObstacle, kNumbers, kPassedOver };
 
   static bool is_part(Level level) {
@@ -167,6 +172,10 @@ TeamLog read_team_log(std::istream& in, const std::string& file) {
   RecordEvents events(check);
   bool open = false;
   while (to_next_record(in, open, log)) {
+    if (log.records == kMostRecords) {
+      log.faults.note("more records than a match has", log.records + 1, "records", kMostRecords);
+      break;
+    }
     events.begin();
     const std::int64_t before = log.records;
     if (Json::sax_parse(in, &events, Json::input_format_t::json, false)) continue;

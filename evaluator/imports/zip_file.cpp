@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kEndBytes = 22, kDirectoryBytes = 46, kHeaderBytes = 30, kMostComment = 65535;
 constexpr std::string_view kEndMark = "PK\5\6", kDirectoryMark = "PK\1\2", kHeaderMark = "PK\3\4";
+constexpr std::uint32_t kMostOfEntry_B = 256U << 20;  // a team's log of a match has some 100 MB
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
 
 /// Little-endian numbers at their places in a piece of the archive.
@@ -64,8 +65,8 @@ ZipEntry entry_of(std::string_view directory, std::size_t at, const fs::path& ar
   if ((u16(directory, at + 8) & 1) != 0) fail_zip(archive, fmt::format("{} is encrypted", entry.name));
   if (entry.method != kStored && entry.method != kDeflated)
     fail_zip(archive, fmt::format("{} is packed by method {}, not stored or deflated", entry.name, entry.method));
-  if (entry.bytes == UINT32_MAX || entry.offset == UINT32_MAX)
-    fail_zip(archive, fmt::format("{} is larger than 4 GB", entry.name));
+  if (entry.bytes > kMostOfEntry_B || entry.offset == UINT32_MAX)
+    fail_zip(archive, fmt::format("{} is larger than {} MB", entry.name, kMostOfEntry_B >> 20));
   return entry;
 }
 
@@ -117,6 +118,10 @@ class ZipStream::Buffer : public std::streambuf {
     const std::size_t n = entry_.method == kStored ? copy() : unpack();
     crc_ = ::crc32(crc_, reinterpret_cast<const Bytef*>(out_.data()), static_cast<uInt>(n));
     bytes_ += n;
+    if (bytes_ > entry_.bytes && fault_.empty()) {
+      fault_ = "it holds more than the archive's directory says";
+      return traits_type::eof();
+    }
     if (n == 0) {
       ended_ = true;
       if (fault_.empty() && (crc_ != entry_.crc32 || bytes_ != entry_.bytes))

@@ -10,6 +10,7 @@
 #include "config/arms.hpp"
 #include "config/error.hpp"
 #include "config/installation.hpp"
+#include "config/open_file.hpp"
 #include "experiment/play/play_match.hpp"
 #include "robot/recording/session_text.hpp"
 
@@ -142,8 +143,7 @@ std::string describe(const Arm& arm) {
   text += robot::session_config(arm.settings, arm.robots);
   const std::string& model = arm.settings.kick_decision.learned_model;
   if (model.empty()) return text;
-  std::ifstream in{model, std::ios::binary};
-  return text + "\n### learned model\n" + std::string{std::istreambuf_iterator<char>{in}, {}};
+  return text + "\n### learned model\n" + config::read_text_file(model);
 }
 
 }  // namespace trivela::experiment

@@ -37,18 +37,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       first_(context.settings.run.lockstep) {
   demand_pulses();
   refuse_twin(context_, receipt_out_, "kicker_driver");
-  if (!context_.settings.run.lockstep) {
-    desk_.began(context_.steady_ns());
-    pending_.emplace(PendingKick::name_of(context_.settings.domain, context_.robot_id()));
-    if (!pending_->why().empty())
-      context_.logger->warn("a kick that is lost with this program will not be told: {}", pending_->why());
-    kicker_->hold_when([this](std::int64_t judged_ns) { return holds(judged_ns); });
-    node_.on_stop([this] {
-      const std::lock_guard lock{mutex_};
-      stop();
-      take_results();
-    });
-  }
+  if (!context_.settings.run.lockstep) begin_in_real_time();
   node_.on_device(
       "kicker",
       [this](std::chrono::nanoseconds timeout) {
@@ -81,6 +70,19 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
         on_order(order, by_own_decision(info) ? robot::OrderBy::kOwnDecision : robot::OrderBy::kStranger);
       },
       bus::writes<msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::StepDone>(), orders);
+}
+
+void KickerDriverNode::begin_in_real_time() {
+  desk_.began(context_.steady_ns());
+  pending_.emplace(PendingKick::name_of(context_.settings.domain, context_.robot_id()));
+  if (!pending_->why().empty())
+    context_.logger->warn("a kick that is lost with this program will not be told: {}", pending_->why());
+  kicker_->hold_when([this](std::int64_t judged_ns) { return holds(judged_ns); });
+  node_.on_stop([this] {
+    const std::lock_guard lock{mutex_};
+    stop();
+    take_results();
+  });
 }
 
 /// The steady clock, which samples and orders are of in real time: it goes on while this process stands still.

@@ -35,6 +35,7 @@ class KickerDriverNode {
   bus::Node& node() { return node_; }
 
  private:
+  void begin_in_real_time();
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
   void on_drive(const bus::SampleInfo& info);

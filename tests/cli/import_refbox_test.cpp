@@ -58,6 +58,21 @@ class ImportRefbox : public evaluator::LogTest {
   }
 };
 
+TEST_F(ImportRefbox, AnArchiveThatWouldUnpackToMoreThanAMatchIsRefused) {
+  const std::string bomb = imports::zip_of({{"x.A.msl", std::string(300'000'000, ' ')}});
+  EXPECT_THAT([&] { run("import refbox " + write("bomb.zip", bomb)); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("x.A.msl is larger than 256 MB")));
+  std::string lies = imports::zip_of({{"x.msl", kShortGame}});
+  const std::uint32_t size = static_cast<std::uint32_t>(std::string(kShortGame).size());
+  for (std::size_t at = 0; (at = lies.find(static_cast<char>(size & 0xFF) +
+                                               std::string(1, static_cast<char>(size >> 8)) + std::string(2, '\0'),
+                                           at)) != std::string::npos;
+       ++at)
+    lies[at] = 4;
+  EXPECT_THAT(run("import refbox " + write("lies.zip", lies)).out,
+              HasSubstr("it holds more than the archive's directory says"));
+}
+
 TEST_F(ImportRefbox, RestartsGoalsAndStagesAreThoseOfTheSideThatIsOurs) {
   const std::string box = std::string(TRIVELA_SOURCE_DIR) + "/tests/data/refbox/20240719_101500.msl";
   const std::string sql =

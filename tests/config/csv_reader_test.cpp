@@ -83,5 +83,16 @@ TEST(CsvReader, PassesOverCommentsInOtherEncodings) { EXPECT_EQ(read_all("# caf\
 
 TEST(CsvReader, CountsEmptyCells) { EXPECT_THAT(read_all(",,\n").at(0).cells, ElementsAre("", "", "")); }
 
+TEST(CsvReader, LinesAndCellsWithoutEndAreNotRead) {
+  std::istringstream line(std::string((1 << 20) + 1, 'a'));
+  EXPECT_THAT([&] { CsvReader(line, "x.csv").next(); },
+              testing::ThrowsMessage<std::runtime_error>("x.csv:1: a line of more than 1 MB: not read"));
+  std::string many = "\"";
+  for (int i = 0; i < 3; ++i) many += std::string(500'000, 'b') + "\n";
+  std::istringstream cell(many);
+  EXPECT_THAT([&] { CsvReader(cell, "x.csv").next(); },
+              testing::ThrowsMessage<std::runtime_error>("x.csv:1: column 1: more than 1 MB in a cell"));
+}
+
 }  // namespace
 }  // namespace trivela::config

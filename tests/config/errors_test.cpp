@@ -228,5 +228,12 @@ TEST(ChangedWorld, ABadLineIsNamedWithItsKeyAndValue) {
   EXPECT_NE(said("keeper.reaction_s").find("--world"), std::string::npos);
 }
 
+TEST(Errors, AFileWithoutEndIsNotRead) {
+  EXPECT_THAT([] { parse_file("/dev/zero"); }, testing::ThrowsMessage<Error>("/dev/zero: more than 1 MB: not read"));
+  const Scratch scratch;
+  EXPECT_THAT([&] { parse_file(scratch.file("a = \"" + std::string(2 << 20, 'x') + "\"")); },
+              testing::ThrowsMessage<Error>(HasSubstr("bad.toml: more than 1 MB: not read")));
+}
+
 }  // namespace
 }  // namespace trivela::config

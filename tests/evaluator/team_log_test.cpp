@@ -245,5 +245,13 @@ TEST(TeamLog, AGeneratedLogWithTheFaultsOfRealClientsIsCountedRecordByRecord) {
   EXPECT_NEAR(found[0].duration_s(), 1.0, 1e-9);
 }
 
+TEST(TeamLog, ArraysWithoutEndAreAFaultAndNoMemory) {
+  std::istringstream in(std::string(1'000'000, '['));
+  const TeamLog log = read_team_log(in, "x.A.msl");
+  EXPECT_TRUE(log.usable.empty());
+  std::istringstream deep("{\"worldstate\":" + std::string(1'000'000, '[') + "}");
+  EXPECT_THAT(read_team_log(deep, "x.A.msl").faults.sentences(), Contains(HasSubstr("record is not JSON")));
+}
+
 }  // namespace
 }  // namespace trivela::evaluator::imports
