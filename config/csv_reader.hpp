@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <istream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,21 +23,27 @@ struct CsvRecord {
   std::vector<std::string> cells;
 };
 
-/// Reads CSV records: quoted cells (commas, doubled quotes and line ends inside), LF or CRLF, a byte order mark;
-/// lines that begin with '#' and empty lines are passed over. Cells are printable UTF-8. `file`: what errors call it.
+/// Reads the records of a table, the same way for every verb. The first line that is no comment says what stands
+/// between the cells: commas, else tabs, else blanks. Cells may be quoted (separators, doubled quotes and line ends
+/// inside), lines end with LF or CRLF, a byte order mark may come first. Passed over are empty lines, rows of empty
+/// cells, and what follows a '#' at the beginning of a line or behind a blank or separator. Cells are printable UTF-8.
+/// `file`: what errors call it.
 class CsvReader {
  public:
   explicit CsvReader(std::istream& in, std::string file = "CSV") : in_(in), file_(std::move(file)) {}
 
-  /// The next record, none at the end. Throws std::runtime_error naming file, line and column (from 1) for a quote
-  /// that is never closed or closed within a cell, a line or cell of more than 1 MB, a byte that is not UTF-8, and a
-  /// control character.
+  /// The next record, none at the end. Throws std::runtime_error naming file, line and column (from 1) for a table
+  /// whose cells are apart by semicolons, a quote that is never closed or closed within a cell, a line or cell of more
+  /// than 1 MB, a byte that is not UTF-8, and a control character.
   std::optional<CsvRecord> next() {
     std::string text;
     while (read_line(text)) {
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-      if (text.empty() || text.front() == '#') continue;
-      return split(std::move(text));
+      const std::size_t first = text.find_first_not_of(" \t");
+      if (first == std::string::npos || text[first] == '#') continue;
+      if (separator_ == '\0') find_separator(text);
+      CsvRecord record = split(std::move(text));
+      if (std::ranges::any_of(record.cells, [](const std::string& cell) { return !is_blank(cell); })) return record;
     }
     return std::nullopt;
   }
@@ -60,6 +68,34 @@ class CsvReader {
              : fmt::format("a control character (byte 0x{:02X}) in a cell", byte));
   }
 
+  static bool is_blank(std::string_view cell) { return cell.find_first_not_of(" \t\n") == std::string_view::npos; }
+
+  void find_separator(const std::string& text) {
+    bool quoted = false;
+    std::size_t commas = 0, semicolons = 0, tabs = 0, aligned = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      quoted = quoted != (text[i] == '"');
+      if (quoted) continue;
+      commas += text[i] == ',' ? 1 : 0;
+      semicolons += text[i] == ';' ? 1 : 0;
+      tabs += text[i] == '\t' ? 1 : 0;
+      aligned += i > 0 && is_gap(text[i]) && is_gap(text[i - 1]) ? 1 : 0;
+    }
+    if (semicolons > 0 && semicolons >= commas)
+      throw std::runtime_error(
+          fmt::format("{}:{}: the cells are apart by ; : save the table with , and decimal points", file_, line_));
+    const bool blanks = text.find_first_of(" \t", text.find_first_not_of(" \t")) != std::string::npos;
+    separator_ = commas > 0 || !blanks ? ',' : tabs > 0 && aligned == 0 ? '\t' : ' ';
+  }
+
+  static bool is_gap(char c) { return c == ' ' || c == '\t'; }
+  bool separates(char c) const { return c == separator_ || (separator_ == ' ' && c == '\t'); }
+
+  /// Whether a '#' behind `before` begins a comment.
+  bool begins_comment(const std::string& text, std::size_t i) const {
+    return text[i] == '#' && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\t' || separates(text[i - 1]));
+  }
+
   CsvRecord split(std::string text) {
     CsvRecord record{line_, {""}};
     bool quoted = false, closed = false;  // within quotes; behind the quote that ended the cell
@@ -76,7 +112,10 @@ class CsvReader {
           quoted = !quoted;
           closed = !quoted;
           if (quoted) opened_on = line_;
-        } else if (c == ',' && !quoted) {
+        } else if (!quoted && begins_comment(text, i)) {
+          break;
+        } else if (!quoted && separates(c)) {
+          if (separator_ == ' ' && cell.empty() && !closed) continue;  // blanks in a row are one
           record.cells.emplace_back();
           closed = false;
         } else if (!closed) {
@@ -91,6 +130,7 @@ class CsvReader {
         fail(opened_on, record.cells.size(), fmt::format("more than {} MB in a cell", kLongestCell_B >> 20));
     } while (quoted && read_line(text));
     if (quoted) fail(opened_on, record.cells.size(), "the quote that opens here is never closed");
+    if (separator_ == ' ' && record.cells.size() > 1 && record.cells.back().empty()) record.cells.pop_back();
     return record;
   }
 
@@ -99,6 +139,7 @@ class CsvReader {
   std::istream& in_;
   std::string file_;
   std::size_t line_ = 0;
+  char separator_ = '\0';  // ' ' stands for any run of blanks and tabs
 };
 
 }  // namespace trivela::config

@@ -53,6 +53,8 @@ std::optional<double> Row::number_if_any(std::string_view column) const {
   const auto text = word(column);
   if (!text) return std::nullopt;
   const auto value = parse_decimal(*text);
+  if (!value && std::ranges::count(*text, ',') == 1)
+    throw CellError(column, *text, "has a decimal comma: save the table with decimal points");
   if (!value) throw CellError(column, *text, "is not a number");
   if (!std::isfinite(*value)) throw CellError(column, *text, "is not finite");
   return value;

@@ -14,49 +14,16 @@ namespace {
 
 using config::CsvRecord;
 
-std::string text_of(const std::string& file) {
-  return file == "-" ? config::read_text(std::cin, "-") : config::read_text_file(file);
+std::vector<CsvRecord> records_of(std::istream& in, const std::string& called) {
+  std::vector<CsvRecord> records;
+  config::CsvReader reader(in, called);
+  while (auto record = reader.next()) records.push_back(std::move(*record));
+  return records;
 }
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<std::string>(in), {}};
-}
-
-/// Columns apart by blanks; line numbers as in the file.
-std::vector<config::CsvRecord> read_blanks(const std::string& text) {
-  std::vector<config::CsvRecord> records;
-  std::istringstream in(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    auto words = words_of(line.substr(0, line.find('#')));
-    if (!words.empty()) records.push_back({number, std::move(words)});
-  }
-  return records;
-}
-
-/// Comments after numbers too; lines keep their numbers.
-std::vector<config::CsvRecord> read_csv(const std::string& text, const std::string& file) {
-  std::vector<config::CsvRecord> records;
-  std::istringstream lines(text);
-  std::stringstream in;
-  for (std::string line; std::getline(lines, line);) {
-    line.erase(std::min(line.find('#'), line.size()));
-    in << (words_of(line).empty() ? "" : line) << '\n';
-  }
-  config::CsvReader reader(in, file);
-  while (auto record = reader.next()) records.push_back(std::move(*record));
-  return records;
-}
-
-/// Has a line that is no comment a comma?
-bool is_csv(const std::string& text) {
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    if (line.substr(0, line.find('#')).find(',') != std::string::npos) return true;
-  }
-  return false;
 }
 
 bool is_number(const std::string& cell) {
@@ -90,8 +57,9 @@ NumberTable NumberTable::read(const std::string& file, const std::string& column
   NumberTable table;
   table.file_ = file == "-" ? "standard input" : file;
   table.header_ = named_columns(columns, called);
-  const std::string text = text_of(file);
-  table.records_ = is_csv(text) ? read_csv(text, table.file_) : read_blanks(text);
+  std::ifstream in;
+  if (file != "-") in = config::open_file(file);
+  table.records_ = records_of(file == "-" ? std::cin : in, table.file_);
   auto& records = table.records_;
   if (records.empty()) throw std::runtime_error(table.file_ + ": no rows");
   const bool numbers_first = std::ranges::any_of(records.front().cells, is_number);

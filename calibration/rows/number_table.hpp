@@ -21,8 +21,7 @@ inline constexpr double kHighestCrossing_m = 15.0;
 inline constexpr double kWidestCrossing = 3.0;  ///< of the distance to the goal line
 inline constexpr double kLongestDelay_s = 1.0;
 
-/// Rows of a measured table: CSV, or columns apart by blanks. What follows a '#' at the start of a line, in a table
-/// with blanks anywhere, is a comment.
+/// Rows of a measured table, as config::CsvReader reads it.
 class NumberTable {
  public:
   /// Reads `file`, "-" for standard input. `columns` names them in order, '-' one to skip; empty: the first line does.

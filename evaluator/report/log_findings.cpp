@@ -46,11 +46,11 @@ void look_at_sessions(const log::Reader& reader, Findings& findings) {
       open.push_back(fmt::format("session {} of {} was never closed: its last rows may be missing", session.uuid,
                                  session.robot_id ? fmt::format("robot {}", *session.robot_id) : "the base"));
   }
-  add_finding(
-      findings, "sessions", open,
-      "look for the rest: the folder where the recorder went on, /var/lib/trivela, /var/tmp, /dev/shm, other robots' logs; then trivela "
-      "merge",
-      fmt::format("{}, closed", sessions.size()));
+  add_finding(findings, "sessions", open,
+              "look for the rest: the folder where the recorder went on, /var/lib/trivela, /var/tmp, /dev/shm, other "
+              "robots' logs; then trivela "
+              "merge",
+              fmt::format("{}, closed", sessions.size()));
 }
 
 void look_for_gaps(const log::Reader& reader, Findings& findings) {

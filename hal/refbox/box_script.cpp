@@ -112,8 +112,10 @@ class LoggedTeams {
     constexpr std::string_view kRobot = "robotID:";
     if (const auto place = behind.find(kRobot); place != std::string_view::npos) {
       const std::string_view number = behind.substr(place + kRobot.size());
-      said.robot_id = number_of<int>(number.substr(0, number.find(',')));
+      const auto robot_id = number_of<int>(number.substr(0, number.find(',')));
+      if (robot_id && *robot_id >= 0 && *robot_id <= 255) said.robot_id = robot_id;
     }
+    if (kind == CommandKind::kStop) return said;  // everybody's
     const std::string_view name = behind.substr(behind.rfind(',') + 1);
     if (name.empty()) return said;
     if (left_.empty()) left_ = name;

@@ -76,12 +76,12 @@ TEST(CsvReader, RefusesControlCharactersButTheTab) {
   EXPECT_THAT(error_of(std::string{"a,\0b", 4}), testing::HasSubstr("(byte 0x00)"));
   EXPECT_THAT(error_of("a\rb\n"), testing::HasSubstr("(byte 0x0D)"));
   EXPECT_THAT(error_of("\xC2\x9B"), testing::HasSubstr("control character"));
-  EXPECT_THAT(read_all("a\tb\n").at(0).cells, ElementsAre("a\tb"));
+  EXPECT_THAT(read_all("a\tb,c\n").at(0).cells, ElementsAre("a\tb", "c"));
 }
 
 TEST(CsvReader, PassesOverCommentsInOtherEncodings) { EXPECT_EQ(read_all("# caf\xE9\na\n").size(), 1u); }
 
-TEST(CsvReader, CountsEmptyCells) { EXPECT_THAT(read_all(",,\n").at(0).cells, ElementsAre("", "", "")); }
+TEST(CsvReader, CountsEmptyCells) { EXPECT_THAT(read_all("a,b,c\n,x,\n").at(1).cells, ElementsAre("", "x", "")); }
 
 TEST(CsvReader, LinesAndCellsWithoutEndAreNotRead) {
   std::istringstream line(std::string((1 << 20) + 1, 'a'));
@@ -92,6 +92,34 @@ TEST(CsvReader, LinesAndCellsWithoutEndAreNotRead) {
   std::istringstream cell(many);
   EXPECT_THAT([&] { CsvReader(cell, "x.csv").next(); },
               testing::ThrowsMessage<std::runtime_error>("x.csv:1: column 1: more than 1 MB in a cell"));
+}
+
+TEST(CsvReader, ReadsCellsApartByTabsOrBlanksAsThoseApartByCommas) {
+  for (const char* const text : {"power,height_m\n15,0.5\n", "power\theight_m\n15\t0.5\n", "power height_m\n15   0.5\n",
+                                 "  power \t height_m\n15\t\t0.5 \n", "power\t\theight_m\n15 0.5\n"}) {
+    const auto records = read_all(text);
+    ASSERT_EQ(records.size(), 2u) << text;
+    EXPECT_THAT(records[0].cells, ElementsAre("power", "height_m")) << text;
+    EXPECT_THAT(records[1].cells, ElementsAre("15", "0.5")) << text;
+  }
+  EXPECT_THAT(read_all("by\tnote\nAda B.\t\n").at(1).cells, ElementsAre("Ada B.", "")) << "a tab keeps blanks";
+}
+
+TEST(CsvReader, PassesOverEmptyRowsAndWhatFollowsANumberSign) {
+  const auto records = read_all("x,y # the columns\n,,\n1,2 # a kick\n , \n3,a#b\n\"# 4\",5\n");
+  ASSERT_EQ(records.size(), 4u);
+  EXPECT_THAT(records[0].cells, ElementsAre("x", "y "));
+  EXPECT_THAT(records[1].cells, ElementsAre("1", "2 "));
+  EXPECT_THAT(records[2].cells, ElementsAre("3", "a#b"));
+  EXPECT_THAT(records[3].cells, ElementsAre("# 4", "5"));
+}
+
+TEST(CsvReader, NamesSemicolonsBetweenTheCells) {
+  EXPECT_EQ(error_of("power;height_m\n15;0,5\n"),
+            "x.csv:1: the cells are apart by ; : save the table with , and decimal points");
+  EXPECT_EQ(error_of("# of Excel\n15;0,5\n"),
+            "x.csv:2: the cells are apart by ; : save the table with , and decimal points");
+  EXPECT_EQ(error_of("policy,note\nmoving,a; b\n"), "");
 }
 
 }  // namespace
