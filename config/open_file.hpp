@@ -35,9 +35,10 @@ using kicking::get_line;
 using kicking::read_text;
 
 /// read_text() of a file. Throws as open_file(), too.
-inline std::string read_text_file(const std::filesystem::path& path, std::size_t most_B = kicking::kMostOfText_B) {
+inline std::string read_text_file(const std::filesystem::path& path,
+                                  std::size_t most_bytes = kicking::kMostBytesOfText) {
   std::ifstream in = open_file(path);
-  return read_text(in, path.string(), most_B);
+  return read_text(in, path.string(), most_bytes);
 }
 
 }  // namespace trivela::config
