@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/schema.hpp"
 #include "kicking/text/printable.hpp"
@@ -60,7 +61,9 @@ void bind(SQLite::Statement& statement, int place, const std::optional<std::stri
 }  // namespace
 
 Additions::Additions(const std::filesystem::path& path) : path_(path.string()) {
-  check_version(LogFile(path, kMatchLog, Check::kQuick));
+  const LogFile log(path, kMatchLog, Check::kQuick);
+  check_version(log);
+  refuse_wal_of_another(path, log.wal());
   try {
     database_ = std::make_unique<SQLite::Database>(path_, SQLite::OPEN_READWRITE, kWait_ms);
     sqlite3* const handle = database_->getHandle();

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
@@ -67,6 +68,7 @@ void check(SQLite::Database& database, const fs::path& path, const Experiment& e
 
 /// The log of a run that was stopped, or has just begun.
 std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment& experiment) {
+  refuse_wal_of_another(path, wal_beside(path));
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
                                                        kOtherRunTimeout_ms);

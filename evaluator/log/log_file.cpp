@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "evaluator/log/schema_check.hpp"
@@ -34,8 +37,9 @@ std::string said_by(const SQLite::Exception& error, const LogKind& kind, const s
   return fmt::format("{}: trivela doctor {} says what can be done", error.what(), path);
 }
 
-std::unique_ptr<SQLite::Database> connect(const std::string& path, bool damaged) {
-  auto database = std::make_unique<SQLite::Database>(path, SQLite::OPEN_READONLY, 5000);
+/// `name`: as ReadableLog has it.
+std::unique_ptr<SQLite::Database> connect(const std::string& name, bool damaged) {
+  auto database = std::make_unique<SQLite::Database>(name, SQLite::OPEN_READONLY | SQLite::OPEN_URI, 5000);
   sqlite3* const handle = database->getHandle();
   sqlite3_hard_heap_limit64(kMemory_B);
   sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestCell_B);
@@ -65,6 +69,52 @@ class ReadingOnly {
   sqlite3* handle_;
 };
 
+/// What a log only gains, and what names whose its rows are.
+struct Extent {
+  explicit Extent(const SQLite::Database& database) {
+    const auto each = [&](const std::string& sql, const auto& take) {
+      SQLite::Statement statement(database, sql);
+      while (statement.executeStep()) take(statement);
+    };
+    each("PRAGMA page_count", [&](auto& row) { pages = row.getColumn(0).getInt64(); });
+    std::vector<std::string> tables;
+    each(
+        "SELECT t.name FROM sqlite_schema AS t, pragma_table_info(t.name) AS c WHERE t.type = 'table' AND "
+        "c.name = 'session_id'",
+        [&](auto& row) { tables.push_back(row.getColumn(0).getString()); });
+    for (const std::string& table : tables) {
+      std::set<std::int64_t>& ids = table == "sessions" ? sessions : rows_of;
+      each(fmt::format("SELECT {} FROM {}",
+                       table == "sessions" ? "session_id, session_id" : "min(session_id), max(session_id)", table),
+           [&](auto& row) {
+             for (const int i : {0, 1}) {
+               if (!row.getColumn(i).isNull()) ids.insert(row.getColumn(i).getInt64());
+             }
+           });
+    }
+  }
+
+  std::int64_t pages = 0;
+  std::set<std::int64_t> sessions, rows_of;
+};
+
+/// Was the write-ahead log that was read with it its own? Another's, or an older copy of its own, hides what it has.
+bool has_what_the_file_has(const SQLite::Database& both, const fs::path& log) {
+  std::optional<Extent> of_file;
+  try {
+    of_file.emplace(SQLite::Database(name_of_main_file(log), SQLite::OPEN_READONLY | SQLite::OPEN_URI));
+  } catch (const SQLite::Exception&) {
+    return true;  // it has no table yet, or a recorder is writing the page
+  }
+  try {
+    const Extent of_both(both);
+    return of_both.pages >= of_file->pages && std::ranges::includes(of_both.sessions, of_file->sessions) &&
+           std::ranges::includes(of_both.sessions, of_both.rows_of);
+  } catch (const SQLite::Exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 Value value_of(const SQLite::Column& column) {
@@ -85,7 +135,6 @@ struct LogFile::Budget {
 LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
     : kind_(kind),
       path_(path.string()),
-      has_wal_(fs::exists(path_ + "-wal")),
       check_(check),
       whole_(check == Check::kWhole),
       budget_(std::make_unique<Budget>()) {
@@ -96,6 +145,7 @@ LogFile::LogFile(const fs::path& path, const LogKind& kind, Check check)
   }
   if (size_of(path_) == 0) throw NoSuchLog(fmt::format("{} is empty, no {}", path_, kind.name));
   whole_ = whole_ || (check == Check::kIfShort && size_of(path_) <= kShort_B);
+  place_ = std::make_unique<ReadableLog>(path);
   try {
     open();
     this->check();
@@ -123,7 +173,11 @@ void LogFile::allow_steps() const {
 }
 
 void LogFile::open() {
-  database_ = connect(path_, may_be_damaged());
+  database_ = connect(place_->name(), may_be_damaged());
+  if (place_->wal() == Wal::kOfThis && !has_what_the_file_has(*database_, path_)) {
+    place_->leave_wal_out();
+    database_ = connect(place_->name(), may_be_damaged());
+  }
   sqlite3_progress_handler(database_->getHandle(), kStepsALook, Budget::spend, budget_.get());
   allow_steps();
   database_->exec("PRAGMA temp_store = MEMORY; PRAGMA cell_size_check = ON; PRAGMA ignore_check_constraints = ON;");
@@ -207,8 +261,15 @@ void LogFile::ask(const std::string& sql, const std::function<void(const std::ve
 }
 
 std::string LogFile::not_closed() const {
-  return has_wal_ ? "its recorder still runs or was killed, the last rows may be missing"
-                  : "no -wal file lies beside the log, its last part may be missing";
+  switch (wal()) {
+    case Wal::kOfThis:
+      return "its recorder still runs or was killed, the last rows may be missing";
+    case Wal::kOfAnother:
+      return "the -wal beside it is of another recording";
+    case Wal::kNone:
+      break;
+  }
+  return "no -wal lies beside it: what the recorder had not yet moved into the log is missing; copy both";
 }
 
 }  // namespace trivela::evaluator::log

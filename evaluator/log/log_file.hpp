@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/queries.hpp"
 #include "evaluator/log/schema.hpp"
@@ -38,6 +39,9 @@ class LogFile final : public Queries {
 
   /// The sentence on a session without an end.
   std::string not_closed() const;
+
+  /// What lay beside it.
+  Wal wal() const { return place_->wal(); }
 
   /// Of the file's schema.
   int version() const { return version_; }
@@ -71,7 +75,7 @@ class LogFile final : public Queries {
 
   LogKind kind_;
   std::string path_;
-  bool has_wal_;  // before opening, which may make one
+  std::unique_ptr<ReadableLog> place_;
   Check check_;
   bool whole_;
   int version_ = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 
@@ -15,7 +16,7 @@ namespace trivela::evaluator::log {
 std::int64_t copy_whole(SQLite::Database& database, const std::filesystem::path& source,
                         const std::function<void(std::int64_t)>& told) {
   SQLite::Statement attach(database, "ATTACH ? AS whole");
-  attach.bind(1, source.string());
+  attach.bind(1, name_of_main_file(source));
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   std::int64_t rows = 0;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/reader.hpp"
@@ -84,6 +85,7 @@ void let_go(const fs::path& log) {
   const auto held = [&](const char* why) {
     return std::runtime_error(fmt::format("cannot put another log in the place of {}: {}", log.string(), why));
   };
+  refuse_wal_of_another(log, LogFile(log, kMatchLog, Check::kSchema).wal());
   try {
     SQLite::Database database(log.string(), SQLite::OPEN_READWRITE);
     if (!fold(database)) throw held("a recorder or a reader has it");

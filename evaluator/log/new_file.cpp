@@ -65,7 +65,8 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
   };
   // A file that another process works on stays, whoever has made it.
   try {
-    auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE, kBusyTimeout_ms);
+    auto database =
+        std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_URI, kBusyTimeout_ms);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY;");
     if (!is_blank(*database)) throw FileTaken("another process writes to it");
     create(*database);

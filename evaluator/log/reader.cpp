@@ -235,6 +235,10 @@ std::vector<Loss> Reader::losses() const {
       &Loss::out_of_order);
 }
 
+Wal Reader::wal() const { return impl_->file.wal(); }
+
+std::string Reader::not_closed() const { return impl_->file.not_closed(); }
+
 std::vector<std::string> Reader::warnings() const {
   std::vector<std::string> warnings;
   for (const RecordedSession& session : sessions()) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_check.hpp"
 #include "evaluator/log/loss.hpp"
 #include "evaluator/log/queries.hpp"
@@ -86,6 +87,12 @@ class Reader final : public Queries {
 
   /// A sentence on what was not verified of the rows, and why; none: they are as they were recorded.
   std::optional<std::string> doubt() const;
+
+  /// What lies beside the log.
+  Wal wal() const;
+
+  /// What it means for this file that a session has no end.
+  std::string not_closed() const;
 
   /// Sentences on sessions that were not closed and on rows that were lost.
   std::vector<std::string> warnings() const;

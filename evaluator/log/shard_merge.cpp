@@ -9,6 +9,7 @@
 #include <string>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/log/row_digest.hpp"
@@ -106,7 +107,7 @@ std::vector<ExperimentFile> leave_out_repeated(std::vector<ExperimentFile>& file
 /// In the order of the keys, as one run writes them; or what is said of them alone.
 void copy_rows(SQLite::Database& database, const ShardFile& file, bool said_alone) {
   SQLite::Statement attach(database, "ATTACH ? AS shard");
-  attach.bind(1, file.path.string());
+  attach.bind(1, name_of_main_file(file.path));
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (!said_alone) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "evaluator/log/digest.hpp"
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/own_rows.hpp"
@@ -36,6 +37,7 @@ void new_book(SQLite::Database& database, const StudyPlan& plan) {
 
 /// The book of a run that was stopped, or has just begun.
 std::unique_ptr<SQLite::Database> resume_book(const fs::path& path, const StudyPlan& plan) {
+  refuse_wal_of_another(path, wal_beside(path));
   try {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE);
     sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);  // it may be somebody else's
@@ -141,7 +143,8 @@ void TallyBook::know(const fs::path& merged) {
     if (arguments != impl_->plan.arguments)
       throw against_book(merged, "is no merged book of this study: it was begun with other arguments, or is a shard");
   });
-  impl_->known = std::make_unique<SQLite::Database>(merged.string(), SQLite::OPEN_READONLY);  // many shards read it
+  impl_->known = std::make_unique<SQLite::Database>(name_of_main_file(merged),
+                                                    SQLite::OPEN_READONLY | SQLite::OPEN_URI);  // many shards read it
 }
 
 std::int64_t TallyBook::arm(const std::string& text, const std::string& name) {

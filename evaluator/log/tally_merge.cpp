@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/log_file.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/log/shard_set.hpp"
@@ -35,7 +36,7 @@ ShardFile read_book_shard(const fs::path& path) {
 
 void copy_book_rows(SQLite::Database& database, const fs::path& path) {
   SQLite::Statement attach(database, "ATTACH ? AS shard");
-  attach.bind(1, path.string());
+  attach.bind(1, name_of_main_file(path));
   attach.exec();
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   database.exec("INSERT OR IGNORE INTO main.arms SELECT * FROM shard.arms");

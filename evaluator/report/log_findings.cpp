@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "evaluator/log/files_beside.hpp"
 #include "evaluator/log/kick_conflicts.hpp"
 #include "evaluator/log/new_file.hpp"
 #include "evaluator/report/label_quality.hpp"
@@ -28,13 +29,22 @@ void add_finding(Findings& findings, const char* check, const std::vector<std::s
   if (sentences.empty()) findings.push_back({check, Health::kOk, well, ""});
 }
 
-void look_at_wal(const fs::path& path, Findings& findings) {
+void look_at_wal(const fs::path& path, log::Wal of_whom, Findings& findings) {
+  const std::string wal = log::beside(path, "-wal").filename().string();
+  switch (of_whom) {
+    case log::Wal::kNone:
+      return findings.push_back({"-wal", Health::kOk, "none is left behind", ""});
+    case log::Wal::kOfAnother:
+      return findings.push_back({"-wal", Health::kDoubtful,
+                                 wal + " is of another recording, or an older copy: it was left out",
+                                 fmt::format("move {} away; never merge the two", wal)});
+    case log::Wal::kOfThis:
+      break;
+  }
   std::error_code none;
-  const auto bytes = fs::file_size(log::beside(path, "-wal"), none);
-  if (none) return findings.push_back({"-wal", Health::kOk, "none is left behind", ""});
   findings.push_back({"-wal", Health::kDoubtful,
-                      fmt::format("{} of {} bytes lies beside it: its recorder runs, or was killed",
-                                  log::beside(path, "-wal").filename().string(), bytes),
+                      fmt::format("{} of {} bytes lies beside it: its recorder runs, or was killed", wal,
+                                  fs::file_size(log::beside(path, "-wal"), none)),
                       "copy both files together, never the log alone; trivela merge makes one file of the two"});
 }
 
@@ -43,8 +53,9 @@ void look_at_sessions(const log::Reader& reader, Findings& findings) {
   const auto sessions = reader.sessions();
   for (const log::RecordedSession& session : sessions) {
     if (!session.closed_t_ns)
-      open.push_back(fmt::format("session {} of {} was never closed: its last rows may be missing", session.uuid,
-                                 session.robot_id ? fmt::format("robot {}", *session.robot_id) : "the base"));
+      open.push_back(fmt::format("session {} of {} was never closed: {}", session.uuid,
+                                 session.robot_id ? fmt::format("robot {}", *session.robot_id) : "the base",
+                                 reader.not_closed()));
   }
   add_finding(findings, "sessions", open,
               "look for the rest: the folder where the recorder went on, /var/lib/trivela, /var/tmp, /dev/shm, other "
@@ -136,7 +147,7 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
     findings.push_back({"integrity", Health::kOk,
                         doubt ? *doubt : fmt::format("{} rows are as they were recorded", reader.verification().rows),
                         ""});
-    look_at_wal(path, findings);
+    look_at_wal(path, reader.wal(), findings);
     look(
         "sessions", [&] { look_at_sessions(reader, findings); }, findings);
     look(
@@ -153,7 +164,7 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
         findings);
   } catch (const std::exception& error) {
     findings.push_back({"file", Health::kBad, sentence_of(error), advice_on(error.what())});
-    if (fs::is_regular_file(path)) look_at_wal(path, findings);
+    if (fs::is_regular_file(path)) look_at_wal(path, log::wal_beside(path), findings);
   }
   return findings;
 }

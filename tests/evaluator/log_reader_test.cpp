@@ -94,7 +94,7 @@ TEST_F(LogReader, ACopyWithoutItsWriteAheadLogIsWarnedAbout) {
   std::filesystem::copy_file(path(), path("half.db"));
   const Reader half(path("half.db"));
   EXPECT_EQ(rows_of(half, "referee"), 0);
-  EXPECT_THAT(half.warnings().at(0), HasSubstr("no -wal file lies beside the log"));
+  EXPECT_THAT(half.warnings().at(0), HasSubstr("no -wal lies beside it"));
 }
 
 TEST_F(LogReader, NeverWrites) {

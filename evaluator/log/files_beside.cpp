@@ -1,0 +1,100 @@
+#include "evaluator/log/files_beside.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+
+#include "evaluator/log/new_file.hpp"
+
+namespace trivela::evaluator::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Source: sqlite.org/fileformat2.html, section 1.3: 1 for a rollback journal, 2 for a write-ahead log.
+bool is_in_wal_mode(const fs::path& log) {
+  constexpr std::size_t kReadVersion = 19;
+  std::array<char, kReadVersion + 1> header{};
+  std::ifstream in(log, std::ios::binary);
+  return in.read(header.data(), header.size()) && header[kReadVersion] == 2;
+}
+
+bool exists_beside(const fs::path& log, const char* suffix) {
+  std::error_code none;
+  return fs::exists(beside(log, suffix), none);
+}
+
+/// Readers of a write-ahead log write their marks into the -shm.
+bool can_be_read_in_place(const fs::path& log) {
+  return exists_beside(log, "-shm") && ::access(beside(log, "-shm").c_str(), W_OK) == 0;
+}
+
+fs::path copy_of_both(const fs::path& log) {
+  const auto failed = [&](const std::string& why) {
+    return std::runtime_error(
+        fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), why));
+  };
+  std::error_code error;
+  std::string folder = (fs::temp_directory_path(error) / "trivela_reading_XXXXXX").string();
+  if (error || ::mkdtemp(folder.data()) == nullptr) throw failed(error ? error.message() : "there is no place for it");
+  for (const char* const suffix : {"", "-wal"}) {
+    fs::copy_file(beside(log, suffix), fs::path(folder) / ("log.db" + std::string(suffix)), error);
+    if (!error) fs::permissions(fs::path(folder) / ("log.db" + std::string(suffix)), fs::perms::owner_all, error);
+    if (!error) continue;
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    throw failed(error.message());
+  }
+  return folder;
+}
+
+}  // namespace
+
+Wal wal_beside(const fs::path& log) {
+  std::error_code none;
+  const auto bytes = fs::file_size(beside(log, "-wal"), none);
+  if (none || bytes == 0) return Wal::kNone;
+  return is_in_wal_mode(log) ? Wal::kOfThis : Wal::kOfAnother;
+}
+
+void refuse_wal_of_another(const fs::path& log, Wal wal) {
+  if (wal == Wal::kOfAnother)
+    throw std::runtime_error(fmt::format("{0}-wal is not of {0} but of another recording: move it away", log.string()));
+}
+
+std::string name_of_main_file(const fs::path& log) {
+  std::string name = "file:";
+  for (const char c : fs::absolute(log).string()) {
+    const bool plain = c != '%' && c != '?' && c != '#';
+    plain ? name += c : name += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return name + "?immutable=1";
+}
+
+ReadableLog::ReadableLog(const fs::path& log) : log_(log), wal_(wal_beside(log)), name_(log.string()) {
+  // One that a killed program left open needs its journal; one that a recorder has just emptied its -shm.
+  const bool in_use = exists_beside(log, "-journal") || (wal_ == Wal::kNone && can_be_read_in_place(log));
+  if (wal_ != Wal::kOfThis) {
+    if (!in_use || wal_ == Wal::kOfAnother) name_ = name_of_main_file(log);
+    return;
+  }
+  if (can_be_read_in_place(log)) return;
+  copied_to_ = copy_of_both(log);
+  name_ = (copied_to_ / "log.db").string();
+}
+
+ReadableLog::~ReadableLog() {
+  std::error_code ignored;
+  if (!copied_to_.empty()) fs::remove_all(copied_to_, ignored);
+}
+
+void ReadableLog::leave_wal_out() {
+  wal_ = Wal::kOfAnother;
+  name_ = name_of_main_file(log_);
+}
+
+}  // namespace trivela::evaluator::log

@@ -1,0 +1,128 @@
+// What lies beside a log as its -wal: its own, another recording's or an older copy; and what reading leaves behind.
+#include "evaluator/log/files_beside.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "evaluator/log/additions.hpp"
+#include "evaluator/log/merge.hpp"
+#include "evaluator/log/reader.hpp"
+#include "evaluator/report/log_findings.hpp"
+#include "tests/evaluator/match_fixture.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr unsigned kNobody = 65534;
+
+class FilesBeside : public LogTest {
+ protected:
+  /// A closed log with three kicks.
+  fs::path closed(const std::string& name) {
+    MatchLog match(path(name), session(), options());
+    match.kicks(1, "on_target", 3);
+    match.close();
+    return path(name);
+  }
+
+  /// Copies of what a recorder has written that goes on: the log and, if wanted, its -wal under another log's name.
+  void copy_of_open(const std::string& log, const std::string& wal, int kicks = 5) {
+    MatchLog match(path("open.db"), session(), options());
+    match.kicks(1, "on_target", kicks);
+    match.writer().flush();
+    if (!log.empty()) fs::copy_file(path("open.db"), path(log));
+    if (!wal.empty()) fs::copy_file(path("open.db-wal"), path(wal));
+    match.close();
+    fs::remove(path("open.db"));
+  }
+
+  static std::int64_t kicks_in(const fs::path& log) {
+    std::int64_t kicks = 0;
+    log::Reader(log).query("SELECT count(*) FROM kick_orders", [&](std::int64_t n) { kicks = n; });
+    return kicks;
+  }
+
+  static std::string said_of(const fs::path& log) {
+    std::string said;
+    for (const LogFinding& found : examine_log(log)) {
+      if (found.health != Health::kOk) said += found.check + ": " + found.value + "; " + found.advice + "\n";
+    }
+    return said;
+  }
+
+  std::set<std::string> files() {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(path("").parent_path())) names.insert(entry.path().filename());
+    return names;
+  }
+};
+
+TEST_F(FilesBeside, AClosedLogKeepsItsRowsBesideTheWalOfAnother) {
+  closed("whole.db");
+  copy_of_open("", "whole.db-wal");
+  EXPECT_EQ(kicks_in(path("whole.db")), 3);
+  EXPECT_THAT(said_of(path("whole.db")), AllOf(HasSubstr("whole.db-wal is of another recording"),
+                                               HasSubstr("move whole.db-wal away"), Not(HasSubstr("damaged"))));
+  log::merge({path("whole.db")}, path("merged.db"));
+  EXPECT_EQ(kicks_in(path("merged.db")), 3);
+}
+
+TEST_F(FilesBeside, AnUnclosedLogKeepsItsRowsBesideTheWalOfAnother) {
+  copy_of_open("first.db", "first.db-wal", 3);
+  log::merge({path("first.db")}, path("unclosed.db"));
+  ASSERT_EQ(kicks_in(path("unclosed.db")), 3);
+  SQLite::Database(path("unclosed.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = WAL");
+  copy_of_open("", "unclosed.db-wal");
+  EXPECT_EQ(kicks_in(path("unclosed.db")), 3);
+  EXPECT_THAT(said_of(path("unclosed.db")), HasSubstr("unclosed.db-wal is of another recording"));
+}
+
+TEST_F(FilesBeside, NothingIsWrittenToALogBesideTheWalOfAnother) {
+  closed("whole.db");
+  copy_of_open("", "whole.db-wal");
+  try {
+    const log::Additions additions(path("whole.db"));
+    ADD_FAILURE() << "SQLite would have written the other's rows into it";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("whole.db-wal is not of"));
+  }
+  EXPECT_EQ(kicks_in(path("whole.db")), 3);
+}
+
+TEST_F(FilesBeside, ReadingLeavesNothingAndSaysTheSameTwice) {
+  copy_of_open("alone.db", "");
+  copy_of_open("both.db", "both.db-wal");
+  const auto before = files();
+  const std::string said = said_of(path("alone.db"));
+  EXPECT_THAT(said, AllOf(HasSubstr("no -wal lies beside it"), Not(HasSubstr("-wal of"))));
+  EXPECT_EQ(said_of(path("alone.db")), said);
+  EXPECT_EQ(kicks_in(path("both.db")), 5);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(FilesBeside, AnUnclosedLogIsReadWhereNothingCanBeWritten) {
+  copy_of_open("open_copy.db", "open_copy.db-wal");
+  const fs::path folder = path("").parent_path();
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                              fs::perms::others_exec | fs::perms::group_read | fs::perms::group_exec);
+  for (const char* const name : {"open_copy.db", "open_copy.db-wal"})
+    fs::permissions(path(name), fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
+  EXPECT_EXIT(
+      {
+        if (::geteuid() == 0 && ::setresuid(kNobody, kNobody, kNobody) != 0) std::_Exit(3);
+        std::_Exit(kicks_in(path("open_copy.db")) == 5 ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
+  fs::permissions(folder, fs::perms::owner_all);
+}
+
+}  // namespace
+}  // namespace trivela::evaluator
