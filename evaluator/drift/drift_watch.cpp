@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace trivela::evaluator {
 namespace {
@@ -13,6 +14,7 @@ struct Reading {
   std::size_t kick = 0;  ///< its place
   double x = 0.0;
   bool at_most = false;
+  int group = 0;
 };
 
 using Readings = std::span<const Reading>;
@@ -21,7 +23,7 @@ std::vector<Reading> readings(std::span<const KickResidual> kicks, bool of_heigh
   std::vector<Reading> found;
   for (std::size_t i = from; i < end; ++i) {
     const auto& x = of_heights ? kicks[i].height : kicks[i].speed;
-    if (x) found.push_back({i, *x, of_heights && kicks[i].height_at_most});
+    if (x) found.push_back({i, *x, of_heights && kicks[i].height_at_most, kicks[i].group});
   }
   return found;
 }
@@ -29,21 +31,24 @@ std::vector<Reading> readings(std::span<const KickResidual> kicks, bool of_heigh
 /// Mean and standard deviation, those that are at most something at their expectation below it (EM).
 struct Normal {
   double mean = 0.0, variance = 0.0;
+  double n = 0.0;  ///< readings, one that is at most something as the part of it that it tells of the mean
 };
 
 Normal fit(Readings readings, double sd) {
   constexpr int kRounds = 30;
-  Normal normal{0.0, sd * sd};
+  Normal normal{0.0, sd * sd, 0.0};
   const double n = static_cast<double>(readings.size());
   if (readings.empty()) return normal;
   const int rounds = std::ranges::any_of(readings, &Reading::at_most) ? kRounds : 1;
   for (int round = 0; round < rounds; ++round) {
     const double spread = std::sqrt(normal.variance);
     double sum = 0.0, squares = 0.0;
+    normal.n = 0.0;
     for (const Reading& r : readings) {
       const double c = (r.x - normal.mean) / spread, m = r.at_most ? mean_below(c) : c;
       const double x = normal.mean + spread * m;
       sum += x;
+      normal.n += r.at_most ? std::clamp(m * m - c * m, 0.0, 1.0) : 1.0;  // Fisher's information of the mean
       squares += x * x + (r.at_most ? std::max(0.0, 1.0 + c * m - m * m) * normal.variance : 0.0);
     }
     normal.mean = sum / n;
@@ -58,41 +63,79 @@ Shift mean_of(Readings readings, double sd) {
   return {normal.mean, std::sqrt(normal.variance / static_cast<double>(readings.size()))};
 }
 
-/// Shift between the readings before a place and those from it on, by one spread for both.
-std::optional<Shift> shift_at(Readings all, std::size_t kick, double sd) {
-  const auto cut = std::ranges::lower_bound(all, kick, {}, &Reading::kick) - all.begin();
-  const Readings before = all.first(static_cast<std::size_t>(cut)), after = all.subspan(static_cast<std::size_t>(cut));
-  if (before.size() < 2 || after.empty()) return std::nullopt;
-  const double n = static_cast<double>(before.size()), m = static_cast<double>(after.size());
-  const Normal first = fit(before, sd);
-  const double spread = std::sqrt(first.variance);
-  const Normal second = fit(after, spread);
-  const double pooled = ((n - 1.0) * first.variance + (m - 1.0) * second.variance) / (n + m - 2.0);
-  return Shift{second.mean - first.mean, std::sqrt(pooled * (1.0 / n + 1.0 / m))};
+std::map<int, std::vector<Reading>> by_group(Readings all) {
+  std::map<int, std::vector<Reading>> groups;
+  for (const Reading& r : all) groups[r.group].push_back(r);
+  return groups;
 }
 
-/// The most likely place of the change: that of the greatest n m / (n + m) (mean after - mean before)^2. What is at
-/// most something counts as its expectation below that.
-std::size_t change_in(Readings all, double sd) {
-  const Normal normal = fit(all, sd);
-  const double spread = std::sqrt(normal.variance);
-  std::vector<double> sums{0.0};
-  for (const Reading& r : all) {
-    const double x = r.at_most ? normal.mean + spread * mean_below((r.x - normal.mean) / spread) : r.x;
-    sums.push_back(sums.back() + x);
+/// Shift between the readings before a place and those from it on, by one spread for both: the mean of the groups'
+/// differences, each weighted by n m / (n + m) of its readings. A group on one side alone says nothing.
+std::optional<Shift> shift_at(Readings all, std::size_t kick, double sd) {
+  double weights = 0.0, shifts = 0.0, squares = 0.0, known = 0.0;
+  for (const auto& [group, of_group] : by_group(all)) {
+    const Readings both = of_group;
+    const auto cut = std::ranges::lower_bound(both, kick, {}, &Reading::kick) - both.begin();
+    const Readings before = both.first(static_cast<std::size_t>(cut)), after = both.subspan(before.size());
+    if (before.size() < 2 || after.empty()) continue;
+    const Normal first = fit(before, sd);
+    const Normal second = fit(after, std::sqrt(first.variance));
+    const double n = first.n, m = second.n;
+    if (!(n > 1.0) || !(m > 0.0)) continue;
+    weights += n * m / (n + m);
+    shifts += n * m / (n + m) * (second.mean - first.mean);
+    squares += (n - 1.0) * first.variance + std::max(0.0, m - 1.0) * second.variance;
+    known += n - 1.0 + std::max(0.0, m - 1.0);
   }
-  constexpr std::size_t kFewest = 3;  // before it
+  if (weights == 0.0) return std::nullopt;
+  return Shift{shifts / weights, std::sqrt(squares / known / weights)};
+}
+
+/// The most likely place of the change: that of the greatest W (mean shift)^2, W the sum of the groups' n m / (n + m),
+/// n readings before and m after it. What is at most something counts as its expectation below that.
+std::size_t change_in(Readings all, double sd) {
+  struct Sums {
+    double n = 0.0, sum = 0.0;
+  };
+  std::map<int, Sums> before, whole;
+  std::vector<double> values;
+  std::map<int, Normal> fits;
+  for (const auto& [group, readings] : by_group(all)) fits[group] = fit(readings, sd);
+  for (const Reading& r : all) {
+    const Normal& normal = fits[r.group];
+    const double spread = std::sqrt(normal.variance);
+    values.push_back(r.at_most ? normal.mean + spread * mean_below((r.x - normal.mean) / spread) : r.x);
+    Sums& sums = whole[r.group];
+    sums = {sums.n + 1.0, sums.sum + values.back()};
+  }
+  constexpr double kFewest = 3.0;  // of a group before it
   std::size_t best = all.size() - 1;
   double best_gain = -1.0;
-  for (std::size_t i = kFewest; i < all.size(); ++i) {
-    const double n = static_cast<double>(i), m = static_cast<double>(all.size() - i);
-    const double shift = (sums.back() - sums[i]) / m - sums[i] / n;
-    const double gain = n * m / (n + m) * shift * shift;
-    if (gain <= best_gain) continue;
-    best_gain = gain;
-    best = i;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    double weights = 0.0, shifts = 0.0;
+    for (const auto& [group, sums] : before) {
+      const double n = sums.n, m = whole[group].n - n;
+      if (n < kFewest || m < 1.0) continue;
+      weights += n * m / (n + m);
+      shifts += n * m / (n + m) * ((whole[group].sum - sums.sum) / m - sums.sum / n);
+    }
+    if (weights > 0.0 && shifts * shifts / weights > best_gain) {
+      best_gain = shifts * shifts / weights;
+      best = i;
+    }
+    Sums& sums = before[all[i].group];
+    sums = {sums.n + 1.0, sums.sum + values[i]};
   }
   return all[best].kick;
+}
+
+/// What is said of a shift that alarmed. The place was chosen where the shift is greatest, so the estimate lies too far
+/// out and its error is larger: it is drawn towards none, as of a change that is N(0, 5 %) beforehand (assumption).
+Shift drawn_in(const Shift& found) {
+  constexpr double kBeforehand_sd = 0.05, kOfThePlace = 1.5;  // chosen by how often the interval has the truth
+  const double prior = kBeforehand_sd * kBeforehand_sd, se = kOfThePlace * found.se;
+  const double kept = prior / (prior + se * se);
+  return {kept * found.value, std::sqrt(kept) * se};
 }
 
 class Watch {
@@ -101,8 +144,7 @@ class Watch {
 
   DriftStory tell() {
     for (std::size_t i = 0; i < kicks_.size(); ++i) {
-      const bool by_height = add(height_, kicks_[i].height, kicks_[i].height_at_most);
-      const bool by_speed = add(speed_, kicks_[i].speed, false);
+      const auto [by_height, by_speed] = add(kicks_[i]);
       if (by_height || by_speed) settle(i, by_height);
     }
     const auto heights = readings(kicks_, true, from_, kicks_.size());
@@ -113,8 +155,10 @@ class Watch {
   }
 
  private:
-  static bool add(FactorChart& chart, const std::optional<double>& x, bool at_most) {
-    return x && chart.add(*x, at_most);
+  /// Does the chart of the heights alarm, and that of the exit speeds?
+  std::pair<bool, bool> add(const KickResidual& kick) {
+    return {kick.height && height_.add(*kick.height, kick.height_at_most, kick.group),
+            kick.speed && speed_.add(*kick.speed, false, kick.group)};
   }
 
   /// The change that kick `found` made certain; the charts begin anew with the kicks after it.
@@ -127,15 +171,13 @@ class Watch {
     const auto height = shift_at(heights, drift.changed, height_.sd());
     drift.factor = (by_height ? height : drift.speed).value_or(Shift{});
     if (by_height && drift.speed) drift.kind = kind_of(*height, *drift.speed);
+    drift.factor = drawn_in(drift.factor);
     drift.height_m = drift.factor.value * mean_lever(drift.changed, found);
     story_.drifts.push_back(drift);
     from_ = drift.changed;
     height_ = FactorChart(rule_.height);
     speed_ = FactorChart(rule_.speed);
-    for (std::size_t i = from_; i <= found; ++i) {
-      add(height_, kicks_[i].height, kicks_[i].height_at_most);
-      add(speed_, kicks_[i].speed, false);
-    }
+    for (std::size_t i = from_; i <= found; ++i) add(kicks_[i]);
   }
 
   /// The angle alone, where exit speeds are far from what the heights say and near to none.

@@ -22,14 +22,13 @@ double mean_below(double c) {
 }
 
 double FactorChart::sd() const {
-  const double known = std::max(0.0, static_cast<double>(count_) - 1.0);
   return std::sqrt((rule_.expected_weight * rule_.expected_sd * rule_.expected_sd + squares_) /
-                   (rule_.expected_weight + known));
+                   (rule_.expected_weight + static_cast<double>(known_)));
 }
 
-void FactorChart::judge(double x, bool at_most) {
-  const double sd = this->sd() * std::sqrt(1.0 + 1.0 / static_cast<double>(count_));  // the mean is not known, either
-  const double c = (x - mean_) / sd, d = rule_.shift / sd;
+void FactorChart::judge(const Group& group, double x, bool at_most) {
+  const double sd = this->sd() * std::sqrt(1.0 + 1.0 / static_cast<double>(group.count));  // nor is the mean known
+  const double c = (x - group.mean) / sd, d = rule_.shift / sd;
   const double z = std::clamp(c, -rule_.clip, rule_.clip);
   if (at_most) {
     const double as_before = log_below(z);
@@ -41,19 +40,20 @@ void FactorChart::judge(double x, bool at_most) {
   }
 }
 
-bool FactorChart::add(double x, bool at_most) {
-  if (at_most && count_ == 0) return false;  // says nothing of a mean that nobody knows
-  if (count_ >= static_cast<std::size_t>(rule_.quiet)) judge(x, at_most);
+bool FactorChart::add(double x, bool at_most, int group_id) {
+  Group& group = groups_[group_id];
+  if (at_most && group.count == 0) return false;  // says nothing of a mean that nobody knows
+  if (group.count >= static_cast<std::size_t>(rule_.quiet)) judge(group, x, at_most);
   const double sd = this->sd();
   if (at_most) {
-    const double c = (x - mean_) / sd, m = mean_below(c);
-    x = mean_ + sd * m;
+    const double c = (x - group.mean) / sd, m = mean_below(c);
+    x = group.mean + sd * m;
     squares_ += std::max(0.0, 1.0 + c * m - m * m) * sd * sd;
   }
-  ++count_;
-  const double off = x - mean_;
-  mean_ += off / static_cast<double>(count_);
-  squares_ += off * (x - mean_);
+  if (group.count++ > 0) ++known_;
+  const double off = x - group.mean;
+  group.mean += off / static_cast<double>(group.count);
+  squares_ += off * (x - group.mean);
   return up_ > rule_.limit || down_ > rule_.limit;
 }
 

@@ -12,6 +12,7 @@ KickResidual residual_of(const WatchedKick& kick) {
   constexpr double kShortestFlight_s = 0.05, kLeastLever_m = 0.1;
   const double t_s = kick.t_flight_s, launch_m = kicking::Ball{}.radius_m, g = kicking::kGravity_mps2;
   KickResidual residual;
+  residual.group = kick.policy;
   if (!kick.seen_to_the_line || !(t_s > kShortestFlight_s)) return residual;
   const kicking::Pose release = kicking::advance(kick.robot, kick.twist, kick.lead_s);
   const Eigen::Vector2d arm = kicking::RobotModel{}.ball_offset_m * kicking::direction(release.heading_rad);

@@ -15,6 +15,7 @@ struct WatchedKick {
   kicking::Pose robot{};  ///< at the decision, in F
   kicking::Twist twist{};
   double lead_s = 0.0;                            ///< from the decision to the expected release
+  int policy = 0;                                 ///< that kicked: each predicts with an error of its own
   double goal_y_m = 0.0;                          ///< where it crosses
   double x_m = 0.0, z_m = 0.0, t_flight_s = 0.0;  ///< predicted crossing and flight
   bool seen_to_the_line = false;                  ///< not blocked, outcome known
@@ -29,6 +30,7 @@ struct KickResidual {
   std::optional<double> height;  ///< out of where it crossed: (z - z predicted) / (dz / d ln f)
   bool height_at_most = false;   ///< it bounced: free flight would have been at the floor or below
   std::optional<double> speed;   ///< out of its exit speed: ln(v / v predicted) / (d ln v / d ln f)
+  int group = 0;                 ///< kicks whose predictions have one error in common: the policy
   double metres = 0.0;           ///< dz / d ln f, m: height that a residual of 1 is
 };
 

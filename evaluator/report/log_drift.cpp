@@ -8,13 +8,14 @@
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/log_sessions.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/policy/policy.hpp"
 
 namespace trivela::evaluator {
 namespace {
 
 constexpr const char* kWatchedKicksSql = R"(
 SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns, k.release_t_ns,
-  k.outcome, k.bounced, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
+  k.outcome, k.bounced, k.policy, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
   d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
 FROM counted_kicks AS k
 CROSS JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq  -- this order
@@ -37,10 +38,10 @@ std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const 
       kWatchedKicksSql,
       [&](std::int64_t session_id, const std::string& uuid, bool simulated, int robot_id, std::int64_t kick_id,
           std::int64_t t_ns, std::int64_t utc_ns, std::optional<std::int64_t> release_t_ns,
-          const std::optional<std::string>& outcome, std::optional<bool> bounced, std::optional<double> z_cross_m,
-          std::optional<double> exit_speed_mps, double x_m, double y_m, double heading_rad, double vx_mps,
-          double vy_mps, double omega_radps, double target_y_m, std::optional<double> predicted_x_m,
-          std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
+          const std::optional<std::string>& outcome, std::optional<bool> bounced, const std::string& policy,
+          std::optional<double> z_cross_m, std::optional<double> exit_speed_mps, double x_m, double y_m,
+          double heading_rad, double vx_mps, double vy_mps, double omega_radps, double target_y_m,
+          std::optional<double> predicted_x_m, std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
         const auto session = fresh.find(session_id);
         if (session == fresh.end()) return;
         Row& row =
@@ -49,6 +50,7 @@ std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const 
                     .t_ns = t_ns,
                     .robot = {x_m, y_m, heading_rad},
                     .twist = {vx_mps, vy_mps, omega_radps},
+                    .policy = kicking::row_of(policy).value_or(-1),
                     .goal_y_m = target_y_m};
         if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
         row.kick.x_m = *predicted_x_m;

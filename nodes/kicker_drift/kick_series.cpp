@@ -58,6 +58,7 @@ evaluator::WatchedKick KickSeries::watched(const Words& words) {
                               .robot = {decision.x_m, decision.y_m, decision.heading_rad},
                               .twist = {decision.vx_mps, decision.vy_mps, decision.omega_radps},
                               .lead_s = kicking::seconds(words.receipt->release_t_ns - decision.t_ns),
+                              .policy = static_cast<int>(decision.policy),
                               .goal_y_m = decision.target_y_m};
   const kicking::Maybe x_m = decision.predicted_x_cross_m, z_m = decision.predicted_z_cross_m,
                        t_flight_s = decision.predicted_t_flight_s;
