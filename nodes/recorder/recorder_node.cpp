@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bus/executor.hpp"
+#include "kicking/geometry/time.hpp"
 #include "nodes/recorder/log_place.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -72,7 +73,7 @@ std::optional<std::int64_t> RecorderNode::store(const std::string& table, TableI
     finding = watch.numbers.see(sample.robot_id, sample.seq, writer);
   } else if (context_.participant.believes(sample.t_ns) && watch.instants.believes(writer, sample.t_ns)) {
     const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-    finding = watch.numbers.see(sample.robot_id, sample.seq, writer, now.count());
+    finding = watch.numbers.see(sample.robot_id, sample.seq, writer, now.count(), kicking::seconds(sample.t_ns));
   }
   if (!finding.believed) {
     log_.add_loss(table, LossKind::kRejected);

@@ -217,6 +217,32 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   EXPECT_THAT(text.output(), HasSubstr("odometry of robot 1 silent from "));
 }
 
+// Beyond what waits in its socket meanwhile: the numbers tell how many were lost.
+TEST(Silence, ARecorderThatStoodStillForLongCountsEveryRowThatIsMissing) {
+  Match match;
+  Witness& witness = match.witness;
+  ASSERT_TRUE(witness.hears_until([&] { return witness.odometry_t_ns.size() > 50; }));
+  match.node("recorder").signal(SIGSTOP);
+  const std::int64_t stopped_t_ns = witness.referee_t_ns;
+  ASSERT_TRUE(witness.hears_until([&] { return witness.referee_t_ns > stopped_t_ns + 16'000'000'000; }));
+  match.node("recorder").signal(SIGCONT);
+  const std::size_t before = witness.odometry_t_ns.size();
+  ASSERT_TRUE(witness.hears_until([&] { return witness.odometry_t_ns.size() > before + 200; }));
+  match.stop_all();
+  const Reader log{match.folder / "match.db"};
+  const auto first = number_of(log, "SELECT min(t_ns) FROM odometry"),
+             last = number_of(log, "SELECT max(t_ns) FROM odometry");
+  const auto heard =
+      std::ranges::count_if(witness.odometry_t_ns, [&](auto t_ns) { return first <= t_ns && t_ns <= last; });
+  const auto told = number_of(
+      log,
+      "SELECT (SELECT count(*) FROM odometry) + sum(max(lost, gaps) + overflow + nan_refused + rejected) FROM losses "
+      "WHERE stream = 'odometry' AND robot_id = 0");
+  EXPECT_LT(number_of(log, "SELECT count(*) FROM odometry"), heard - 200) << "nothing was lost: the test sees nothing";
+  EXPECT_NEAR(static_cast<double>(told), static_cast<double>(heard), 3.0)
+      << fmt::format("{}", fmt::join(losses_of(log), "\n"));
+}
+
 TEST(Silence, ARecorderThatIsKilledAndStartedAgainGoesOnAndCountsTheKicksInBetween) {
   Match match;
   Witness& witness = match.witness;

@@ -107,6 +107,17 @@ TEST(SequenceWatch, AWriterThatComesBackAfterAnOutageHasItsNumbersMissing) {
   EXPECT_EQ(back.seq, 751);
 }
 
+TEST(SequenceWatch, WhoStoodStillAndTakesWhatWaitedMissesWhatCameAfterIt) {
+  SequenceWatch watch;
+  double said_s = 100.0;
+  for (std::uint64_t seq = 1; seq <= 50; ++seq) watch.see(1, seq, 7, said_s, said_s += 0.02);
+  const double back_s = said_s + 16.0;
+  for (std::uint64_t seq = 51; seq <= 60; ++seq) EXPECT_EQ(watch.see(1, seq, 7, back_s, said_s += 0.02).gap, 0);
+  const auto next = watch.see(1, 850, 7, back_s, back_s);
+  EXPECT_TRUE(next.believed);
+  EXPECT_EQ(next.gap, 789);
+}
+
 TEST(SequenceWatch, ANodeThatIsStartedAnewDuringAnOutageIsNoGap) {
   SequenceWatch watch;
   double now_s = 100.0;
