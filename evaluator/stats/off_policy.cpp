@@ -65,13 +65,23 @@ PolicyValue mean_of(std::span<const Trial> trials, const std::vector<double>& sc
     divisor += parts[i];
   }
   const double value = sum / divisor;
-  std::vector<Influence> influences;
+  std::vector<Influence> influences, of_trials;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const std::uint32_t unit = by_match ? trials[i].match : static_cast<std::uint32_t>(i);
     influences.push_back({.match = unit, .u = (scores[i] - value * parts[i]) / divisor});
+    of_trials.push_back({.match = static_cast<std::uint32_t>(i), .u = influences.back().u});
   }
   const ClusterVariance spread = cluster_variance(influences).value_or(ClusterVariance{});
-  const double half_width = by_match ? spread.reach(confidence) : z_of(confidence) * std::sqrt(spread.variance);
+  double half_width = by_match ? spread.reach(confidence) : z_of(confidence) * std::sqrt(spread.variance);
+  // Few matches, or trials, that happen to be alike show less than independent ones would.
+  if (by_match && spread.matches < kManyMatches) {
+    const double independent = cluster_variance(of_trials).value_or(ClusterVariance{}).variance;
+    half_width = std::max(half_width, z_of(confidence) * std::sqrt(independent));
+  }
+  if (half_width == 0.0) {
+    const double n = effective_sample_size(trials) + 4.0, p = ((n - 4.0) * std::clamp(value, 0.0, 1.0) + 2.0) / n;
+    half_width = z_of(confidence) * std::sqrt(p * (1.0 - p) / n);  // Agresti and Coull (1998)
+  }
   return {value,
           {std::max(value - half_width, std::min(value, 0.0)), std::min(value + half_width, std::max(value, 1.0))}};
 }

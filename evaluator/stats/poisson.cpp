@@ -54,9 +54,14 @@ std::optional<RateRatio> clustered_rate_ratio(std::span<const MatchRates> matche
   for (RatioPart& part : parts) part.weight = (part.newer ? 1.0 : -1.0) * part.n / part.x;
   for (RatioCell& cell : cells) cell.spread = spread_of_events(cell.n * parts[cell.part].x / parts[cell.part].n);
   const BiasReduced log_ratio = bias_reduced(parts, cells);
-  const double value = parts[1].x / parts[1].n / (parts[0].x / parts[0].n), error = std::sqrt(log_ratio.variance);
+  const double value = parts[1].x / parts[1].n / (parts[0].x / parts[0].n);
+  // Few matches that happen to be alike show less than independent events would: their interval is no narrower.
+  const bool few = std::min(played[0], played[1]) < kManyMatches || log_ratio.variance == 0.0;
+  const double independent = 1.0 / parts[0].x + 1.0 / parts[1].x;
+  const double floor = few ? independent * square(z_of(confidence) / t_of(confidence, log_ratio.df)) : 0.0;
+  const double error = std::sqrt(std::max(log_ratio.variance, floor));
   const double reach = t_of(confidence, log_ratio.df) * error;
-  const double p = error > 0.0 ? student_p(std::log(value) / error, log_ratio.df) : value == 1.0 ? 1.0 : 0.0;
+  const double p = student_p(std::log(value) / error, log_ratio.df);
   return RateRatio{value, {value * std::exp(-reach), value * std::exp(reach)}, p, true};
 }
 

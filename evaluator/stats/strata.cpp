@@ -74,6 +74,7 @@ std::optional<Difference> mantel_haenszel_risk_difference(std::span<const Stratu
   if (weights == 0.0) return std::nullopt;
   const double value = weighted / weights;
   const double half_width = z_of(confidence) * std::sqrt(std::max(value * p_sum + q_sum, 0.0)) / weights;
+  if (half_width == 0.0) return Difference{value, standardised(strata, confidence)->difference.ci};
   return Difference{value, {value - half_width, value + half_width}};
 }
 

@@ -130,7 +130,7 @@ TEST(Coverage, RateRatioOfAtMostOneKickAnOpportunity) {
   const double share = coverage(0.8 / 0.6, [&](auto& random) -> std::optional<Interval> {
     std::vector<MatchRates> matches;
     Rate older, newer;
-    for (std::uint32_t m = 0; m < 10; ++m) {
+    for (std::uint32_t m = 0; m < 12; ++m) {
       const std::int64_t possessions = 28 + static_cast<std::int64_t>(5.0 * random.uniform());
       const double minutes = 0.25 * static_cast<double>(possessions);
       matches.push_back(

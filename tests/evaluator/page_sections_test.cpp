@@ -228,7 +228,7 @@ TEST(PageDrift, SaysThatNothingChangedOrThatThereAreTooFewKicks) {
                         "50 heights)"));
   EXPECT_THAT(text,
               HasSubstr("robot 2, 9 kicks: too few kicks to say: the height of 7 was seen, and a change is looked "
-                        "for from the 11th on"));
+                        "for after the first 20 of a policy"));
 }
 
 TEST(PageDrift, CountsWhatDidNotChangeInALargeExperiment) {

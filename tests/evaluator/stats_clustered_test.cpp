@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/off_policy.hpp"
+#include "evaluator/stats/poisson.hpp"
+#include "evaluator/stats/strata.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {
@@ -80,6 +83,35 @@ TEST(ClusteredDifference, HasWidthWhereNothingDiffersInManyMatches) {
   const auto result = *clustered_difference(cells);
   EXPECT_LT(result.ci.lo, -0.01);
   EXPECT_GT(result.ci.hi, 0.01);
+}
+
+TEST(ClusteredRateRatio, IsNeverNarrowerThanThatOfIndependentEventsWhereMatchesAreFew) {
+  std::vector<MatchRates> matches;  // all alike: by match alone there is no spread
+  for (std::uint32_t m = 0; m < 5; ++m) matches.push_back({m, {1, 1.0}, {2, 1.0}});
+  const auto result = *clustered_rate_ratio(matches);
+  const double reach = 1.96 * std::sqrt(1.0 / 5.0 + 1.0 / 10.0);
+  EXPECT_NEAR(std::log(result.ci.hi / result.value), reach, 0.01);
+  EXPECT_LT(result.ci.lo, 1.0);
+  EXPECT_GT(result.p, 0.1);
+}
+
+TEST(RiskDifference, HasWidthWhereEveryKickIsInside) {
+  const std::vector<Stratum> strata{{{5, 5}, {5, 5}}, {{4, 4}, {6, 6}}};
+  const auto result = *mantel_haenszel_risk_difference(strata);
+  EXPECT_EQ(result.value, 0.0);
+  EXPECT_LT(result.ci.lo, -0.1);
+  EXPECT_GT(result.ci.hi, 0.1);
+}
+
+TEST(OffPolicyValue, HasWidthWhereEveryShotIsOnTarget) {
+  for (const std::size_t matches : {1u, 5u, 20u}) {
+    std::vector<Trial> trials;
+    for (std::uint32_t i = 0; i < 20; ++i)
+      trials.push_back({i % 2 == 0, 0.5, 1.0, static_cast<std::uint32_t>(i % matches), {}});
+    const PolicyValue value = off_policy_value(trials).snips;
+    EXPECT_EQ(value.value, 1.0) << matches;
+    EXPECT_LT(value.ci.lo, 0.95) << matches;
+  }
 }
 
 TEST(ClusteredWilson, IsWilsonsWithFewerKicksAndNeverNarrower) {

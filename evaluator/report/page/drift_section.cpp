@@ -62,9 +62,9 @@ std::string unchanged_item(const RobotDrift& robot) {
   if (level.heights > judged)
     return fmt::format("<li>{}: no change found; {}</li>\n", kicker_head(robot), html(level_words(level)));
   return fmt::format(
-      "<li>{}: too few kicks to say: the height of {} was seen, and a change is looked for from the "
-      "{}th on</li>\n",
-      kicker_head(robot), level.heights, judged + 1);
+      "<li>{}: too few kicks to say: the height of {} was seen, and a change is looked for after the "
+      "first {} of a policy</li>\n",
+      kicker_head(robot), level.heights, judged);
 }
 
 }  // namespace
@@ -84,10 +84,11 @@ std::string drift_section(const PageView& view) {
   if (without > kMostUnchanged)
     same += fmt::format("<li>and {} more without a change</li>\n", without - kMostUnchanged);
   const std::string body = "<ul>\n" + changed + same + "</ul>\n";
-  return section("drift", title,
-                 body + paragraphs({"Crossing heights and exit speeds against what the robot itself predicted, kick by "
-                                    "kick; trivela drift LOG says the same. About once in 500 kicks a change is found "
-                                    "where there was none."}));
+  return section(
+      "drift", title,
+      body + paragraphs({"Crossing heights and exit speeds against what the robot itself predicted, kick by "
+                         "kick; trivela drift LOG says the same. About once in 2,000 kicks a change is found "
+                         "where there was none."}));
 }
 
 }  // namespace trivela::evaluator::page
