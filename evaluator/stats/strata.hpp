@@ -37,7 +37,8 @@ struct Difference {
 };
 
 /// Mantel-Haenszel risk difference sum(w (p2 - p1)) / sum(w), w = n1 n2 / N, with Sato's variance (Sato 1989,
-/// Biometrics 45:1323), consistent for few large and for many small strata; where that is 0, the interval is that of standardised(). None: no stratum has both policies.
+/// Biometrics 45:1323), consistent for few large and for many small strata; where that is 0, the interval is that of
+/// standardised(). None: no stratum has both policies.
 std::optional<Difference> mantel_haenszel_risk_difference(std::span<const Stratum> strata,
                                                           double confidence = kConfidence);
 
