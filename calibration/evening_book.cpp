@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "config/error.hpp"
+#include "config/open_file.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "evaluator/report/write_file.hpp"
@@ -49,8 +49,7 @@ EveningBook::EveningBook(fs::path folder, std::string arguments)
 void EveningBook::read() {
   std::string begun_with;
   try {
-    std::ifstream file{file_};
-    const auto json = evaluator::Json::parse(file);
+    const auto json = evaluator::Json::parse(config::read_text_file(file_));
     begun_with = json.at("arguments").get<std::string>();
     for (const auto& [what, value] : json.at("measured").items()) measured_[what] = value.get<double>();
     finished_ = json.at("finished").get<std::set<std::string>>();

@@ -16,6 +16,8 @@ constexpr std::string_view kSeal = "written by trivela team configure, sha256 of
 
 /// None: there is no such file, or it does not read.
 std::optional<std::string> written_text(const std::filesystem::path& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;
   std::ifstream in{path, std::ios::binary};
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) return std::nullopt;

@@ -105,6 +105,10 @@ void check_bus(const fs::path& folder, Bus bus, std::uint32_t robot_id, const st
 std::vector<std::string> faults_of(const KeyFolder& folder, std::chrono::sys_seconds now) {
   Faults faults;
   const auto robots = folder.robots();
+  if (const auto mode = fs::status(folder.path()).permissions();
+      (mode & (fs::perms::group_write | fs::perms::others_write)) != fs::perms::none)
+    faults.push_back(fmt::format("{}: somebody else than its owner may put other keys into it: chmod go-w it",
+                                 folder.path().string()));
   if (robots.empty()) faults.push_back(fmt::format("{}: has no keys of a robot", folder.path().string()));
   for (const std::uint32_t robot_id : robots) {
     const fs::path of_robot = folder.robot_folder(robot_id);

@@ -33,6 +33,10 @@ void write_private_file(const std::filesystem::path& file, const std::string& te
 }
 
 std::string read_text(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMost_B = 1 << 20;
+  if (std::filesystem::exists(file) &&
+      (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) > kMost_B))
+    throw std::runtime_error{fmt::format("{}: is no file of at most 1 MB: not read", file.string())};
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

@@ -51,6 +51,17 @@ TEST_F(Keys, NobodyElseCanReadThem) {
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("kicker_driver.key: somebody else than its owner may read")));
 }
 
+TEST_F(Keys, AFolderThatOthersMayWriteToIsNamed) {
+  fs::permissions(team.keys().path(), fs::perms::others_write, fs::perm_options::add);
+  EXPECT_THAT(faults(), ElementsAre(HasSubstr("somebody else than its owner may put other keys into it")));
+}
+
+TEST_F(Keys, ADeviceInTheirPlaceIsNotRead) {
+  fs::remove(team.robot(1) / "kicker_driver.p7s");
+  fs::create_symlink("/dev/zero", team.robot(1) / "kicker_driver.p7s");
+  EXPECT_THAT(faults(), Contains(HasSubstr("kicker_driver.p7s: is no file of at most 1 MB")));
+}
+
 TEST_F(Keys, HoldForTheWeekAlone) {
   EXPECT_THAT(faults(kWeek.to - 1s), IsEmpty());
   EXPECT_THAT(faults(kWeek.to), Contains(HasSubstr("kick_decision.pem: holds from 2026-07-01 11:00:00 to 2026-07-10 "
