@@ -33,6 +33,14 @@ bool can_be_read_in_place(const fs::path& log) {
   return exists_beside(log, "-shm") && ::access(beside(log, "-shm").c_str(), W_OK) == 0;
 }
 
+/// Its first bytes, which change when a recorder begins it again after it moved its rows into the log.
+std::string start_of_wal(const fs::path& log) {
+  constexpr std::size_t kHeader_B = 32;
+  std::string start(kHeader_B, '\0');
+  std::ifstream(beside(log, "-wal"), std::ios::binary).read(start.data(), kHeader_B);
+  return start;
+}
+
 fs::path copy_of_both(const fs::path& log) {
   const auto failed = [&](const std::string& why) {
     return std::runtime_error(
@@ -41,15 +49,19 @@ fs::path copy_of_both(const fs::path& log) {
   std::error_code error;
   std::string folder = (fs::temp_directory_path(error) / "trivela_reading_XXXXXX").string();
   if (error || ::mkdtemp(folder.data()) == nullptr) throw failed(error ? error.message() : "there is no place for it");
-  for (const char* const suffix : {"", "-wal"}) {
-    fs::copy_file(beside(log, suffix), fs::path(folder) / ("log.db" + std::string(suffix)), error);
-    if (!error) fs::permissions(fs::path(folder) / ("log.db" + std::string(suffix)), fs::perms::owner_all, error);
-    if (!error) continue;
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-    throw failed(error.message());
+  constexpr int kAttempts = 5;
+  for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
+    const std::string start = start_of_wal(log);
+    for (const char* const suffix : {"", "-wal"}) {
+      const fs::path copy = fs::path(folder) / ("log.db" + std::string(suffix));
+      if (!error) fs::copy_file(beside(log, suffix), copy, fs::copy_options::overwrite_existing, error);
+      if (!error) fs::permissions(copy, fs::perms::owner_all, error);
+    }
+    if (!error && start_of_wal(log) == start) return folder;
   }
-  return folder;
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  throw failed(error ? error.message() : "its recorder moves rows meanwhile; ask again");
 }
 
 }  // namespace

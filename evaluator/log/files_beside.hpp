@@ -10,7 +10,7 @@ namespace trivela::evaluator::log {
 enum class Wal {
   kNone,
   kOfThis,    ///< of a recorder that runs or was killed
-  kOfAnother  ///< the log was closed and has none of its own: it is left over from another recording
+  kOfAnother  ///< left over from another recording, or an older copy: not to be read with this log
 };
 Wal wal_beside(const std::filesystem::path& log);
 

@@ -83,14 +83,16 @@ struct Extent {
         "c.name = 'session_id'",
         [&](auto& row) { tables.push_back(row.getColumn(0).getString()); });
     for (const std::string& table : tables) {
-      std::set<std::int64_t>& ids = table == "sessions" ? sessions : rows_of;
-      each(fmt::format("SELECT {} FROM {}",
-                       table == "sessions" ? "session_id, session_id" : "min(session_id), max(session_id)", table),
-           [&](auto& row) {
-             for (const int i : {0, 1}) {
-               if (!row.getColumn(i).isNull()) ids.insert(row.getColumn(i).getInt64());
-             }
-           });
+      const bool names_them = table == "sessions";
+      std::set<std::int64_t>& ids = names_them ? sessions : rows_of;
+      const char* const columns = names_them ? "session_id, session_id" : "min(session_id), max(session_id)";
+      std::string quoted;  // the file may be anybody's
+      for (const char c : table) quoted += c == '"' ? "\"\"" : std::string(1, c);
+      each(fmt::format("SELECT {} FROM \"{}\"", columns, quoted), [&](auto& row) {
+        for (const int i : {0, 1}) {
+          if (!row.getColumn(i).isNull()) ids.insert(row.getColumn(i).getInt64());
+        }
+      });
     }
   }
 
@@ -102,7 +104,7 @@ struct Extent {
 bool has_what_the_file_has(const SQLite::Database& both, const fs::path& log) {
   std::optional<Extent> of_file;
   try {
-    of_file.emplace(SQLite::Database(name_of_main_file(log), SQLite::OPEN_READONLY | SQLite::OPEN_URI));
+    of_file.emplace(*connect(name_of_main_file(log), false));
   } catch (const SQLite::Exception&) {
     return true;  // it has no table yet, or a recorder is writing the page
   }
@@ -110,7 +112,8 @@ bool has_what_the_file_has(const SQLite::Database& both, const fs::path& log) {
     const Extent of_both(both);
     return of_both.pages >= of_file->pages && std::ranges::includes(of_both.sessions, of_file->sessions) &&
            std::ranges::includes(of_both.sessions, of_both.rows_of);
-  } catch (const SQLite::Exception&) {
+  } catch (const SQLite::Exception& error) {
+    if ((error.getErrorCode() & 0xFF) != SQLITE_CORRUPT) throw;  // a recorder has it for a moment
     return false;
   }
 }

@@ -40,9 +40,10 @@ struct MatchRates {
 
 /// The same ratio with an interval of its logarithm by bias-reduced linearisation over matches (bias_reduced()): of the
 /// ratio's halves in one match what they have in common cancels, and events that are more regular than Poisson's, such
-/// as at most one kick an opportunity, or more alike within a match, count as they are. With fewer than kManyMatches on
-/// a side, or where the matches show no spread at all, it is no narrower than that of independent events, whose
-/// variance is 1 / older + 1 / newer. None: one has no event, or plays in fewer than kFewestMatches.
+/// as at most one kick an opportunity, or more alike within a match, count as they are.
+/// Few matches can be alike by chance. With fewer than kManyMatches on a side, or without any spread, the interval is
+/// no narrower than that of independent events, whose variance is 1 / older + 1 / newer.
+/// None: one has no event, or plays in fewer than kFewestMatches.
 std::optional<RateRatio> clustered_rate_ratio(std::span<const MatchRates> matches, double confidence = kConfidence);
 
 }  // namespace trivela::evaluator::stats

@@ -146,6 +146,17 @@ TEST(Coverage, RateRatioOfAtMostOneKickAnOpportunity) {
   EXPECT_GT(poisson, 985) << "Poisson's variance is far too large for such kicks";
 }
 
+TEST(Coverage, RateRatioOfFewMatchesIsConservative) {
+  for (const std::uint32_t n : {5u, 10u}) {
+    EXPECT_CONSERVATIVE(coverage(0.8 / 0.6, [n](auto& random) -> std::optional<Interval> {
+      std::vector<MatchRates> matches;
+      for (std::uint32_t m = 0; m < n; ++m)
+        matches.push_back({m, {random.kicks(30, 0.6).inside, 7.5}, {random.kicks(30, 0.8).inside, 7.5}});
+      return clustered_rate_ratio(matches)->ci;
+    }));
+  }
+}
+
 TEST(Coverage, RateRatioIsConservative) {
   EXPECT_CONSERVATIVE(coverage(1.5, [](auto& random) -> std::optional<Interval> {
     const Rate older{random.poisson(30.0), 20.0};
