@@ -158,7 +158,7 @@ void add_keys(CLI::App& app, int& exit_code) {
   add_key_validity(made, *flags);
   auto* more = add_key_verb(*verb, "issue", "Add a robot, or nodes to one; all of its nodes get new keys", flags,
                             issue_keys, exit_code);
-  add_key_robots(more, *flags, "nodes, simulator and replay_player only by name; default: all that run on a robot");
+  add_key_robots(more, *flags, "nodes, simulator only by name; default: all that run on a robot");
   add_key_validity(more, *flags);
   auto* next = add_key_verb(*verb, "renew", "New keys for all, of the same names, for another week", flags, renew_keys,
                             exit_code);

@@ -36,14 +36,6 @@ struct SimDevice {
   static constexpr bool kInLockstep = true;
 };
 
-/// What hal.replay_log recorded; nothing that is ordered is done.
-struct ReplayDevice {
-  static constexpr std::string_view kName = "replay";
-  static constexpr bool kInLockstep = true;
-  friend std::unique_ptr<hal::Kicker> kicker_of(const ReplayDevice&, const Hal&, const hal::Owner&);
-  friend std::unique_ptr<hal::Wheels> wheels_of(const ReplayDevice&, const Hal&, const hal::Owner&, hal::WheelsUse);
-};
-
 /// The Falcons' ioBoard on a serial line (docs/devices/ioboard.md).
 struct IoBoardDevice {
   static constexpr std::string_view kName = "ioboard";
@@ -103,16 +95,15 @@ struct ScipDevice {
   std::uint16_t port = 0;  ///< 0: none
 };
 
-using WheelsDevice = std::variant<BusDevice, ReplayDevice, Cia402Device>;
+using WheelsDevice = std::variant<BusDevice, Cia402Device>;
 using GyroDevice = std::variant<WheelsGyro, MtiDevice>;
-using KickerDevice = std::variant<BusDevice, ReplayDevice, IoBoardDevice, ReKickDevice>;
+using KickerDevice = std::variant<BusDevice, IoBoardDevice, ReKickDevice>;
 using RangeFinderDevice = std::variant<SimDevice, ScipDevice>;
 
 /// The devices of a robot that plays.
 struct Hal {
   WheelsDevice wheels;
   KickerDevice kicker;
-  std::string replay_log;  ///< the match log that `replay` reads
   GyroDevice gyro{};
 };
 

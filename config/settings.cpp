@@ -20,14 +20,9 @@
 namespace trivela::config {
 namespace {
 
-std::array<std::string*, 7> files_of(Settings& settings) {
-  return {&settings.run.robot,
-          &settings.run.scenario,
-          &settings.run.field_file,
-          &settings.domain.dds_file,
-          &settings.team_link.dds_file,
-          &settings.hal.replay_log,
-          &settings.kick_decision.learned_model};
+std::array<std::string*, 6> files_of(Settings& settings) {
+  return {&settings.run.robot,       &settings.run.scenario,       &settings.run.field_file,
+          &settings.domain.dds_file, &settings.team_link.dds_file, &settings.kick_decision.learned_model};
 }
 
 /// Robot and world that the file does not name are the shipped ones, wherever it lies.
@@ -73,8 +68,7 @@ void check_lockstep(const Settings& settings, const std::string& source) {
   const auto check = [&](const char* key, const auto& device) {
     if (!settings.run.lockstep || plays_in_lockstep(device)) return;
     throw Error{
-        fmt::format("{}: run.lockstep = true, but {} = \"{}\" has a time of its own: lockstep is for simulated and "
-                    "replayed devices",
+        fmt::format("{}: run.lockstep = true, but {} = \"{}\" has a time of its own: lockstep is for simulated devices",
                     source, key, text_of(device))};
   };
   check("hal.wheels", settings.hal.wheels);

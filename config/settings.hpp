@@ -50,6 +50,8 @@ struct Odometry {
   double team_drive_timeout_s = 0.2;  ///< the same of the team's own program, where it is in charge
   double drift_ratio = 0.05;          ///< position error per metre driven
   double heading_drift_ratio = 0.02;  ///< heading error per radian turned
+
+  bool operator==(const Odometry&) const = default;
 };
 
 /// Filters of the world state.

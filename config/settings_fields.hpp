@@ -226,7 +226,6 @@ void fields(V& v, Hal& h) {
   v("wheels", h.wheels);
   v("gyro", h.gyro);
   v("kicker", h.kicker);
-  v("replay_log", h.replay_log);
 }
 
 template <class V>

@@ -24,7 +24,6 @@ class GyroWheels final : public Wheels {
   bool drive_wheel(int wheel, double radps, std::int64_t t_ns) override {
     return wheels_->drive_wheel(wheel, radps, t_ns);
   }
-  bool ended() const override { return wheels_->ended(); }
   std::string status() const override;
 
  private:

@@ -76,7 +76,7 @@ class Kicker {
   /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
   [[nodiscard]] virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
-  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
+  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet.
   virtual std::optional<KickerSample> read(std::chrono::nanoseconds timeout) = 0;
 
   /// Energises the coil. Whoever writes to the device compares the clock with shot.until_ns immediately before, so
@@ -106,9 +106,6 @@ class Kicker {
 
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;
-
-  /// No sample will ever come again.
-  virtual bool ended() const = 0;
 
   virtual KickerCapabilities capabilities() const { return {}; }
 

@@ -34,8 +34,8 @@ class RangeFinder {
   virtual kicking::lob::ScannerIdentity identity() const = 0;
   virtual kicking::lob::ScanGeometry geometry() const = 0;
 
-  /// The next scan, in time order; waits for it up to `timeout`, a second at most. None: no scan yet, the line is down
-  /// (read() opens it again), or ended().
+  /// The next scan, in time order; waits for it up to `timeout`, a second at most. None: no scan yet, or the line is
+  /// down (read() opens it again).
   virtual std::optional<kicking::lob::Scan> read(std::chrono::nanoseconds timeout) = 0;
 
   virtual LinkCounters counters() const = 0;
@@ -45,9 +45,6 @@ class RangeFinder {
 
   /// The link is up and scans come.
   virtual bool up() const = 0;
-
-  /// No scan will ever come again.
-  virtual bool ended() const = 0;
 };
 
 }  // namespace trivela::hal

@@ -36,7 +36,7 @@ class Wheels {
   /// The device is there: samples can come and commands leave. Waits for it up to `timeout`.
   [[nodiscard]] virtual bool connected(std::chrono::nanoseconds timeout) = 0;
 
-  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet, or ended().
+  /// The next sample, in time order; waits for it up to `timeout`. None: no sample yet.
   virtual std::optional<WheelSample> read(std::chrono::nanoseconds timeout) = 0;
 
   /// Asks for a velocity in R; a backend without motors records it. `t_ns` is the instant it answers. A set-point that
@@ -46,9 +46,6 @@ class Wheels {
   /// Asks one wheel, counted from 0, for a speed and the others for rest, as drive() does for the base. False: this
   /// device takes velocities of the base alone, and was told nothing.
   virtual bool drive_wheel(int /*wheel*/, double /*radps*/, std::int64_t /*t_ns*/) { return false; }
-
-  /// No sample will ever come again.
-  virtual bool ended() const = 0;
 
   /// One line on the state of the link and of the motors, for a human; empty: nothing to say.
   virtual std::string status() const { return {}; }

@@ -97,7 +97,6 @@ const std::vector<Rights>& all_rights() {
       rights("team", {}),
       rights_together("chain", {odometry, world_state, kick_decision}),
       rights("simulator", these<DeviceDrive, DeviceFire, KickReceipt, StepDone>(), Runs::kWhereAskedFor),
-      rights("replay_player", these<StepDone>(), Runs::kWhereAskedFor),
   };
   return all;
 }

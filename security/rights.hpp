@@ -14,7 +14,7 @@ struct Rights {
   std::string node;
   std::vector<std::string> publish;
   std::vector<std::string> subscribe;
-  /// Has an identity on a robot without being asked for: what stands in for the world (simulator, replay_player) has
+  /// Has an identity on a robot without being asked for: the simulator, which stands in for the world, has
   /// not, since it may write what referee and devices say, nor chain, since it may do what three nodes may.
   bool on_robot = true;
   /// And on the base.

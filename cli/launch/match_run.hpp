@@ -17,7 +17,7 @@ struct MatchResult {
   std::string trouble;  ///< empty: played to the end
 };
 
-/// Starts the processes `nodes`, the recorder first, and their `feeder` (simulator or replay_player) with one
+/// Starts the processes `nodes`, the recorder first, and their `feeder` (the simulator) with one
 /// configuration file, waits until the feeder is through, a node dies or somebody asks to stop through `signals`, and
 /// ends them all, the recorder last, so that the log is finalised. `quiet`: what they print on standard output is not
 /// shown. The programs are those beside this one. Draws a progress bar on a terminal.

@@ -58,7 +58,7 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
   std::size_t scans = 0;
   std::size_t refused = 0;
   std::optional<std::int64_t> first_t_ns;
-  while (!signals.stop_requested() && !finder->ended()) {
+  while (!signals.stop_requested()) {
     const std::chrono::duration<double> passed = Clock::now() - started;
     if (seconds && passed.count() >= *seconds) break;
     if (const auto scan = finder->read(kLook)) {

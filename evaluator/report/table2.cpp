@@ -132,7 +132,7 @@ void warn_of_replays(Report& report) {
   for (const log::RecordedSession& session : report.sessions) {
     if (session.replays_uuid.empty()) continue;
     report.warnings.push_back("session " + session.uuid + " is a " + session.scenario +
-                              ": the outcomes are those of the recorded kicks, whatever was ordered here");
+                              ": its kicks were decided and never made, so that none has an outcome");
   }
 }
 

@@ -28,7 +28,7 @@ constexpr IdleKey kIdleKeys[] = {
     {"domain", "there is no bus; trivela match has one"},
     {"goal", "goal and rules are the scenario's [field] and [rules] (--scenario)"},
     {"rules", "goal and rules are the scenario's [field] and [rules] (--scenario)"},
-    {"hal", "devices are the simulator's; trivela match and replay choose others"},
+    {"hal", "devices are the simulator's; trivela match has others"},
     {"policy.test_drive", "drives calibrate a robot (trivela calibrate run)"},
     {"kick_decision.assignment_seed", "each match draws by its own seed, which follows from --seed"},
     {"kick_decision.shadows", "trivela simulate --shadows records what other policies would have done"},

@@ -38,7 +38,6 @@ class BoardKicker final : public Kicker {
   std::optional<ShotResult> take_result() override;
   std::string beyond(double power) const override { return board_->beyond(power); }
   void make_safe() noexcept override;
-  bool ended() const override { return false; }
   KickerCapabilities capabilities() const override { return capabilities_; }
   std::string status() const override;
 

@@ -33,7 +33,6 @@ class BusKicker final : public Kicker {
   std::optional<ShotResult> take_result() override;
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;
-  bool ended() const override { return false; }
   /// That several bridges write, which is a fault of the link while it lasts.
   std::string status() const override;
   /// As the latest sample says.

@@ -25,7 +25,6 @@ class BusWheels final : public Wheels {
   std::optional<WheelSample> read(std::chrono::nanoseconds timeout) override;
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override;
   bool drive_wheel(int wheel, double radps, std::int64_t t_ns) override;
-  bool ended() const override { return false; }
 
  private:
   void send(msg::DeviceDrive command, std::int64_t t_ns);

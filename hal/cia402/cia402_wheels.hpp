@@ -42,7 +42,6 @@ class Cia402Wheels final : public Wheels {
     thread_.with_client([&] { drives_.drive_wheel(wheel, radps); });
     return true;
   }
-  bool ended() const override { return false; }
   std::string status() const override {
     return thread_.with_client([this] { return drives_.status(); });
   }

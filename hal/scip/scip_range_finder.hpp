@@ -38,7 +38,6 @@ class ScipRangeFinder final : public RangeFinder {
   LinkCounters counters() const override { return counters_; }
   std::string status() const override { return status_; }
   bool up() const override { return phase_ == Phase::kMeasuring && scan_came_; }
-  bool ended() const override { return false; }
 
  private:
   using Clock = std::chrono::steady_clock;

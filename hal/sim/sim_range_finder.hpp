@@ -28,7 +28,6 @@ class SimRangeFinder final : public RangeFinder {
   LinkCounters counters() const override { return counters_; }
   std::string status() const override;
   bool up() const override { return counters_.scans > 0; }
-  bool ended() const override { return false; }
 
  private:
   void take();

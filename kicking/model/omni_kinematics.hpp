@@ -17,6 +17,8 @@ struct WheelBase {
   std::vector<double> wheel_angles_rad{0.5235987755982988, 2.6179938779914944, 4.71238898038469};
   double wheel_distance_m = 0.22;
   double wheel_radius_m = 0.05;
+
+  bool operator==(const WheelBase&) const = default;
 };
 
 /// Between wheel speeds and the body's twist, for 3 or 4 wheels.

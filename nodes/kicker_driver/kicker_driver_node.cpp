@@ -41,7 +41,6 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
   node_.on_device(
       "kicker",
       [this](std::chrono::nanoseconds timeout) {
-        if (kicker_->ended()) context_.idle(timeout);
         auto sample = kicker_->read(timeout);
         if (!sample) tell_charge();
         return sample;

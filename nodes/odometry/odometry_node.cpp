@@ -34,12 +34,8 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
                            bus::writes<msg::DeviceDrive>());
 }
 
-/// In lockstep the next sample waits for the drive command of the last one: a replayed log knows no other pace.
+/// In lockstep the next sample waits for the drive command of the last one.
 std::optional<hal::WheelSample> OdometryNode::next_sample(std::chrono::nanoseconds timeout) {
-  if (wheels_->ended()) {
-    context_.idle(timeout);
-    return std::nullopt;
-  }
   if (context_.settings.run.lockstep && !cycle_over_.try_acquire_for(timeout)) return std::nullopt;
   auto sample = wheels_->read(timeout);
   say_status(sample.has_value());

@@ -53,10 +53,6 @@ ScanRecorderNode::ScanRecorderNode(NodeContext& context, std::unique_ptr<hal::Ra
 }
 
 std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanoseconds timeout) {
-  if (scanner_->ended()) {
-    context_.idle(timeout);
-    return std::nullopt;
-  }
   if (!connected_) {
     connected_ = scanner_->connected(timeout);
     if (!connected_) {
@@ -67,7 +63,7 @@ std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanos
     context_.logger->info("{}: {}", scanner_->identity().product, scanner_->status());
   }
   auto scan = scanner_->read(timeout);
-  if (scanner_->up() != up_ && !scanner_->ended()) {
+  if (scanner_->up() != up_) {
     up_ = scanner_->up();
     if (up_) {
       context_.logger->info("{}", scanner_->status());

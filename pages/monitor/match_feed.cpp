@@ -38,9 +38,6 @@ std::set<std::string> simulated_by(const bus::Census& census) {
     if (writer.topic == bus::meta<msg::KickTruth>::topic || writer.topic == bus::meta<msg::PossessionTruth>::topic)
       said.insert("a simulator");
   }
-  for (const bus::Member& member : census.members) {
-    if (monitor::node_of(member.process) == "replay_player") said.insert("a replay");
-  }
   return said;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "config/robot.hpp"
 #include "config/settings.hpp"
+#include "evaluator/log/session.hpp"
 
 namespace trivela::robot {
 
@@ -13,6 +15,9 @@ namespace trivela::robot {
 /// scenario" where one is given.
 std::string session_config(const config::Settings& settings, const std::vector<config::Robot>& robots,
                            const std::string& scenario_toml = {});
+
+/// The policies of so many halves, and of the robots that have one of their own; none where they are drawn at random.
+std::vector<evaluator::log::HalfPolicy> session_policies(const config::KickDecision& settings, std::size_t halves);
 
 /// The definition of the messages.
 const char* idl_text();

@@ -45,7 +45,6 @@ class CabledWheels final : public hal::Wheels {
     take(sample);
     return true;
   }
-  bool ended() const override { return false; }
 
   double sign = 1.0;
   bool by_wheel = false;

@@ -80,8 +80,8 @@ TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
 
 TEST(BadSettings, UnknownDeviceIsNamedWithItsLineAndTheKnownOnes) {
   EXPECT_THAT(settings_error("[hal]\nwheels = \"can\"\n"),
-              HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: bus, replay"));
-  EXPECT_THAT(settings_error("[hal]\nkicker = \"\"\n"), HasSubstr("expected one of: bus, replay"));
+              HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: bus, cia402"));
+  EXPECT_THAT(settings_error("[hal]\nkicker = \"\"\n"), HasSubstr("expected one of: bus, ioboard"));
   EXPECT_THAT(settings_error("[scan_recorder]\ndevice = \"tcp://host\"\n"),
               AllOf(HasSubstr("bad.toml:2: scan_recorder.device = 'tcp://host'"), HasSubstr("sim, tcp://HOST:PORT")));
 }

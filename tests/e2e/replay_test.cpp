@@ -1,4 +1,4 @@
-// A recorded match goes through the nodes again, and a disk that does not keep up costs no row.
+// A recorded match is decided again, and a disk that does not keep up costs no row.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::UnorderedElementsAre;
 
 const std::vector<std::string> kMatch{"match",     "--half", "stopped", "--half", "moving",
                                       "--minutes", "0.4",    "--seed",  "7",      "--out"};
@@ -22,31 +21,39 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-TEST(Replay, GivesTheDecisionsOfTheMatchAgainAndOtherOnesWithAnotherPolicy) {
+/// What is not alike of the rows that both a match and its replay have.
+std::vector<std::string> decided_otherwise(const Folder& folder, const char* one, const char* other) {
+  std::vector<std::string> tables;
+  for (const std::string& difference : differences_of(Reader{folder / one}, Reader{folder / other})) {
+    const std::string table = difference.substr(0, difference.find(','));
+    for (const char* const decided : {"world_states", "kick_decisions", "shadow_decisions", "kick_orders",
+                                      "drive_commands", "assignments", "referee"})
+      if (table == decided) tables.push_back(difference);
+  }
+  return tables;
+}
+
+std::string replay(const Folder& folder, const std::vector<std::string>& more, int code = 0) {
+  Program program{"trivela", with({"replay"}, more), folder.path()};
+  EXPECT_EQ(program.wait(), code) << program.errors();
+  return program.output() + program.errors();
+}
+
+TEST(Replay, GivesTheRowsOfALockstepMatchAgainAndOtherOrdersWithAnotherPolicy) {
   const Folder folder;
   Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
-  Program same{"trivela", {"replay", "match.db", "--out", "same.db"}, folder.path()};
-  ASSERT_EQ(same.wait(), 0) << same.errors();
-  Program moving{"trivela",
-                 {"replay", "match.db", "--out", "moving.db", "--set", "kick_decision.policy_by_half=[\"moving\"]"},
-                 folder.path()};
-  ASSERT_EQ(moving.wait(), 0) << moving.errors();
+  EXPECT_THAT(replay(folder, {"match.db", "--out", "same.db"}), HasSubstr("the same decisions: "));
+  EXPECT_GT(number_of(Reader{folder / "match.db"}, "SELECT count(*) FROM kick_orders"), 0);
+  EXPECT_THAT(decided_otherwise(folder, "match.db", "same.db"), IsEmpty());
 
-  const Reader original{folder / "match.db"};
-  const Reader replayed{folder / "same.db"};
-  EXPECT_GT(number_of(original, "SELECT count(*) FROM kick_orders"), 0);
-  // Only the simulator knows the truth, so that a replay has none; nor is it the same session.
-  std::vector<std::string> tables;
-  for (const std::string& difference : differences_of(original, replayed)) {
-    tables.push_back(difference.substr(0, difference.find(',')));
-  }
-  std::erase(tables, "sqlite_stat1");  // SQLite's own counts of rows, where it makes some
-  EXPECT_THAT(tables, UnorderedElementsAre("kick_truths", "possession_truths", "possession_tallies", "losses",
-                                           "sessions", "digests"));
+  const std::string said =
+      replay(folder, {"match.db", "--out", "moving.db", "--set", "kick_decision.policy_by_half=[\"moving\"]"});
+  EXPECT_THAT(said, HasSubstr("Open loop: "));
+  EXPECT_THAT(said, testing::ContainsRegex("[1-9][0-9]* earlier anew"));
   EXPECT_EQ(number_of(Reader{folder / "moving.db"}, "SELECT count(*) FROM kick_decisions WHERE policy = 'stopped'"), 0);
 
-  EXPECT_EQ(replayed.sessions()[0].replays_uuid, original.sessions()[0].uuid);
+  EXPECT_EQ(Reader{folder / "same.db"}.sessions()[0].replays_uuid, Reader{folder / "match.db"}.sessions()[0].uuid);
   Program both{"trivela", {"compare", "match.db", "same.db", "--json"}, folder.path()};
   EXPECT_EQ(both.wait(), 0) << both.errors();
   Program alone{"trivela", {"compare", "match.db", "--json"}, folder.path()};
@@ -57,6 +64,39 @@ TEST(Replay, GivesTheDecisionsOfTheMatchAgainAndOtherOnesWithAnotherPolicy) {
   Program report{"trivela", {"report", "same.db"}, folder.path()};
   EXPECT_EQ(report.wait(), 0) << report.errors();
   EXPECT_THAT(report.output(), HasSubstr("replay of match.db"));
+  Program page{"trivela", {"report", "match.db", "moving.db", "--html", "page.html"}, folder.path()};
+  EXPECT_EQ(page.wait(), 0) << page.errors();
+  EXPECT_THAT(text_of(folder / "page.html"), HasSubstr("match.db, decided again in moving.db"));
+}
+
+TEST(Replay, GivesTheRowsOfAMatchInRealTimeAgain) {
+  const Folder folder;
+  Program match{"trivela",
+                {"match", "--devices", "emulated", "--half", "moving", "--half", "predictive", "--minutes", "0.15",
+                 "--out", "match.db"},
+                folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  EXPECT_THAT(replay(folder, {"match.db", "--out", "same.db"}), HasSubstr("inputs crossed"));
+  EXPECT_GT(number_of(Reader{folder / "match.db"}, "SELECT count(*) FROM kick_decisions"), 0);
+  EXPECT_THAT(decided_otherwise(folder, "match.db", "same.db"), IsEmpty());
+  EXPECT_THAT(replay(folder, {"match.db", "--out", "other.db", "--robot",
+                              TRIVELA_SOURCE_DIR "/config/robots/uncalibrated.toml"}),
+              HasSubstr("the same decisions: "));
+}
+
+TEST(Replay, RefusesWhatItCannotDecideAgain) {
+  const Folder folder;
+  Program simulate{"trivela", {"simulate", "--arms", "moving", "--matches", "1", "--out", "sim.db"}, folder.path()};
+  ASSERT_EQ(simulate.wait(), 0) << simulate.errors();
+  EXPECT_THAT(replay(folder, {"sim.db", "--out", "out.db"}, 1),
+              HasSubstr("sim.db: no session of it has wheel samples"));
+  Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  EXPECT_THAT(replay(folder, {"match.db", "--out", "out.db", "--set", "hal.wheels=\"cia402\""}, 2),
+              HasSubstr("plays no part in a replay"));
+  EXPECT_THAT(replay(folder, {"match.db", "--out", "match.db"}, 2), HasSubstr("never overwritten"));
+  EXPECT_THAT(replay(folder, {"match.db", "--session", "none", "--out", "out.db"}, 1), HasSubstr(": robot 1"));
+  EXPECT_FALSE(exists(folder / "out.db"));
 }
 
 TEST(Match, WaitsForADiskThatDoesNotKeepUp) {

@@ -61,7 +61,7 @@ TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
   EXPECT_THAT(said("simulator.seed=1"), HasSubstr("--seed says"));
   EXPECT_THAT(said("simulator.halves=2"), HasSubstr("--possessions says"));
   EXPECT_THAT(said("recorder.log='x.db'"), HasSubstr("--out names the log"));
-  EXPECT_THAT(said("hal.wheels='replay'"), HasSubstr("plays no part in process"));
+  EXPECT_THAT(said("hal.wheels='cia402'"), HasSubstr("plays no part in process"));
   std::ofstream{folder / "arms.toml"} << "[[arm]]\nname = \"a\"\nset = [\n  \"simulator.seed = 3\"\n]\n";
   EXPECT_THAT(refusal(folder, {"--arms", "arms.toml"}),
               HasSubstr("arms.toml:4: arm a: set \"simulator.seed = 3\": simulator.seed plays no part in process"));

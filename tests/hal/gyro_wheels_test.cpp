@@ -25,7 +25,6 @@ class ToldBase final : public Wheels {
     sample_.wheel_radps[0] = set_point.omega_radps;
     sample_.t_ns = t_ns;
   }
-  bool ended() const override { return false; }
   std::string status() const override { return "wheels"; }
 
  private:

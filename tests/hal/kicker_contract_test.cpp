@@ -4,10 +4,8 @@
 #include <algorithm>
 
 #include "hal/bus/bus_kicker.hpp"
-#include "hal/replay/replay_kicker.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 #include "tests/hal/bus_world.hpp"
-#include "tests/hal/recorded_log.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -100,29 +98,6 @@ class BusRig : public ToldDevice {
   std::int64_t now_t_ns = 0;  // of the world
 };
 
-class ReplayRig : public ToldDevice {
- public:
-  ReplayRig() {
-    const char* faults[] = {"none", "charger", "coil", "link"};
-    for (std::size_t i = 0; i < kSaid.size(); ++i) {
-      const auto& s = kSaid[i];
-      log.kicker(kRobot, static_cast<std::int64_t>(i) + 1, s.t_ns, s.charge, s.armed, faults[i]);
-    }
-    log.close();
-    device = std::make_unique<ReplayKicker>(ReplayLog::open(log.file(), kRobot));
-  }
-  void say(std::size_t) {}
-  void wait_for_first() {}
-  std::vector<Fired> energised() {
-    std::vector<Fired> fired;
-    for (const auto& f : dynamic_cast<ReplayKicker&>(*device).fires()) fired.push_back({f.kick_id, f.power, f.t_ns});
-    return fired;
-  }
-
-  RecordedLog log;
-  std::unique_ptr<Kicker> device;
-};
-
 /// A board at the end of a line: its emulator, and the backend that it makes.
 template <class Board>
 class BoardRig {
@@ -189,13 +164,12 @@ class KickerContract : public testing::Test {
  protected:
   Rig rig_;
 };
-using Rigs = testing::Types<BusRig, ReplayRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
+using Rigs = testing::Types<BusRig, BoardRig<tests::IoBoardOnALine>, BoardRig<tests::ReKickOnALine>>;
 TYPED_TEST_SUITE(KickerContract, Rigs);
 
 TYPED_TEST(KickerContract, SamplesComeWholeAndInTimeOrder) {
   auto& kicker = *this->rig_.device;
   for (std::size_t i = 0; i < TypeParam::kCount; ++i) {
-    EXPECT_FALSE(kicker.ended());
     this->rig_.say(i);
     const auto sample = kicker.read(kPlenty);
     ASSERT_TRUE(sample);
@@ -334,12 +308,6 @@ TEST(BusKicker, HasChargedWhatCanBeToldToAndEmptiesItInTheEnd) {
   const msg::DeviceCharge last = heard();
   EXPECT_EQ(last.word, msg::CHARGE_EMPTY);
   EXPECT_EQ(last.seq, 4u);
-}
-
-TEST(ReplayKicker, EndsWithTheLog) {
-  ReplayRig rig;
-  for (std::size_t i = 0; i < kSaid.size(); ++i) rig.device->read(kPlenty);
-  EXPECT_TRUE(rig.device->ended());
 }
 
 }  // namespace

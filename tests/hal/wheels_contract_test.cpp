@@ -9,12 +9,9 @@
 #include "hal/bus/bus_wheels.hpp"
 #include "hal/gyro_wheels.hpp"
 #include "hal/open.hpp"
-#include "hal/replay/replay_kicker.hpp"
-#include "hal/replay/replay_wheels.hpp"
 #include "hal/sim/sim_range_finder.hpp"
 #include "tests/hal/bus_world.hpp"
 #include "tests/hal/cia402_rig.hpp"
-#include "tests/hal/recorded_log.hpp"
 
 namespace trivela::hal {
 namespace {
@@ -70,34 +67,6 @@ class BusRig : public ToldWheels {
 
   BusWorld<msg::DeviceWheels, msg::DeviceDrive> world;
   std::unique_ptr<Wheels> device = std::make_unique<BusWheels>(world.here, kRobot);
-};
-
-class ReplayRig : public ToldWheels {
- public:
-  ReplayRig() {
-    for (std::size_t i = 0; i < kSaid.size(); ++i) {
-      const auto& s = kSaid[i];
-      const auto seq = static_cast<std::int64_t>(i) + 1;
-      log.wheels(kRobot + 1, seq, s.t_ns, {7, 7, 7}, 7);  // another robot's
-      log.wheels(kRobot, seq, s.t_ns, {s.wheel_radps.begin(), s.wheel_radps.begin() + s.wheel_count},
-                 s.gyro_radps.value_or(std::nan("")));
-    }
-    log.close();
-    device = std::make_unique<ReplayWheels>(ReplayLog::open(log.file(), kRobot));
-  }
-  void say(std::size_t) {}
-  kicking::Twist followed(std::size_t n) {
-    const auto& drives = dynamic_cast<ReplayWheels&>(*device).drives();
-    EXPECT_GE(drives.size(), n);
-    return drives.empty() ? kicking::Twist{9, 9, 9} : drives.back().set_point;
-  }
-  kicking::Twist after_destruction() {
-    device.reset();
-    return {};  // there never was a motor
-  }
-
-  RecordedLog log;
-  std::unique_ptr<Wheels> device;
 };
 
 /// Motors that turn at a speed of their own choice, and say so in each cycle.
@@ -162,7 +131,7 @@ class WheelsContract : public testing::Test {
     }
   }
 };
-using Rigs = testing::Types<BusRig, ReplayRig, Cia402Rig>;
+using Rigs = testing::Types<BusRig, Cia402Rig>;
 TYPED_TEST_SUITE(WheelsContract, Rigs);
 
 TYPED_TEST(WheelsContract, SamplesComeWholeAndInTimeOrder) {
@@ -182,9 +151,7 @@ TYPED_TEST(WheelsContract, ReadReturnsWithoutDataWhenTheTimeoutIsOver) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_FALSE(wheels.read(milliseconds(20)));
   const auto waited = std::chrono::steady_clock::now() - start;
-  if (!wheels.ended()) {
-    EXPECT_GE(waited, milliseconds(20));
-  }
+  EXPECT_GE(waited, milliseconds(20));
   EXPECT_LT(waited, std::chrono::seconds(2));
   EXPECT_FALSE(wheels.read(milliseconds(0)));
 }
@@ -207,19 +174,6 @@ TYPED_TEST(WheelsContract, ASetPointThatIsNoNumberIsZero) {
   EXPECT_EQ(followed.vx_mps, 0.0);
   EXPECT_EQ(followed.vy_mps, 0.0);
   EXPECT_EQ(followed.omega_radps, 0.0);
-}
-
-TYPED_TEST(WheelsContract, HasNotEndedBeforeItsLastSample) {
-  auto& wheels = *this->rig_.device;
-  for (std::size_t i = 0; i < kSaid.size(); ++i) {
-    EXPECT_FALSE(wheels.ended());
-    this->rig_.say(i);
-    ASSERT_TRUE(wheels.read(kPlenty));
-  }
-  const bool ended = wheels.ended();
-  const auto beyond = wheels.read(milliseconds(1));
-  EXPECT_TRUE(TypeParam::kSpeaksByItself || !beyond);
-  EXPECT_EQ(wheels.ended(), ended);
 }
 
 TYPED_TEST(WheelsContract, DestructionLeavesTheBaseAtRest) {
@@ -350,47 +304,20 @@ TEST(BusWheels, AreNotConnectedWithoutABridge) {
   EXPECT_FALSE(wheels.connected(milliseconds(20)));
 }
 
-TEST(ReplayWheels, EndWithTheLog) {
-  ReplayRig rig;
-  for (std::size_t i = 0; i < kSaid.size(); ++i) rig.device->read(kPlenty);
-  EXPECT_TRUE(rig.device->ended());
-}
-
-TEST(ReplayWheels, ReadLogsOfManyPages) {
-  RecordedLog log;
-  constexpr std::int64_t kRows = 2500;
-  for (std::int64_t i = 1; i <= kRows; ++i) log.wheels(kRobot, i, i * 1'000'000, {1, 2, 3}, 0);
-  log.close();
-  ReplayWheels wheels{ReplayLog::open(log.file(), kRobot)};
-  std::int64_t last = 0;
-  while (!wheels.ended()) {
-    const auto sample = wheels.read(kPlenty);
-    ASSERT_TRUE(sample);
-    ASSERT_EQ(sample->t_ns, last + 1'000'000);
-    last = sample->t_ns;
-  }
-  EXPECT_EQ(last, kRows * 1'000'000);
-}
-
 TEST(Open, GivesTheBackendThatTheSettingsName) {
-  RecordedLog log;
-  log.close();
   const bus::Participant participant{bus::fresh_domain()};
   const Owner owner{participant, kRobot};
   const config::Hal simulated;
-  const config::Hal replayed{config::ReplayDevice{}, config::ReplayDevice{}, log.file()};
   EXPECT_NE(dynamic_cast<BusWheels*>(open_wheels(simulated, owner).get()), nullptr);
-  EXPECT_NE(dynamic_cast<ReplayWheels*>(open_wheels(replayed, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<BusKicker*>(open_kicker(simulated, owner).get()), nullptr);
-  EXPECT_NE(dynamic_cast<ReplayKicker*>(open_kicker(replayed, owner).get()), nullptr);
   for (const config::KickerDevice& board : {config::KickerDevice{config::IoBoardDevice{.port = "/nowhere/tty"}},
                                             config::KickerDevice{config::ReKickDevice{.port = "/nowhere/can"}}}) {
-    const config::Hal boards{config::BusDevice{}, board, ""};
+    const config::Hal boards{config::BusDevice{}, board};
     EXPECT_NE(dynamic_cast<BoardKicker*>(open_kicker(boards, owner).get()), nullptr);
   }
-  const config::Hal drives{config::Cia402Device{.port = "/nowhere/can"}, config::BusDevice{}, ""};
+  const config::Hal drives{config::Cia402Device{.port = "/nowhere/can"}, config::BusDevice{}};
   EXPECT_NE(dynamic_cast<cia402::Cia402Wheels*>(open_wheels(drives, owner).get()), nullptr);
-  config::Hal turning = replayed;
+  config::Hal turning;
   turning.gyro = config::MtiDevice{.port = "/nowhere/tty"};
   EXPECT_NE(dynamic_cast<GyroWheels*>(open_wheels(turning, owner).get()), nullptr);
   EXPECT_NE(dynamic_cast<SimRangeFinder*>(open_range_finder(config::SimDevice{}, owner).get()), nullptr);

@@ -64,7 +64,6 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"hal", {"kicking/", "refbox/", "sim/", "idl/", "config/devices.hpp"}},
     {"hal/bus", {"bus/"}},
     {"hal/sim", {"bus/"}},
-    {"hal/replay", {"evaluator/log/"}},
     {"robot",
      {"kicking/", "config/", "idl/", "hal/kicker.hpp", "hal/wheels.hpp", "hal/range_finder.hpp",
       "hal/refbox/command.hpp"}},
@@ -77,7 +76,8 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"nodes/simulator", {"sim/"}},
     {"security", {"idl/", "nodes/runtime/readers.hpp"}},
     {"calibration", {"kicking/", "config/", "evaluator/", "hal/"}},
-    {"experiment", {"kicking/", "idl/", "sim/", "config/", "evaluator/", "robot/", "hal/sim/", "calibration/"}},
+    {"experiment",
+     {"kicking/", "idl/", "sim/", "config/", "evaluator/", "robot/", "hal/sim/", "hal/wheels.hpp", "calibration/"}},
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
     {"pages/monitor", {"monitor/", "robot/watch/"}},
 };

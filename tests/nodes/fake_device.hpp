@@ -46,22 +46,10 @@ class FarSide {
     return samples_.size();
   }
 
-  /// No sample comes any more.
-  void end() {
-    const std::lock_guard lock{mutex_};
-    ended_ = true;
-    changed_.notify_all();
-  }
-  bool ended() const {
-    const std::lock_guard lock{mutex_};
-    return ended_ && samples_.empty();
-  }
-
   std::optional<Sample> next(std::chrono::nanoseconds timeout) {
     std::unique_lock lock{mutex_};
     reader_ = std::this_thread::get_id();
-    if (ended_ && samples_.empty()) ++reads_in_vain_;
-    changed_.wait_for(lock, timeout, [&] { return ended_ || !samples_.empty(); });
+    changed_.wait_for(lock, timeout, [&] { return !samples_.empty(); });
     if (samples_.empty()) return std::nullopt;
     const Sample sample = samples_.front();
     samples_.pop_front();
@@ -71,12 +59,6 @@ class FarSide {
     const std::lock_guard lock{mutex_};
     commands_.push_back(command);
     changed_.notify_all();
-  }
-
-  /// How often it was read after its end.
-  int reads_in_vain() const {
-    const std::lock_guard lock{mutex_};
-    return reads_in_vain_;
   }
 
   /// The thread that reads the samples.
@@ -91,8 +73,6 @@ class FarSide {
   std::deque<Sample> samples_;
   std::vector<Command> commands_;
   std::thread::id reader_;
-  bool ended_ = false;
-  int reads_in_vain_ = 0;
 };
 
 struct Driven {
@@ -164,7 +144,6 @@ class FakeWheels : public hal::Wheels {
   void drive(const kicking::Twist& set_point, std::int64_t t_ns) override {
     far_side_->command({set_point, t_ns, std::this_thread::get_id()});
   }
-  bool ended() const override { return far_side_->ended(); }
 
  private:
   std::shared_ptr<WheelsFarSide> far_side_;
@@ -190,7 +169,6 @@ class FakeKicker : public hal::Kicker {
   void charge(hal::ChargeWord word) override { far_side_->told = word; }
   hal::KickerCapabilities capabilities() const override { return far_side_->can; }
   std::string status() const override { return far_side_->link(); }
-  bool ended() const override { return far_side_->ended(); }
 
  private:
   std::shared_ptr<KickerFarSide> far_side_;

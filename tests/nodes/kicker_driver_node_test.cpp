@@ -379,15 +379,6 @@ TEST_F(KickerDriverNodeTest, ASecondDecisionNodeIsHeardByARobotThatIsConfiguredF
   EXPECT_EQ(kicker->commanded(), 1u);
 }
 
-TEST_F(KickerDriverNodeTest, AfterTheLastSampleItStillAnswers) {
-  start();
-  play();
-  sample();
-  kicker->end();
-  for (std::int64_t id = 1; id <= 20; ++id) EXPECT_EQ(answer(wish(id)).accepted, id == 1);
-  EXPECT_LE(kicker->reads_in_vain(), 1) << "it does not spin";
-}
-
 TEST_F(KickerDriverNodeTest, LeavesTheKickerSafe) {
   start();
   play();

@@ -246,7 +246,7 @@ TEST_F(NodeProgramTest, ASettingOnTheCommandLineIsCheckedToo) {
 
 TEST_F(NodeProgramTest, BadUsageEndsWithTwoAndHelpWithZero) {
   for (const std::string name : {"odometry", "world_state", "kick_decision", "kicker_driver", "shot_observer",
-                                 "kicker_drift", "recorder", "simulator", "replay_player"}) {
+                                 "kicker_drift", "recorder", "simulator"}) {
     SCOPED_TRACE(name);
     auto with = arguments();
     with.emplace_back("--no-such-flag");
@@ -260,13 +260,6 @@ TEST_F(NodeProgramTest, BadUsageEndsWithTwoAndHelpWithZero) {
     EXPECT_EQ(help.exit_code(), 0);
     EXPECT_THAT(help.said(), HasSubstr("--config"));
   }
-}
-
-TEST_F(NodeProgramTest, AReplayWithoutALogNamesIt) {
-  write_config("[hal]\nreplay_log = \"" + (folder / "nothing.db").string() + "\"\n");
-  Spawned node{program("replay_player"), arguments()};
-  EXPECT_EQ(node.exit_code(), 1);
-  EXPECT_THAT(node.said(), HasSubstr("nothing.db"));
 }
 
 TEST_F(NodeProgramTest, ARecorderNeverWritesOverAMatchAndRecordsBesideIt) {

@@ -166,19 +166,6 @@ TEST_F(OdometryNodeTest, ACommandThatWaitedIsNotDriven) {
   EXPECT_EQ(driven[0].t_ns, 1'000'000'000);
 }
 
-TEST_F(OdometryNodeTest, AfterTheLastSampleItStillDrivesAndStops) {
-  Says<msg::DriveCommand> drive{participant};
-  OdometryNode node{context, fake_wheels()};
-  const Running running{Executor::kWaitset, stop, {&node.node()}};
-  wheels->end();
-  drive.expect_reader();
-  for (std::size_t n = 1; n <= 200; ++n) {
-    drive({});
-    EXPECT_EQ(wheels->commands(n).size(), n);
-  }
-  EXPECT_LE(wheels->reads_in_vain(), 1) << "it does not spin";
-}
-
 TEST_F(OdometryNodeTest, InLockstepTheNextSampleWaitsForTheDriveCommand) {
   context.settings.run.lockstep = true;
   Heard<msg::Odometry> odometry{participant};

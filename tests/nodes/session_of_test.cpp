@@ -72,26 +72,5 @@ TEST_F(SessionOf, NamesThePoliciesOfRobotsThatHaveTheirOwn) {
   EXPECT_THAT(session_of(context).policies, testing::IsEmpty());
 }
 
-TEST_F(SessionOf, NamesTheSessionThatItReplays) {
-  const TemporaryFolder folder;
-  const auto log = folder / "match.db";
-  evaluator::log::Session recorded = session_of(context);
-  recorded.paired_halves = recorded.simulated = true;
-  {
-    evaluator::log::Writer writer{log, recorded};
-    const auto referee = writer.table("referee", evaluator::referee_columns());
-    for (const std::int64_t seq : {1, 2, 3})
-      writer.push(referee, evaluator::referee_cells(1, seq, seq * 10'000'000'000, 1, true, seq));
-  }
-  context.settings.hal.wheels = config::ReplayDevice{};
-  context.settings.hal.kicker = config::ReplayDevice{};
-  context.settings.hal.replay_log = log.string();
-  const auto session = session_of(context);
-  EXPECT_EQ(session.replays_uuid, evaluator::log::Reader{log}.sessions()[0].uuid);
-  EXPECT_EQ(session.planned_s, 20.0);
-  EXPECT_TRUE(session.paired_halves && session.simulated);
-  EXPECT_FALSE(session.seed);
-}
-
 }  // namespace
 }  // namespace trivela::nodes

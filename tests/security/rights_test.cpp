@@ -63,9 +63,8 @@ std::map<std::string, Row> contract() {
 TEST(Rights, AreWhatTheContractsTableSays) {
   std::map<std::string, Row> granted;
   for (const Rights& rights : all_rights()) {
-    // An emulation of the camera's and the referee's words out of a log; the table names who says them in a match.
-    // And the live page reads what it likes, and chain is three of them.
-    if (rights.node == "replay_player" || rights.node == "monitor" || rights.node == "chain") continue;
+    // The live page reads what it likes, and chain is three of them.
+    if (rights.node == "monitor" || rights.node == "chain") continue;
     for (const std::string& topic : rights.publish) granted[topic].writers.insert(rights.node);
     for (const std::string& topic : rights.subscribe) granted[topic].readers.insert(rights.node);
   }

@@ -134,7 +134,7 @@ class HeldBook {
 class Parts {
  public:
   Parts(PageData& data, const PageProgress& progress, std::size_t logs)
-      : data_(data), progress_(progress), parts_(5 * logs + 6) {}
+      : data_(data), progress_(progress), parts_(5 * logs + 7) {}
 
   void begin(const char* what) {
     if (progress_) progress_(done_++, parts_, what);
@@ -292,6 +292,7 @@ PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& p
   sort_all(data);
   parts.read("drift of kickers", [&] { data.drift = drift_in(readers); });
   parts.read("differences between the logs", [&] { read_changes(logs, readers, data); });
+  parts.read("replays", [&] { data.again = decided_again(readers); });
   parts.read("times of the halves", [&] { read_half_times(readers, data); });
   parts.read("tracks of robots and balls", [&] { read_tracks(readers, data); });
   parts.begin("files");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/report/decided_again.hpp"
 #include "evaluator/report/kick_story.hpp"
 #include "evaluator/report/log_differences.hpp"
 #include "evaluator/report/log_drift.hpp"
@@ -98,7 +99,8 @@ struct PageData {
   std::vector<std::string> shadows;  ///< policies that rode along
   std::vector<PredictedChance> predictions;
   DriftReport drift;
-  std::vector<LogChange> changes;  ///< one less than there are logs
+  std::vector<LogChange> changes;   ///< one less than there are logs
+  std::vector<DecidedAgain> again;  ///< replays, where what they replay is among the logs
   std::vector<ClockRow> clocks;
   std::vector<AlignedClock> aligned;
   std::vector<std::string> failures;

@@ -18,20 +18,23 @@ struct PagePart {
   const char* id;
   const char* title;
   std::string (*make)(const PageView&);
-  bool of_several_logs = false;  ///< else of one, too
+  bool (*is_there)(const PageData&) = [](const PageData&) { return true; };
 };
-constexpr std::array<PagePart, 12> kParts{{{"verdict", "Verdict", verdict_section},
-                                           {"table2", "Table 2", table2_section},
-                                           {"forest", "How often on target", forest_section},
-                                           {"mouth", "The goal mouth", goal_mouth_section},
-                                           {"pitch", "Where from", pitch_section},
-                                           {"rates", "How often a minute", rates_section},
-                                           {"predictions", "Predicted and observed", prediction_section},
-                                           {"drift", "Is a kicker drifting?", drift_section},
-                                           {"changes", "What changed since the log before", changes_section, true},
-                                           {"held", "Why held", held_section},
-                                           {"list", "Kicks", kick_list_section},
-                                           {"quality", "Data quality", quality_section}}};
+constexpr std::array<PagePart, 13> kParts{
+    {{"verdict", "Verdict", verdict_section},
+     {"table2", "Table 2", table2_section},
+     {"forest", "How often on target", forest_section},
+     {"mouth", "The goal mouth", goal_mouth_section},
+     {"pitch", "Where from", pitch_section},
+     {"rates", "How often a minute", rates_section},
+     {"predictions", "Predicted and observed", prediction_section},
+     {"drift", "Is a kicker drifting?", drift_section},
+     {"again", "Decided again", decided_again_section, [](const PageData& data) { return !data.again.empty(); }},
+     {"changes", "What changed since the log before", changes_section,
+      [](const PageData& data) { return data.logs.size() > 1; }},
+     {"held", "Why held", held_section},
+     {"list", "Kicks", kick_list_section},
+     {"quality", "Data quality", quality_section}}};
 
 /// What goes wrong in a section costs that section alone.
 std::string guarded(const PagePart& part, const PageView& view) {
@@ -64,12 +67,10 @@ std::string simulated_banner(const Report& report) {
          "</p>\n";
 }
 
-bool has(const PageData& data, const PagePart& part) { return !part.of_several_logs || data.logs.size() > 1; }
-
 std::string contents(const PageData& data) {
   std::string text = "<nav aria-label=\"Sections\"><ul>\n";
   for (const PagePart& part : kParts)
-    if (has(data, part)) text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", part.id, part.title);
+    if (part.is_there(data)) text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", part.id, part.title);
   return text + "</ul></nav>\n";
 }
 
@@ -98,7 +99,7 @@ std::string to_html(const Report& report, const PageData& data) {
   page += "<header>\n<h1>" + title + "</h1>\n" + simulated_banner(report) + said(report) + contents(data) +
           "</header>\n<main>\n";
   for (const PagePart& part : kParts)
-    if (has(data, part)) page += guarded(part, view);
+    if (part.is_there(data)) page += guarded(part, view);
   page += "</main>\n<script type=\"application/json\" id=\"stories\">" + stories(data) + "</script>\n";
   return page + "<script>" + script + "</script>\n</body>\n</html>\n";
 }

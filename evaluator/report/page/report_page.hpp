@@ -38,6 +38,8 @@ std::string prediction_section(const PageView& view);
 std::string drift_section(const PageView& view);
 /// What differs between each log and the one before it.
 std::string changes_section(const PageView& view);
+/// What a replay ordered, beside what was ordered.
+std::string decided_again_section(const PageView& view);
 /// Why policies held, and what those that ride along would have done.
 std::string held_section(const PageView& view);
 /// The list of kicks, filtered and replayed by page.js.

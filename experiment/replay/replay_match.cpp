@@ -1,0 +1,118 @@
+#include "experiment/replay/replay_match.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "experiment/replay/replay_rows.hpp"
+#include "hal/wheels.hpp"
+#include "kicking/geometry/time.hpp"
+#include "kicking/maybe.hpp"
+#include "robot/odometry/wheel_odometry.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+void refuse_oracle(const config::KickDecision& settings, int robot_id) {
+  const robot::PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};
+  for (const kicking::PolicyName policy : assignment.candidates()) {
+    if (!facts(policy).needs_truth()) continue;
+    throw std::runtime_error{fmt::format(
+        "the policy {} is told the simulator's true state, which no recorded stream has", kicking::name(policy))};
+  }
+}
+
+/// The kick session of the robot's first recorded order, so that the same orders have the same numbers; else 1.
+std::uint32_t kick_session(const RecordedRobot& robot) {
+  std::uint32_t session = 1;
+  robot.reader.query(
+      fmt::format(
+          "SELECT kick_id FROM kick_decisions WHERE session_id = {} AND robot_id = {} AND fire = 1 ORDER BY seq "
+          "LIMIT 1",
+          robot.session_id, robot.robot_id),
+      [&](std::int64_t kick_id) { session = kicking::KickId::of(kick_id).session; });
+  return session;
+}
+
+hal::WheelSample wheel_sample(const msg::Odometry& odometry) {
+  hal::WheelSample sample{
+      .t_ns = odometry.t_ns, .wheel_count = 0, .wheel_radps = {}, .gyro_radps = odometry.gyro_radps};
+  for (const kicking::Maybe speed_radps :
+       {odometry.wheel_0_radps, odometry.wheel_1_radps, odometry.wheel_2_radps, odometry.wheel_3_radps}) {
+    if (!speed_radps) break;
+    sample.wheel_radps[static_cast<std::size_t>(sample.wheel_count++)] = *speed_radps;
+  }
+  return sample;
+}
+
+/// The robot as another setup has it.
+class Anew {
+ public:
+  Anew(const RobotSetup& setup, const RobotSetup& recorded, const RecordedRobot& robot)
+      : logic_(setup.settings, setup.robot, static_cast<std::uint8_t>(robot.robot_id), kick_session(robot)) {
+    if (setup.robot.base != recorded.robot.base || setup.settings.odometry != recorded.settings.odometry)
+      odometry_.emplace(setup.robot.base, setup.settings.odometry);
+  }
+
+  bool has_odometry() const { return odometry_.has_value(); }
+
+  /// The wheel odometry of a recorded sample; none: it does not go with this base.
+  std::optional<msg::Odometry> odometry(const msg::Odometry& recorded) {
+    if (!odometry_) return recorded;
+    auto made = odometry_->update(wheel_sample(recorded));
+    if (!made) return std::nullopt;
+    made->robot_id = recorded.robot_id;
+    made->seq = recorded.seq;
+    made->obeyed = recorded.obeyed;
+    return made;
+  }
+
+  RobotLogic& logic() { return logic_; }
+
+ private:
+  RobotLogic logic_;
+  std::optional<robot::WheelOdometry> odometry_;
+};
+
+}  // namespace
+
+RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& anew,
+                         evaluator::log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress) {
+  refuse_oracle((anew ? *anew : recorded).settings.kick_decision, robot.robot_id);
+  RobotReplay replay{.robot_id = robot.robot_id, .check = {}};
+  RecordedCycles cycles{robot, recorded.settings, recorded.robot, kick_session(robot)};
+  std::optional<Anew> other;
+  if (anew) other.emplace(*anew, recorded, robot);
+  ReplayRows rows{log, queue_capacity};
+  for (RowPages<msg::Referee> words{robot}; const auto word = words.next();) rows.write(*word);
+  std::optional<std::int64_t> first_t_ns;
+  std::int64_t samples = 0, of_another_base = 0;
+  while (cycles.next()) {
+    first_t_ns = first_t_ns.value_or(cycles.odometry().t_ns);
+    if (progress && ++samples % 256 == 0 && !progress(kicking::seconds(cycles.odometry().t_ns - *first_t_ns))) break;
+    if (!other) {
+      rows.write_cycle(cycles.world(), cycles.decided());
+    } else if (const auto odometry = other->odometry(cycles.odometry())) {
+      if (other->has_odometry()) rows.write(*odometry);
+      const msg::WorldState world = other->logic().believe(*odometry, cycles.belief_inputs());
+      rows.write_cycle(world, other->logic().decide(world, cycles.decision_inputs()));
+    } else {
+      ++of_another_base;
+    }
+  }
+  if (of_another_base > 0 && of_another_base == cycles.check().cycles)
+    throw std::runtime_error{
+        fmt::format("robot {}: none of its {} wheel samples goes with the robot's file: it has {} wheels",
+                    robot.robot_id, of_another_base, anew->robot.base.wheel_angles_rad.size())};
+  replay.check = cycles.check();
+  replay.decisions = rows.decisions();
+  replay.orders = rows.orders();
+  return replay;
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,264 @@
+// A recorded robot decides again. A generator with late and crossing inputs is the witness: it alone knows what its
+// nodes had in each cycle, and the log does not say it.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <random>
+
+#include "evaluator/log/writer.hpp"
+#include "experiment/replay/replay_match.hpp"
+#include "robot/recording/message_row.hpp"
+#include "tests/nodes/temporary_folder.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kStart_ns = 1000 * 1'000'000'000LL;
+
+/// Samples of a topic, each with the instant at which it reaches the nodes.
+template <class T>
+struct Arriving {
+  std::multimap<std::int64_t, T> by_arrival;
+  std::vector<T> recorded;
+
+  void add(T sample, std::int64_t delay_ns) {
+    sample.robot_id = 1;
+    sample.seq = recorded.size() + 1;
+    recorded.push_back(sample);
+    // Samples of one writer come in their order.
+    const std::int64_t last = by_arrival.empty() ? 0 : by_arrival.rbegin()->first;
+    by_arrival.emplace(std::max(last, sample.t_ns + delay_ns), sample);
+  }
+  const T* latest(std::int64_t now_ns) const {
+    auto next = by_arrival.upper_bound(now_ns);
+    return next == by_arrival.begin() ? nullptr : &std::prev(next)->second;
+  }
+  /// Whether the latest by its instant is another one.
+  bool crosses(std::int64_t now_ns, std::int64_t t_ns) const {
+    const T* by_instant = nullptr;
+    for (const T& sample : recorded)
+      if (sample.t_ns <= t_ns) by_instant = &sample;
+    const T* const there = latest(now_ns);
+    return (there == nullptr) != (by_instant == nullptr) || (there != nullptr && there->seq != by_instant->seq);
+  }
+};
+
+/// A robot that drives towards the goal with the ball, again and again, in real time.
+class Generator {
+ public:
+  /// `crossing`: share of samples that come up to a cycle late; `stalled`: share of cycles that kick_decision comes to
+  /// late.
+  Generator(std::uint32_t seed, double crossing, double stalled) : random_(seed), crossing_(crossing) {
+    setup_.settings.kick_decision.policy_by_half = {kicking::PolicyName::kPredictive};
+    setup_.settings.kick_decision.shadows = true;
+    constexpr int kCycles = 1500;
+    for (int i = 0; i < 2 * kCycles; ++i) make_inputs(kStart_ns + i * 10 * kMillisecond, i);
+    RobotLogic logic{setup_.settings, setup_.robot, 1, 7};
+    for (int i = 0; i < kCycles; ++i) cycle(logic, kStart_ns + i * 20 * kMillisecond + jitter(), draw() < stalled);
+  }
+
+  std::filesystem::path write(const nodes::TemporaryFolder& folder) const {
+    const auto path = folder / "match.db";
+    evaluator::log::Writer log{path, session()};
+    write(log, odometry_);
+    write(log, frames_.recorded);
+    write(log, referee_.recorded);
+    write(log, kicker_.recorded);
+    write(log, worlds_);
+    write(log, decisions_);
+    log.finalise();
+    return path;
+  }
+
+  RobotSetup setup() const { return setup_; }
+  std::int64_t crossings() const { return crossings_; }
+  const std::vector<msg::KickDecision>& decisions() const { return decisions_; }
+  std::int64_t fires() const { return std::ranges::count_if(decisions_, &msg::KickDecision::fire); }
+
+ private:
+  static evaluator::log::Session session() {
+    evaluator::log::Session session;
+    session.robot_id = 1;
+    session.started_t_ns = kStart_ns;
+    session.software_version = "a test";
+    session.scenario = "drives";
+    session.config_toml = "### settings\n";
+    return session;
+  }
+
+  template <class T>
+  static void write(evaluator::log::Writer& log, const std::vector<T>& rows) {
+    const auto table = log.table(robot::table_of<T>(), robot::columns_of<T>());
+    for (const T& row : rows) log.push(table, robot::row_of(row));
+  }
+
+  double draw() { return std::uniform_real_distribution<double>{}(random_); }
+  std::int64_t jitter() { return static_cast<std::int64_t>(2.0 * draw() * kMillisecond); }
+  std::int64_t delay() {
+    return draw() < crossing_ ? static_cast<std::int64_t>(20.0 * draw() * kMillisecond) : kMillisecond / 5;
+  }
+
+  /// From 8 m before the goal to 2 m, in 6 s, a little to one side and to the other.
+  kicking::Pose pose(std::int64_t t_ns) const {
+    const double s = 1e-9 * static_cast<double>((t_ns - kStart_ns) % 6'000'000'000);
+    return {0.3 * std::sin(1.7 * s), 1.0 + s, 0.08 * std::sin(2.3 * s + 0.5)};
+  }
+
+  void make_inputs(std::int64_t t_ns, int i) {
+    if (i % 4 == 1) {
+      msg::VisionFrame frame{};
+      frame.t_ns = t_ns + jitter();
+      frame.t_exposure_ns = frame.t_ns - 30 * kMillisecond;
+      const kicking::Pose at = pose(frame.t_exposure_ns);
+      frame.pose_seen = frame.ball_seen = true;
+      frame.x_m = at.x_m + 0.05 * (draw() - 0.5);
+      frame.y_m = at.y_m + 0.05 * (draw() - 0.5);
+      frame.heading_rad = at.heading_rad + 0.02 * (draw() - 0.5);
+      frame.ball_x_m = 0.01 * (draw() - 0.5);
+      frame.ball_y_m = setup_.robot.model.ball_offset_m + 0.01 * (draw() - 0.5);
+      frame.opponent_x_m = frame.opponent_y_m = msg::kNone;
+      frames_.add(frame, delay());
+    }
+    if (i % 10 == 3) {
+      msg::Referee word{};
+      word.t_ns = t_ns;
+      word.half = 1;
+      word.playing = i / 300 % 5 != 4;
+      word.half_time_s = 0.01 * i;
+      referee_.add(word, delay());
+    }
+    if (i % 2 == 0) {
+      msg::KickerStatus status{};
+      status.t_ns = t_ns + jitter();
+      status.charge = std::min(1.0, 0.01 * (i % 400));
+      status.voltage_v = msg::kNone;
+      status.armed = true;
+      status.ready = status.charge > 0.95;
+      kicker_.add(status, delay());
+    }
+  }
+
+  void cycle(RobotLogic& logic, std::int64_t t_ns, bool stalled) {
+    msg::Odometry odometry{};
+    odometry.robot_id = 1;
+    odometry.seq = odometry_.size() + 1;
+    odometry.t_ns = t_ns;
+    const kicking::Pose at = pose(t_ns), before = pose(t_ns - kMillisecond);
+    odometry.x_m = at.x_m, odometry.y_m = at.y_m, odometry.heading_rad = at.heading_rad;
+    odometry.vy_mps = 1.0;
+    odometry.omega_radps = 1e3 * (at.heading_rad - before.heading_rad);
+    odometry.wheel_3_radps = msg::kNone;
+    odometry_.push_back(odometry);
+    const std::int64_t believes_ns = t_ns + kMillisecond + jitter(), decides_ns = believes_ns + kMillisecond;
+    const bool crosses = frames_.crosses(believes_ns, t_ns) || referee_.crosses(believes_ns, t_ns) ||
+                         kicker_.crosses(believes_ns, t_ns) || kicker_.crosses(decides_ns, t_ns);
+    if (crosses) ++crossings_;
+    msg::WorldState world = logic.believe(
+        odometry, {frames_.latest(believes_ns), referee_.latest(believes_ns), kicker_.latest(believes_ns)});
+    world.seq = worlds_.size() + 1;
+    worlds_.push_back(world);
+    const LogicDecision decided =
+        logic.decide(world, {kicker_.latest(decides_ns), referee_.latest(decides_ns), nullptr, stalled, 0});
+    if (world.possession) decisions_.push_back(decided.record);
+  }
+
+  std::mt19937 random_;
+  double crossing_;
+  RobotSetup setup_;
+  std::vector<msg::Odometry> odometry_;
+  Arriving<msg::VisionFrame> frames_;
+  Arriving<msg::Referee> referee_;
+  Arriving<msg::KickerStatus> kicker_;
+  std::vector<msg::WorldState> worlds_;
+  std::vector<msg::KickDecision> decisions_;
+  std::int64_t crossings_ = 0;
+};
+
+RobotReplay decide_again(const Generator& made, const nodes::TemporaryFolder& folder,
+                         const std::optional<RobotSetup>& anew = {}) {
+  const evaluator::log::Reader reader{made.write(folder)};
+  evaluator::log::Session session = reader.sessions().front();
+  session.replays_uuid = std::exchange(session.uuid, "");
+  session.config_toml = "### settings\n";
+  evaluator::log::Writer log{folder / "again.db", session};
+  const auto replay = replay_robot({reader, reader.sessions().front().session_id, 1}, made.setup(), anew, log, 65536);
+  log.finalise();
+  return replay;
+}
+
+TEST(ReplayRobot, WithoutCrossingsEveryDecisionIsTheSame) {
+  const nodes::TemporaryFolder folder;
+  const Generator made{1, 0.0, 0.0};
+  ASSERT_GT(made.fires(), 0);
+  const RobotReplay replay = decide_again(made, folder);
+  EXPECT_EQ(replay.check.decisions, std::ssize(made.decisions()));
+  EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions);
+  EXPECT_EQ(replay.decisions, replay.check.decisions);
+  EXPECT_EQ(replay.orders, made.fires());
+}
+
+TEST(ReplayRobot, FindsOutWhichInputsCrossed) {
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u, 5u}) {
+    const nodes::TemporaryFolder folder;
+    const Generator made{seed, 0.5, 0.0};
+    const RobotReplay replay = decide_again(made, folder);
+    EXPECT_EQ(replay.check.beliefs_same, replay.check.beliefs) << seed;
+    EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions) << seed;
+    EXPECT_GT(replay.check.crossed, 50) << seed;
+    EXPECT_LE(replay.check.crossed, made.crossings()) << seed;
+    EXPECT_EQ(replay.orders, made.fires()) << seed;
+  }
+}
+
+TEST(ReplayRobot, KnowsTheCyclesThatWereDecidedTooLate) {
+  const nodes::TemporaryFolder folder;
+  const Generator made{1, 0.2, 0.05};
+  const RobotReplay replay = decide_again(made, folder);
+  EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions);
+  EXPECT_GT(replay.check.late, 10);
+}
+
+TEST(ReplayRobot, AnotherPolicyOrdersElsewhereAndTheCheckStaysThatOfTheLog) {
+  const nodes::TemporaryFolder folder;
+  const Generator made{1, 0.5, 0.0};
+  RobotSetup moving = made.setup();
+  moving.settings.kick_decision.policy_by_half = {kicking::PolicyName::kMoving};
+  const RobotReplay replay = decide_again(made, folder, moving);
+  EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions);
+  std::int64_t of_moving = 0;
+  evaluator::log::Reader{folder / "again.db"}.query("SELECT count(*) FROM kick_decisions WHERE policy = 'moving'",
+                                                    [&](std::int64_t count) { of_moving = count; });
+  EXPECT_EQ(of_moving, replay.decisions);
+  EXPECT_GT(of_moving, 0);
+}
+
+TEST(ReplayRobot, RefusesABaseThatTheSamplesAreNotOf) {
+  const nodes::TemporaryFolder folder;
+  const Generator made{1, 0.0, 0.0};
+  RobotSetup four = made.setup();
+  four.robot.base.wheel_angles_rad = {0.5, 2.5, 3.7, 5.6};
+  try {
+    decide_again(made, folder, four);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("none of its 1500 wheel samples goes with the robot's file: it has 4 wheels"));
+  }
+}
+
+TEST(Distance, CountsWhatDiffersButNumbersOfRows) {
+  msg::KickDecision one{}, other{};
+  one.power = other.power = msg::kNone;
+  other.seq = 5, other.kick_id = 9;
+  EXPECT_EQ(distance(one, other), 0.0);
+  other.fire = true;
+  other.distance_m = 0.25;
+  EXPECT_EQ(distance(one, other), 1.25);
+  other.power = 20.0;
+  EXPECT_EQ(distance(one, other), 2.25) << "a number and none differ by 1";
+}
+
+}  // namespace
+}  // namespace trivela::experiment
