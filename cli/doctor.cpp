@@ -31,6 +31,7 @@ struct DoctorFlags {
   std::vector<std::string> peers;
   std::string team;
   bool network = false;
+  bool team_without_keys = false;
   bool json = false;
 };
 
@@ -76,6 +77,7 @@ DoctorFlags with_team(DoctorFlags flags) {
   if (!flags.domain) flags.domain = team.domains.team;
   for (const config::TeamRobot& robot : team.robots) flags.peers.push_back(robot.address);
   flags.peers.push_back(team.base.address);
+  flags.team_without_keys = team.team.keys.empty();
   return flags;
 }
 
@@ -114,8 +116,13 @@ int examine_logs(const DoctorFlags& flags) {
 int examine(const DoctorFlags& flags) {
   config::Settings settings = config::load_settings(flags.config);
   if (flags.domain) settings.domain.domain_id = *flags.domain;
-  const auto findings =
+  auto findings =
       network::findings_of(network::gather({nodes::domain_of(settings.domain), flags.interface, flags.peers}));
+  if (flags.team_without_keys)
+    findings.push_back({"keys", network::Verdict::kWarn,
+                        "the team plays without: any program on its networks can stop "
+                        "the robots, order kicks and fire coils",
+                        "trivela keys issue makes them, team.keys names their folder (docs/security.md)"});
   flags.json ? say_json(findings) : say_findings(findings);
   const bool bad = std::ranges::any_of(
       findings, [](const network::Finding& finding) { return finding.verdict == network::Verdict::kBad; });

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -53,6 +55,42 @@ class ReturnRows {
   std::map<std::int64_t, std::int64_t> starts_;
   std::set<std::pair<std::int64_t, long>> beams_;
 };
+
+/// What is wrong with the scans' instants as a whole; none: they follow each other at one pace. A scanner's clock may
+/// start over, and whoever wrote the table may have lost or added time.
+std::optional<std::string> wrong_stamps(const std::vector<ForegroundReturn>& returns) {
+  std::map<std::int64_t, std::int64_t> starts;  // by scan
+  for (const ForegroundReturn& seen : returns) starts.emplace(seen.scan, seen.scan_t_ns);
+  std::vector<double> paces_s;
+  const auto pace_s = [](const auto& before, const auto& after) {
+    return kicking::seconds(after.second - before.second) / static_cast<double>(after.first - before.first);
+  };
+  for (auto before = starts.begin(), after = before; after != starts.end() && ++after != starts.end(); before = after)
+    paces_s.push_back(pace_s(*before, *after));
+  if (paces_s.size() < 3) return std::nullopt;
+  std::ranges::nth_element(paces_s, paces_s.begin() + std::ssize(paces_s) / 2);
+  const double usual_s = paces_s[paces_s.size() / 2];
+  for (auto before = starts.begin(), after = std::next(before); after != starts.end(); before = after++) {
+    const double passed_s = kicking::seconds(after->second - before->second);
+    if (passed_s <= 0.0)
+      return fmt::format(
+          "time goes back by {:.6g} s from scan {} to {}: did the scanner's clock start over? Add to t_scan_start_s "
+          "and "
+          "t_beam_s from there on what it lost",
+          -passed_s, before->first, after->first);
+    if (std::abs(pace_s(*before, *after) - usual_s) > 0.5 * usual_s)
+      return fmt::format(
+          "{:.4g} s pass from scan {} to {}, where {:.3g} s pass from scan to scan: t_scan_start_s jumps, "
+          "or scan does not count all scans",
+          passed_s, before->first, after->first, usual_s);
+  }
+  for (const ForegroundReturn& seen : returns)
+    if (kicking::seconds(seen.beam_t_ns - seen.scan_t_ns) > 1.5 * usual_s)
+      return fmt::format("t_beam_s {:.6f} is {:.4g} s after the start of scan {}, and a scan takes {:.3g} s",
+                         kicking::seconds(seen.beam_t_ns), kicking::seconds(seen.beam_t_ns - seen.scan_t_ns), seen.scan,
+                         usual_s);
+  return std::nullopt;
+}
 
 Json lob_json(const LobRecord& lob) {
   Json effective = evaluator::effective_json(lob, evaluator::EstimateForm::kBeside);
@@ -131,6 +169,10 @@ std::optional<std::vector<ForegroundReturn>> read_returns(std::istream& in, cons
   };
   std::ostringstream copy;
   if (run_rows(verb, in, file, RowFormat::kCsv, copy, err) != kDone) return std::nullopt;
+  if (const auto wrong = wrong_stamps(returns)) {
+    err << fmt::format("{}: {}\n", file, *wrong);
+    return std::nullopt;
+  }
   return returns;
 }
 

@@ -21,7 +21,8 @@ struct PointsFlags {
 void add_points_flags(CLI::App& verb, PointsFlags& flags);
 
 /// Reads foreground returns: columns scan, t_scan_start_s, t_beam_s, angle_deg, range_m. Each bad row is named on `err`
-/// with `file`, line, column and value. None after one. Throws std::runtime_error if the header is unusable.
+/// with `file`, line, column and value, and the first place where the instants of scans go back or jump. None after
+/// one. Throws std::runtime_error if the header is unusable.
 std::optional<std::vector<kicking::lob::ForegroundReturn>> read_returns(std::istream& in, const std::string& file,
                                                                         std::ostream& err);
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "config/error.hpp"
 #include "evaluator/report/write_file.hpp"
 #include "kicking/text/printable.hpp"
 
@@ -51,7 +52,7 @@ inline void require_new(const std::string& flag, const std::filesystem::path& pa
   const bool taken = std::filesystem::exists(path, unknown) && !(std::filesystem::is_regular_file(path, unknown) &&
                                                                  std::filesystem::file_size(path, unknown) == 0);
   if (taken)
-    throw std::runtime_error{
+    throw config::BadArgument{
         fmt::format("{} {} exists already and is never overwritten; choose another file", flag, path.string())};
   require_writable(flag, path);
 }

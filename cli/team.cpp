@@ -27,6 +27,10 @@ int check_team(const std::string& file) {
       "on the air, an estimate{}: {:.0f} of {:.0f} kbit/s (referee {:.0f}, team_state {:.0f}, discovery {:.0f})\n",
       team.team.keys.empty() ? "" : " with keys", air.total_bps() / 1e3, team.team.budget_bps / 1e3,
       air.referee_bps / 1e3, air.state_bps / 1e3, air.discovery_bps / 1e3));
+  if (team.team.keys.empty())
+    say(
+        fmt::format("without keys: any program on these networks can stop the robots, order kicks and fire coils; "
+                    "team.keys and trivela keys issue change that\n"));
   return kDone;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bus/stop.hpp"
+#include "cli/launch/terminal.hpp"
 #include "cli/number_checks.hpp"
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
@@ -37,7 +38,7 @@ struct TopFlags {
   double interval_s = 1.0;
 };
 
-/// Draws over what it drew before. The terminal cuts long lines off meanwhile, or they would take two.
+/// Draws over what it drew before; the terminal cuts off what is too long, or it would take two lines.
 class Redrawn {
  public:
   void draw(const std::string& table) const {
@@ -93,14 +94,15 @@ int show_bus(const TopFlags& flags) {
   Listening listening{nodes::domain_of(settings, flags.keys, "monitor"), robot};
   const std::chrono::duration<double> interval{flags.interval_s};
   std::optional<Redrawn> terminal;
-  if (!flags.once && !flags.json && ::isatty(STDOUT_FILENO) != 0) terminal.emplace();
+  if (!flags.once && !flags.json && can_be_drawn_over(STDOUT_FILENO)) terminal.emplace();
   listening.look();  // whose processor time is counted from here on
   for (;;) {
     const auto next =
         std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(interval);
     if (stop.wait_until(next)) return kDone;
     const monitor::BusPicture picture = listening.look();
-    const std::string text = flags.json ? top_json(picture, settings.domain.domain_id) : top_table(picture);
+    const std::string text = flags.json ? top_json(picture, settings.domain.domain_id)
+                                        : lines_cut_to(top_table(picture), columns_of(STDOUT_FILENO));
     if (terminal) {
       terminal->draw(text);
     } else {

@@ -19,7 +19,18 @@
 namespace trivela::config {
 namespace {
 
+/// As a person writes it: toml++ gives a number 17 digits.
 std::string text_of(const toml::node& node) {
+  if (const auto number = node.as_floating_point(); number && std::isfinite(number->get())) {
+    const std::string text = fmt::format("{}", number->get());
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+  }
+  if (const toml::array* const array = node.as_array()) {
+    std::vector<std::string> elements;
+    elements.reserve(array->size());
+    for (const toml::node& element : *array) elements.push_back(text_of(element));
+    return elements.empty() ? "[]" : fmt::format("[ {} ]", fmt::join(elements, ", "));
+  }
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
   return out.str();

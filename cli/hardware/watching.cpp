@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "cli/launch/terminal.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 
@@ -68,7 +69,7 @@ class Board {
     for (const auto& fixture : fixtures) {
       if (!fixture->wanted()) continue;
       fmt::print("\r\x1b[K");
-      say("  " + line_of(*fixture, fixture->values()) + "\n");
+      say(cut_to("  " + line_of(*fixture, fixture->values()), columns_of(STDOUT_FILENO)) + "\n");
       ++drawn_;
     }
     std::fflush(stdout);
@@ -116,7 +117,7 @@ int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signal
   if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals, heard);
   say(listing(fixtures));
   std::fflush(stdout);
-  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  const bool terminal = can_be_drawn_over(STDOUT_FILENO);
   const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
   const double lasts_s = std::max(seconds.value_or(1.0), terminal ? 0.0 : 1.0);
   Board board;

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
 #include <string>
+
+#include "cli/launch/terminal.hpp"
 
 namespace trivela::cli {
 
@@ -18,15 +19,16 @@ inline std::string time_text(double seconds) {
 }
 
 /// One line of progress: share, time left and rate of what was done in `elapsed_s`. `done` of `total`: in `unit`, which
-/// is empty where nobody counts in it; of a `total` of 0 nobody knows how much there is, and there is no time left.
+/// is empty where nobody counts in it; of a `total` of 0 nobody knows how much there is, and there is no time left. The
+/// bar takes what the `columns` leave, 40 at most; the line is no wider than they are.
 inline std::string progress_line(double done, double total, double elapsed_s, const std::string& unit,
-                                 const std::string& what) {
-  std::string line = "  ";
+                                 const std::string& what, std::size_t columns = 200) {
+  constexpr std::size_t kWidest = 40, kNarrowest = 8;  // of the bar
+  const double share = total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
+  std::string line;
   if (total > 0.0) {
-    const double share = std::clamp(done / total, 0.0, 1.0);
     const double left_s = share > 0.0 ? elapsed_s * (1.0 - share) / share : 0.0;
-    line += fmt::format("[{:<40}] {:3.0f} %  {}  ", std::string(static_cast<std::size_t>(40.0 * share), '#'),
-                        100.0 * share, share > 0.0 ? time_text(left_s) + " left" : "begins");
+    line = fmt::format("{:3.0f} %  {}  ", 100.0 * share, share > 0.0 ? time_text(left_s) + " left" : "begins");
   }
   if (!unit.empty()) {
     if (total <= 0.0) line += fmt::format("{:.0f} {}  ", done, unit);
@@ -34,10 +36,18 @@ inline std::string progress_line(double done, double total, double elapsed_s, co
     line += rate >= 10.0 || rate == 0.0 ? fmt::format("{:.0f} {}/s  ", rate, unit)
                                         : fmt::format("{:.2g} {}/s  ", rate, unit);
   }
-  return line + what;
+  line += what;
+  const std::size_t beside = line.size() + 6;  // blanks and brackets
+  if (total > 0.0 && columns >= beside + kNarrowest) {
+    const std::size_t width = std::min(kWidest, columns - beside);
+    line = fmt::format("[{:<{}}] {}", std::string(static_cast<std::size_t>(static_cast<double>(width) * share), '#'),
+                       width, line);
+  }
+  return cut_to("  " + line, columns);
 }
 
-/// progress_line() on standard error, drawn over ten times a second at most. Silent unless that is a terminal.
+/// progress_line() on standard error, drawn over ten times a second at most. Silent unless that is a terminal that can
+/// be drawn over.
 class ProgressBar {
  public:
   ~ProgressBar() { end(); }
@@ -55,7 +65,8 @@ class ProgressBar {
     if (!started_) started_ = now;
     if (drawn_ && done < total && now - *drawn_ < std::chrono::milliseconds{100}) return;
     const double elapsed_s = std::chrono::duration<double>{now - *started_}.count();
-    fmt::print(stderr, "\r{}\x1b[K", progress_line(done, total, elapsed_s, unit, what));
+    const std::size_t columns = columns_of(STDERR_FILENO) - 1;  // in the last one some terminals begin a line
+    fmt::print(stderr, "\r{}\x1b[K", progress_line(done, total, elapsed_s, unit, what, columns));
     std::fflush(stderr);
     drawn_ = now;
   }
@@ -75,7 +86,7 @@ class ProgressBar {
 
  private:
   using Instant = std::chrono::steady_clock::time_point;
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool terminal_ = can_be_drawn_over(STDERR_FILENO);
   std::optional<Instant> started_;
   std::optional<Instant> drawn_;
 };

@@ -6,6 +6,7 @@
 
 #include "calibration/scanner_session.hpp"
 #include "cli/launch/signal_inbox.hpp"
+#include "cli/launch/terminal.hpp"
 #include "cli/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
@@ -18,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLook{200};  // between two looks at the signals and the terminal
 
-/// One line on standard error that is drawn over; silent unless that is a terminal.
+/// One line on standard error that is drawn over; silent unless that is a terminal that can be.
 class StatusLine {
  public:
   ~StatusLine() {
@@ -26,14 +27,14 @@ class StatusLine {
   }
   void show(const std::string& text) {
     if (!terminal_ || Clock::now() < next_) return;
-    fmt::print(stderr, "\r  {:<100}", text.substr(0, 100));
+    fmt::print(stderr, "\r{}\x1b[K", cut_to("  " + text, columns_of(STDERR_FILENO) - 1));
     std::fflush(stderr);
     drawn_ = true;
     next_ = Clock::now() + kLook;
   }
 
  private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool terminal_ = can_be_drawn_over(STDERR_FILENO);
   bool drawn_ = false;
   Clock::time_point next_{};
 };

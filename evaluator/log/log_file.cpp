@@ -193,6 +193,11 @@ void LogFile::open() {
   if (application_id != kind_.application_id || version_ < 1) {
     throw NoSuchLog(fmt::format("{} is not a {}", path_, kind_.name));
   }
+  if (kind_.application_id == kTallyBook.application_id && version_ < kind_.version)
+    throw std::runtime_error(
+        fmt::format("{} is a {} of version {}; this program reads version {} alone: play the study "
+                    "again",
+                    path_, kind_.name, version_, kind_.version));
   if (version_ <= kind_.version) return;
   throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} and older", path_,
                                        kind_.name, version_, kind_.version));

@@ -21,7 +21,7 @@ struct LogKind {
 };
 inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 8};                ///< "KICK"
 inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 2};             ///< "SCAN"
-inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 1};  ///< "TALY"
+inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 2};  ///< "TALY"
 
 struct Column {
   std::string name;

@@ -72,7 +72,7 @@ std::unique_ptr<SQLite::Database> open_book(const fs::path& path, const StudyPla
 }
 
 constexpr const char* kCountColumns =
-    "match_id, calibration_id, opportunities, kicks, on_target, blocked, bounced, goals";
+    "match_id, calibration_id, opportunities, kicks, on_target, blocked, bounced, goals, true_on_target";
 
 Book book_in(const Queries& rows) {
   Book book;
@@ -88,15 +88,15 @@ Book book_in(const Queries& rows) {
                places[arm_id] = book.arms.size();
                book.arms.push_back({name, {}});
              });
-  rows.query(
-      fmt::format("SELECT arm_id, {} FROM main.tallies ORDER BY arm_id, match_id", kCountColumns),
-      [&](std::int64_t arm_id, std::uint32_t match_id, std::int64_t calibration_id, std::int64_t opportunities,
-          std::int64_t kicks, std::int64_t on_target, std::int64_t blocked, std::int64_t bounced, std::int64_t goals) {
-        const auto place = places.find(arm_id);
-        if (place == places.end()) return;
-        book.arms[place->second].matches[match_id] = {calibration_id, opportunities, kicks, on_target,
-                                                      blocked,        bounced,       goals};
-      });
+  rows.query(fmt::format("SELECT arm_id, {} FROM main.tallies ORDER BY arm_id, match_id", kCountColumns),
+             [&](std::int64_t arm_id, std::uint32_t match_id, std::int64_t calibration_id, std::int64_t opportunities,
+                 std::int64_t kicks, std::int64_t on_target, std::int64_t blocked, std::int64_t bounced,
+                 std::int64_t goals, std::int64_t true_on_target) {
+               const auto place = places.find(arm_id);
+               if (place == places.end()) return;
+               book.arms[place->second].matches[match_id] = {calibration_id, opportunities, kicks, on_target,
+                                                             blocked,        bounced,       goals, true_on_target};
+             });
   return book;
 }
 
@@ -107,9 +107,8 @@ struct TallyBook::Impl {
       : path(file),
         plan(asked),
         database(open_book(file, asked)),
-        insert(*database,
-               fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", kCountColumns)) {
-  }
+        insert(*database, fmt::format("INSERT INTO main.tallies (arm_id, {}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                                      kCountColumns)) {}
 
   void begin() {
     if (transaction) return;
@@ -172,7 +171,8 @@ std::map<std::uint32_t, MatchCounts> TallyBook::matches_of(std::int64_t arm_id) 
     select.bind(1, arm_id);
     while (select.executeStep()) {
       const auto cell = [&](int i) { return select.getColumn(i).getInt64(); };
-      matches[static_cast<std::uint32_t>(cell(0))] = {cell(1), cell(2), cell(3), cell(4), cell(5), cell(6), cell(7)};
+      matches[static_cast<std::uint32_t>(cell(0))] = {cell(1), cell(2), cell(3), cell(4),
+                                                      cell(5), cell(6), cell(7), cell(8)};
     }
   }
   return matches;
@@ -189,7 +189,7 @@ void TallyBook::add(std::int64_t arm_id, std::uint32_t match_id, const MatchCoun
     const auto bind = [&](auto... values) { (impl_->insert.bind(++place, values), ...); };
     impl_->insert.reset();
     bind(arm_id, std::int64_t{match_id}, counts.calibration_id, counts.opportunities, counts.kicks, counts.on_target,
-         counts.blocked, counts.bounced, counts.goals);
+         counts.blocked, counts.bounced, counts.goals, counts.true_on_target);
     impl_->insert.exec();
     impl_->insert.reset();
   });

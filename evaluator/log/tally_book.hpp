@@ -32,6 +32,7 @@ struct MatchCounts {
   std::int64_t blocked = 0;
   std::int64_t bounced = 0;
   std::int64_t goals = 0;
+  std::int64_t true_on_target = 0;  ///< of the simulator
 };
 
 /// A book as it is read.

@@ -1,4 +1,4 @@
--- Schema of a book of tallies, version 1: what the arms of a study did in each match, and nothing else of it.
+-- Schema of a book of tallies, version 2: what the arms of a study did in each match, and nothing else of it.
 
 CREATE TABLE studies (                     -- what the verb was asked for: one row
   arguments_sha256 TEXT NOT NULL PRIMARY KEY, -- of arguments: a book goes on with the same ones alone
@@ -24,5 +24,6 @@ CREATE TABLE tallies (                     -- what an arm did in a match
   blocked INTEGER NOT NULL,                -- observed
   bounced INTEGER NOT NULL,                -- on target, and by the simulator's truth it touched the floor before
   goals INTEGER NOT NULL,                  -- by the simulator's truth: on target and past the keeper
+  true_on_target INTEGER NOT NULL,         -- by the simulator's truth
   PRIMARY KEY (arm_id, match_id)
 ) STRICT, WITHOUT ROWID;

@@ -1,7 +1,10 @@
 -- Orders that the kicker's driver refused, by policy and reason.
--- Columns: policy, refusal, orders.
-SELECT policy, refusal, count(*) AS orders
-FROM counted_kicks LEFT JOIN policy_order USING (policy)
-WHERE accepted = 0
-GROUP BY policy, refusal
-ORDER BY place, refusal;
+-- Columns: policy, refusal, orders, not_fired (of them, accepted at first: a later receipt says that the coil was not energised).
+SELECT k.policy, k.refusal, count(*) AS orders, CAST(total(EXISTS (
+  SELECT 1 FROM main.kick_receipts AS r INDEXED BY kick_receipts_kick
+  WHERE r.session_id = k.session_id AND r.robot_id = k.robot_id AND r.kick_id = k.kick_id AND r.accepted = 1)) AS INTEGER)
+  AS not_fired
+FROM counted_kicks AS k LEFT JOIN policy_order USING (policy)
+WHERE k.accepted = 0
+GROUP BY k.policy, k.refusal
+ORDER BY place, k.refusal;

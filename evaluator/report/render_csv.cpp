@@ -106,6 +106,8 @@ std::string csv_quality_lines(const Report& report) {
   }
   for (const RefusedOrders& refused : report.refused_orders)
     add("refused_orders", fmt::format("{}: {}", refused.policy, refused.refusal), refused.orders);
+  for (const RefusedOrders& refused : report.refused_orders)
+    add("orders_not_fired", fmt::format("{}: {}", refused.policy, refused.refusal), refused.not_fired);
   for (const PlayedLength& length : report.lengths) {
     add("length", fmt::format("{}: planned_s", length.session_id), length.planned_s);
     add("length", fmt::format("{}: recorded_s", length.session_id), length.recorded_s);

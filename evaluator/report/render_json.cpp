@@ -128,8 +128,10 @@ Json quality_json(const Report& report) {
   for (const log::Loss& loss : report.losses) quality["streams"].push_back(loss_json(loss));
   for (const UnclosedKick& kick : report.unclosed_kicks) quality["unclosed_kicks"].push_back(unclosed_json(kick));
   for (const RefusedOrders& refused : report.refused_orders) {
-    quality["refused_orders"].push_back(
-        {{"policy", refused.policy}, {"refusal", refused.refusal}, {"orders", refused.orders}});
+    quality["refused_orders"].push_back({{"policy", refused.policy},
+                                         {"refusal", refused.refusal},
+                                         {"orders", refused.orders},
+                                         {"not_fired", refused.not_fired}});
   }
   quality["not_counted"] = report.not_counted;
   quality["lengths"] = Json::array();

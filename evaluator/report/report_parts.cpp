@@ -156,10 +156,7 @@ ReportPart quality_part(const Report& report) {
     notes.insert(notes.end(), lines.begin(), lines.end());
   notes.push_back(report.doubt ? *report.doubt
                                : fmt::format("verified: {} rows are as they were recorded", report.verified_rows));
-  for (const RefusedOrders& refused : report.refused_orders) {
-    notes.push_back(
-        fmt::format("refused orders, no kicks: {} x {} ({})", refused.orders, words(refused.refusal), refused.policy));
-  }
+  for (const RefusedOrders& refused : report.refused_orders) notes.push_back(line_of(refused));
   if (report.unclosed_kicks.empty()) notes.emplace_back("unclosed kicks: none");
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     notes.push_back(fmt::format("unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}", kick.kick_id, kick.robot_id,
@@ -176,6 +173,13 @@ ReportPart quality_part(const Report& report) {
 }
 
 }  // namespace
+
+std::string line_of(const RefusedOrders& refused) {
+  std::string line =
+      fmt::format("refused orders, no kicks: {} x {} ({})", refused.orders, words(refused.refusal), refused.policy);
+  if (refused.not_fired > 0) line += fmt::format("; accepted at first and not fired: {}", refused.not_fired);
+  return line;
+}
 
 std::string name_of(const PolicyRow& row) {
   if (row.arm.empty()) return row.policy;

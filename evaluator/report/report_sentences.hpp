@@ -15,6 +15,9 @@ std::vector<std::string> heading_of(const Report& report);
 /// robot, whichever there are several of, in that order. Empty where there is nothing to compare: no kick, or replays.
 std::string next_comparison(const Report& report);
 
+/// "refused orders, no kicks: 3 x stale (moving); accepted at first and not fired: 1".
+std::string line_of(const RefusedOrders& refused);
+
 /// A word as a shell takes it, in quotes where it needs them.
 std::string shell_word(const std::string& word);
 

@@ -65,15 +65,17 @@ std::vector<UnclosedKick> unclosed_kicks_of(const log::Reader& reader) {
 }
 
 void add_refused_orders(std::vector<RefusedOrders>& refused, const log::Reader& reader) {
-  reader.query(kRefusedOrdersSql, [&](const std::string& policy, const std::string& refusal, std::int64_t orders) {
-    const auto known = std::ranges::find_if(
-        refused, [&](const RefusedOrders& row) { return row.policy == policy && row.refusal == refusal; });
-    if (known == refused.end()) {
-      refused.push_back({policy, refusal, orders});
-    } else {
-      known->orders += orders;
-    }
-  });
+  reader.query(kRefusedOrdersSql,
+               [&](const std::string& policy, const std::string& refusal, std::int64_t orders, std::int64_t not_fired) {
+                 const auto known = std::ranges::find_if(
+                     refused, [&](const RefusedOrders& row) { return row.policy == policy && row.refusal == refusal; });
+                 if (known == refused.end()) {
+                   refused.push_back({policy, refusal, orders, not_fired});
+                 } else {
+                   known->orders += orders;
+                   known->not_fired += not_fired;
+                 }
+               });
 }
 
 // Adds everything but tables and lengths. `named`: several logs, whose sentences name them.

@@ -78,6 +78,7 @@ struct RefusedOrders {
   std::string policy;
   std::string refusal;
   std::int64_t orders = 0;
+  std::int64_t not_fired = 0;  ///< of them, accepted at first
 };
 
 /// Table 2 of match logs, their sessions pooled by policy or arm, and how far it can be trusted.

@@ -28,6 +28,7 @@ MatchTally total_of(const ArmTally& matches) {
     total.blocked += match.blocked;
     total.bounced += match.bounced;
     total.goals += match.goals;
+    total.true_on_target += match.true_on_target;
   }
   return total;
 }

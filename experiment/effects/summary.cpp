@@ -30,6 +30,18 @@ std::string heading(const Summary& summary) {
 
 }  // namespace
 
+std::string label_warning(const std::string& arm, const ArmTally& observed) {
+  if (total_of(observed).kicks == 0) return {};
+  ArmTally truth = observed;
+  for (MatchTally& match : truth) match.on_target = match.true_on_target;
+  const Effect said = share_of(observed, Measure::kPerOpportunity), is = share_of(truth, Measure::kPerOpportunity);
+  if (!has_interval(said) || (is.value >= said.ci.lo && is.value <= said.ci.hi)) return {};
+  return fmt::format(
+      "{}: the observer's labels are wrong: {:.4f} ({:.4f} to {:.4f}) on target an opportunity by them, {:.4f} by the "
+      "simulator's truth\n",
+      arm, said.value, said.ci.lo, said.ci.hi, is.value);
+}
+
 MatchTally tally_of(const evaluator::log::MatchCounts& counts) {
   return {.opportunities = counts.opportunities,
           .kicks = counts.kicks,
@@ -37,7 +49,8 @@ MatchTally tally_of(const evaluator::log::MatchCounts& counts) {
           .blocked = counts.blocked,
           .bounced = counts.bounced,
           .goals = counts.goals,
-          .calibration = static_cast<std::uint32_t>(counts.calibration_id)};
+          .calibration = static_cast<std::uint32_t>(counts.calibration_id),
+          .true_on_target = counts.true_on_target};
 }
 
 Summary summary_of(const evaluator::log::Book& book, bool blocked_apart) {
@@ -82,6 +95,7 @@ std::string to_text(const Summary& summary) {
   }
   std::string text = heading(summary) + evaluator::text_table(rows) +
                      "  goals: by the simulator's truth, on target and past the keeper where there is one\n";
+  for (const Summary::Arm& arm : summary.arms) text += label_warning(arm.name, arm.matches);
   if (summary.arms.size() > 1) {
     rows = {{"minus " + summary.arms.front().name, "efficiency [points]", "on target/opp. [points]"}};
     for (std::size_t i = 1; i < summary.arms.size(); ++i)

@@ -19,6 +19,7 @@ MatchTally tally_of(const PlayedMatch& match, std::uint32_t evening) {
     tally.on_target += on_target ? 1 : 0;
     tally.blocked += kick.observed == kicking::Outcome::kBlocked ? 1 : 0;
     tally.bounced += on_target && kick.truth_bounced ? 1 : 0;
+    tally.true_on_target += kick.truth == kicking::Outcome::kOnTarget ? 1 : 0;
     tally.goals += kick.truth == kicking::Outcome::kOnTarget && !kick.truth_saved ? 1 : 0;
   }
   return tally;

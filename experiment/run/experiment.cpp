@@ -14,7 +14,7 @@
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"
 #include "evaluator/report/simulated.hpp"
-#include "experiment/effects/effects.hpp"
+#include "experiment/effects/summary.hpp"
 #include "experiment/run/arms.hpp"
 #include "experiment/run/match_queue.hpp"
 #include "experiment/run/record_match.hpp"
@@ -174,20 +174,6 @@ std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std
   count("kick_truths USING (session_id) WHERE outcome = 'on_target' AND saved = 0", &MatchTally::goals);
   count("kick_truths USING (session_id) WHERE outcome = 'on_target'", &MatchTally::true_on_target);
   return arms;
-}
-
-/// Where the simulator's truth lies outside of what the labels say: a robot's file that is far from the robot makes
-/// wrong labels. Empty: nowhere.
-std::string label_warning(const std::string& arm, const ArmTally& observed) {
-  if (total_of(observed).kicks == 0) return {};
-  ArmTally truth = observed;
-  for (MatchTally& match : truth) match.on_target = match.true_on_target;
-  const Effect said = share_of(observed, Measure::kPerOpportunity), is = share_of(truth, Measure::kPerOpportunity);
-  if (!has_interval(said) || (is.value >= said.ci.lo && is.value <= said.ci.hi)) return {};
-  return fmt::format(
-      "{}: the observer's labels are wrong: {:.4f} ({:.4f} to {:.4f}) on target an opportunity by them, {:.4f} by the "
-      "simulator's truth\n",
-      arm, said.value, said.ci.lo, said.ci.hi, is.value);
 }
 
 }  // namespace

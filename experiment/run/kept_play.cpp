@@ -16,7 +16,7 @@ using evaluator::log::MatchCounts;
 
 MatchCounts counts_of(const MatchTally& tally) {
   return {tally.calibration, tally.opportunities, tally.kicks, tally.on_target,
-          tally.blocked,     tally.bounced,       tally.goals};
+          tally.blocked,     tally.bounced,       tally.goals, tally.true_on_target};
 }
 
 }  // namespace

@@ -68,16 +68,20 @@ std::optional<Message> MessageParser::next() {
   for (;;) {
     bytes_.erase(0, bytes_.find(kPreamble));
     if (bytes_.size() < 2) return std::nullopt;
-    const bool bus = bytes_[1] == kBus;
-    if (bus && bytes_.size() < kLongHead) return std::nullopt;  // an empty message waits for a byte more
-    const bool is_long = bus && byte_at(bytes_, 3) == kLongLength;
+    const auto pass_over = [this] { bytes_.erase(0, 1); };  // a preamble that is none
+    if (bytes_[1] != kBus) {
+      pass_over();
+      continue;
+    }
+    if (bytes_.size() < kHead) return std::nullopt;
+    const bool is_long = byte_at(bytes_, 3) == kLongLength;
+    if (is_long && bytes_.size() < kLongHead) return std::nullopt;
     const std::size_t head = is_long ? kLongHead : kHead;
     const std::size_t size = is_long ? big_endian(std::string_view{bytes_}.substr(kHead, 2)) : byte_at(bytes_, 3);
-    const bool possible = bus && size <= kLongestData;
+    const bool possible = size <= kLongestData;
     if (possible && bytes_.size() < head + size + 1) return std::nullopt;
-    const bool whole = possible && sum_of(std::string_view{bytes_}.substr(1, head + size)) == 0;
-    if (!whole) {  // a preamble that is none
-      bytes_.erase(0, 1);
+    if (!possible || sum_of(std::string_view{bytes_}.substr(1, head + size)) != 0) {
+      pass_over();
       continue;
     }
     Message message{byte_at(bytes_, 2), bytes_.substr(head, size)};

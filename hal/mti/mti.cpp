@@ -24,8 +24,17 @@ Mti::Mti(std::unique_ptr<Line> line, const config::MtiDevice& settings)
 void Mti::step(std::int64_t now_ns) {
   if (!open_ && now_ns >= next_open_ns_) open(now_ns);
   if (open_) receive(now_ns);
-  if (open_ && now_ns - heard_ns_ >= kSilence_ns)
-    lose(fmt::format("{}: the gyro has not spoken for {:g} s", line_->name(), kicking::seconds(kSilence_ns)), now_ns);
+  if (open_ && now_ns - heard_ns_ >= kSilence_ns) lose(why_without_samples(), now_ns);
+}
+
+std::string Mti::why_without_samples() const {
+  if (other_message_)
+    return fmt::format(
+        "{}: message 0x{:02X} comes, but no measurement (MTData2, 0x36): the gyro is in configuration mode, or set up "
+        "for another output",
+        line_->name(), *other_message_);
+  return fmt::format("{}: nothing came for {:g} s: the gyro is off, in configuration mode, or at another baud rate",
+                     line_->name(), kicking::seconds(kSilence_ns));
 }
 
 std::int64_t Mti::next_ns() const { return open_ ? heard_ns_ + kSilence_ns : next_open_ns_; }
@@ -36,6 +45,7 @@ void Mti::open(std::int64_t now_ns) {
   open_ = true;
   heard_ns_ = now_ns;
   parser_ = {};
+  other_message_.reset();
   clock_.emplace(Reading::kTick_ns, kClockBits, 0);
 }
 
@@ -46,6 +56,7 @@ void Mti::receive(std::int64_t now_ns) {
     if (!count) return lose(fmt::format("{}: the line is cut: {}", line_->name(), line_->why()), now_ns);
     if (*count == 0) return;
     for (const Message& message : parser_.take({bytes.data(), *count})) {
+      if (message.id != kMtData2) other_message_ = message.id;
       if (const auto reading = reading_of(message)) take(*reading, now_ns);
     }
   }

@@ -35,6 +35,7 @@ class Mti final : public LineClient {
   void receive(std::int64_t now_ns);
   void take(const Reading& reading, std::int64_t now_ns);
   void lose(const std::string& why, std::int64_t now_ns);
+  std::string why_without_samples() const;
 
   std::unique_ptr<Line> line_;
   double sign_;
@@ -42,6 +43,7 @@ class Mti final : public LineClient {
   std::int64_t next_open_ns_ = 0;
   std::int64_t heard_ns_ = 0;
   MessageParser parser_;
+  std::optional<std::uint8_t> other_message_;  // since the line was opened, one that is no measurement
   std::optional<DeviceClock> clock_;
   std::optional<GyroSample> newest_;
   std::string status_;

@@ -171,7 +171,8 @@ TableFit fit_table(std::span<const Trial> trials, const TableOptions& options) {
   if (by_power.size() < 2 || by_power.size() > EffectiveTable::kCapacity) {
     throw std::invalid_argument("table: " + std::to_string(by_power.size()) +
                                 (by_power.size() == 1 ? " power" : " powers") + ", need 2 to " +
-                                std::to_string(EffectiveTable::kCapacity));
+                                std::to_string(EffectiveTable::kCapacity) +
+                                (by_power.size() < 2 ? "" : ": leave some out, a table is linear between neighbours"));
   }
   TableFit fit;
   for (const auto& [power, same] : by_power) {

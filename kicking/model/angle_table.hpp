@@ -31,7 +31,8 @@ class AngleTable {
   explicit AngleTable(std::span<const AnglePoint> points) : size_(points.size()) {
     if (size_ < 2 || size_ > kCapacity) {
       throw std::invalid_argument("angle table: " + std::to_string(size_) + " set-points, need 2 to " +
-                                  std::to_string(kCapacity));
+                                  std::to_string(kCapacity) +
+                                  (size_ > kCapacity ? ": leave some out, it is linear between neighbours" : ""));
     }
     std::copy(points.begin(), points.end(), points_.begin());
     for (std::size_t i = 0; i < size_; ++i) check(i);

@@ -37,7 +37,7 @@ struct PowerReading {
 template <TableKind kind>
 class PowerTable {
  public:
-  static constexpr std::size_t kCapacity = 32;
+  static constexpr std::size_t kCapacity = 256;
   static constexpr TableKind kKind = kind;
 
   /// Two to kCapacity set-points, finite, positive, both columns strictly increasing.
@@ -45,7 +45,8 @@ class PowerTable {
   explicit PowerTable(std::span<const SetPoint> set_points) : size_(set_points.size()) {
     if (size_ < 2 || size_ > kCapacity) {
       throw std::invalid_argument("power table: " + std::to_string(size_) + " set-points, need 2 to " +
-                                  std::to_string(kCapacity));
+                                  std::to_string(kCapacity) +
+                                  (size_ > kCapacity ? ": leave some out, it is linear between neighbours" : ""));
     }
     std::copy(set_points.begin(), set_points.end(), set_points_.begin());
     for (std::size_t i = 0; i < size_; ++i) {

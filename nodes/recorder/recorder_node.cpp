@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bus/executor.hpp"
+#include "evaluator/log/additions.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/recorder/log_place.hpp"
 #include "nodes/runtime/node_context.hpp"
@@ -48,6 +49,12 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
     everything.keep_all = true;
     node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) { store_heard(heard); }, {}, everything);
   }
+  if (state_->silences && context_.keys.empty()) {
+    bus::ReaderOptions everything;
+    everything.keep_all = true;
+    node_.on<msg::DeviceFire>([this](const msg::DeviceFire& fire) { state_->fires.fired(fire, context_.steady_ns()); },
+                              bus::writes<>(), everything);
+  }
   node_.on<msg::DeviceEmulated>([this](const msg::DeviceEmulated&) { note_simulation(false); }, bus::writes<>());
 }
 
@@ -58,7 +65,25 @@ void RecorderNode::note_simulation(bool truth) {
 }
 
 void RecorderNode::note_silences() {
-  if (state_->silences) state_->silences->look(now_ns(std::chrono::steady_clock::now()));
+  if (!state_->silences) return;
+  state_->silences->look(now_ns(std::chrono::steady_clock::now()));
+  for (const msg::DeviceFire& fire : state_->fires.unanswered(context_.steady_ns())) note_fire(fire);
+}
+
+/// The streams have no row of it: a note has.
+void RecorderNode::note_fire(const msg::DeviceFire& fire) {
+  const std::string text = fmt::format(
+      "robot {}: a program told the coil (device/fire) to kick {} with power {:g} at t {:.3f} s, and no kicker_driver "
+      "answers for it: on a bus without keys any program can say that (trivela keys)",
+      fire.robot_id, fire.kick_id, fire.power, kicking::seconds(fire.t_ns));
+  context_.logger->error(text);
+  try {
+    evaluator::log::Additions{state_->log}.add(
+        evaluator::log::Note{.session_id = log_.session_id(), .kind = "note", .text = text, .who = "recorder"},
+        now_ns(std::chrono::system_clock::now()));
+  } catch (const std::exception& error) {
+    context_.logger->error("the log has no note of that: {}", error.what());
+  }
 }
 
 template <class T>
@@ -116,6 +141,7 @@ void RecorderNode::record(const std::string& table) {
         const auto seq = store(table, id, watch, sample, info.writer);
         if (!seq) return;
         if constexpr (std::is_same_v<T, msg::KickDecision>) store_beside(sample, *seq);
+        if constexpr (std::is_same_v<T, msg::KickReceipt>) state_->fires.answered(sample);
         if (voice) state_->silences->heard(*voice, sample.robot_id, sample.t_ns);
         if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
@@ -183,6 +209,7 @@ int recorder_main(int argc, char** argv) {
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
     if (!placed) placed.emplace(place_log(context, options));
     evaluator::log::Writer& log = *placed->writer;
+    state->log = placed->path;
     RecorderNode node{context, log, state};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.
     bus::Executor{bus::Executor::kWaitset, context.stop, {&node.node()}, context.pulse()}.run();

@@ -43,6 +43,9 @@ class RecorderNode {
 
   void store_heard(const msg::TeamHeard& heard);
 
+  /// A word to a coil that nobody answers for.
+  void note_fire(const msg::DeviceFire& fire);
+
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
   NodeContext& context_;

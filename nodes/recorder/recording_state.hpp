@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +12,7 @@
 
 #include "bus/writer_watch.hpp"
 #include "nodes/recorder/silence_record.hpp"
+#include "robot/watch/fire_watch.hpp"
 #include "robot/watch/instant_watch.hpp"
 #include "robot/watch/sequence_watch.hpp"
 
@@ -37,6 +39,8 @@ struct RecordingState {
   std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for
   std::map<std::uint8_t, std::int64_t> clocks;             ///< when another participant's clock was noted last
   std::shared_ptr<SilenceRecord> silences;                 ///< none in lockstep
+  robot::FireWatch fires;                                  ///< on a bus without keys
+  std::filesystem::path log;                               ///< for notes
   std::atomic<bool> emulated = false;                      ///< the log says that the session is simulated
   std::atomic<bool> truth_told = false;                    ///< and in which world
 };

@@ -1,6 +1,7 @@
 #include "nodes/team_link/team_member.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pthread.h>
 
 #include <arpa/inet.h>
@@ -8,9 +9,12 @@
 #include <net/if.h>
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -27,7 +31,7 @@ constexpr std::chrono::seconds kLongestPatience{120};
 constexpr std::chrono::seconds kLease{5};
 
 /// An interface's IPv4 address, such as 172.16.39.3, with the index by which the kernel knows it: "3 172.16.39.3".
-/// None: there is no such interface, it is down, or it has no address.
+/// None: why_without_address() says why.
 std::optional<std::string> interface_address(const std::string& interface) {
   ifaddrs* first = nullptr;
   if (getifaddrs(&first) != 0) return std::nullopt;
@@ -41,6 +45,22 @@ std::optional<std::string> interface_address(const std::string& interface) {
     return fmt::format("{} {}", if_nametoindex(one->ifa_name), text.data());
   }
   return std::nullopt;
+}
+
+/// "wlan0 is down", "there is no interface wlan0: there are eth0, lo".
+std::string why_without_address(const std::string& interface) {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return fmt::format("the interfaces cannot be listed: {}", std::strerror(errno));
+  const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> all(first, freeifaddrs);
+  std::set<std::string> names;
+  bool up = true;
+  for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
+    names.insert(one->ifa_name);
+    if (interface == one->ifa_name) up = (one->ifa_flags & IFF_UP) != 0 && (one->ifa_flags & IFF_RUNNING) != 0;
+  }
+  if (!names.contains(interface))
+    return fmt::format("there is no interface {}: there are {}", interface, fmt::join(names, ", "));
+  return up ? fmt::format("{} has no IPv4 address", interface) : fmt::format("{} is down", interface);
 }
 
 }  // namespace
@@ -75,7 +95,7 @@ void TeamMember::run() {
   while (!ends_.requested()) {
     const auto address = this->address();
     if (!address) {
-      note_obstacle(fmt::format("{} has no address", context_.settings.team_link.interface));
+      note_obstacle(why_without_address(context_.settings.team_link.interface));
       ends_.wait_until(Clock::now() + kGlance);
       continue;
     }

@@ -16,6 +16,7 @@
 #include "pages/labels/label_page.css.hpp"
 #include "pages/labels/label_page.html.hpp"
 #include "pages/labels/label_page.js.hpp"
+#include "pages/serve/connections.hpp"
 
 namespace trivela::pages {
 namespace {
@@ -26,6 +27,7 @@ using nlohmann::json;
 
 constexpr const char* kHost = "127.0.0.1";
 constexpr std::chrono::seconds kPatience{2};
+constexpr std::size_t kMostConnections = 512;
 
 void answer(Response& response, int status, const json& body) {
   response.status = status;
@@ -126,6 +128,7 @@ struct LabelServer::Impl {
   }
 
   void listen(int wanted_port) {
+    server.new_task_queue = [] { return new Connections(kMostConnections); };
     server.set_socket_options(set_socket_options);
     server.set_tcp_nodelay(true);
     server.set_keep_alive_max_count(1);  // an idle connection would hold up the end
@@ -164,6 +167,7 @@ LabelServer::~LabelServer() {
   // stop() is lost on a server that has not begun
   while (!impl_->server.is_running() && !impl_->ended) std::this_thread::yield();
   impl_->server.stop();
+  hang_up_all(impl_->port);
   impl_->thread.join();
 }
 

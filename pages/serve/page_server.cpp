@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "pages/serve/connections.hpp"
 #include "pages/serve/token.hpp"
 
 namespace trivela::pages {
@@ -20,8 +21,8 @@ using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
 
-constexpr std::size_t kOtherThreads = 32;     // answer what is no stream of events
-constexpr int kSendBuffer_bytes = 32 * 1024;  // some messages: a slow viewer skips some instead of seeing old ones
+constexpr std::size_t kOtherConnections = 512;  // beside those of viewers, who take a stream of events
+constexpr int kSendBuffer_bytes = 32 * 1024;    // some messages: a slow viewer skips some instead of seeing old ones
 constexpr std::chrono::milliseconds kStalled{700};  // a viewer that takes nothing for so long is hung up; it comes back
 constexpr std::chrono::seconds kStillHere{1};
 
@@ -167,7 +168,7 @@ struct PageServer::Impl {
   }
 
   void listen(int wanted_port) {
-    server.new_task_queue = [this] { return new httplib::ThreadPool(page.most_viewers + kOtherThreads); };
+    server.new_task_queue = [this] { return new Connections(page.most_viewers + kOtherConnections); };
     server.set_socket_options(set_options);
     server.set_tcp_nodelay(true);
     server.set_keep_alive_max_count(1);  // an idle connection would hold up the end,
@@ -205,6 +206,7 @@ PageServer::~PageServer() {
   // stop() is lost on a server that has not begun
   while (!impl_->server.is_running() && !impl_->ended) std::this_thread::yield();
   impl_->server.stop();
+  hang_up_all(impl_->port);
   impl_->thread.join();
 }
 

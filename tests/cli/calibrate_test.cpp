@@ -426,7 +426,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"WordForANumber", "table word.csv --robot seven", 1,
                 "word.csv:3: column height_m: 'high' is not a number"},
         Mistake{"CellsMissing", "table short.csv --robot seven", 1, "short.csv:2: 2 cells under 3 columns"},
-        Mistake{"OnePower", "table one.csv --robot seven", 1, "table: 1 power, need 2 to 32"},
+        Mistake{"OnePower", "table one.csv --robot seven", 1, "table: 1 power, need 2 to 256"},
         Mistake{"NoAngle", "table speeds.csv --robot seven", 2, "give one angle with --exit-angle-deg"},
         Mistake{"AngleTwice", "table angles.csv --robot seven --exit-angle-deg 40", 2, "has a column exit_angle_deg"},
         Mistake{"AngleBesideHeights", "table lobs.csv --robot seven --exit-angle-deg 40", 2, "which give the angle"},

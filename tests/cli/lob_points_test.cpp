@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -55,6 +57,38 @@ std::string shortened(int first_left_out) {
     if (line.starts_with('#') || line.starts_with("scan") || std::stoi(line) < first_left_out) out << line << '\n';
   }
   return path;
+}
+
+/// The vector with the instants of the scans from `first` on moved by so many seconds.
+std::string moved(int first, double by_s) {
+  const std::string path = testing::TempDir() + "lob_points_moved.csv";
+  std::ifstream in(kVectors + "lob_scan_utm_under.csv");
+  std::ofstream out(path);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#') || line.starts_with("scan") || std::stoi(line) < first) {
+      out << line << '\n';
+      continue;
+    }
+    std::istringstream cells(line);
+    std::string scan, start_s, beam_s, rest;
+    std::getline(std::getline(std::getline(std::getline(cells, scan, ','), start_s, ','), beam_s, ','), rest);
+    out << fmt::format("{},{:.9f},{:.9f},{}\n", scan, std::stod(start_s) + by_s, std::stod(beam_s) + by_s, rest);
+  }
+  return path;
+}
+
+TEST(LobPoints, StampsThatGoBackOrJumpAreRefusedAndNamed) {
+  EXPECT_EQ(run("--points " + moved(20, 0.0)).code, kDone);
+  for (const auto& [by_s, sentence] : std::vector<std::pair<double, std::string>>{
+           {-16777.216, "time goes back by 16777.2 s from scan 19 to 20"},
+           {-0.05, "time goes back by 0.025 s from scan 19 to 20"},
+           {0.05, "0.075 s pass from scan 19 to 20, where 0.025 s pass from scan to scan"},
+           {10.0, "10.03 s pass from scan 19 to 20"}}) {
+    const PointsRan ran = run("--points " + moved(20, by_s));
+    EXPECT_EQ(ran.code, kFailed) << by_s;
+    EXPECT_THAT(ran.err, HasSubstr(sentence));
+    EXPECT_EQ(ran.out, "");
+  }
 }
 
 TEST(LobPoints, JsonHoldsBothFitsWithTheirStandardErrors) {

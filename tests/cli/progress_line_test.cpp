@@ -29,6 +29,23 @@ TEST(ProgressLine, CountsSlowThingsByTheMinuteAndTheHour) {
   EXPECT_THAT(progress_line(1.0, 100.0, 360.0, "", ""), HasSubstr("9.9 h left"));
 }
 
+TEST(ProgressLine, IsNoWiderThanTheTerminal) {
+  for (std::size_t columns = 1; columns <= 120; ++columns) {
+    const std::string line = progress_line(250.0, 1000.0, 5.0, "matches", "the factorial", columns);
+    EXPECT_LE(line.size(), columns);
+    EXPECT_EQ(line.find('[') != std::string::npos, columns >= 59) << "a bar of eight at least, or none: " << columns;
+  }
+  EXPECT_EQ(progress_line(250.0, 1000.0, 5.0, "matches", "the factorial", 60),
+            "  [##       ]  25 %  15 s left  50 matches/s  the factorial");
+}
+
+TEST(CutTo, CountsCharactersAndNotBytes) {
+  EXPECT_EQ(cut_to("3.5 \xe2\x80\x93 4.5", 5), "3.5 \xe2\x80\x93");
+  EXPECT_EQ(cut_to("short", 80), "short");
+  EXPECT_EQ(cut_to("", 3), "");
+  EXPECT_EQ(lines_cut_to("one two\nthree\n\nfour", 4), "one \nthre\n\nfour");
+}
+
 TEST(ProgressLine, NeverSaysMoreThanAll) {
   EXPECT_THAT(progress_line(12.0, 10.0, 1.0, "", ""), AllOf(HasSubstr("100 %"), HasSubstr("0 s left")));
 }

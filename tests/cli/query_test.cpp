@@ -83,7 +83,8 @@ TEST_F(QueryVerb, WhatATerminalCouldObeyIsWrittenOut) {
 
 TEST_F(QueryVerb, ListsEachMetricWithItsColumns) {
   EXPECT_THAT(said({"--list"}), HasSubstr("refused_orders\n    Orders that the kicker's driver refused, by policy and "
-                                          "reason.\n    Columns: policy, refusal, orders.\n"));
+                                          "reason.\n    Columns: policy, refusal, orders, not_fired (of them, accepted "
+                                          "at first: a later receipt says that the coil was not energised).\n"));
 }
 
 TEST_F(QueryVerb, SaysWhatIsWrongWithTheQuestion) {

@@ -78,6 +78,11 @@ TEST(BadSettings, ImpossibleValueIsNamedWithItsRange) {
   EXPECT_THAT(settings_error("[policy]\nsettle_s = inf\n"), HasSubstr("finite"));
 }
 
+TEST(BadSettings, ANumberIsShownAsAPersonWritesIt) {
+  EXPECT_THAT(settings_error("[policy]\nsettle_s = -0.64\n"), HasSubstr("policy.settle_s = -0.64: must lie in"));
+  EXPECT_THAT(settings_error("[policy]\nsettle_s = [0.64, \"x\"]\n"), HasSubstr("policy.settle_s = [ 0.64, 'x' ]: "));
+}
+
 TEST(BadSettings, UnknownDeviceIsNamedWithItsLineAndTheKnownOnes) {
   EXPECT_THAT(settings_error("[hal]\nwheels = \"can\"\n"),
               HasSubstr("bad.toml:2: hal.wheels = 'can': expected one of: bus, cia402"));

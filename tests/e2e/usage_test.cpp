@@ -1,6 +1,6 @@
 // What `trivela` says to bad usage and to a full disk.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
-
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -305,6 +305,32 @@ TEST(Usage, FoldersInPlaceOfFilesAreSaidSo) {
     EXPECT_THAT(trivela.errors(), HasSubstr("."));
     EXPECT_LT(trivela.errors().size(), 350u);
   }
+}
+
+/// What a program writes to a terminal of so many columns.
+std::string on_terminal(const Folder& folder, const std::string& term, int columns, const std::string& command) {
+  const auto tests = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::string all = fmt::format("cd {} && TERM={} script -qec 'stty cols {}; {}/{}' typescript > /dev/null 2>&1",
+                                      folder.path().string(), term, columns, tests.parent_path().string(), command);
+  EXPECT_EQ(WEXITSTATUS(std::system(all.c_str())), 0) << command;
+  std::string text = text_of(folder / "typescript");
+  return text.substr(text.find('\n') + 1);
+}
+
+TEST(Usage, ADumbTerminalGetsNoEscapesAndNoLineThatIsDrawnOver) {
+  const Folder folder;
+  const std::string simulate = "trivela simulate --arms moving --matches 2 --possessions 2 --out log.db";
+  const std::string said = on_terminal(folder, "dumb", 40, simulate);
+  EXPECT_THAT(said, testing::Not(HasSubstr("\x1b")));
+  EXPECT_THAT(said, testing::Not(testing::ContainsRegex("\r[^\r\n]")));
+  EXPECT_THAT(said, HasSubstr("on target"));
+  const std::string top = on_terminal(folder, "dumb", 40, "trivela top --domain 97 --interval 0.2 --once");
+  EXPECT_THAT(top, testing::Not(HasSubstr("\x1b")));
+  std::istringstream lines{top};
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.starts_with("Script") || line.size() <= 41) << line;
+  std::filesystem::remove(folder / "log.db");
+  EXPECT_THAT(on_terminal(folder, "xterm", 40, simulate), HasSubstr("\x1b[K")) << "another one shows progress";
 }
 
 TEST(Usage, AFullDiskIsSaid) {

@@ -124,6 +124,38 @@ TEST(Coverage, WilsonFromMatches) {
   }));
 }
 
+// As few as there can be: what stands in a comparison then, by match where there are enough, else of independent kicks,
+// which are so few for Wilson at 4 of them that 87.5 % is all that it has.
+TEST(Coverage, OfOneKickAMatchHoldsFromThreeMatchesOn) {
+  for (const std::uint32_t n : {3u, 5u, 6u, 8u, 11u, 12u, 20u, 30u}) {
+    for (const double p : {0.5, 0.9, 0.99}) {
+      const double share = coverage(p, [&](auto& random) -> std::optional<Interval> {
+        std::vector<Counts> matches;
+        Counts total;
+        for (std::uint32_t m = 0; m < n; ++m) {
+          matches.push_back(random.kicks(1, p));
+          total = {total.inside + matches.back().inside, total.n + 1};
+        }
+        const auto by_match = clustered_wilson(matches);
+        return by_match ? by_match : wilson(total);
+      });
+      EXPECT_GE(share, kLow) << "efficiency of " << n << " matches at " << p;
+      const double difference = coverage(0.0, [&](auto& random) -> std::optional<Interval> {
+        std::vector<MatchCounts> cells;
+        Counts older, newer;
+        for (std::uint32_t m = 0; m < n; ++m) {
+          cells.push_back({m, 0, random.kicks(1, p), random.kicks(1, p)});
+          older = {older.inside + cells.back().older.inside, older.n + 1};
+          newer = {newer.inside + cells.back().newer.inside, newer.n + 1};
+        }
+        const auto by_match = clustered_difference(cells);
+        return by_match ? by_match->ci : newcombe(older, newer);
+      });
+      EXPECT_GE(difference, kLow) << "difference of " << n << " matches at " << p;
+    }
+  }
+}
+
 // Halves of the same matches: at most one kick of a possession, possessions at an almost steady pace.
 TEST(Coverage, RateRatioOfAtMostOneKickAnOpportunity) {
   int poisson = 0;

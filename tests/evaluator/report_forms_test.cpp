@@ -65,7 +65,7 @@ Report full_report() {
                     .nan_refused = 15,
                     .rejected = 16,
                     .out_of_order = 17}};
-  report.refused_orders = {{"moving", "stale", 19}};
+  report.refused_orders = {{"moving", "stale", 19, 4}};
   for (const char* const sightings : {"none", "1 to 4"})
     report.labels.rows.push_back({sightings, n += 2, n += 3, 0.5 * static_cast<double>(n)});
   report.labels.has_probabilities = true;
@@ -320,6 +320,7 @@ TEST(ReportForms, TheCsvHasTheNumbersOfTheJson) {
        {"received", "missing", "lost", "gaps", "overflow", "nan_refused", "rejected", "out_of_order"})
     expect_number(csv.value("stream", std::string("odometry: ") + key), quality["streams"][0][key], key);
   expect_number(csv.value("refused_orders", "moving: stale"), quality["refused_orders"][0]["orders"], "refused");
+  expect_number(csv.value("orders_not_fired", "moving: stale"), quality["refused_orders"][0]["not_fired"], "not fired");
   expect_number(csv.value("length", "5: planned_s"), quality["lengths"][0]["planned_s"], "planned");
   expect_number(csv.value("length", "5: recorded_s"), quality["lengths"][0]["recorded_s"], "recorded");
   expect_number(csv.value("quality", "rows_missing"), quality["rows_missing"], "missing");

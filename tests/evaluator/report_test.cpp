@@ -290,6 +290,24 @@ TEST_F(ReportOfALog, ARefusedOrderIsNoKick) {
   EXPECT_THAT(to_text(report), HasSubstr("refused orders, no kicks: 1 x stale (stopped)"));
 }
 
+TEST_F(ReportOfALog, AnOrderThatWasAcceptedAndNotFiredIsCountedAmongTheRefused) {
+  MatchLog match(path(), session(), options());
+  const auto kick = match.decide(1);
+  match.order(kick);
+  match.receipt(kick, "none");
+  match.receipt(kick, "fault");
+  const auto refused = match.decide(1);
+  match.order(refused);
+  match.receipt(refused, "fault");
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  ASSERT_THAT(report.refused_orders, SizeIs(1));
+  EXPECT_EQ(report.refused_orders[0].orders, 2);
+  EXPECT_EQ(report.refused_orders[0].not_fired, 1);
+  EXPECT_THAT(to_text(report),
+              HasSubstr("refused orders, no kicks: 2 x fault (stopped); accepted at first and not fired: 1"));
+}
+
 TEST_F(ReportOfALog, AnOrderSentTwiceIsOneAcceptedKick) {
   MatchLog match(path(), session(), options());
   const auto kick = match.kick(1, "on_target");

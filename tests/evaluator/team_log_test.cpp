@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "evaluator/imports/possessions.hpp"
@@ -251,6 +253,57 @@ TEST(TeamLog, ArraysWithoutEndAreAFaultAndNoMemory) {
   EXPECT_TRUE(log.usable.empty());
   std::istringstream deep("{\"worldstate\":" + std::string(1'000'000, '[') + "}");
   EXPECT_THAT(read_team_log(deep, "x.A.msl").faults.sentences(), Contains(HasSubstr("record is not JSON")));
+}
+
+/// Every place of a record with every kind of JSON value in it, one at a time.
+TEST(TeamLog, WhateverStandsInOnePlaceItIsReadOrAFaultAndNoNumberIsTakenForAnother) {
+  using nlohmann::json;
+  const json whole =
+      json::parse(log_of({worldstate(told_robot(1, -1.5, 2.0) + "," + told_robot(2, 0.5, 4.0, "1"), told_ball(0.5))}));
+  const std::vector<std::string> values{"null",
+                                        "true",
+                                        "0",
+                                        "-1",
+                                        "256",
+                                        "1e308",
+                                        "-0.5",
+                                        "1.5e9",
+                                        "\"\"",
+                                        "\"1,5\"",
+                                        "\"7\"",
+                                        "[]",
+                                        "[0]",
+                                        "[1,2]",
+                                        "[1,2,3]",
+                                        "[1,2,3,4]",
+                                        "[[1],2,3]",
+                                        "[null,1,2]",
+                                        "{}",
+                                        "{\"x\":1}",
+                                        "9223372036854775808",
+                                        "\"" + std::string(3000, 'x') + "\""};
+  std::size_t faults = 0, cases = 0;
+  const json places = whole.flatten();
+  for (const auto& [place, unused] : places.items()) {
+    for (json::json_pointer at{place}; !at.empty(); at = at.parent_pointer()) {
+      for (const std::string& value : values) {
+        json changed = whole;
+        changed[at] = json::parse(value);
+        const TeamLog log = read(changed.dump());
+        ++cases;
+        faults += log.faults.sentences().empty() ? 0 : 1;
+        for (const TeamRecord& record : log.usable) {
+          for (const ToldRobot& robot : record.robots) {
+            ASSERT_TRUE(robot.id >= 0 && robot.id <= 255) << at << " " << value;
+            ASSERT_TRUE(std::abs(robot.x_m) <= 50.0 && std::abs(robot.y_m) <= 50.0) << at << " " << value;
+            ASSERT_LT(std::abs(robot.heading_rad), 3.2) << at << " " << value;
+          }
+        }
+        record_times_ms(log, nullptr);
+      }
+    }
+  }
+  EXPECT_GT(faults, cases / 2);
 }
 
 }  // namespace

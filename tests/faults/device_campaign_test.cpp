@@ -43,6 +43,20 @@ TEST_P(KickerCampaign, NoPulseWithoutALawfulFreshOrderInPlayAndAReceiptOrACounte
   EXPECT_GE(judged.kicks.size(), rounds) << "at least a kick a round, or this says nothing";
 }
 
+TEST_P(KickerCampaign, NoPulseIsLateWhereTheDriverStandsStillFromAnOrderOn) {
+  KickerRig rig{GetParam().make(), settings_of_campaign(), true};
+  std::mt19937_64 random = device_draws();
+  ASSERT_TRUE(rig.fires()) << "no first kick: " << rig.driver_errors();
+  const std::uint64_t rounds = device_rounds(GetParam().campaign);
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    SCOPED_TRACE(round);
+    rig.suffer(Trouble::kStop, static_cast<std::int64_t>(150 + random() % 250) * kMs);
+    ASSERT_TRUE(rig.fires()) << rig.driver_errors();
+  }
+  EXPECT_EQ(rig.end(), "");
+  EXPECT_THAT(judge_pulses(rig.story()).complaints, IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Boards, KickerCampaign,
                          testing::Values(Board{"ioboard", DeviceCampaigns::kIoBoard, troubled_ioboard},
                                          Board{"rekick", DeviceCampaigns::kReKick, troubled_rekick}),

@@ -97,8 +97,9 @@ void KickerRig::write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind)
   writer.write(out);
 }
 
-/// The process dies within 2 ms of an order that it may fire: before its receipt, between receipt and pulse, or after.
-void KickerRig::kill_amid_a_kick() {
+/// The signal comes within 2 ms of an order that the process may fire: before its receipt, between receipt and pulse,
+/// or after.
+void KickerRig::signal_amid_a_kick(int signal) {
   const std::int64_t rested_ns = steady_now_ns() + 600 * kMs;
   while (steady_now_ns() < rested_ns) {
     say();
@@ -108,19 +109,19 @@ void KickerRig::kill_amid_a_kick() {
   write_order(decision_, OrderKind::kLawful);
   const std::int64_t then_ns = steady_now_ns() + static_cast<std::int64_t>(random_() % 2'000'000);
   while (steady_now_ns() < then_ns) continue;
-  driver_->signal(SIGKILL);
-  driver_->wait();
+  driver_->signal(signal);
+  if (signal == SIGKILL) driver_->wait();
 }
 
 void KickerRig::suffer(Trouble what, std::int64_t for_ns) {
-  if (what == Trouble::kKill) kill_amid_a_kick();
+  if (what == Trouble::kKill) signal_amid_a_kick(SIGKILL);
+  if (what == Trouble::kStop) signal_amid_a_kick(SIGSTOP);
   story_.troubles[steady_now_ns()] = what;
   if (what == Trouble::kRestart) {
     driver_->signal(SIGTERM);
     if (driver_->wait() != 0) throw std::runtime_error{"the driver did not end well: " + driver_->errors()};
     return start_driver();
   }
-  if (what == Trouble::kStop) driver_->signal(SIGSTOP);
   board_->begin(what);
   play(steady_now_ns() + for_ns);
   board_->end();

@@ -62,7 +62,7 @@ class KickerRig {
   void say();
   void order();
   void write_order(bus::Writer<msg::KickOrder>& writer, OrderKind kind);
-  void kill_amid_a_kick();
+  void signal_amid_a_kick(int signal);
 
   std::unique_ptr<TroubledBoard> board_;
   e2e::Folder folder_;

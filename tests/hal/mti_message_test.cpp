@@ -130,11 +130,23 @@ TEST_F(MtiTest, SilenceIsSaidAndTheLineOpenedAgain) {
   hear({.sample_time = 1, .rate_radps = {{0, 0, 0.5}}}, 1);
   EXPECT_EQ(mti_.next_ns(), 501 * kMs);
   mti_.step(501 * kMs);
-  EXPECT_EQ(mti_.status(), "/dev/ttyTEST: the gyro has not spoken for 0.5 s");
+  EXPECT_EQ(mti_.status(),
+            "/dev/ttyTEST: nothing came for 0.5 s: the gyro is off, in configuration mode, or at another baud rate");
   EXPECT_EQ(mti_.next_ns(), 701 * kMs);
   mti_.step(701 * kMs);
   EXPECT_EQ(end_.opened, 2);
   EXPECT_EQ(end_.written.size(), 0u) << "nothing is written to it";
+}
+
+TEST_F(MtiTest, InConfigurationModeItsOtherMessagesAreNamed) {
+  end_.incoming = encode({.id = 0x31, .data = ""});  // it has gone to configuration mode
+  mti_.step(1 * kMs);
+  EXPECT_FALSE(mti_.newest());
+  mti_.step(501 * kMs);
+  EXPECT_EQ(
+      mti_.status(),
+      "/dev/ttyTEST: message 0x31 comes, but no measurement (MTData2, 0x36): the gyro is in configuration mode, or "
+      "set up for another output");
 }
 
 TEST_F(MtiTest, AnUnpluggedOneIsSaid) {

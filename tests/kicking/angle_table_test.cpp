@@ -25,7 +25,7 @@ TEST(AngleTable, IsLinearBetweenSetPointsAndClampsAtItsEnds) {
 
 TEST(AngleTable, NamesIndexAndValueOfABadPoint) {
   const auto make = [](std::vector<AnglePoint> points) { return [points] { AngleTable table{points}; }; };
-  EXPECT_THAT(make({{10, 0.8}}), ThrowsMessage<std::invalid_argument>(HasSubstr("1 set-points, need 2 to 32")));
+  EXPECT_THAT(make({{10, 0.8}}), ThrowsMessage<std::invalid_argument>(HasSubstr("1 set-points, need 2 to 256")));
   EXPECT_THAT(make({{10, 0.8}, {10, 0.7}}), ThrowsMessage<std::invalid_argument>(HasSubstr("power[1] = 10")));
   EXPECT_THAT(make({{10, 0.8}, {20, 1.6}}), ThrowsMessage<std::invalid_argument>(HasSubstr("exit_angle_rad[1] = 1.6")));
 }

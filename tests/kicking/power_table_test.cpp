@@ -69,8 +69,8 @@ TEST(PowerTable, NamesIndexAndValueOfABadSetPoint) {
   EXPECT_THAT(make({{15, 6}, {15, 7}}), ThrowsMessage<std::invalid_argument>(HasSubstr("power[1] = 15")));
   EXPECT_THAT(make({{15, nan}, {20, 7}}), ThrowsMessage<std::invalid_argument>(HasSubstr("speed_mps[0] = nan")));
   EXPECT_THAT(make({{-1, 6}, {20, 7}}), ThrowsMessage<std::invalid_argument>(HasSubstr("power[0] = -1")));
-  EXPECT_THAT(make({{15, 6}}), ThrowsMessage<std::invalid_argument>(HasSubstr("1 set-points, need 2 to 32")));
-  EXPECT_THAT(make(std::vector<SetPoint>(33)), Throws<std::invalid_argument>());
+  EXPECT_THAT(make({{15, 6}}), ThrowsMessage<std::invalid_argument>(HasSubstr("1 set-points, need 2 to 256")));
+  EXPECT_THAT(make(std::vector<SetPoint>(257)), Throws<std::invalid_argument>());
 }
 
 }  // namespace

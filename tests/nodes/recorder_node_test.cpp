@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <atomic>
 #include <iterator>
 #include <limits>
+#include <thread>
 
 #include "config/settings.hpp"
 #include "evaluator/log/reader.hpp"
@@ -317,6 +319,41 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
   odometry(odometry_of(2260 * kMs));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 3 back after 1.24 s"));
   EXPECT_THAT(silences(read()), testing::Contains("odometry 3 1020000000 2260000000"));
+}
+
+TEST_F(RecorderNodeTest, AWordToACoilThatNoDriverAnswersForIsNoted) {
+  std::atomic<std::int64_t> now_ns{1'000'000'000};
+  context.steady_ns = [&now_ns] { return now_ns.load(); };
+  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  auto state = std::make_shared<RecordingState>();
+  state->log = folder / "match.db";
+  node.emplace(context, *log, state);
+  running.emplace(Executor::kWaitset, stop, std::vector<bus::Node*>{&node->node()});
+  const auto fire = [](std::int64_t kick_id) {
+    auto sample = numbered<msg::DeviceFire>(static_cast<std::uint64_t>(kick_id));
+    sample.kick_id = kick_id;
+    sample.power = 20.0;
+    return sample;
+  };
+  Says<msg::DeviceFire> coil{participant};
+  Says<msg::KickReceipt> driver{participant};
+  coil.expect_reader();
+  driver.expect_reader();
+  auto receipt = numbered<msg::KickReceipt>(1);
+  receipt.kick_id = 1;
+  receipt.accepted = true;
+  driver(receipt);
+  while (log->flush(), count(evaluator::log::Reader{folder / "match.db"}, "kick_receipts") == 0)
+    std::this_thread::yield();
+  coil(fire(1));
+  coil(fire(2));
+  while (log_lines->count("told the coil (device/fire) to kick 2 with power 20") == 0) {
+    now_ns += robot::FireWatch::kPatience_ns;
+    std::this_thread::yield();
+  }
+  const auto reader = read();
+  EXPECT_EQ(count(reader, "notes WHERE who = 'recorder' AND text LIKE '%no kicker_driver answers for it%'"), 1);
+  EXPECT_EQ(count(reader, "notes"), 1);
 }
 
 TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {

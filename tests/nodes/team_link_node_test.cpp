@@ -166,7 +166,7 @@ TEST_F(TeamLinkTest, AnInterfaceWithoutAnAddressIsWaitedFor) {
   context.settings.team_link.interface = "no_such0";
   context.settings.team_link.referee = false;
   TeamLinkNode node{context, domain};
-  EXPECT_TRUE(lines->wait_for("no_such0 has no address"));
+  EXPECT_TRUE(lines->wait_for("there is no interface no_such0: there are "));
 }
 
 TEST(TeamDomain, NamesTheSettingThatIsMissing) {

@@ -1,6 +1,12 @@
 // The page that labels kicks, asked as a browser asks it.
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <thread>
 
 #include "pages/labels/label_server.hpp"
 #include "tests/evaluator/match_fixture.hpp"
@@ -118,6 +124,61 @@ TEST_F(LabelPage, RunsNoScriptButItsOwn) {
   EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'none'; script-src 'self'"));
   EXPECT_THAT(page->body, testing::Not(HasSubstr(server_->token())));
   EXPECT_THAT(server_->url(), testing::EndsWith("/#" + server_->token()));
+}
+
+/// Connections that have begun a request and do not go on.
+class SlowClients {
+ public:
+  SlowClients(int port, int count) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<in_port_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    for (int i = 0; i < count; ++i) {
+      sockets_.push_back(::socket(AF_INET, SOCK_STREAM, 0));
+      EXPECT_EQ(::connect(sockets_.back(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+      EXPECT_EQ(::send(sockets_.back(), "GET", 3, MSG_NOSIGNAL), 3);
+    }
+  }
+  SlowClients(const SlowClients&) = delete;
+  SlowClients& operator=(const SlowClients&) = delete;
+  ~SlowClients() {
+    for (const int socket : sockets_) ::close(socket);
+  }
+
+  /// A byte more of each request, which keeps the server waiting.
+  void trickle() const {
+    for (const int socket : sockets_) ::send(socket, "x", 1, MSG_NOSIGNAL);
+  }
+
+ private:
+  std::vector<int> sockets_;
+};
+
+TEST_F(LabelPage, IsNotHeldUpByConnectionsThatSayNothing) {
+  const SlowClients slow{server_->port(), 200};
+  httplib::Client client("http://" + host_);
+  client.set_read_timeout(std::chrono::milliseconds{1500});  // less than the server waits for each of them
+  for (int i = 0; i < 3; ++i) {
+    const auto answer = client.Get("/api/kicks");
+    ASSERT_TRUE(answer) << i;
+    EXPECT_EQ(answer->status, 200);
+    slow.trickle();
+  }
+}
+
+TEST_F(LabelPage, EndsWhileConnectionsTrickle) {
+  const SlowClients slow{server_->port(), 20};
+  std::atomic<bool> over = false;
+  std::thread writer{[&] {
+    while (!over) {
+      slow.trickle();
+      std::this_thread::yield();
+    }
+  }};
+  server_.reset();
+  over = true;
+  writer.join();
 }
 
 TEST_F(LabelPage, OfATakenPortIsRefused) { EXPECT_THROW(LabelServer(*desk_, server_->port()), std::runtime_error); }

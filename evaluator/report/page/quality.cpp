@@ -5,6 +5,7 @@
 #include "evaluator/report/merge_report.hpp"
 #include "evaluator/report/page/html.hpp"
 #include "evaluator/report/page/report_page.hpp"
+#include "evaluator/report/report_sentences.hpp"
 #include "evaluator/report/text_table.hpp"
 #include "kicking/geometry/time.hpp"
 
@@ -52,9 +53,7 @@ std::string bounds(const Report& report) {
 
 std::string orders(const Report& report) {
   std::vector<std::string> lines;
-  for (const RefusedOrders& refused : report.refused_orders)
-    lines.push_back(
-        fmt::format("refused orders, no kicks: {} x {} ({})", refused.orders, words(refused.refusal), refused.policy));
+  for (const RefusedOrders& refused : report.refused_orders) lines.push_back(line_of(refused));
   constexpr std::size_t kMostLines = 20;
   for (const UnclosedKick& kick : report.unclosed_kicks) {
     if (lines.size() == kMostLines) break;
