@@ -22,7 +22,6 @@ struct MigrateArguments {
 
 int run_migrate(const MigrateArguments& arguments) try {
   if (arguments.out.empty() && !arguments.in_place) throw UsageError{"say --out NEW or --in-place"};
-  if (!arguments.in_place) require_new("--out", arguments.out);
   const std::filesystem::path backup =
       arguments.in_place ? evaluator::log::backup_of(arguments.log) : std::filesystem::path{};
   const auto migrated = [&] {

@@ -10,7 +10,6 @@
 #include <string>
 #include <string_view>
 
-#include "config/error.hpp"
 #include "evaluator/report/write_file.hpp"
 #include "kicking/text/printable.hpp"
 
@@ -52,7 +51,7 @@ inline void require_new(const std::string& flag, const std::filesystem::path& pa
   const bool taken = std::filesystem::exists(path, unknown) && !(std::filesystem::is_regular_file(path, unknown) &&
                                                                  std::filesystem::file_size(path, unknown) == 0);
   if (taken)
-    throw config::BadArgument{
+    throw std::runtime_error{
         fmt::format("{} {} exists already and is never overwritten; choose another file", flag, path.string())};
   require_writable(flag, path);
 }

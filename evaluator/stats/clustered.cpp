@@ -9,6 +9,7 @@
 #include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/exact.hpp"
 #include "evaluator/stats/interval.hpp"
 
 namespace trivela::evaluator::stats {

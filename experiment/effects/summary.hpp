@@ -10,8 +10,8 @@
 
 namespace trivela::experiment {
 
-/// A sentence where the simulator's truth lies outside of what the labels say: a robot's file that is far from the robot
-/// makes wrong labels. Empty: nowhere.
+/// A sentence where the simulator's truth lies outside of what the labels say: a robot's file that is far from the
+/// robot makes wrong labels. Empty: nowhere.
 std::string label_warning(const std::string& arm, const ArmTally& observed);
 
 /// A row of a book.

@@ -49,12 +49,8 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
     everything.keep_all = true;
     node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) { store_heard(heard); }, {}, everything);
   }
-  if (state_->silences && context_.keys.empty()) {
-    bus::ReaderOptions everything;
-    everything.keep_all = true;
-    node_.on<msg::DeviceFire>([this](const msg::DeviceFire& fire) { state_->fires.fired(fire, context_.steady_ns()); },
-                              bus::writes<>(), everything);
-  }
+  // With keys a kicker_driver alone says it, and they do not let the recorder hear it.
+  if (state_->silences && context_.keys.empty()) fires_.emplace(context.participant);
   node_.on<msg::DeviceEmulated>([this](const msg::DeviceEmulated&) { note_simulation(false); }, bus::writes<>());
 }
 
@@ -67,6 +63,7 @@ void RecorderNode::note_simulation(bool truth) {
 void RecorderNode::note_silences() {
   if (!state_->silences) return;
   state_->silences->look(now_ns(std::chrono::steady_clock::now()));
+  if (fires_) fires_->take([this](const msg::DeviceFire& fire) { state_->fires.fired(fire, context_.steady_ns()); });
   for (const msg::DeviceFire& fire : state_->fires.unanswered(context_.steady_ns())) note_fire(fire);
 }
 

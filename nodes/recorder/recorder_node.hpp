@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "bus/reader.hpp"
 #include "evaluator/log/clock_offsets.hpp"
 #include "evaluator/log/writer.hpp"
 #include "nodes/recorder/recording_state.hpp"
@@ -54,6 +55,7 @@ class RecorderNode {
   evaluator::log::TableId shadows_, assignments_;
   evaluator::log::ClockOffsetWriter clocks_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
+  std::optional<bus::Reader<msg::DeviceFire>> fires_;
   std::mutex mutex_;  // of cycles_
   robot::CycleWatch cycles_;
   std::shared_ptr<RecordingState> state_;

@@ -118,7 +118,7 @@ struct LabelServer::Impl {
       refuse(response, 403, "the page is asked for by a name that is not this machine's");
       return httplib::Server::HandlerResponse::Handled;
     });
-    server.set_exception_handler([](const Request&, Response& response, std::exception_ptr failure) {
+    server.set_exception_handler([](const Request&, Response& response, const std::exception_ptr& failure) {
       try {
         std::rethrow_exception(failure);
       } catch (const std::exception& error) {
@@ -134,7 +134,7 @@ struct LabelServer::Impl {
     server.set_keep_alive_max_count(1);  // an idle connection would hold up the end
     server.set_read_timeout(kPatience);
     server.set_write_timeout(kPatience);
-    server.set_payload_max_length(64 * 1024);
+    server.set_payload_max_length(std::size_t{64} * 1024);
     server.set_default_headers({{"Content-Security-Policy",
                                  "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src "
                                  "data:; media-src blob:; "

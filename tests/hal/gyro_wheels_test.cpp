@@ -98,7 +98,9 @@ TEST_F(MtiOnALine, BrokenMessagesCostOnlyThemselves) {
 
 TEST_F(MtiOnALine, ALostOneIsSaidAndHeardAgain) {
   emulator_.with_board([](mti::EmulatedMti& mti) { mti.faults.silent = true; });
-  EXPECT_TRUE(until([&] { return gyro_.status().ends_with("the gyro is off, in configuration mode, or at another baud rate"); })) << gyro_.status();
+  EXPECT_TRUE(until([&] {
+    return gyro_.status().ends_with("the gyro is off, in configuration mode, or at another baud rate");
+  })) << gyro_.status();
   emulator_.with_board([](mti::EmulatedMti& mti) { mti.faults.silent = false; });
   EXPECT_TRUE(until([&] { return gyro_.status().ends_with(": MTi"); })) << gyro_.status();
   emulator_.line().pull();
