@@ -85,8 +85,8 @@ bool AnyWriter::elder_writer_exists() const {
 bool AnyWriter::writer_exists(std::chrono::nanoseconds since_joining, Counts counts) const {
   // Of a process that has just ended, what it said before can still come, and its farewell after it.
   constexpr std::chrono::milliseconds kFarewell{200};
-  constexpr std::chrono::milliseconds kGlance{50};  // for who starts at the same moment
-  const auto deadline = std::max(participant_.joined() + since_joining, Clock::now() + kGlance);
+  constexpr std::chrono::milliseconds kLookBriefly{50};  // for who starts at the same moment
+  const auto deadline = std::max(participant_.joined() + since_joining, Clock::now() + kLookBriefly);
   dds_instance_handle_t self = 0;
   checked(dds_get_instance_handle(writer_.handle(), &self), "dds_get_instance_handle", topic_);
   const Entity publications(
