@@ -135,7 +135,8 @@ Shift drawn_in(const Shift& found) {
   constexpr double kBeforehand_sd = 0.05, kOfThePlace = 1.5;  // chosen by how often the interval has the truth
   const double prior = kBeforehand_sd * kBeforehand_sd, se = kOfThePlace * found.se;
   const double kept = prior / (prior + se * se);
-  return {kept * found.value, std::sqrt(kept) * se};
+  const double drawn = (1.0 - kept) * found.value;  // too far, where the change is larger than was thought
+  return {found.value - drawn, std::hypot(std::sqrt(kept) * se, drawn)};
 }
 
 class Watch {
