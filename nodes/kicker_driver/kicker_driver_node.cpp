@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/open.hpp"
+#include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
@@ -284,9 +285,12 @@ bool KickerDriverNode::owns_decisions(const bus::SampleInfo& info) const {
   return std::ranges::find(own_decisions_, info.owner) != own_decisions_.end();
 }
 
-/// Until when the coil may be energised: while the order is valid, and while the referee's last word counts.
+/// Until when the coil may be energised: while the order is valid and not too old, whatever it says of itself, with a
+/// cycle more for an instant that lies ahead, and while the referee's last word counts.
 std::int64_t KickerDriverNode::deadline_ns(const msg::KickOrder& order) const {
-  return std::min(order.valid_until_t_ns, referee_.counts_until_ns());
+  const double oldest_s = context_.settings.kicker_driver.max_order_age_s + context_.settings.run.cycle_s;
+  const std::int64_t too_old_ns = std::max(order.t_ns, order.fire_t_ns) + kicking::nanoseconds(oldest_s);
+  return std::min({order.valid_until_t_ns, too_old_ns, referee_.counts_until_ns()});
 }
 
 void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) {
