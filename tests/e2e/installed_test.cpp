@@ -54,7 +54,7 @@ TEST_F(Installed, EveryProgramFindsTheInstalledConfiguration) {
     EXPECT_THAT(output_of(entry.path(), {"--version"}), HasSubstr("\nconfiguration: " + config() + "\n"));
     ++programs;
   }
-  EXPECT_EQ(programs, 16);
+  EXPECT_EQ(programs, 15);
 }
 
 TEST_F(Installed, NoProgramNamesTheSources) {
