@@ -124,11 +124,12 @@ std::optional<RobotSetup> other_setup(const RobotSetup& recorded, const ReplayFl
 /// The session that is meant. Throws std::runtime_error with the sessions that there are.
 RecordedSession session_called(const Reader& reader, const ReplayFlags& flags) {
   std::vector<RecordedSession> meant;
-  std::string list;
+  std::string list, replays;
   for (RecordedSession& session : reader.sessions()) {
-    if (!session.replays_uuid.empty())
-      throw std::runtime_error{
-          fmt::format("{}: it holds a {}: decide the recorded log again", flags.log, session.scenario)};
+    if (!session.replays_uuid.empty()) {
+      replays = fmt::format(" It holds a {}: decide the recorded log again.", session.scenario);
+      continue;
+    }
     const auto robots = reader.robots_in("odometry", session.session_id);
     if (robots.empty()) continue;
     list += fmt::format("\n  {}: robot {}", session.uuid, fmt::join(robots, ", "));
@@ -138,8 +139,8 @@ RecordedSession session_called(const Reader& reader, const ReplayFlags& flags) {
   if (list.empty())
     throw std::runtime_error{
         fmt::format("{}: no session of it has wheel samples: there is nothing to decide again. "
-                    "Logs that a recorder made have them",
-                    flags.log)};
+                    "Logs that a recorder made have them.{}",
+                    flags.log, replays)};
   throw std::runtime_error{fmt::format("{}: {} of its sessions begin with \"{}\"; --session names one of:{}", flags.log,
                                        meant.size(), flags.session, list)};
 }
@@ -172,7 +173,7 @@ std::string beside_text(const Reader& log, const ReplayFlags& flags) {
   std::string text;
   for (const auto& beside : evaluator::decided_again({{&log, flags.log}, {&again, flags.out}})) {
     for (const std::string& sentence : evaluator::sentences_of(beside)) text += sentence + "\n";
-    if (!beside.twice.empty()) text += evaluator::text_table(evaluator::table_of(beside));
+    if (!beside.orders.empty()) text += evaluator::text_table(evaluator::table_of(beside));
   }
   return text;
 }
@@ -181,9 +182,9 @@ std::string beside_text(const Reader& log, const ReplayFlags& flags) {
 struct Plan {
   int robot_id = 0;
   RobotSetup recorded;
-  std::optional<RobotSetup> anew;
+  std::optional<RobotSetup> other;
 
-  const RobotSetup& decides() const { return anew ? *anew : recorded; }
+  const RobotSetup& decides() const { return other ? *other : recorded; }
 };
 
 std::vector<Plan> plans_of(const Reader& reader, const RecordedSession& session, const ReplayFlags& flags) {
@@ -192,8 +193,8 @@ std::vector<Plan> plans_of(const Reader& reader, const RecordedSession& session,
     const auto own = fmt::format("robot {}", plans.size() + 1);
     const bool has_own = !plans.empty() && !part_of(session.config_toml, own).empty();
     RobotSetup recorded = recorded_setup(session, has_own ? own : "robot", flags.log);
-    auto anew = other_setup(recorded, flags);
-    plans.push_back({robot_id, std::move(recorded), std::move(anew)});
+    auto other = other_setup(recorded, flags);
+    plans.push_back({robot_id, std::move(recorded), std::move(other)});
   }
   return plans;
 }
@@ -241,7 +242,7 @@ Replayed decide_again(const Reader& reader, const RecordedSession& session, cons
     };
     const auto result =
         experiment::replay_robot({reader, session.session_id, plans[i].robot_id, session.simulated_clock},
-                                 plans[i].recorded, plans[i].anew, log, queue_capacity, progress);
+                                 plans[i].recorded, plans[i].other, log, queue_capacity, progress);
     for (std::string& line : check_lines(result, session.simulated_clock)) replayed.lines.push_back(std::move(line));
   }
   return replayed;
@@ -275,8 +276,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   verb->footer(
       "The recorded wheel samples, camera frames, words of the referee and states of the kicker go at their recorded\n"
       "instants through the robot's logic, in this process: open loop, since nothing that it orders happens. It says\n"
-      "first how far the log's own settings give the recorded decisions again, then what is ordered anew beside what\n"
-      "was. `trivela report LOG OUT --html PAGE` shows both.");
+      "first how far the log's own settings give the recorded decisions again, then what it orders beside what was\n"
+      "ordered. `trivela report LOG OUT --html PAGE` shows both.");
   auto flags = std::make_shared<ReplayFlags>();
   verb->add_option("log", flags->log, "match log of a recorder, of a robot or in lockstep")->required();
   verb->add_option("--out", flags->out, "log of the replay, must not exist")->capture_default_str();

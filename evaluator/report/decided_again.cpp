@@ -56,19 +56,19 @@ void each_order(const log::Reader& reader, const log::RecordedSession& session, 
 
 DecidedAgain beside(const OpenLog& log, const log::RecordedSession& session, const OpenLog& again_log,
                     const log::RecordedSession& replay) {
-  DecidedAgain again{.uuid = session.uuid, .log = log.name, .again_log = again_log.name, .twice = {}};
-  std::map<Key, DecidedTwice> found;
-  const auto place = [&](const Key& key) -> DecidedTwice& {
-    DecidedTwice& twice = found[key];
-    std::tie(twice.robot_id, twice.half, twice.possession_id) = key;
-    return twice;
+  DecidedAgain again{.uuid = session.uuid, .log = log.name, .again_log = again_log.name, .orders = {}};
+  std::map<Key, PossessionOrders> found;
+  const auto place = [&](const Key& key) -> PossessionOrders& {
+    PossessionOrders& both = found[key];
+    std::tie(both.robot_id, both.half, both.possession_id) = key;
+    return both;
   };
   std::map<Key, bool> was_refused;
   each_order(*log.reader, session, [&](const Key& key, std::int64_t, PossessionOrder order, bool refused) {
-    DecidedTwice& twice = place(key);
-    if (twice.was && !(was_refused[key] && !refused)) return;
+    PossessionOrders& both = place(key);
+    if (both.recorded && !(was_refused[key] && !refused)) return;
     was_refused[key] = refused;
-    twice.was = std::move(order);
+    both.recorded = std::move(order);
   });
   std::map<int, Possessions> possessions;
   each_order(*again_log.reader, replay, [&](Key key, std::int64_t t_ns, PossessionOrder order, bool) {
@@ -76,18 +76,21 @@ DecidedAgain beside(const OpenLog& log, const log::RecordedSession& session, con
     if (fresh) of_robot->second = possessions_of(*log.reader, session.session_id, std::get<0>(key));
     auto then = of_robot->second.upper_bound(t_ns);
     if (then != of_robot->second.begin()) std::tie(std::get<1>(key), std::get<2>(key)) = (--then)->second;
-    DecidedTwice& twice = place(key);
-    ++twice.orders_anew;
-    if (!twice.anew) twice.anew = std::move(order);
+    PossessionOrders& both = place(key);
+    ++both.replayed_orders;
+    if (!both.replayed) both.replayed = std::move(order);
   });
   log.reader->query(
       fmt::format("SELECT count(*) FROM (SELECT DISTINCT robot_id, half, possession_id FROM kick_decisions "
                   "WHERE session_id = {} AND reason <> 'not_playing')",
                   session.session_id),
       [&](std::int64_t count) { again.possessions = count; });
-  for (auto& [key, twice] : found) again.twice.push_back(std::move(twice));
-  const auto instant = [](const DecidedTwice& twice) { return (twice.was ? twice.was : twice.anew)->at_s; };
-  std::ranges::stable_sort(again.twice, {}, [&](const DecidedTwice& t) { return std::pair(t.robot_id, instant(t)); });
+  for (auto& [key, both] : found) again.orders.push_back(std::move(both));
+  const auto instant = [](const PossessionOrders& both) {
+    return (both.recorded ? both.recorded : both.replayed)->at_s;
+  };
+  std::ranges::stable_sort(again.orders, {},
+                           [&](const PossessionOrders& t) { return std::pair(t.robot_id, instant(t)); });
   return again;
 }
 
@@ -114,43 +117,43 @@ std::vector<DecidedAgain> decided_again(const std::vector<OpenLog>& logs) {
 }
 
 std::vector<std::string> sentences_of(const DecidedAgain& again) {
-  std::int64_t same = 0, earlier = 0, later = 0, only_then = 0, only_anew = 0;
-  for (const DecidedTwice& twice : again.twice) {
-    if (!twice.anew) {
-      ++only_then;
-    } else if (!twice.was) {
-      ++only_anew;
+  std::int64_t same = 0, earlier = 0, later = 0, only_recorded = 0, only_replayed = 0;
+  for (const PossessionOrders& both : again.orders) {
+    if (!both.replayed) {
+      ++only_recorded;
+    } else if (!both.recorded) {
+      ++only_replayed;
     } else {
-      const double by_s = twice.anew->at_s - twice.was->at_s;
+      const double by_s = both.replayed->at_s - both.recorded->at_s;
       ++(std::abs(by_s) < kSameCycle_s ? same : by_s < 0.0 ? earlier : later);
     }
   }
   return {
-      "Open loop: robot, ball, opponents and kicker go on as recorded, whatever is ordered anew. No kick of the "
+      "Open loop: robot, ball, opponents and kicker go on as recorded, whatever the replay orders. No kick of the "
       "replay was made, and none has an outcome.",
       fmt::format("Of {} possessions with a decision, {} have an order in both: {} in the same cycle, {} earlier "
-                  "anew, {} later. {} have one only as recorded, {} only anew.",
-                  again.possessions, same + earlier + later, same, earlier, later, only_then, only_anew)};
+                  "in the replay, {} later. {} have one only as recorded, {} only in the replay.",
+                  again.possessions, same + earlier + later, same, earlier, later, only_recorded, only_replayed)};
 }
 
 std::vector<std::vector<std::string>> table_of(const DecidedAgain& again) {
   std::vector<std::vector<std::string>> rows{{"robot", "half", "possession", "recorded: kick", "at [s]", "policy",
-                                              "power", "predicted", "became", "anew: at [s]", "policy", "power",
+                                              "power", "predicted", "became", "replayed: at [s]", "policy", "power",
                                               "predicted"}};
-  for (const DecidedTwice& twice : again.twice) {
-    std::vector<std::string> row{std::to_string(twice.robot_id), std::to_string(twice.half),
-                                 std::to_string(twice.possession_id)};
+  for (const PossessionOrders& both : again.orders) {
+    std::vector<std::string> row{std::to_string(both.robot_id), std::to_string(both.half),
+                                 std::to_string(both.possession_id)};
     const auto add = [&](const std::optional<PossessionOrder>& order, bool recorded) {
       const auto text = [&](const std::string& words) { row.push_back(order ? words : "–"); };
-      if (recorded) text(order ? fmt::format("{}:{}", twice.robot_id, order->number) : "");
+      if (recorded) text(order ? fmt::format("{}:{}", both.robot_id, order->number) : "");
       text(order ? fmt::format("{:.2f}", order->at_s) : "");
       text(order ? order->policy : "");
       text(order ? number_text(order->power, "{:.1f}") : "");
       text(order ? number_text(order->p_on_target, "{:.2f}") : "");
       if (recorded) text(order ? (order->became.empty() ? "unknown" : words(order->became)) : "");
     };
-    add(twice.was, true);
-    add(twice.anew, false);
+    add(both.recorded, true);
+    add(both.replayed, false);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -59,9 +59,9 @@ struct ClusterCounts {
 
 /// Wilson's interval with the effective number of kicks n / deff (t_df / z)^-2, deff = the variance over matches
 /// (bias_reduced()), and from kFewestCalibrations on over calibrations, too, over that of independent kicks, at least 1
-/// (Korn and Graubard 1998, with Wilson's interval as in Franco et al. 2019); with fewer than twice kManyMatches no
-/// narrower than Clopper and Pearson's of the same kicks taken as independent, since Wilson's of 12 kicks has a truth
-/// of 99 % in 88 of 100 cases. None: fewer than kFewestMatches with a kick.
+/// (Korn and Graubard 1998, with Wilson's interval as in Franco et al. 2019). With
+/// fewer than twice kManyMatches it is no narrower than Clopper and Pearson's of the same kicks taken as independent.
+/// Wilson's of 12 kicks has a truth of 99 % in 88 of 100 cases only. None: fewer than kFewestMatches with a kick.
 std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, double confidence = kConfidence);
 
 /// The same with one entry a match and one calibration.

@@ -51,9 +51,9 @@ hal::WheelSample wheel_sample(const msg::Odometry& odometry) {
 }
 
 /// The robot as another setup has it.
-class Anew {
+class OtherRobot {
  public:
-  Anew(const RobotSetup& setup, const RobotSetup& recorded, const RecordedRobot& robot)
+  OtherRobot(const RobotSetup& setup, const RobotSetup& recorded, const RecordedRobot& robot)
       : logic_(setup.settings, setup.robot, static_cast<std::uint8_t>(robot.robot_id), kick_session(robot)) {
     if (setup.robot.base != recorded.robot.base || setup.settings.odometry != recorded.settings.odometry)
       odometry_.emplace(setup.robot.base, setup.settings.odometry);
@@ -81,13 +81,13 @@ class Anew {
 
 }  // namespace
 
-RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& anew,
+RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
                          evaluator::log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress) {
-  refuse_oracle((anew ? *anew : recorded).settings.kick_decision, robot.robot_id);
+  refuse_oracle((other ? *other : recorded).settings.kick_decision, robot.robot_id);
   RobotReplay replay{.robot_id = robot.robot_id, .check = {}};
   RecordedCycles cycles{robot, recorded.settings, recorded.robot, kick_session(robot)};
-  std::optional<Anew> other;
-  if (anew) other.emplace(*anew, recorded, robot);
+  std::optional<OtherRobot> changed;
+  if (other) changed.emplace(*other, recorded, robot);
   ReplayRows rows{log, queue_capacity};
   for (RowPages<msg::Referee> words{robot}; const auto word = words.next();) rows.write(*word);
   std::optional<std::int64_t> first_t_ns;
@@ -95,12 +95,12 @@ RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded,
   while (cycles.next()) {
     first_t_ns = first_t_ns.value_or(cycles.odometry().t_ns);
     if (progress && ++samples % 256 == 0 && !progress(kicking::seconds(cycles.odometry().t_ns - *first_t_ns))) break;
-    if (!other) {
+    if (!changed) {
       rows.write_cycle(cycles.world(), cycles.decided());
-    } else if (const auto odometry = other->odometry(cycles.odometry())) {
-      if (other->has_odometry()) rows.write(*odometry);
-      const msg::WorldState world = other->logic().believe(*odometry, cycles.belief_inputs());
-      rows.write_cycle(world, other->logic().decide(world, cycles.decision_inputs()));
+    } else if (const auto odometry = changed->odometry(cycles.odometry())) {
+      if (changed->has_odometry()) rows.write(*odometry);
+      const msg::WorldState world = changed->logic().believe(*odometry, cycles.belief_inputs());
+      rows.write_cycle(world, changed->logic().decide(world, cycles.decision_inputs()));
     } else {
       ++of_another_base;
     }
@@ -108,7 +108,7 @@ RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded,
   if (of_another_base > 0 && of_another_base == cycles.check().cycles)
     throw std::runtime_error{
         fmt::format("robot {}: none of its {} wheel samples goes with the robot's file: it has {} wheels",
-                    robot.robot_id, of_another_base, anew->robot.base.wheel_angles_rad.size())};
+                    robot.robot_id, of_another_base, other->robot.base.wheel_angles_rad.size())};
   replay.check = cycles.check();
   replay.decisions = rows.decisions();
   replay.orders = rows.orders();

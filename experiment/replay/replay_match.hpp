@@ -19,7 +19,7 @@ struct RobotSetup {
 struct RobotReplay {
   int robot_id = 0;
   ReplayCheck check;           ///< with the log's own setup
-  std::int64_t decisions = 0;  ///< anew
+  std::int64_t decisions = 0;  ///< that the replay made
   std::int64_t orders = 0;
 };
 
@@ -27,12 +27,12 @@ struct RobotReplay {
 using ReplayProgress = std::function<bool(double done_s)>;
 
 /// Decides the recorded cycles of a robot again, in process and open loop: wheels, cameras, referee and kicker say what
-/// they said, whatever is ordered. `recorded` is the setup of the log, `anew` another one; none: the same.
+/// they said, whatever is ordered. `recorded` is the setup of the log, `other` another one; none: the same.
 /// `queue_capacity`: of `log`. The rows of world states, decisions, orders, drives and of the referee go to `log`, of
 /// the wheel odometry too where base or noise are other ones. The kicks of the log have no receipts: nobody was asked
 /// to fire them. Throws config::Error where the policies make no sense together, std::runtime_error where a log cannot
 /// be read or written.
-RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& anew,
+RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
                          evaluator::log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress = {});
 
 }  // namespace trivela::experiment

@@ -64,15 +64,18 @@ void RecorderNode::note_silences() {
   if (!state_->silences) return;
   state_->silences->look(now_ns(std::chrono::steady_clock::now()));
   if (fires_) fires_->take([this](const msg::DeviceFire& fire) { state_->fires.fired(fire, context_.steady_ns()); });
-  for (const msg::DeviceFire& fire : state_->fires.unanswered(context_.steady_ns())) note_fire(fire);
+  note_fires(state_->fires.unanswered(context_.steady_ns()));
 }
 
 /// The streams have no row of it: a note has.
-void RecorderNode::note_fire(const msg::DeviceFire& fire) {
-  const std::string text = fmt::format(
+void RecorderNode::note_fires(const std::vector<msg::DeviceFire>& fires) {
+  if (fires.empty()) return;
+  const msg::DeviceFire& fire = fires.front();
+  std::string text = fmt::format(
       "robot {}: a program told the coil (device/fire) to kick {} with power {:g} at t {:.3f} s, and no kicker_driver "
       "answers for it: on a bus without keys any program can say that (trivela keys)",
       fire.robot_id, fire.kick_id, fire.power, kicking::seconds(fire.t_ns));
+  if (fires.size() > 1) text += fmt::format("; {} more kicks were told in this way", fires.size() - 1);
   context_.logger->error(text);
   try {
     evaluator::log::Additions{state_->log}.add(

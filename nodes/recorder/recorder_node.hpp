@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bus/reader.hpp"
 #include "evaluator/log/clock_offsets.hpp"
@@ -44,8 +45,8 @@ class RecorderNode {
 
   void store_heard(const msg::TeamHeard& heard);
 
-  /// A word to a coil that nobody answers for.
-  void note_fire(const msg::DeviceFire& fire);
+  /// Words to a coil that nobody answers for: one note.
+  void note_fires(const std::vector<msg::DeviceFire>& fires);
 
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 

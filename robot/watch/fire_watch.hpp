@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "idl/messages.hpp"
@@ -16,6 +17,8 @@ class FireWatch {
  public:
   /// So long a receipt may take: a driver that was killed after its word is answered for by the next one.
   static constexpr std::int64_t kPatience_ns = 5'000'000'000;
+  /// A note costs the recorder a transaction, and a flood of words is not to keep it from recording.
+  static constexpr std::int64_t kPause_ns = 10'000'000'000;
 
   void fired(const msg::DeviceFire& fire, std::int64_t now_ns) {
     const std::lock_guard lock{mutex_};
@@ -33,15 +36,17 @@ class FireWatch {
     std::erase_if(waiting_, [&](const Waiting& one) { return one.fire.kick_id == receipt.kick_id; });
   }
 
-  /// Those that nobody has answered for in time, each once.
+  /// Those that nobody has answered for in time, each once; no more often than each kPause_ns.
   std::vector<msg::DeviceFire> unanswered(std::int64_t now_ns) {
     const std::lock_guard lock{mutex_};
     std::vector<msg::DeviceFire> over;
+    if (said_ns_ && now_ns - *said_ns_ < kPause_ns) return over;
     std::erase_if(waiting_, [&](const Waiting& one) {
       if (now_ns - one.heard_ns < kPatience_ns) return false;
       over.push_back(one.fire);
       return true;
     });
+    if (!over.empty()) said_ns_ = now_ns;
     return over;
   }
 
@@ -58,6 +63,7 @@ class FireWatch {
   std::mutex mutex_;  // of what follows
   std::deque<std::int64_t> answered_;
   std::vector<Waiting> waiting_;
+  std::optional<std::int64_t> said_ns_;  // unanswered() last gave any
 };
 
 }  // namespace trivela::robot

@@ -51,7 +51,7 @@ TEST(Replay, GivesTheRowsOfALockstepMatchAgainAndOtherOrdersWithAnotherPolicy) {
   const std::string said =
       replay(folder, {"match.db", "--out", "moving.db", "--set", "kick_decision.policy_by_half=[\"moving\"]"});
   EXPECT_THAT(said, HasSubstr("Open loop: "));
-  EXPECT_THAT(said, testing::ContainsRegex("[1-9][0-9]* earlier anew"));
+  EXPECT_THAT(said, testing::ContainsRegex("[1-9][0-9]* earlier in the replay"));
   EXPECT_EQ(number_of(Reader{folder / "moving.db"}, "SELECT count(*) FROM kick_decisions WHERE policy = 'stopped'"), 0);
 
   EXPECT_EQ(Reader{folder / "same.db"}.sessions()[0].replays_uuid, Reader{folder / "match.db"}.sessions()[0].uuid);

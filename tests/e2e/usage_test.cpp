@@ -317,6 +317,27 @@ std::string on_terminal(const Folder& folder, const std::string& term, int colum
   return text.substr(text.find('\n') + 1);
 }
 
+TEST(Usage, AFileThatCannotBeReadIsNoBadUsageWhateverTheFlag) {
+  const Folder folder;
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"simulate", "--arms", "moving", "--scenario", "no.toml"},
+                                             {"simulate", "--arms", "moving", "--robot", "no.toml"},
+                                             {"match", "--half", "moving", "--config", "no.toml"},
+                                             {"compare", "--csv", "no.toml"}}) {
+    Program trivela{"trivela", arguments, folder.path()};
+    EXPECT_EQ(trivela.wait(), 1) << arguments.front();
+    EXPECT_THAT(trivela.errors(), HasSubstr("no.toml"));
+  }
+}
+
+TEST(Usage, ATeamThatPlaysWithoutKeysIsToldWhatThatMeans) {
+  const Folder folder;
+  const std::string team = TRIVELA_SOURCE_DIR "/config/teams/example.toml";
+  Program check{"trivela", {"team", "check", team}, folder.path()};
+  EXPECT_EQ(check.wait(), 0) << check.errors();
+  EXPECT_THAT(check.output(), HasSubstr("without keys: any program on these networks can stop the robots"));
+}
+
 TEST(Usage, ADumbTerminalGetsNoEscapesAndNoLineThatIsDrawnOver) {
   const Folder folder;
   const std::string simulate = "trivela simulate --arms moving --matches 2 --possessions 2 --out log.db";

@@ -124,8 +124,8 @@ TEST(Coverage, WilsonFromMatches) {
   }));
 }
 
-// As few as there can be: what stands in a comparison then, by match where there are enough, else of independent kicks,
-// which are so few for Wilson at 4 of them that 87.5 % is all that it has.
+// The fewest matches: a comparison has intervals by match where there are enough, else of independent kicks. Four are
+// left out: Wilson's interval of four kicks has a truth of 50 % in 87.5 % of cases.
 TEST(Coverage, OfOneKickAMatchHoldsFromThreeMatchesOn) {
   for (const std::uint32_t n : {3u, 5u, 6u, 8u, 11u, 12u, 20u, 30u}) {
     for (const double p : {0.5, 0.9, 0.99}) {

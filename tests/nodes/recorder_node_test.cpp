@@ -356,6 +356,23 @@ TEST_F(RecorderNodeTest, AWordToACoilThatNoDriverAnswersForIsNoted) {
   EXPECT_EQ(count(reader, "notes"), 1);
 }
 
+TEST(FireWatch, AFloodOfWordsIsToldEachTenSecondsAndFillsNoMemory) {
+  robot::FireWatch watch;
+  std::size_t told = 0, words = 0;
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  for (std::int64_t t_ns = 0; t_ns < 60 * kSecond_ns; t_ns += kSecond_ns / 100) {
+    auto fire = numbered<msg::DeviceFire>(static_cast<std::uint64_t>(t_ns) + 1);
+    fire.kick_id = t_ns + 1;
+    watch.fired(fire, t_ns);
+    const std::size_t count = watch.unanswered(t_ns).size();
+    told += count > 0 ? 1 : 0;
+    words += count;
+  }
+  EXPECT_EQ(told, 6u) << "after 5, 15, 25 ... s";
+  EXPECT_GT(words, 6u);
+  EXPECT_LE(words, 6 * 256u);
+}
+
 TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
   log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
   const auto state = std::make_shared<RecordingState>();

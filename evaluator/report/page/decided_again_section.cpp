@@ -11,7 +11,7 @@ std::string decided_again_section(const PageView& view) {
   for (const DecidedAgain& again : view.data.again) {
     body += "<h3>" + html(fmt::format("{}, decided again in {}", again.log, again.again_log)) + "</h3>\n";
     body += paragraphs(sentences_of(again));
-    if (!again.twice.empty())
+    if (!again.orders.empty())
       body += table("What was ordered in a possession, and what would have been", table_of(again));
   }
   return section("again", "Decided again", body);
