@@ -1,7 +1,6 @@
 #include "evaluator/log/files_beside.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <array>
@@ -41,27 +40,19 @@ std::string start_of_wal(const fs::path& log) {
   return start;
 }
 
-fs::path copy_of_both(const fs::path& log) {
-  const auto failed = [&](const std::string& why) {
-    return std::runtime_error(
-        fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), why));
-  };
+void copy_both(const fs::path& log, const fs::path& folder) {
   std::error_code error;
-  std::string folder = (fs::temp_directory_path(error) / "trivela_reading_XXXXXX").string();
-  if (error || ::mkdtemp(folder.data()) == nullptr) throw failed(error ? error.message() : "there is no place for it");
   constexpr int kAttempts = 5;
   for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
     const std::string start = start_of_wal(log);
     for (const char* const suffix : {"", "-wal"}) {
-      const fs::path copy = fs::path(folder) / ("log.db" + std::string(suffix));
+      const fs::path copy = folder / ("log.db" + std::string(suffix));
       if (!error) fs::copy_file(beside(log, suffix), copy, fs::copy_options::overwrite_existing, error);
       if (!error) fs::permissions(copy, fs::perms::owner_all, error);
     }
-    if (!error && start_of_wal(log) == start) return folder;
+    if (!error && start_of_wal(log) == start) return;
   }
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
-  throw failed(error ? error.message() : "its recorder moves rows meanwhile; ask again");
+  throw std::runtime_error(error ? error.message() : "its recorder moves rows meanwhile; ask again");
 }
 
 }  // namespace
@@ -95,13 +86,14 @@ ReadableLog::ReadableLog(const fs::path& log) : log_(log), wal_(wal_beside(log))
     return;
   }
   if (can_be_read_in_place(log)) return;
-  copied_to_ = copy_of_both(log);
-  name_ = (copied_to_ / "log.db").string();
-}
-
-ReadableLog::~ReadableLog() {
-  std::error_code ignored;
-  if (!copied_to_.empty()) fs::remove_all(copied_to_, ignored);
+  try {
+    copied_to_.emplace();
+    copy_both(log, copied_to_->path());
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), error.what()));
+  }
+  name_ = (copied_to_->path() / "log.db").string();
 }
 
 void ReadableLog::leave_wal_out() {

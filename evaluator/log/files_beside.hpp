@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
+
+#include "evaluator/log/reading_folder.hpp"
 
 namespace trivela::evaluator::log {
 
@@ -28,7 +30,6 @@ class ReadableLog {
  public:
   /// Throws std::runtime_error where the copy cannot be made.
   explicit ReadableLog(const std::filesystem::path& log);
-  ~ReadableLog();
   ReadableLog(const ReadableLog&) = delete;
   ReadableLog& operator=(const ReadableLog&) = delete;
 
@@ -43,7 +44,7 @@ class ReadableLog {
   std::filesystem::path log_;
   Wal wal_;
   std::string name_;
-  std::filesystem::path copied_to_;  // folder; empty: nothing was copied
+  std::optional<ReadingFolder> copied_to_;
 };
 
 }  // namespace trivela::evaluator::log

@@ -3,9 +3,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <set>
+#include <vector>
 
 #include "evaluator/log/additions.hpp"
 #include "evaluator/log/merge.hpp"
@@ -122,6 +127,41 @@ TEST_F(FilesBeside, AnUnclosedLogIsReadWhereNothingCanBeWritten) {
       },
       testing::ExitedWithCode(0), "");
   fs::permissions(folder, fs::perms::owner_all);
+}
+
+TEST_F(FilesBeside, WhatAKilledReaderCopiedGoesWithTheNextReading) {
+  copy_of_open("open_copy.db", "open_copy.db-wal");
+  fs::create_directory(path("tmp"));
+  ::setenv("TMPDIR", path("tmp").c_str(), 1);
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  const pid_t reader = ::fork();
+  if (reader == 0) {
+    const log::ReadableLog reads(path("open_copy.db"));
+    if (::write(pipe[1], "r", 1) != 1) std::_Exit(1);
+    ::pause();
+  }
+  char ready = 0;
+  ASSERT_EQ(::read(pipe[0], &ready, 1), 1);
+  const auto folders = [&] {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(path("tmp"))) found.push_back(entry.path());
+    return found;
+  };
+  ASSERT_EQ(folders().size(), 1u);
+  const fs::path left = folders().front();
+  const auto made_long_ago = [&] {
+    fs::last_write_time(left, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  };
+  made_long_ago();
+  { const log::ReadableLog another(path("open_copy.db")); }
+  EXPECT_TRUE(fs::exists(left)) << "its reader lives";
+  ::kill(reader, SIGKILL);
+  ASSERT_EQ(::waitpid(reader, nullptr, 0), reader);
+  made_long_ago();
+  { const log::ReadableLog another(path("open_copy.db")); }
+  EXPECT_TRUE(folders().empty());
+  ::unsetenv("TMPDIR");
 }
 
 }  // namespace
