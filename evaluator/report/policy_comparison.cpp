@@ -58,9 +58,12 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
   }
   result.matches = matches.size();
   const auto by_match = stats::clustered_wilson(kicks);
-  result.efficiency_ci = by_match.value_or(stats::wilson(result.efficiency()));
-  result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(stats::wilson(result.per_opportunity()));
-  result.goals_ci = stats::clustered_wilson(goals).value_or(stats::wilson({result.goals, result.opportunities}));
+  const auto of_few = [&](stats::Counts counts) {
+    return book.has_matches ? stats::wilson_or_exact(counts) : stats::wilson(counts);
+  };
+  result.efficiency_ci = by_match.value_or(of_few(result.efficiency()));
+  result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(of_few(result.per_opportunity()));
+  result.goals_ci = stats::clustered_wilson(goals).value_or(of_few({result.goals, result.opportunities}));
   result.by_match = by_match.has_value();
   for (const auto& [key, minutes] : book.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;

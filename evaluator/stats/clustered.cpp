@@ -25,6 +25,12 @@ double smoothed_variance(Counts counts) {
   return p * (1.0 - p) / n;
 }
 
+// Wilson's interval of few kicks has the truth in 87.5 % of cases (4 at 50 %), or in 88 % (12 at 99 %).
+Interval no_narrower_than_exact(Interval wilson, Counts counts, double confidence) {
+  const Interval exact = clopper_pearson(counts, confidence);
+  return {std::min(wilson.lo, exact.lo), std::max(wilson.hi, exact.hi)};
+}
+
 struct StratumTotal {
   Counts older;
   Counts newer;
@@ -154,10 +160,13 @@ std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, d
   const double design_effect = independent > 0.0 ? std::max(variance.variance / independent, 1.0) : 1.0;
   const double n_effective = n / design_effect * square(z_of(confidence) / t_of(confidence, variance.df));
   const Interval wilson = wilson_of(p, n_effective, confidence);
-  if (matches.size() >= kManyMatches * 2) return wilson;
-  // Near 0 and 1 Wilson's interval of so few has the truth in 88 % of cases.
-  const Interval exact = clopper_pearson(total, confidence);
-  return Interval{std::min(wilson.lo, exact.lo), std::max(wilson.hi, exact.hi)};
+  return matches.size() < kManyMatches * 2 ? no_narrower_than_exact(wilson, total, confidence) : wilson;
+}
+
+Interval wilson_or_exact(Counts counts, double confidence) {
+  const Interval alone = wilson(counts, confidence);
+  const bool few = counts.n > 0 && std::cmp_less(counts.n, kManyMatches * 2);
+  return few ? no_narrower_than_exact(alone, counts, confidence) : alone;
 }
 
 std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence) {

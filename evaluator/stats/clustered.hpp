@@ -61,8 +61,12 @@ struct ClusterCounts {
 /// (bias_reduced()), and from kFewestCalibrations on over calibrations, too, over that of independent kicks, at least 1
 /// (Korn and Graubard 1998, with Wilson's interval as in Franco et al. 2019). With
 /// fewer than twice kManyMatches it is no narrower than Clopper and Pearson's of the same kicks taken as independent.
-/// Wilson's of 12 kicks has a truth of 99 % in 88 of 100 cases only. None: fewer than kFewestMatches with a kick.
+/// None: fewer than kFewestMatches with a kick.
 std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, double confidence = kConfidence);
+
+/// Wilson's interval of independent kicks, and of fewer than twice kManyMatches of them no narrower than Clopper and
+/// Pearson's: what stands where clustered_wilson() has too few matches.
+Interval wilson_or_exact(Counts counts, double confidence = kConfidence);
 
 /// The same with one entry a match and one calibration.
 std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence = kConfidence);

@@ -90,7 +90,7 @@ Effect share_of(const ArmTally& matches, Measure measure) {
     std::vector<evaluator::stats::Counts> counts;
     for (const MatchTally& match : matches) counts.push_back(counts_of(match, measure));
     const auto by_match = evaluator::stats::clustered_wilson(counts);
-    share.ci = by_match.value_or(evaluator::stats::wilson(counts_of(total_of(matches), measure)));
+    share.ci = by_match.value_or(evaluator::stats::wilson_or_exact(counts_of(total_of(matches), measure)));
   }
   share.ci = {std::max(share.ci.lo, 0.0), std::min(share.ci.hi, 1.0)};
   return share;
