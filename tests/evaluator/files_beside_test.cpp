@@ -1,6 +1,7 @@
 // What lies beside a log as its -wal: its own, another recording's or an older copy; and what reading leaves behind.
 #include "evaluator/log/files_beside.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -8,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <set>
 #include <vector>
@@ -162,6 +164,42 @@ TEST_F(FilesBeside, WhatAKilledReaderCopiedGoesWithTheNextReading) {
   { const log::ReadableLog another(path("open_copy.db")); }
   EXPECT_TRUE(folders().empty());
   ::unsetenv("TMPDIR");
+}
+
+TEST_F(FilesBeside, ACopyThatARecorderCrossedIsWholeOrRefused) {
+  const std::string log = path("busy.db").string();
+  SQLite::Database writer(log, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  writer.exec(  // a copy takes long between the place of `first` and that of `last`
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = OFF; CREATE TABLE first(n);"
+      "INSERT INTO first VALUES(0); CREATE TABLE filler(x); INSERT INTO filler VALUES(zeroblob(10000000));"
+      "CREATE TABLE last(n); INSERT INTO last VALUES(0)");
+  fs::permissions(path("").parent_path(),
+                  fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec,
+                  fs::perm_options::add);
+  const pid_t reader = ::fork();
+  if (reader == 0) {
+    if (::geteuid() == 0 && ::setresuid(kNobody, kNobody, kNobody) != 0) std::_Exit(3);
+    int whole = 0, refused = 0;
+    while ((whole < 20 || refused == 0) && whole + refused < 300) {
+      try {
+        const log::ReadableLog copy(log);
+        SQLite::Database reads(copy.name(), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+        if (reads.execAndGet("SELECT first.n = last.n FROM first, last").getInt() != 1) std::_Exit(1);
+        ++whole;
+      } catch (const std::exception& error) {
+        if (std::string_view(error.what()).find("ask again") == std::string_view::npos) std::_Exit(2);
+        ++refused;
+      }
+    }
+    std::_Exit(whole > 0 ? 0 : 4);
+  }
+  int status = 0;
+  for (int commits = 0; ::waitpid(reader, &status, WNOHANG) == 0; ++commits) {
+    constexpr std::array kPages{200, 1000, 8000};  // seldom enough for a copy between two restarts, and too often
+    if (commits % 2000 == 0) writer.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", kPages[commits / 2000 % 3]));
+    writer.exec("BEGIN; UPDATE first SET n = n + 1; UPDATE last SET n = n + 1; COMMIT");
+  }
+  EXPECT_EQ(WEXITSTATUS(status), 0) << "1: half a transaction, 2: another sentence, 4: none was whole";
 }
 
 }  // namespace
