@@ -18,6 +18,7 @@
 #include "config/error.hpp"
 #include "config/installation.hpp"
 #include "evaluator/log/log_check.hpp"
+#include "evaluator/log/new_file.hpp"
 #include "kicking/text/nearest_word.hpp"
 #include "nodes/runtime/standard_streams.hpp"
 
@@ -124,6 +125,8 @@ int failed(const std::exception& error, cli::ExitCode code) {
 int run_or_say_why_not(int argc, char** argv) try {
   return run(argc, argv);
 } catch (const trivela::config::BadArgument& error) {
+  return failed(error, cli::kBadUsage);
+} catch (const trivela::evaluator::log::FileTaken& error) {
   return failed(error, cli::kBadUsage);
 } catch (const std::system_error& error) {
   if (!std::ferror(stdout)) return failed(error, cli::kFailed);

@@ -134,7 +134,7 @@ Migrated migrate_in_place(const fs::path& log, const fs::path& backup,
   if (LogFile(log, kMatchLog, Check::kSchema).version() == kMatchLog.version)
     throw std::runtime_error(fmt::format("{} is of version {} already", log.string(), kMatchLog.version));
   if (fs::exists(backup))
-    throw std::runtime_error(fmt::format("{} exists already; the old log would take its place", backup.string()));
+    throw FileTaken(fmt::format("{} exists already; the old log would take its place", backup.string()));
   let_go(log);
   const fs::path made = beside(log, ".migrating");
   fs::remove(made);  // of a migration that was cut off

@@ -84,7 +84,7 @@ TEST(Shards, DoNotMergeOverAFileThatIsThere) {
   const Folder folder;
   play_shards(folder, 1);
   run(folder, simulate("whole.db", kMatches));
-  EXPECT_THAT(refusal(folder, {"merge", "whole.db", "shard_1.db"}), HasSubstr("whole.db"));
+  EXPECT_THAT(refusal(folder, {"merge", "whole.db", "shard_1.db"}, 2), HasSubstr("whole.db"));
   EXPECT_EQ(number_of(Reader{folder / "whole.db"}, "SELECT count(*) FROM sessions"), 2 * kMatches);
 }
 
