@@ -91,6 +91,48 @@ TEST(Replay, GivesTheDecisionsOfAMatchInRealTimeAgain) {
               HasSubstr("the same decisions: "));
 }
 
+TEST(Replay, DecidesTheSessionThatIsNamed) {
+  const Folder folder;
+  for (const char* const seed : {"7", "8"}) {
+    const std::string log = fmt::format("match_{}.db", seed);
+    Program match{
+        "trivela", {"match", "--half", "moving", "--minutes", "0.2", "--seed", seed, "--out", log}, folder.path()};
+    ASSERT_EQ(match.wait(), 0) << match.errors();
+  }
+  Program merge{"trivela", {"merge", "both.db", "match_7.db", "match_8.db"}, folder.path()};
+  ASSERT_EQ(merge.wait(), 0) << merge.errors();
+  for (const char* const log : {"match_7.db", "match_8.db"}) {
+    const std::string uuid = Reader{folder / log}.sessions()[0].uuid;
+    EXPECT_THAT(replay(folder, {"both.db", "--out", "out.db"}, 1), HasSubstr(uuid));
+    const std::string out = fmt::format("again_{}", log);
+    replay(folder, {"both.db", "--session", uuid.substr(0, 30), "--out", out});
+    EXPECT_EQ(Reader{folder / out}.sessions()[0].replays_uuid, uuid);
+    EXPECT_THAT(decided_otherwise(folder, log, out.c_str()), IsEmpty());
+  }
+  EXPECT_FALSE(exists(folder / "out.db"));
+}
+
+TEST(Replay, KeepsAndSaysWhatItDecidedWhereItIsStopped) {
+  const Folder folder;
+  Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  Program stopped{"trivela", {"replay", "match.db", "--out", "part.db"}, folder.path(), [] {
+                    sigset_t interrupt;  // it waits until the program looks for it, which is in the middle
+                    sigemptyset(&interrupt);
+                    sigaddset(&interrupt, SIGINT);
+                    sigprocmask(SIG_BLOCK, &interrupt, nullptr);
+                    raise(SIGINT);
+                  }};
+  EXPECT_EQ(stopped.wait(), 3) << stopped.errors();
+  EXPECT_THAT(stopped.errors(), HasSubstr("stopped: part.db holds what was decided so far"));
+  const auto decisions = [&](const char* log) {
+    return number_of(Reader{folder / log}, "SELECT count(*) FROM kick_decisions");
+  };
+  EXPECT_LT(decisions("part.db"), decisions("match.db"));
+  Program report{"trivela", {"report", "part.db"}, folder.path()};
+  EXPECT_EQ(report.wait(), 0) << report.errors();
+}
+
 TEST(Replay, RefusesWhatItCannotDecideAgain) {
   const Folder folder;
   Program simulate{"trivela", {"simulate", "--arms", "moving", "--matches", "1", "--out", "sim.db"}, folder.path()};
