@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/verbs.hpp"
+#include "config/error.hpp"
 #include "evaluator/report/write_file.hpp"
 #include "kicking/text/printable.hpp"
 
@@ -46,13 +46,13 @@ inline void require_writable(const std::string& flag, const std::filesystem::pat
   if (!there) std::filesystem::remove(path, unknown);
 }
 
-/// require_writable(), and that nothing is there that would be lost: throws UsageError.
+/// require_writable(), and that nothing is there that would be lost: throws config::BadArgument.
 inline void require_new(const std::string& flag, const std::filesystem::path& path) {
   std::error_code unknown;
   const bool taken = std::filesystem::exists(path, unknown) && !(std::filesystem::is_regular_file(path, unknown) &&
                                                                  std::filesystem::file_size(path, unknown) == 0);
   if (taken)
-    throw UsageError{
+    throw config::BadArgument{
         fmt::format("{} {} exists already and is never overwritten; choose another file", flag, path.string())};
   require_writable(flag, path);
 }

@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kName = "trivela_reading_";
-constexpr std::time_t kYoung_s = 60;  // its program may not have come to hold it
+constexpr std::time_t kYoung_s = 60;  // its program may not have taken the lock yet
 
-/// Takes the lock of a folder, which ends with the process, whatever ends that. -1: another process has it.
+/// Takes the lock of a folder; it ends with the process, whatever ends that. -1: it cannot be taken.
 int hold(const fs::path& folder) {
   const int held = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
   if (held < 0 || ::flock(held, LOCK_EX | LOCK_NB) == 0) return held;

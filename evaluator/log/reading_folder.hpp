@@ -4,8 +4,8 @@
 
 namespace trivela::evaluator::log {
 
-/// A private temporary folder for copies that are read. It goes with this; what a killed program left goes with the
-/// next one that any program of the same user makes.
+/// A private temporary folder for copies that are read. The destructor removes it. A killed program leaves its folder;
+/// the next constructor, in any program of the same user, removes that once it is a minute old.
 class ReadingFolder {
  public:
   /// Throws std::system_error where no folder can be made.
@@ -18,7 +18,7 @@ class ReadingFolder {
 
  private:
   std::filesystem::path path_;
-  int held_ = -1;  // descriptor whose lock says that somebody reads here
+  int held_ = -1;  // descriptor of the lock: somebody reads here
 };
 
 }  // namespace trivela::evaluator::log

@@ -58,12 +58,11 @@ GroupResult group_result(const KickBook& book, std::uint32_t group) {
   }
   result.matches = matches.size();
   const auto by_match = stats::clustered_wilson(kicks);
-  const auto of_few = [&](stats::Counts counts) {
-    return book.has_matches ? stats::wilson_or_exact(counts) : stats::wilson(counts);
-  };
-  result.efficiency_ci = by_match.value_or(of_few(result.efficiency()));
-  result.per_opportunity_ci = stats::clustered_wilson(opportunities).value_or(of_few(result.per_opportunity()));
-  result.goals_ci = stats::clustered_wilson(goals).value_or(of_few({result.goals, result.opportunities}));
+  result.efficiency_ci = by_match.value_or(stats::wilson_or_exact(result.efficiency()));
+  result.per_opportunity_ci =
+      stats::clustered_wilson(opportunities).value_or(stats::wilson_or_exact(result.per_opportunity()));
+  result.goals_ci =
+      stats::clustered_wilson(goals).value_or(stats::wilson_or_exact({result.goals, result.opportunities}));
   result.by_match = by_match.has_value();
   for (const auto& [key, minutes] : book.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
@@ -83,7 +82,7 @@ std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_mat
   }
   if (result.older.n == 0 || result.newer.n == 0) return std::nullopt;
   result.difference = *stats::efficiency(result.newer) - *stats::efficiency(result.older);
-  result.independent = stats::newcombe(result.older, result.newer);
+  result.independent = stats::newcombe_or_exact(result.older, result.newer);
   if (has_matches) result.clustered = stats::clustered_difference(cells);
   return result;
 }

@@ -51,7 +51,7 @@ struct Effect {
   stats::Counts older;
   stats::Counts newer;
   double difference = 0.0;
-  stats::Interval independent;                ///< Newcombe's; of pairs where there are any
+  stats::Interval independent;                ///< newcombe_or_exact(); Newcombe's of pairs where there are any
   std::optional<stats::Clustered> clustered;  ///< from matches; none: too few
   const stats::Interval& best() const { return clustered ? clustered->ci : independent; }
 };

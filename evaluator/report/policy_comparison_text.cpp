@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -19,6 +20,8 @@ std::string share(stats::Counts counts) {
   return p ? percent(*p) : "-";
 }
 
+bool is_few(stats::Counts counts) { return counts.n > 0 && counts.n < stats::kEnoughForWilson; }
+
 std::string share_ci(stats::Counts counts, stats::Interval ci) { return counts.n > 0 ? percent(ci) : "-"; }
 
 std::string groups_table(const PolicyComparison& c) {
@@ -34,8 +37,13 @@ std::string groups_table(const PolicyComparison& c) {
   }
   std::string text = "\nEfficiency\n" + text_table(table);
   if (c.book.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
+  const bool few = std::ranges::any_of(c.groups, [](const GroupResult& g) { return is_few(g.efficiency()); });
   text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
-                                    : "  95 %: Wilson's, kicks taken as independent\n";
+          : few                     ? fmt::format(
+                                          "  95 %: Wilson's, of fewer than {} kicks no narrower than Clopper and Pearson's; kicks "
+                                                              "taken as independent\n",
+                                          stats::kEnoughForWilson)
+                : "  95 %: Wilson's, kicks taken as independent\n";
   return text;
 }
 
@@ -84,7 +92,11 @@ std::string inside_text(const PolicyComparison& c) {
   return text + "\nGoals: past the keeper, by the simulator's truth\n" + text_table(table);
 }
 
-std::string effect_lines(const std::string& name, const Effect& effect, const char* independent) {
+std::string newcombe_of(const Effect& effect) {
+  return is_few(effect.older) || is_few(effect.newer) ? "Newcombe, with exact ends where kicks are few" : "Newcombe";
+}
+
+std::string effect_lines(const std::string& name, const Effect& effect, const std::string& independent) {
   std::string text = named_line(
       name, fmt::format("{}, 95 % {} ({})", points(effect.difference), points(effect.independent), independent));
   if (effect.clustered) {
@@ -226,11 +238,14 @@ std::string pair_text(const PairResult& pair, const PolicyComparison& c) {
   std::string text = fmt::format("\n{} against {}\n", pair.newer, pair.older);
   if (!pair.headline) return text + bullet(pair.why_none + ".");
   if (pair.per_opportunity) {
-    text += effect_lines("on target an opp.", *pair.per_opportunity, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+    text += effect_lines("on target an opp.", *pair.per_opportunity,
+                         pair.pairs ? "Newcombe's for pairs" : newcombe_of(*pair.per_opportunity));
   }
-  if (pair.goals) text += effect_lines("goals an opp.", *pair.goals, pair.pairs ? "Newcombe's for pairs" : "Newcombe");
+  if (pair.goals)
+    text += effect_lines("goals an opp.", *pair.goals, pair.pairs ? "Newcombe's for pairs" : newcombe_of(*pair.goals));
   text += pairs_lines(pair);
-  if (pair.efficiency) text += effect_lines("efficiency", *pair.efficiency, "Newcombe, kicks independent");
+  if (pair.efficiency)
+    text += effect_lines("efficiency", *pair.efficiency, newcombe_of(*pair.efficiency) + ", kicks independent");
   text += rate_line("on target a minute", pair.on_target_rate);
   text += rate_line("kicks a minute", pair.kick_rate);
   if (pair.stratified) text += strata_text(pair, *pair.stratified);

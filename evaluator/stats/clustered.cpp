@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -25,7 +26,6 @@ double smoothed_variance(Counts counts) {
   return p * (1.0 - p) / n;
 }
 
-// Wilson's interval of few kicks has the truth in 87.5 % of cases (4 at 50 %), or in 88 % (12 at 99 %).
 Interval no_narrower_than_exact(Interval wilson, Counts counts, double confidence) {
   const Interval exact = clopper_pearson(counts, confidence);
   return {std::min(wilson.lo, exact.lo), std::max(wilson.hi, exact.hi)};
@@ -160,19 +160,24 @@ std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, d
   const double design_effect = independent > 0.0 ? std::max(variance.variance / independent, 1.0) : 1.0;
   const double n_effective = n / design_effect * square(z_of(confidence) / t_of(confidence, variance.df));
   const Interval wilson = wilson_of(p, n_effective, confidence);
-  return matches.size() < kManyMatches * 2 ? no_narrower_than_exact(wilson, total, confidence) : wilson;
-}
-
-Interval wilson_or_exact(Counts counts, double confidence) {
-  const Interval alone = wilson(counts, confidence);
-  const bool few = counts.n > 0 && std::cmp_less(counts.n, kManyMatches * 2);
-  return few ? no_narrower_than_exact(alone, counts, confidence) : alone;
+  return std::ssize(matches) < kEnoughForWilson ? no_narrower_than_exact(wilson, total, confidence) : wilson;
 }
 
 std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence) {
   std::vector<ClusterCounts> cells;
   for (const Counts& match : matches) cells.push_back({static_cast<std::uint32_t>(cells.size()), 0, match});
   return clustered_wilson(cells, confidence);
+}
+
+Interval wilson_or_exact(Counts counts, double confidence) {
+  const Interval alone = wilson(counts, confidence);
+  const bool few = counts.n > 0 && counts.n < kEnoughForWilson;
+  return few ? no_narrower_than_exact(alone, counts, confidence) : alone;
+}
+
+Interval newcombe_or_exact(Counts older, Counts newer, double confidence) {
+  if (older.n == 0 || newer.n == 0) return {-1.0, 1.0};
+  return newcombe_of(older, wilson_or_exact(older, confidence), newer, wilson_or_exact(newer, confidence));
 }
 
 }  // namespace trivela::evaluator::stats

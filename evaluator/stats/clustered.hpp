@@ -17,6 +17,10 @@ inline constexpr std::size_t kFewestMatches = 5;
 /// With fewer on a side a spread below that of independent kicks is not believed.
 inline constexpr std::size_t kManyMatches = 12;
 
+/// Kicks, or matches, with fewer of which Wilson's interval is too narrow: it has the truth in 87.5 % of cases of 4
+/// kicks at 50 %, in 88 % of 12 kicks at 99 %.
+inline constexpr std::int64_t kEnoughForWilson = 24;
+
 /// What one match has of both policies, of one stratum of situations.
 struct MatchCounts {
   std::uint32_t match = 0;    ///< number of the match; matches are independent, kicks within one are not
@@ -60,15 +64,19 @@ struct ClusterCounts {
 /// Wilson's interval with the effective number of kicks n / deff (t_df / z)^-2, deff = the variance over matches
 /// (bias_reduced()), and from kFewestCalibrations on over calibrations, too, over that of independent kicks, at least 1
 /// (Korn and Graubard 1998, with Wilson's interval as in Franco et al. 2019). With
-/// fewer than twice kManyMatches it is no narrower than Clopper and Pearson's of the same kicks taken as independent.
-/// None: fewer than kFewestMatches with a kick.
+/// fewer than kEnoughForWilson matches it is no narrower than Clopper and Pearson's of the same kicks taken as
+/// independent. None: fewer than kFewestMatches with a kick.
 std::optional<Interval> clustered_wilson(std::span<const ClusterCounts> cells, double confidence = kConfidence);
-
-/// Wilson's interval of independent kicks, and of fewer than twice kManyMatches of them no narrower than Clopper and
-/// Pearson's: what stands where clustered_wilson() has too few matches.
-Interval wilson_or_exact(Counts counts, double confidence = kConfidence);
 
 /// The same with one entry a match and one calibration.
 std::optional<Interval> clustered_wilson(std::span<const Counts> matches, double confidence = kConfidence);
+
+/// Where there are too few matches for clustered_wilson(): Wilson's interval of independent kicks, and of fewer than
+/// kEnoughForWilson no narrower than Clopper and Pearson's.
+Interval wilson_or_exact(Counts counts, double confidence = kConfidence);
+
+/// Where there are too few matches for clustered_difference(): Newcombe's interval (newcombe()) with both ends of
+/// wilson_or_exact(). A group without kicks: [-1, 1].
+Interval newcombe_or_exact(Counts older, Counts newer, double confidence = kConfidence);
 
 }  // namespace trivela::evaluator::stats

@@ -35,14 +35,15 @@ Interval wilson_of(double p, double n, double confidence) {
 }
 
 Interval newcombe(Counts older, Counts newer, double confidence) {
-  const auto p1 = efficiency(older);
-  const auto p2 = efficiency(newer);
-  if (!p1 || !p2) return {-1.0, 1.0};
-  const Interval w1 = wilson(older, confidence);
-  const Interval w2 = wilson(newer, confidence);
-  const double difference = *p2 - *p1;
-  return {difference - std::sqrt(square(*p2 - w2.lo) + square(w1.hi - *p1)),
-          difference + std::sqrt(square(w2.hi - *p2) + square(*p1 - w1.lo))};
+  if (older.n == 0 || newer.n == 0) return {-1.0, 1.0};
+  return newcombe_of(older, wilson(older, confidence), newer, wilson(newer, confidence));
+}
+
+Interval newcombe_of(Counts older, Interval of_older, Counts newer, Interval of_newer) {
+  const double p1 = *efficiency(older), p2 = *efficiency(newer);
+  const double difference = p2 - p1;
+  return {difference - std::sqrt(square(p2 - of_newer.lo) + square(of_older.hi - p1)),
+          difference + std::sqrt(square(of_newer.hi - p2) + square(p1 - of_older.lo))};
 }
 
 Interval agresti_caffo(Counts older, Counts newer, double confidence) {

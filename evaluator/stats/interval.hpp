@@ -18,6 +18,9 @@ Interval wilson_of(double p, double n, double confidence = kConfidence);
 /// d - sqrt((p2 - l2)^2 + (u1 - p1)^2) to d + sqrt((u2 - p2)^2 + (p1 - l1)^2). A group without kicks: [-1, 1].
 Interval newcombe(Counts older, Counts newer, double confidence = kConfidence);
 
+/// The same from other intervals of both groups, which have kicks.
+Interval newcombe_of(Counts older, Interval of_older, Counts newer, Interval of_newer);
+
 /// Agresti and Caffo's interval of the difference (2000): Wald's after one kick inside and one outside are added to
 /// each group. For small groups. A group without kicks: [-1, 1].
 Interval agresti_caffo(Counts older, Counts newer, double confidence = kConfidence);

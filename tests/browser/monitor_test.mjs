@@ -97,7 +97,7 @@ test('a match is watched from the first kick to after its end', async () => {
     await other.close();
   }
 
-  // Keyboard alone, on a page whose address has no fragment: a browser begins Tab's way there, at a time of its own.
+  // Keyboard alone, and the picture holds still. No reload here: after one, Tab may begin at the fragment (#robots).
   await page.keyboard.press('Tab');
   assert.equal(await page.evaluate(() => document.activeElement.className), 'skip');
   await page.keyboard.press('Tab');
@@ -114,7 +114,7 @@ test('a match is watched from the first kick to after its end', async () => {
   assert.equal(await page.evaluate(() => document.body.dataset.frames), held);
   await page.keyboard.press('Space');
   await page.waitForFunction((frames) => document.body.dataset.frames > frames, Number(held), patience);
-  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Shift+Tab');  // to the link past the picture
   await page.keyboard.press('Enter');
   assert.equal(await page.evaluate(() => document.activeElement.id), 'robots');
 

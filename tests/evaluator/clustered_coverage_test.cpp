@@ -148,10 +148,9 @@ TEST(Coverage, OfOneKickAMatchHoldsFromThreeMatchesOn) {
           newer = {newer.inside + cells.back().newer.inside, newer.n + 1};
         }
         const auto by_match = clustered_difference(cells);
-        return by_match ? by_match->ci : newcombe(older, newer);
+        return by_match ? by_match->ci : newcombe_or_exact(older, newer);
       });
-      const bool newcombe_of_four = n == 4 && p == 0.5;  // 92.3 %
-      EXPECT_GE(difference, newcombe_of_four ? 0.91 : kLow) << "difference of " << n << " matches at " << p;
+      EXPECT_GE(difference, kLow) << "difference of " << n << " matches at " << p;
     }
   }
 }
