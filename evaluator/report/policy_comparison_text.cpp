@@ -93,7 +93,7 @@ std::string inside_text(const PolicyComparison& c) {
 }
 
 std::string newcombe_of(const Effect& effect) {
-  return is_few(effect.older) || is_few(effect.newer) ? "Newcombe, with exact ends where kicks are few" : "Newcombe";
+  return is_few(effect.older) || is_few(effect.newer) ? "Newcombe, exact ends for few kicks" : "Newcombe";
 }
 
 std::string effect_lines(const std::string& name, const Effect& effect, const std::string& independent) {

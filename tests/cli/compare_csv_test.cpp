@@ -53,6 +53,17 @@ std::string near_and_far() {
          rows("old", "6.5", 5, 25) + rows("new", "6.5", 45, 120);
 }
 
+// R: binom.test(2, 4) and binom.test(3, 4).
+TEST_F(CompareCsv, FewKicksHaveExactIntervalsAndTheTextSaysSo) {
+  const std::string text = output_of("policy,on_target,place\n" + rows("old", "x", 2, 4) + rows("new", "x", 3, 4));
+  EXPECT_THAT(text, HasSubstr("50.0 %   6.8 % to 93.2 %"));
+  EXPECT_THAT(text, HasSubstr("75.0 %  19.4 % to 99.4 %"));
+  EXPECT_THAT(text, HasSubstr("of fewer than 24 kicks no narrower than Clopper and Pearson's"));
+  EXPECT_THAT(text, HasSubstr("-45.4 to +74.6 (Newcombe, exact ends for few kicks, kicks independent)"));
+  const std::string many = output_of("policy,on_target,place\n" + rows("old", "x", 12, 24) + rows("new", "x", 18, 24));
+  EXPECT_THAT(many, Not(HasSubstr("Clopper and Pearson's")));
+}
+
 TEST_F(CompareCsv, KicksFromNearAndFarAreSimpsonsParadox) {
   const auto json = json_of(near_and_far(), "--stratify distance");
   const auto& pair = json["comparisons"][0];
