@@ -138,7 +138,7 @@ void add_label(CLI::App& app, int& exit_code) {
       "right\n"
       "to label, for this machine alone.");
   const auto arguments = std::make_shared<LabelArguments>();
-  verb->add_option("log", arguments->log, "Match log of this version (trivela migrate)")->required();
+  verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
   verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(evaluator::log::kLabels, ", ")))
       ->check(CLI::IsMember(std::vector<std::string>(evaluator::log::kLabels.begin(), evaluator::log::kLabels.end())));

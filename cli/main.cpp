@@ -39,8 +39,7 @@ const std::vector<Group>& groups() {
       {"Compare", {cli::add_compare, cli::add_factorial, cli::add_frontier, cli::add_sensitivity, cli::add_tune}},
       {"After a match",
        {cli::add_collect, cli::add_merge, cli::add_report, cli::add_drift, cli::add_query, cli::add_export,
-        cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_label, cli::add_note,
-        cli::add_migrate}},
+        cli::add_import, cli::add_replay, cli::add_evaluate_policy, cli::add_learn, cli::add_label, cli::add_note}},
       {"On the robot",
        {cli::add_team, cli::add_top, cli::add_monitor, cli::add_doctor, cli::add_hardware, cli::add_solve,
         cli::add_align, cli::add_predict, cli::add_refbox, cli::add_emulate, cli::add_keys}}};

@@ -104,7 +104,7 @@ void add_note(CLI::App& app, int& exit_code) {
       "latest holds, notes stand beside each other; the report shows what holds. Without anything to say: what was "
       "said.");
   const auto arguments = std::make_shared<NoteArguments>();
-  verb->add_option("log", arguments->log, "Match log of this version (trivela migrate)")->required();
+  verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("text", arguments->text, "A note, in quotes");
   verb->add_option("--match", arguments->match, "Which match it is, such as \"semi-final\"");
   verb->add_option("--opponent", arguments->opponent, "Against whom");

@@ -33,7 +33,6 @@ void add_collect(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_label(CLI::App& app, int& exit_code);
 void add_note(CLI::App& app, int& exit_code);
-void add_migrate(CLI::App& app, int& exit_code);
 void add_query(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_drift(CLI::App& app, int& exit_code);

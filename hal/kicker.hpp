@@ -93,6 +93,9 @@ class Kicker {
   using Hold = std::function<bool(std::int64_t judged_ns)>;
   virtual void hold_when(const Hold& hold) { static_cast<void>(hold); }
 
+  /// Called by whoever writes to the device, immediately after a shot was written. To be set before the first fire().
+  virtual void call_when_written(const std::function<void()>& written) { static_cast<void>(written); }
+
   /// What became of the oldest shot of which it was not said yet. A shot that was withdrawn has no result. None: there
   /// is no other, or the device's results are not known here.
   virtual std::optional<ShotResult> take_result() { return std::nullopt; }

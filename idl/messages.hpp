@@ -20,3 +20,11 @@ constexpr void for_each_message(F&& f) {
 }
 
 }  // namespace trivela::bus
+
+namespace trivela::msg {
+
+/// Whether this receipt is the one with which a kick begins: a second one that accepts says that it may have been
+/// fired.
+inline bool begins_kick(const KickReceipt& receipt) { return receipt.accepted && receipt.refusal == REFUSAL_NONE; }
+
+}  // namespace trivela::msg

@@ -102,7 +102,7 @@ class DriveProgress {
   /// True once all is kicked and the last ball has come down.
   bool over() {
     receipts_.take([&](const msg::KickReceipt& receipt) {
-      if (receipt.robot_id != robot_id_ || !receipt.accepted) return;
+      if (receipt.robot_id != robot_id_ || !msg::begins_kick(receipt)) return;
       ++kicked_;
       last_ = DriveClock::now();
       say(fmt::format("  kick {} of {}, set-point {:.2f}\n", kicked_, kicks_, receipt.power));

@@ -30,7 +30,7 @@ struct PredictedKicks {
 };
 
 /// Reads the predicted kicks of match logs, each kick once, with its match, as SessionBook says.
-/// Throws std::runtime_error as log::Reader does, and for a log of a version that had no predictions.
+/// Throws std::runtime_error as log::Reader does.
 /// `told(done, all)`: logs that were read.
 PredictedKicks predicted_kicks(
     const std::vector<std::filesystem::path>& logs, PredictionSource source,

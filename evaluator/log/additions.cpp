@@ -41,14 +41,6 @@ void check_word(const char* what, const std::array<std::string_view, n>& words, 
     throw BadAddition(fmt::format("{} '{}' is none of {}", what, kicking::printable(word), fmt::join(words, ", ")));
 }
 
-void check_version(const LogFile& file) {
-  if (file.version() == kMatchLog.version) return;
-  throw std::runtime_error(
-      fmt::format("{} is a match log of version {}, which has no place for labels and notes: trivela "
-                  "migrate {} --in-place makes one of version {} of it and keeps the old one",
-                  file.path(), file.version(), file.path(), kMatchLog.version));
-}
-
 /// A text, or NULL.
 void bind(SQLite::Statement& statement, int place, const std::optional<std::string>& text) {
   if (text) {
@@ -62,7 +54,6 @@ void bind(SQLite::Statement& statement, int place, const std::optional<std::stri
 
 Additions::Additions(const std::filesystem::path& path) : path_(path.string()) {
   const LogFile log(path, kMatchLog, Check::kQuick);
-  check_version(log);
   refuse_wal_of_another(path, log.wal());
   try {
     database_ = std::make_unique<SQLite::Database>(path_, SQLite::OPEN_READWRITE, kWait_ms);

@@ -49,7 +49,7 @@ struct Note {
 /// file.
 class Additions {
  public:
-  /// Throws std::runtime_error naming the path where it is no match log, is damaged, of a newer or an older version
+  /// Throws std::runtime_error naming the path where it is no match log, is damaged, of another version
   /// than kMatchLog, or cannot be written.
   explicit Additions(const std::filesystem::path& path);
 

@@ -26,8 +26,12 @@ namespace fs = std::filesystem;
 constexpr int kOtherRunTimeout_ms = 5000;
 constexpr std::chrono::milliseconds kGroup{200};  // of matches in one transaction
 
-std::runtime_error against(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
+FileTaken taken(const fs::path& path, const std::string& why) {
+  return FileTaken(fmt::format("{}: {}", path.string(), why));
+}
+
+std::runtime_error not_written(const fs::path& path, const std::string& what, const SQLite::Exception& error) {
+  return std::runtime_error(fmt::format("{}: {} could not be written: {}", path.string(), what, error.what()));
 }
 
 void note_experiment(SQLite::Database& database, const Experiment& experiment) {
@@ -38,7 +42,7 @@ void note_experiment(SQLite::Database& database, const Experiment& experiment) {
   insert.exec();
 }
 
-std::runtime_error in_use(const fs::path& path) { return against(path, "another run writes to it"); }
+FileTaken in_use(const fs::path& path) { return taken(path, "another run writes to it"); }
 
 void make(const fs::path& path, const Experiment& experiment) {
   try {
@@ -57,12 +61,12 @@ void make(const fs::path& path, const Experiment& experiment) {
 /// Throws unless the log is that of the experiment.
 void check(SQLite::Database& database, const fs::path& path, const Experiment& experiment) {
   SQLite::Statement known(database, "SELECT arguments_sha256, matches FROM experiments");
-  if (!known.executeStep()) throw against(path, "is a recorded match and no experiment; choose another file");
+  if (!known.executeStep()) throw taken(path, "is a recorded match and no experiment; choose another file");
   if (known.getColumn(0).getString() != sha256(experiment.arguments) ||
       known.getColumn(1).getInt64() != experiment.matches) {
-    throw against(path,
-                  "was begun with other arguments (table experiments says which); an experiment goes on with its own "
-                  "alone, choose another file");
+    throw taken(path,
+                "was begun with other arguments (table experiments says which); an experiment goes on with its own "
+                "alone, choose another file");
   }
 }
 
@@ -73,17 +77,17 @@ std::unique_ptr<SQLite::Database> resume(const fs::path& path, const Experiment&
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX,
                                                        kOtherRunTimeout_ms);
     sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);  // it may be somebody else's
-    if (is_blank(*database)) throw against(path, "another run writes to it, or was killed when it had just begun");
+    if (is_blank(*database)) throw taken(path, "another run writes to it, or was killed when it had just begun");
     const bool ours = database->execAndGet("PRAGMA application_id").getInt() == kMatchLog.application_id &&
                       database->execAndGet("PRAGMA user_version").getInt() == kMatchLog.version;
-    if (!ours) throw against(path, "is there already and is no log of an experiment; choose another file");
-    check_schema(*database, kMatchLog, kMatchLog.version, path.string());
+    if (!ours) throw taken(path, "is there already and is no log of an experiment; choose another file");
+    check_schema(*database, kMatchLog, path.string());
     check(*database, path, experiment);
     database->exec("PRAGMA journal_mode = WAL; PRAGMA temp_store = MEMORY;");
     return database;
   } catch (const SQLite::Exception& error) {
     if (is_busy(error)) throw in_use(path);
-    throw against(path, fmt::format("is there already and is no log that can be gone on with: {}", error.what()));
+    throw taken(path, fmt::format("is there already and is no log that can be gone on with: {}", error.what()));
   }
 }
 
@@ -186,7 +190,7 @@ void ExperimentLog::end_row() {
     impl_->statement->exec();
     impl_->statement->reset();
   } catch (const SQLite::Exception& error) {
-    throw against(impl_->path, fmt::format("a row could not be written: {}", error.what()));
+    throw not_written(impl_->path, "a row", error);
   }
 }
 
@@ -203,7 +207,7 @@ void ExperimentLog::commit() {
     impl_->database->exec(fmt::format("UPDATE experiments SET matches_done = {}", matches_done_));
     impl_->transaction->commit();
   } catch (const SQLite::Exception& error) {
-    throw against(impl_->path, fmt::format("matches could not be written: {}", error.what()));
+    throw not_written(impl_->path, "matches", error);
   }
   impl_->transaction.reset();
 }

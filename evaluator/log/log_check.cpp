@@ -11,8 +11,6 @@
 namespace trivela::evaluator::log {
 namespace {
 
-constexpr int kFirstWithTexts = 2;  // versions
-
 [[noreturn]] void damaged(const LogFile& file, const std::string& what) {
   throw std::runtime_error(fmt::format("the match log {} is damaged or was changed: {}", file.path(), what));
 }
@@ -56,7 +54,7 @@ void check_that_rows_have_sessions(const LogFile& file) {
                            table),
                [&](std::int64_t) { damaged(file, fmt::format("{} has rows of no session", table)); });
   };
-  for (const DigestedTable& table : digested_tables(file.version())) check(table.name);
+  for (const DigestedTable& table : digested_tables()) check(table.name);
   check("digests");
 }
 
@@ -65,10 +63,6 @@ void check_that_rows_have_sessions(const LogFile& file) {
 void watch_verification(VerificationWatch watch) { verification_watch() = std::move(watch); }
 
 void check_texts(const LogFile& file) {
-  if (file.version() < kFirstWithTexts) {
-    check_hashes(file, "SELECT config_sha256, config_toml FROM main.sessions", "the configuration");
-    return;
-  }
   check_hashes(file, "SELECT sha256, text FROM main.texts", "the text");
   check_hashes(file, "SELECT arguments_sha256, arguments FROM main.experiments", "the experiment's arguments");
   for (const char* const text : {"config_sha256", "idl_sha256"}) {
@@ -82,12 +76,9 @@ void check_texts(const LogFile& file) {
 
 Verification unverified(const LogFile& file) {
   Verification found;
-  const bool has_digests = file.version() >= kFirstWithDigests;
   file.query(
-      has_digests
-          ? "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
-            "session_id NOT IN (SELECT session_id FROM main.digests))"
-          : "SELECT 0, count(*) FROM main.sessions",
+      "SELECT (SELECT coalesce(sum(row_count), 0) FROM main.digests), (SELECT count(*) FROM main.sessions WHERE "
+      "session_id NOT IN (SELECT session_id FROM main.digests))",
       [&](std::int64_t rows, std::int64_t without_digest) {
         found.rows = rows;
         found.without_digest = without_digest;
@@ -99,23 +90,22 @@ bool is_whole(const LogFile& file, std::int64_t session_id) try {
   bool closed = false;
   file.query(fmt::format("SELECT closed_t_ns IS NOT NULL FROM main.sessions WHERE session_id = {}", session_id),
              [&](bool has_end) { closed = has_end; });
-  if (!closed || file.version() < kFirstWithDigests) return closed;
+  if (!closed) return false;
   std::optional<RowDigest> noted;
   file.query(fmt::format("SELECT row_count, sha256 FROM main.digests WHERE session_id = {}", session_id),
              [&](std::int64_t row_count, const std::string& sha256) {
                noted = RowDigest{row_count, sha256};
              });
-  return noted && RowDigests(file.database(), file.version()).of(session_id) == *noted;
+  return noted && RowDigests(file.database()).of(session_id) == *noted;
 } catch (const std::exception&) {
   return false;
 }
 
 Verification verify(const LogFile& file) {
   Verification found = unverified(file);
-  if (file.version() < kFirstWithDigests) return found;
   check_that_rows_have_sessions(file);
   std::int64_t before = 0;  // rows of sessions that were compared
-  RowDigests digests(file.database(), file.version());
+  RowDigests digests(file.database());
   if (verification_watch())
     digests.tell([&](std::int64_t rows) { verification_watch()(file.path(), before + rows, found.rows); });
   for (const DigestedSession& session : digested_sessions(file)) {

@@ -18,7 +18,7 @@ inline constexpr std::uintmax_t kShort_B = 32 << 20;
 /// What the digests of a match log say.
 struct Verification {
   std::int64_t rows = 0;            ///< that digests cover
-  std::int64_t without_digest = 0;  ///< sessions that never ended, or of a version that had no digests
+  std::int64_t without_digest = 0;  ///< sessions that never ended
   bool compared = false;            ///< the rows that digests cover are those that were recorded
 };
 

@@ -185,26 +185,21 @@ void LogFile::open() {
   allow_steps();
   database_->exec("PRAGMA temp_store = MEMORY; PRAGMA cell_size_check = ON; PRAGMA ignore_check_constraints = ON;");
   const int application_id = database_->execAndGet("PRAGMA application_id").getInt();
-  version_ = database_->execAndGet("PRAGMA user_version").getInt();
+  const int version = database_->execAndGet("PRAGMA user_version").getInt();
   for (const LogKind& other : {kMatchLog, kScanRecord, kTallyBook}) {
     if (application_id != other.application_id || application_id == kind_.application_id) continue;
     throw NoSuchLog(fmt::format("{} is not a {} but a {}", path_, kind_.name, other.name));
   }
-  if (application_id != kind_.application_id || version_ < 1) {
+  if (application_id != kind_.application_id || version < 1) {
     throw NoSuchLog(fmt::format("{} is not a {}", path_, kind_.name));
   }
-  if (kind_.application_id == kTallyBook.application_id && version_ < kind_.version)
-    throw std::runtime_error(
-        fmt::format("{} is a {} of version {}; this program reads version {} alone: play the study "
-                    "again",
-                    path_, kind_.name, version_, kind_.version));
-  if (version_ <= kind_.version) return;
-  throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} and older", path_,
-                                       kind_.name, version_, kind_.version));
+  if (version == kind_.version) return;
+  throw std::runtime_error(fmt::format("{} is a {} of version {}; this program reads version {} alone", path_,
+                                       kind_.name, version, kind_.version));
 }
 
 void LogFile::check() const {
-  check_schema(*database_, kind_, version_, path_);
+  check_schema(*database_, kind_, path_);
   if (check_ == Check::kSchema || (!whole_ && size_of(path_) > kShort_B)) return;  // pages as they are read
   allow_steps();
   const char* const pages = whole_ ? "PRAGMA main.integrity_check(1)" : "PRAGMA main.quick_check(1)";

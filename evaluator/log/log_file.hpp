@@ -32,7 +32,7 @@ class NoSuchLog : public std::runtime_error {
 class LogFile final : public Queries {
  public:
   /// Throws, naming the path, NoSuchLog where it does not exist or is no log of this kind, std::runtime_error where it
-  /// is of a newer version, has another schema than its version, or is damaged.
+  /// is of another version, has another schema, or is damaged.
   LogFile(const std::filesystem::path& path, const LogKind& kind, Check check = Check::kIfShort);
   ~LogFile();
   LogFile(LogFile&&) noexcept;
@@ -42,9 +42,6 @@ class LogFile final : public Queries {
 
   /// What lay beside it.
   Wal wal() const { return place_->wal(); }
-
-  /// Of the file's schema.
-  int version() const { return version_; }
 
   /// Nothing but the schema was looked at.
   bool may_be_damaged() const { return check_ == Check::kSchema; }
@@ -78,7 +75,6 @@ class LogFile final : public Queries {
   std::unique_ptr<ReadableLog> place_;
   Check check_;
   bool whole_;
-  int version_ = 0;
   std::unique_ptr<Budget> budget_;  // of the statement under way
   std::unique_ptr<SQLite::Database> database_;
 };

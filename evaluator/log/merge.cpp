@@ -45,7 +45,6 @@ class Merging {
       file.path = source.path();
       file.damage = source.damage();
       file.readable = source.reader() != nullptr;
-      if (file.readable) file.version = source.reader()->version();
       if (file.readable) rows_ += source.reader()->verification().rows;
       for (const auto& [session_id, copy] : source.sessions()) file.parts.push_back({session_id, 0, 0});
     }
@@ -101,10 +100,10 @@ class Merging {
     }
   }
 
-  /// Of this version, sound, and the one file that all of its sessions are taken from: nothing in it has to be chosen.
+  /// Sound, and the one file that all of its sessions are taken from: nothing in it has to be chosen.
   bool is_taken_whole(std::size_t i) const {
     const Reader* const reader = sources_[i].reader();
-    return reader != nullptr && reader->version() == kMatchLog.version && sources_[i].damage().empty() &&
+    return reader != nullptr && sources_[i].damage().empty() &&
            std::ranges::all_of(sources_[i].sessions(), [&](const auto& session) {
              return session.second == Copy::kWhole && choices_.at(session.first).source == i;
            });
@@ -279,8 +278,7 @@ class Merging {
       const MergedFile& file = merged_.files[i];
       for (const MergedPart& part : file.parts) {
         if (inherited_.contains({&sources_[i], part.session_id})) continue;
-        add(copy, std::vector<Value>{part.session_id, file.path.filename().string(), std::int64_t{file.version},
-                                     part.rows, damage_of(file)});
+        add(copy, std::vector<Value>{part.session_id, file.path.filename().string(), part.rows, damage_of(file)});
       }
     }
   }

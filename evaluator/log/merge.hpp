@@ -29,7 +29,6 @@ struct MergedPart {
 /// A file that was asked to be merged.
 struct MergedFile {
   std::filesystem::path path;
-  int version = 0;
   std::string damage;             ///< what is wrong with it; empty: nothing
   bool readable = true;           ///< false: nothing of it was taken
   std::vector<MergedPart> parts;  ///< by session_id
@@ -49,7 +48,7 @@ struct Merged {
   std::vector<KickConflict> conflicts;  ///< kicks of which the files say different things
 };
 
-/// One new match log of kMatchLog.version out of several of any version. Each session is in it once, row for row as it
+/// One new match log out of several. Each session is in it once, row for row as it
 /// was recorded: a whole copy of it is taken alone, of others what any file has of it. Rows that several recorders made
 /// of one sample stay in the session of each; readers count them once (evaluator/report/one_play.hpp). Of a file that
 /// is damaged what can be read is taken, from its tables' beginnings and from their ends; its sessions count as not

@@ -50,11 +50,10 @@ void MergeSource::look_for_sessions() {
 }
 
 void MergeSource::for_each_text(const std::function<void(const std::string&, const std::string&)>& fn) const {
-  const bool named_by_hash = reader_->version() > 1;
   for_each_row("texts", {"sha256", "text"}, "sha256", [&](std::span<const Value> row) {
     const std::string& name = std::get<std::string>(row[0]);
     const std::string& text = std::get<std::string>(row[1]);
-    if (!named_by_hash || sha256(text) == name) fn(name, text);
+    if (sha256(text) == name) fn(name, text);
   });
 }
 

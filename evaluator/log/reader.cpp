@@ -28,7 +28,7 @@ std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& out
 
 struct Reader::Impl {
   Impl(const std::filesystem::path& path, Check check) : file(path, kMatchLog, check) {
-    create_reading_views(file.database(), file.version());
+    create_reading_views(file.database());
     if (file.may_be_damaged()) return;
     file.query("BEGIN", [](auto) {});  // a log may grow meanwhile
     check_texts(file);
@@ -47,16 +47,12 @@ struct Reader::Impl {
 Reader::Reader(const std::filesystem::path& path, Check check) : impl_(std::make_unique<Impl>(path, check)) {}
 Reader::~Reader() = default;
 
-int Reader::version() const { return impl_->file.version(); }
-
 const Verification& Reader::verification() const { return impl_->verification; }
 
 bool Reader::is_whole(std::int64_t session_id) const { return log::is_whole(impl_->file, session_id); }
 
 std::optional<std::string> Reader::doubt() const {
   const Verification& found = impl_->verification;
-  if (impl_->file.version() < kFirstWithDigests)
-    return fmt::format("not verified: a match log of version {} has no digests", impl_->file.version());
   if (!found.compared && found.rows > 0)
     return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
   if (found.without_digest > 0)

@@ -69,20 +69,17 @@ struct StreamSpan {
 /// Reads a match log and never changes it; a log whose recorder was killed opens too.
 class Reader final : public Queries {
  public:
-  /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of a newer version, has
-  /// another schema than its version, holds texts that are not those it names, or is otherwise damaged; as far as
+  /// Throws std::runtime_error naming the path where it does not exist, is no match log, is of another version, has
+  /// another schema, holds texts that are not those it names, or is otherwise damaged; as far as
   /// `check` goes, also where its rows are not those that were recorded.
   explicit Reader(const std::filesystem::path& path, Check check = Check::kIfShort);
   ~Reader();
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Of the file's schema.
-  int version() const;
-
   const Verification& verification() const;
 
-  /// Whether the session has ended and its rows are those of its digest, or, before there were digests, has ended.
+  /// Whether the session has ended and its rows are those of its digest.
   bool is_whole(std::int64_t session_id) const;
 
   /// A sentence on what was not verified of the rows, and why; none: they are as they were recorded.

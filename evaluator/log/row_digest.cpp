@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <map>
 
 namespace trivela::evaluator::log {
 namespace {
@@ -13,9 +12,9 @@ namespace {
 constexpr std::int64_t kToldEvery_rows = 10'000;
 constexpr std::size_t kPour_B = 1 << 16;
 
-std::vector<DigestedTable> tables_of_schema(int version) {
+std::vector<DigestedTable> digested_tables_of_schema() {
   SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  empty.exec(std::string(schema_of(kMatchLog, version)));
+  empty.exec(std::string(schema_of(kMatchLog)));
   SQLite::Statement keys(empty, R"(
     SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
     WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
@@ -37,15 +36,13 @@ std::vector<DigestedTable> tables_of_schema(int version) {
 
 }  // namespace
 
-const std::vector<DigestedTable>& digested_tables(int version) {
-  static thread_local std::map<int, std::vector<DigestedTable>> known;
-  auto& tables = known[version];
-  if (tables.empty()) tables = tables_of_schema(version);
+const std::vector<DigestedTable>& digested_tables() {
+  static const std::vector<DigestedTable> tables = digested_tables_of_schema();
   return tables;
 }
 
-RowDigests::RowDigests(SQLite::Database& database, int version) : database_(database), version_(version) {
-  for (const DigestedTable& table : digested_tables(version)) {
+RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
+  for (const DigestedTable& table : digested_tables()) {
     const std::string sql =
         fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
     sqlite3_stmt* select = nullptr;
@@ -100,7 +97,7 @@ void RowDigests::add_cell(sqlite3_stmt* row, int column) {
 RowDigest RowDigests::of(std::int64_t session_id) {
   RowDigest digest;
   bytes_.clear();
-  add_text(fmt::format("trivela match log {}\n", version_));
+  add_text(fmt::format("trivela match log {}\n", kMatchLog.version));
   for (const Rows& rows : tables_) {
     add_text(rows.head);
     sqlite3_stmt* const row = rows.select.get();

@@ -31,14 +31,11 @@ inline constexpr std::array<std::string_view, 4> kSaidAfterwards = {"session_clo
 inline constexpr std::array<std::string_view, 6> kTallies = {
     "session_tallies", "possession_tallies", "order_tallies", "referee_tallies", "ball_turns", "tallied_sessions"};
 
-/// What is recorded of a session, in the order of the digest: the tables of the version's schema that have a
+/// What is recorded of a session, in the order of the digest: the tables of the schema that have a
 /// session_id, in its order. Not `digests`, not `experiments`, which changes while an experiment goes on, and neither
 /// kSaidAfterwards nor kTallies. `texts` are covered by the hashes that sessions name them by. A change of these
 /// tables, or of their order, is another version of the log.
-const std::vector<DigestedTable>& digested_tables(int version = kMatchLog.version);
-
-/// Version of a match log.
-inline constexpr int kFirstWithDigests = 3;
+const std::vector<DigestedTable>& digested_tables();
 
 struct RowDigest {
   std::int64_t row_count = 0;
@@ -56,8 +53,8 @@ struct RowDigest {
 /// rows on purpose can write their digest, too.
 class RowDigests {
  public:
-  /// Of a match log of `version`, at least kFirstWithDigests, whose schema was checked. Throws SQLite::Exception.
-  explicit RowDigests(SQLite::Database& database, int version = kMatchLog.version);
+  /// Of a match log whose schema was checked. Throws SQLite::Exception.
+  explicit RowDigests(SQLite::Database& database);
 
   /// Throws SQLite::Exception where the file cannot be read.
   RowDigest of(std::int64_t session_id);
@@ -86,7 +83,6 @@ class RowDigests {
   void pour();
 
   SQLite::Database& database_;
-  int version_;
   std::vector<Rows> tables_;
   std::vector<unsigned char> bytes_;  // not hashed yet
   RunningSha256 sha256_;

@@ -6,28 +6,12 @@
 #include <cctype>
 #include <regex>
 
-#include "evaluator/log/before_version_4.sql.hpp"
-#include "evaluator/log/before_version_5.sql.hpp"
-#include "evaluator/log/before_version_6.sql.hpp"
-#include "evaluator/log/before_version_7.sql.hpp"
-#include "evaluator/log/before_version_8.sql.hpp"
 #include "evaluator/log/reading_views.sql.hpp"
 #include "evaluator/log/row.hpp"
 #include "evaluator/log/scan_schema.sql.hpp"
-#include "evaluator/log/scan_schema_version_1.sql.hpp"
 #include "evaluator/log/schema.sql.hpp"
-#include "evaluator/log/schema_version_1.sql.hpp"
-#include "evaluator/log/schema_version_2.sql.hpp"
-#include "evaluator/log/schema_version_3.sql.hpp"
-#include "evaluator/log/schema_version_4.sql.hpp"
-#include "evaluator/log/schema_version_5.sql.hpp"
-#include "evaluator/log/schema_version_6.sql.hpp"
-#include "evaluator/log/schema_version_7.sql.hpp"
 #include "evaluator/log/session_tallies.hpp"
 #include "evaluator/log/tally_schema.sql.hpp"
-#include "evaluator/log/version_1.sql.hpp"
-#include "evaluator/log/version_2.sql.hpp"
-#include "evaluator/log/version_3.sql.hpp"
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::evaluator::log {
@@ -58,57 +42,22 @@ const std::string& match_schema() {
   return text;
 }
 
-/// The view `kicks` of a schema as a view of the connection by the name `name`. It asks the file's own tables, also
-/// where a view of the connection stands before one of them.
-std::string own_kicks(std::string_view schema, const std::string& name) {
+/// The view `kicks` of the schema as a view of the connection. It asks the file's own tables, also where a view of the
+/// connection stands before one of them.
+std::string own_kicks() {
   static const std::string head = "CREATE VIEW kicks AS";
   static const std::regex table("(FROM|JOIN) (kick_[a-z]+)");
-  const std::string body(schema.substr(schema.find(head) + head.size()));
-  return fmt::format("CREATE TEMP VIEW {} AS{}", name, std::regex_replace(body, table, "$1 main.$2"));
-}
-
-/// The view `kicks` of a log before version 4: NULL where that version says nothing.
-std::string kicks_with_nulls() {
-  const auto kicks_columns = [](int version) {
-    SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    empty.exec(std::string(schema_of(kMatchLog, version)));
-    SQLite::Statement query(empty, "PRAGMA table_info(kicks)");
-    std::vector<std::string> names;
-    while (query.executeStep()) names.push_back(query.getColumn("name").getString());
-    return names;
-  };
-  std::vector<std::string> there = kicks_columns(3);
-  there.emplace_back("observations");
-  std::string sql = "CREATE TEMP VIEW kicks AS SELECT k.*";
-  for (const std::string& name : kicks_columns(kMatchLog.version)) {
-    if (std::ranges::find(there, name) == there.end()) sql += fmt::format(", NULL AS {}", name);
-  }
-  return sql + " FROM observed_kicks AS k";
+  const std::string& schema = match_schema();
+  const std::string body = schema.substr(schema.find(head) + head.size());
+  return "CREATE TEMP VIEW kicks AS" + std::regex_replace(body, table, "$1 main.$2");
 }
 
 }  // namespace
 
-std::string_view schema_of(const LogKind& kind, int version) {
-  if (kind.application_id == kScanRecord.application_id) return version == 1 ? kScanSchemaVersion1Sql : kScanSchemaSql;
+std::string_view schema_of(const LogKind& kind) {
+  if (kind.application_id == kScanRecord.application_id) return kScanSchemaSql;
   if (kind.application_id == kTallyBook.application_id) return kTallySchemaSql;
-  switch (version) {
-    case 1:
-      return kSchemaVersion1Sql;
-    case 2:
-      return kSchemaVersion2Sql;
-    case 3:
-      return kSchemaVersion3Sql;
-    case 4:
-      return kSchemaVersion4Sql;
-    case 5:
-      return kSchemaVersion5Sql;
-    case 6:
-      return kSchemaVersion6Sql;
-    case 7:
-      return kSchemaVersion7Sql;
-    default:
-      return match_schema();
-  }
+  return match_schema();
 }
 
 std::optional<std::string> table_of_message(std::string_view type) {
@@ -136,23 +85,11 @@ std::string policy_order() {
 
 }  // namespace
 
-void create_reading_views(SQLite::Database& database, int version) {
-  const char* const kicks = version == 1 ? "kicks_of_version_1" : version < 4 ? "kicks_of_version_3" : "kicks";
-  database.exec(own_kicks(schema_of(kMatchLog, version), kicks));
-  if (version == 1) database.exec(kVersion1Sql);
-  if (version == 2) database.exec(kVersion2Sql);
-  if (version == 3) database.exec(kVersion3Sql);
-  if (version < 4) {
-    database.exec(kBeforeVersion4Sql);
-    database.exec(kicks_with_nulls());
-  }
-  if (version < 5) database.exec(kBeforeVersion5Sql);
-  if (version < 6) database.exec(kBeforeVersion6Sql);
-  if (version < 7) database.exec(kBeforeVersion7Sql);
-  if (version < 8) database.exec(kBeforeVersion8Sql);
+void create_reading_views(SQLite::Database& database) {
+  database.exec(own_kicks());
   database.exec(policy_order());
   database.exec(kReadingViewsSql);
-  create_tally_views(database, version);
+  create_tally_views(database);
 }
 
 void create_tables(SQLite::Database& database) {

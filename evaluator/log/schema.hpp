@@ -19,22 +19,21 @@ struct LogKind {
   int application_id = 0;    ///< shown by file(1)
   int version = 1;           ///< PRAGMA user_version
 };
-inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 8};                ///< "KICK"
-inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 2};             ///< "SCAN"
-inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 2};  ///< "TALY"
+inline constexpr LogKind kMatchLog{"match log", "a recorded match", 0x4B49434B, 1};                ///< "KICK"
+inline constexpr LogKind kScanRecord{"scan record", "a recorded scan", 0x5343414E, 1};             ///< "SCAN"
+inline constexpr LogKind kTallyBook{"book of tallies", "a study that was played", 0x54414C59, 1};  ///< "TALY"
 
 struct Column {
   std::string name;
   bool not_null = false;
 };
 
-/// The statements that made a log of `version`, which is at least 1 and at most kind.version.
-std::string_view schema_of(const LogKind& kind, int version);
+/// The statements that make a log.
+std::string_view schema_of(const LogKind& kind);
 
-/// Views of this connection through which a match log of any version is read as one of kMatchLog.version. Views of the
-/// file are never used. View counted_kicks is kicks without what the connection's tables left_out_sessions and
-/// left_out_kicks name. Throws SQLite::Exception.
-void create_reading_views(SQLite::Database& database, int version);
+/// Views of this connection through which a match log is read. Views of the file are never used. View counted_kicks is
+/// kicks without what the connection's tables left_out_sessions and left_out_kicks name. Throws SQLite::Exception.
+void create_reading_views(SQLite::Database& database);
 
 /// Creates the tables of a match log. Throws SQLite::Exception.
 void create_tables(SQLite::Database& database);

@@ -318,10 +318,10 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   seq INTEGER NOT NULL,                    -- sequence number of the stream
   t_ns INTEGER NOT NULL,                   -- instant of the answer
   kick_id INTEGER NOT NULL,                -- of the order
-  accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the coil was energised
+  accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the device was told, or may have been
   refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
     OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'
-    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger'), -- why it was refused
+    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger' OR refusal = 'not_known'), -- why it was refused; not_known: accepted, and nobody knows whether it fired
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused
   release_t_ns INTEGER NOT NULL,           -- expected release of the ball; 0: refused
@@ -446,7 +446,6 @@ CREATE TABLE session_clocks (              -- made by merging: UTC by the refere
 CREATE TABLE merged_sessions (             -- made by merging: the files that had a session, or a part of it
   session_id INTEGER NOT NULL,             -- sessions.session_id
   file TEXT NOT NULL,                      -- name of the file, without its folder
-  from_version INTEGER NOT NULL,           -- of its schema
   row_count INTEGER NOT NULL,              -- rows of the session that could be read there
   damage TEXT NOT NULL,                    -- what was wrong with the file; empty: nothing
   PRIMARY KEY (session_id, file)

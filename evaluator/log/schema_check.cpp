@@ -72,13 +72,13 @@ std::map<std::string, Object> objects_of(SQLite::Database& database) {
   return objects;
 }
 
-/// What this program makes of `version`.
-const std::map<std::string, Object>& own_objects(const LogKind& kind, int version) {
-  static thread_local std::map<std::pair<int, int>, std::map<std::string, Object>> known;
-  auto& objects = known[{kind.application_id, version}];
+/// What this program makes.
+const std::map<std::string, Object>& own_objects(const LogKind& kind) {
+  static thread_local std::map<int, std::map<std::string, Object>> known;
+  auto& objects = known[kind.application_id];
   if (objects.empty()) {
     SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-    empty.exec(std::string(schema_of(kind, version)));
+    empty.exec(std::string(schema_of(kind)));
     objects = objects_of(empty);
   }
   return objects;
@@ -107,14 +107,14 @@ std::vector<std::string> tokens_of(std::string_view sql) {
   return without_checks(tokens);
 }
 
-void check_schema(SQLite::Database& database, const LogKind& kind, int version, const std::string& file) {
+void check_schema(SQLite::Database& database, const LogKind& kind, const std::string& file) {
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(
-        fmt::format("{} is no {} of version {} that can be trusted: {}", file, kind.name, version, what));
+        fmt::format("{} is no {} of version {} that can be trusted: {}", file, kind.name, kind.version, what));
   };
   // The text is compared and nothing else: asking SQLite about a table would prepare the views of the file.
   const auto found = objects_of(database);
-  const auto& own = own_objects(kind, version);
+  const auto& own = own_objects(kind);
   for (const auto& [name, object] : own) {
     if (object.type == "view") continue;  // ours are views of the connection
     const auto there = found.find(name);

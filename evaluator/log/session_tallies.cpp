@@ -18,8 +18,6 @@
 namespace trivela::evaluator::log {
 namespace {
 
-constexpr int kFirstWithTallies = 8;  // version
-
 /// What is counted of the sessions that `wanted`, a SELECT, names, as a SELECT.
 std::string counted(std::string_view wanted, std::string_view what) {
   return fmt::format("WITH wanted (session_id) AS ({}) {}", wanted, what);
@@ -80,12 +78,10 @@ void write_tallies(SQLite::Database& database, std::int64_t session_id) {
                   session_id));
 }
 
-void create_tally_views(SQLite::Database& database, int version) {
-  if (version >= kFirstWithTallies)
-    database.exec(
-        "CREATE TEMP VIEW counted_sessions AS SELECT t.session_id FROM main.tallied_sessions AS t JOIN main.digests AS "
-        "d "
-        "ON d.session_id = t.session_id AND d.sha256 = t.sha256");
+void create_tally_views(SQLite::Database& database) {
+  database.exec(
+      "CREATE TEMP VIEW counted_sessions AS SELECT t.session_id FROM main.tallied_sessions AS t JOIN main.digests AS d "
+      "ON d.session_id = t.session_id AND d.sha256 = t.sha256");
   database.exec(
       "CREATE TEMP VIEW uncounted_sessions AS SELECT session_id FROM sessions WHERE session_id NOT IN (SELECT "
       "session_id FROM counted_sessions)");
@@ -111,7 +107,6 @@ void create_tally_views(SQLite::Database& database, int version) {
 
 std::vector<std::string> wrong_tallies(const LogFile& file) {
   std::vector<std::string> sentences;
-  if (file.version() < kFirstWithTallies) return sentences;
   std::set<std::pair<std::int64_t, std::string_view>> wrong;
   constexpr std::string_view kWanted = "SELECT session_id FROM counted_sessions";
   for (const Tally& tally : tallies(kWanted)) {

@@ -15,9 +15,9 @@ namespace trivela::evaluator::log {
 /// whose log has few rows beside those that would count them. Throws SQLite::Exception.
 void write_tallies(SQLite::Database& database, std::int64_t session_id);
 
-/// Creates the views of a connection by which a log of `version` is read: what was counted of sessions when they ended,
-/// and of all others what is counted now. After those of older versions. Throws SQLite::Exception.
-void create_tally_views(SQLite::Database& database, int version);
+/// Creates the views of a connection by which a log is read: what was counted of sessions when they ended, and of all
+/// others what is counted now. Throws SQLite::Exception.
+void create_tally_views(SQLite::Database& database);
 
 /// Sentences on sessions whose tallies are not those of their rows; of a log whose views are those of
 /// create_reading_views(). Throws std::runtime_error where it cannot be read.

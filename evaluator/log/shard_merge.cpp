@@ -47,10 +47,6 @@ ExperimentFile read_shard(const fs::path& path) {
   const Reader reader(path, Check::kWhole);
   const auto file = experiment_in(path, reader);
   if (!file) throw refused_shard(path, "is no shard of an experiment (trivela simulate --shard), the other files are");
-  if (reader.version() != kMatchLog.version)
-    throw refused_shard(path,
-                        fmt::format("is of version {} and not {}: shards are merged by the program that played them",
-                                    reader.version(), kMatchLog.version));
   if (file->done != file->matches)
     throw refused_shard(path, fmt::format("shard {} has {} of its {} matches: the command that began it goes on from "
                                           "there",

@@ -44,7 +44,7 @@ StreamColumn column_of(const std::string& create, const std::string& name, const
 
 std::vector<StreamTable> tables_of_schema() {
   SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  empty.exec(std::string(schema_of(kMatchLog, kMatchLog.version)));
+  empty.exec(std::string(schema_of(kMatchLog)));
   SQLite::Statement query(empty, R"(
     SELECT t.name, t.sql, c.name, c.type, c."notnull", c.pk FROM sqlite_schema t, pragma_table_info(t.name) c
     WHERE t.type = 'table' AND t.name <> 'digests'

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds kBookGroup{500};  // of matches in one transaction
 
-std::runtime_error against_book(const fs::path& path, const std::string& why) {
-  return std::runtime_error(fmt::format("{}: {}", path.string(), why));
+FileTaken taken_book(const fs::path& path, const std::string& why) {
+  return FileTaken(fmt::format("{}: {}", path.string(), why));
 }
 
 std::string arguments_of(const StudyPlan& plan) {
@@ -44,19 +44,18 @@ std::unique_ptr<SQLite::Database> resume_book(const fs::path& path, const StudyP
     database->exec("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE; PRAGMA synchronous = NORMAL;");
     if (database->execAndGet("PRAGMA application_id").getInt() != kTallyBook.application_id ||
         database->execAndGet("PRAGMA user_version").getInt() != kTallyBook.version)
-      throw against_book(path, "is there already and is no book of tallies of this version; choose another file");
-    check_schema(*database, kTallyBook, kTallyBook.version, path.string());
+      throw taken_book(path, "is there already and is no book of tallies of this version; choose another file");
+    check_schema(*database, kTallyBook, path.string());
     SQLite::Statement known(*database, "SELECT arguments_sha256, matches FROM studies");
     if (!known.executeStep() || known.getColumn(0).getString() != sha256(arguments_of(plan)) ||
         known.getColumn(1).getInt64() != plan.range().size())
-      throw against_book(
-          path,
-          "was begun with other arguments (table studies says which); a study goes on with its own alone, "
-          "choose another file");
+      throw taken_book(path,
+                       "was begun with other arguments (table studies says which); a study goes on with its own alone, "
+                       "choose another file");
     return database;
   } catch (const SQLite::Exception& error) {
-    if (is_busy(error)) throw against_book(path, "another run writes to it");
-    throw against_book(path, fmt::format("is there already and is no book of tallies: {}", error.what()));
+    if (is_busy(error)) throw taken_book(path, "another run writes to it");
+    throw taken_book(path, fmt::format("is there already and is no book of tallies: {}", error.what()));
   }
 }
 
@@ -121,7 +120,7 @@ struct TallyBook::Impl {
     try {
       work();
     } catch (const SQLite::Exception& error) {
-      throw against_book(path, fmt::format("tallies could not be written: {}", error.what()));
+      throw std::runtime_error(fmt::format("{}: tallies could not be written: {}", path.string(), error.what()));
     }
   }
 
@@ -140,7 +139,8 @@ TallyBook::~TallyBook() = default;
 void TallyBook::know(const fs::path& merged) {
   LogFile(merged, kTallyBook, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& arguments) {
     if (arguments != impl_->plan.arguments)
-      throw against_book(merged, "is no merged book of this study: it was begun with other arguments, or is a shard");
+      throw std::runtime_error(fmt::format(
+          "{}: is no merged book of this study: it was begun with other arguments, or is a shard", merged.string()));
   });
   impl_->known = std::make_unique<SQLite::Database>(name_of_main_file(merged),
                                                     SQLite::OPEN_READONLY | SQLite::OPEN_URI);  // many shards read it

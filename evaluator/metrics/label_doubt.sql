@@ -1,5 +1,5 @@
--- Kicks by policy, label and sightings behind it. p_on_target: of the label's own probabilities, NULL in old logs and of a
--- label by hand.
+-- Kicks by policy, label and sightings behind it. p_on_target: of the label's own probabilities, NULL of a label
+-- by hand.
 -- Columns: session_id, robot_id, policy, outcome ('unknown' where none came), observations, p_on_target, p_of_label
 -- (NULL: not said), p_of_any (sum of the outcomes' probabilities, NULL: not said).
 SELECT k.session_id, k.robot_id, k.policy, coalesce(k.label, 'unknown') AS outcome,

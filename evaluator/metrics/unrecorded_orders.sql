@@ -1,5 +1,5 @@
 -- Orders and kicks that a kicker's driver counted and the log has no receipt of, by session and robot, where there are
--- any. A driver that starts anew counts from 0. A withdrawn kick has two receipts of one order.
+-- any. A driver that starts anew counts from 0. A withdrawn kick, and one of which it is not known whether it fired, has two receipts of one order.
 -- Columns: session_id, robot_id, continues (1: the session goes on from another), restarted_before (1: the driver was
 -- started anew between the two, what it did before that is not known), orders_before, kicks_before (before the
 -- session's first status; where it continues another: since that one's last), orders_within, kicks_within (between the
@@ -20,7 +20,7 @@ receipts AS (
       SELECT 1 FROM main.kick_receipts AS k INDEXED BY kick_receipts_kick
       WHERE k.session_id = r.session_id AND k.robot_id = r.robot_id AND k.kick_id = r.kick_id AND k.seq < r.seq
         AND k.accepted = 1) AS withdrawal
-  FROM kick_receipts AS r),
+  FROM kick_receipts AS r WHERE r.refusal <> 'not_known'),
 recorded AS (
   SELECT f.session_id, f.robot_id,
     total(r.t_ns <= f.t_ns AND NOT r.withdrawal) AS orders_before,

@@ -57,7 +57,6 @@ ValuesOfKeys values_of(const std::filesystem::path& path) {
   add("table", "SELECT DISTINCT kicker_table FROM sessions");
   add("policy", "SELECT DISTINCT policy FROM session_policies");
   add("recording robot", "SELECT DISTINCT CAST(robot_id AS TEXT) FROM sessions");
-  values[{"sessions", "version of the log"}].insert(std::to_string(reader.version()));
   return values;
 }
 

@@ -126,7 +126,7 @@ void look(const char* check, const Look& look_at, Findings& findings) {
 /// What to do about a file that does not open.
 std::string advice_on(const std::string& why) {
   const auto says = [&](const char* words) { return why.find(words) != std::string::npos; };
-  if (says("this program reads version")) return "read it with the Trivela that wrote it, or a newer one";
+  if (says("this program reads version")) return "read it with the Trivela that wrote it";
   if (says("is empty, no match log")) return "nothing is in it; copy it again if it was copied";
   if (says("is not a match log") || says("there is no match log") || says("is a folder"))
     return "match logs are SQLite files that a recorder or trivela simulate has written";
@@ -143,7 +143,7 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
   try {
     const log::Reader reader(path, log::Check::kWhole);
     const auto doubt = reader.doubt();
-    findings.push_back({"file", Health::kOk, fmt::format("a match log of version {}", reader.version()), ""});
+    findings.push_back({"file", Health::kOk, fmt::format("a match log of version {}", log::kMatchLog.version), ""});
     findings.push_back({"integrity", Health::kOk,
                         doubt ? *doubt : fmt::format("{} rows are as they were recorded", reader.verification().rows),
                         ""});

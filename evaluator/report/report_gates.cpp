@@ -65,7 +65,9 @@ constexpr std::array kOfWhole{
     WholeMetric{"refused_orders",
                 [](const Report& report) {
                   std::int64_t sum = 0;
-                  for (const RefusedOrders& refused : report.refused_orders) sum += refused.orders;
+                  for (const RefusedOrders& refused : report.refused_orders) {
+                    if (refused.refusal != "not_known") sum += refused.orders;
+                  }
                   return count_of(sum);
                 }},
     WholeMetric{"sessions", [](const Report& report) { return count_of(std::ssize(report.sessions)); }},

@@ -20,8 +20,8 @@ class TruthCount {
   /// Whether the simulator counted in a session.
   bool has(std::int64_t session_id) const { return sessions_.contains(session_id); }
 
-  /// The simulator's number of a possession that the robot numbers `own`; `own` where the simulator did not count or
-  /// the log does not say more: before version 6 robots went by the simulator's count.
+  /// The simulator's number of a possession that the robot numbers `own`; `own` where the simulator did not count
+  /// or the log does not say more.
   std::int64_t number(std::int64_t session_id, int robot_id, int half, std::int64_t own) const;
 
  private:

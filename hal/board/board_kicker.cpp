@@ -81,6 +81,11 @@ void BoardKicker::hold_when(const Hold& hold) {
   hold_ = hold;
 }
 
+void BoardKicker::call_when_written(const std::function<void()>& written) {
+  const std::lock_guard lock{mutex_};
+  written_ = written;
+}
+
 std::optional<ShotResult> BoardKicker::take_result() {
   const std::lock_guard lock{mutex_};
   if (results_.empty()) return std::nullopt;
@@ -135,6 +140,7 @@ void BoardKicker::send(const Shot& shot) {
                 fmt::format("it was {:.3f} s too late", static_cast<double>(now_ns - shot.until_ns) / kNsPerS));
   if (hold_ && hold_(shot.judged_ns)) return drop(shot, What::kCalledOff, "it was called off before its instant");
   if (const std::string why = board_->shoot(shot.power, now_ns); !why.empty()) return drop(shot, What::kDevice, why);
+  if (written_) written_();
   results_.push_back({shot.kick_id, What::kFired, steady_ns()});
 }
 

@@ -35,6 +35,7 @@ class BoardKicker final : public Kicker {
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
   void hold_when(const Hold& hold) override;
+  void call_when_written(const std::function<void()>& written) override;
   std::optional<ShotResult> take_result() override;
   std::string beyond(double power) const override { return board_->beyond(power); }
   void make_safe() noexcept override;
@@ -59,6 +60,7 @@ class BoardKicker final : public Kicker {
   std::condition_variable changed_;
   ShotQueue shots_;
   Hold hold_;
+  std::function<void()> written_;
   std::optional<KickerSample> sample_;  // not yet read
   std::string status_;
   std::string dropped_;  // what status() says of the last shot

@@ -77,6 +77,7 @@ void BusKicker::fire(const Shot& shot) {
     return;
   }
   fires_.write(order);
+  if (written_) written_();
 }
 
 std::optional<ShotResult> BusKicker::take_result() { return std::exchange(dropped_, std::nullopt); }

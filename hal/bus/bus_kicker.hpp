@@ -30,6 +30,7 @@ class BusKicker final : public Kicker {
   void fire(const Shot& shot) override;
   void withdraw(std::int64_t kick_id) override;
   void hold_when(const Hold& hold) override { hold_ = hold; }
+  void call_when_written(const std::function<void()>& written) override { written_ = written; }
   std::optional<ShotResult> take_result() override;
   void charge(ChargeWord word) override;
   void make_safe() noexcept override;
@@ -53,6 +54,7 @@ class BusKicker final : public Kicker {
   std::atomic<KickerCapabilities> capabilities_{};
   std::atomic<bool> safe_ = false;
   Hold hold_;
+  std::function<void()> written_;
   std::optional<ShotResult> dropped_;
 };
 

@@ -1,6 +1,7 @@
 #include "nodes/kicker_drift/kick_series.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
@@ -9,8 +10,11 @@
 namespace trivela::nodes {
 namespace {
 
-// An order that came twice is refused as `double` after it was fired: what was said before holds.
-auto weight(const msg::KickReceipt& receipt) { return std::pair(receipt.refusal != msg::REFUSAL_DOUBLE, receipt.seq); }
+// An order that came twice is refused as `double` after it was fired: what was said before holds. A driver that was
+// started anew counts from 1.
+auto weight(const msg::KickReceipt& receipt) {
+  return std::tuple(receipt.refusal != msg::REFUSAL_DOUBLE, receipt.t_ns, receipt.seq);
+}
 
 }  // namespace
 

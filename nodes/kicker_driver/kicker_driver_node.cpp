@@ -78,6 +78,7 @@ void KickerDriverNode::begin_in_real_time() {
   if (!pending_->why().empty())
     context_.logger->warn("a kick that is lost with this program will not be told: {}", pending_->why());
   kicker_->hold_when([this](std::int64_t judged_ns) { return holds(judged_ns); });
+  kicker_->call_when_written([this] { pending_->settled(); });
   node_.on_stop([this] {
     const std::lock_guard lock{mutex_};
     stop();
@@ -232,16 +233,19 @@ void KickerDriverNode::withdraw() {
 /// Asked by whoever writes to the device, immediately before.
 bool KickerDriverNode::holds(std::int64_t judged_ns) {
   if (judged_ns <= called_off_ns_ || context_.stop.requested()) return true;
-  pending_->settled();
+  pending_->being_told();
   return false;
 }
 
-/// What the predecessor accepted and never told the device, once somebody hears it.
+/// What the predecessor accepted and did not settle, once somebody hears it.
 void KickerDriverNode::complete_predecessor() {
   if (!pending_ || !pending_->left() || receipt_out_.readers() == 0) return;
-  const auto left = *pending_->left();
-  context_.logger->warn("kick {} was accepted by a driver that ended before it fired", left.kick_id);
-  receipt_out_.write(desk_.not_fired(left.kick_id, left.order_t_ns, now_t_ns()));
+  const PendingKick::Left& left = *pending_->left();
+  context_.logger->warn(
+      "kick {} was accepted by a driver that ended {}", left.receipt.kick_id,
+      left.being_told ? "while it told the device: whether it fired is not known" : "before it fired");
+  receipt_out_.write(left.being_told ? desk_.not_known(left.receipt, now_t_ns())
+                                     : desk_.not_fired(left.receipt, now_t_ns()));
   pending_->forget();
   pending_->settled();
 }
@@ -303,7 +307,7 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
   msg::KickReceipt receipt = desk_.answer(order, judged_ns, by);
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
-    if (pending_) pending_->accepted(receipt.kick_id, receipt.order_t_ns);
+    if (pending_) pending_->accepted(receipt);
     kicker_->fire({.kick_id = receipt.kick_id,
                    .power = receipt.power,
                    .t_ns = receipt.fired_t_ns,

@@ -30,25 +30,30 @@ PendingKick::PendingKick(const std::string& name) : name_("/" + name) {
   if (file >= 0) ::close(file);
   if (place == MAP_FAILED) return;
   record_ = static_cast<Record*>(place);  // zeros where it is new
-  const std::int64_t kick_id = record_->open_kick_id;
-  if (kick_id != 0) left_ = Left{kick_id, record_->order_t_ns};
+  const State state = record_->state;
+  if (state != State::kNone) left_ = Left{record_->receipt, state == State::kBeingTold};
 }
 
 PendingKick::~PendingKick() {
   if (record_ == nullptr) return;
-  if (record_->open_kick_id == 0) ::shm_unlink(name_.c_str());
+  if (record_->state == State::kNone) ::shm_unlink(name_.c_str());
   ::munmap(record_, sizeof(Record));
 }
 
-void PendingKick::accepted(std::int64_t kick_id, std::int64_t order_t_ns) {
+void PendingKick::accepted(const msg::KickReceipt& receipt) {
   left_.reset();
   if (record_ == nullptr) return;
-  record_->order_t_ns = order_t_ns;
-  record_->open_kick_id = kick_id;
+  record_->state = State::kNone;
+  record_->receipt = receipt;
+  record_->state = State::kAccepted;
+}
+
+void PendingKick::being_told() noexcept {
+  if (record_ != nullptr) record_->state = State::kBeingTold;
 }
 
 void PendingKick::settled() noexcept {
-  if (record_ != nullptr) record_->open_kick_id = 0;
+  if (record_ != nullptr) record_->state = State::kNone;
 }
 
 }  // namespace trivela::nodes

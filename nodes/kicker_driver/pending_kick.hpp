@@ -1,22 +1,23 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "config/settings.hpp"
+#include "idl/messages.hpp"
 
 namespace trivela::nodes {
 
-/// The last accepted kick, in memory that outlives the process: a driver that was killed before it told the device
-/// leaves it to its successor, which says that the kick was not fired. Written by the driver's thread and, in
-/// settled(), by the one that writes to the device; each store is one word, so that a kill leaves a whole record.
+/// The last accepted kick, in memory that outlives the process: a driver that was killed before it told the device, or
+/// while it did, leaves the kick's receipt to its successor, which sends another one. Written by the driver's thread
+/// and by the one that writes to the device; the state is one word, so that a kill leaves a whole record.
 class PendingKick {
  public:
   struct Left {
-    std::int64_t kick_id;
-    std::int64_t order_t_ns;
+    msg::KickReceipt receipt;  ///< as it was sent, or was about to be
+    bool being_told = false;   ///< the device may have been told
   };
 
   /// Of the memory: the same for a driver and its successor, another for each bus and robot.
@@ -29,24 +30,27 @@ class PendingKick {
   PendingKick(const PendingKick&) = delete;
   PendingKick& operator=(const PendingKick&) = delete;
 
-  /// What the predecessor accepted and never told the device. Until forget() or the next accepted().
-  std::optional<Left> left() const { return left_; }
+  /// What the predecessor accepted and did not settle. Until forget() or the next accepted().
+  const std::optional<Left>& left() const { return left_; }
 
   void forget() { left_.reset(); }
 
-  void accepted(std::int64_t kick_id, std::int64_t order_t_ns);
-  /// From here on the device may have been told, or a receipt says that it was not.
+  void accepted(const msg::KickReceipt& receipt);
+  /// From here on the device may be told.
+  void being_told() noexcept;
+  /// The device was told, or a receipt says that it was not.
   void settled() noexcept;
 
   /// Why nothing is kept; empty: it is.
   const std::string& why() const { return why_; }
 
  private:
+  enum class State : int { kNone, kAccepted, kBeingTold };
   struct Record {
-    std::atomic<std::int64_t> open_kick_id;  // 0: none
-    std::int64_t order_t_ns;
+    std::atomic<State> state;
+    msg::KickReceipt receipt;
   };
-  static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+  static_assert(std::atomic<State>::is_always_lock_free && std::is_trivially_copyable_v<msg::KickReceipt>);
 
   std::string name_;
   Record* record_ = nullptr;

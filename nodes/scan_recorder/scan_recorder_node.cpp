@@ -101,7 +101,7 @@ void ScanRecorderNode::on_scan(const kicking::lob::Scan& scan) {
 }
 
 void ScanRecorderNode::on_receipt(const msg::KickReceipt& receipt) {
-  if (!receipt.accepted) return;
+  if (!msg::begins_kick(receipt)) return;
   const evaluator::log::TestedSetPoint tested{receipt.fired_t_ns, receipt.power, receipt.kick_id};
   const std::lock_guard lock{mutex_};
   if (log_) {

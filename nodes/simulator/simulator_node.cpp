@@ -256,7 +256,7 @@ void SimulatorNode::take_pulses(sim::Commands& out) {
 std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {
   bus::renew_if_silent(*receipts_);
   receipts_->take([this](const msg::KickReceipt& receipt) {
-    if (receipt.robot_id == context_.robot_id() && receipt.accepted)
+    if (receipt.robot_id == context_.robot_id() && msg::begins_kick(receipt))
       book_.accepted(receipt.kick_id, receipt.fired_t_ns);
   });
   const auto kick_id = book_.take(t_ns);

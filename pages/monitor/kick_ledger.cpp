@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace trivela::pages {
 namespace {
@@ -13,10 +14,10 @@ bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
 }
 
 // Whether this receipt says more than the last one: an order that came twice is refused as `double` after it was fired.
+// A driver that was started anew counts from 1.
 bool outweighs(const msg::KickReceipt& receipt, const KnownKick::Answered& last) {
-  const auto rank = [](bool is_double, std::uint64_t seq) { return std::pair{!is_double, seq}; };
-  return rank(receipt.refusal == msg::REFUSAL_DOUBLE, receipt.seq) >
-         rank(last.refusal == msg::REFUSAL_DOUBLE, last.seq);
+  return std::tuple{receipt.refusal != msg::REFUSAL_DOUBLE, receipt.t_ns, receipt.seq} >
+         std::tuple{last.refusal != msg::REFUSAL_DOUBLE, last.t_ns, last.seq};
 }
 
 // Whether the robot had the ball and might play it: the policy judged.
@@ -86,7 +87,7 @@ void KickLedger::hear(const msg::KickDecision& decision, std::int64_t heard_ns) 
 void KickLedger::hear(const msg::KickReceipt& receipt, std::int64_t heard_ns) {
   KnownKick* const kick = kick_of(receipt.robot_id, receipt.kick_id, heard_ns);
   if (kick == nullptr || (kick->answered && !outweighs(receipt, *kick->answered))) return;
-  kick->answered = KnownKick::Answered{receipt.seq, receipt.accepted, receipt.refusal};
+  kick->answered = KnownKick::Answered{receipt.t_ns, receipt.seq, receipt.accepted, receipt.refusal};
 }
 
 void KickLedger::hear(const msg::KickOutcome& outcome, std::int64_t heard_ns) {

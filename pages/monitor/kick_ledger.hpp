@@ -25,6 +25,7 @@ struct KnownKick {
     bool goal_counts = true;  ///< by the rules, if the ball goes in
   };
   struct Answered {
+    std::int64_t t_ns = 0;
     std::uint64_t seq = 0;
     bool accepted = false;
     msg::Refusal refusal{};

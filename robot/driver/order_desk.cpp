@@ -124,8 +124,16 @@ msg::KickReceipt OrderDesk::refused_after_all(const OrderGate::Withdrawal& withd
   return refusal_of(withdrawn, now_t_ns);
 }
 
-msg::KickReceipt OrderDesk::not_fired(std::int64_t kick_id, std::int64_t order_t_ns, std::int64_t now_t_ns) {
-  return refusal_of({kick_id, order_t_ns, msg::REFUSAL_FAULT}, now_t_ns);
+msg::KickReceipt OrderDesk::not_fired(const msg::KickReceipt& accepted, std::int64_t now_t_ns) {
+  return refusal_of({accepted.kick_id, accepted.order_t_ns, msg::REFUSAL_FAULT}, now_t_ns);
+}
+
+msg::KickReceipt OrderDesk::not_known(const msg::KickReceipt& accepted, std::int64_t now_t_ns) {
+  msg::KickReceipt receipt = accepted;
+  receipt.seq = ++receipts_;
+  receipt.t_ns = now_t_ns;
+  receipt.refusal = msg::REFUSAL_NOT_KNOWN;
+  return receipt;
 }
 
 msg::KickReceipt OrderDesk::refusal_of(const OrderGate::Withdrawal& withdrawn, std::int64_t now_t_ns) {

@@ -56,8 +56,11 @@ class OrderDesk {
   /// unarmed or fault. A shot that was fired late moves the next one.
   std::optional<msg::KickReceipt> result(const hal::ShotResult& result, std::int64_t now_t_ns);
 
-  /// The receipt of a kick that a driver before this one accepted and did not tell the device of.
-  msg::KickReceipt not_fired(std::int64_t kick_id, std::int64_t order_t_ns, std::int64_t now_t_ns);
+  /// A second receipt of a kick that a driver before this one accepted and did not tell the device of.
+  msg::KickReceipt not_fired(const msg::KickReceipt& accepted, std::int64_t now_t_ns);
+
+  /// The same where that driver ended while it told the device: the kick still counts, `refusal` is not_known.
+  msg::KickReceipt not_known(const msg::KickReceipt& accepted, std::int64_t now_t_ns);
 
   std::uint32_t handled() const { return gate_.handled(); }
 

@@ -42,7 +42,7 @@ void append(std::vector<msg::KickOutcome>& outcomes, const std::vector<TrackedSh
 
 std::vector<msg::KickOutcome> Observer::receipt(const msg::KickReceipt& receipt, const kicking::RobotModel& model) {
   std::vector<msg::KickOutcome> outcomes;
-  if (!receipt.accepted) return outcomes;
+  if (!msg::begins_kick(receipt)) return outcomes;
   const double v_mps = model.table.speed_for(receipt.power), angle_rad = model.exit_angle_at(receipt.power);
   append(outcomes, tracker_.release(receipt.kick_id, receipt.release_t_ns, v_mps * std::cos(angle_rad),
                                     v_mps * std::sin(angle_rad)));

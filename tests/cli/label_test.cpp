@@ -8,7 +8,6 @@
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
-#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -28,7 +27,7 @@ class AfterTheMatch : public evaluator::LogTest {
   }
 
   std::string said(const Words& words) {
-    const VerbRun run = run_verbs({add_label, add_note, add_doctor, add_migrate, add_report, add_query}, words);
+    const VerbRun run = run_verbs({add_label, add_note, add_doctor, add_report, add_query}, words);
     exit_code_ = run.exit_code;
     return run.out;
   }
@@ -81,11 +80,10 @@ TEST_F(AfterTheMatch, WhatSqliteSaysIsWhatWasLabelled) {
 }
 
 TEST_F(AfterTheMatch, WhatMakesNoSenseIsRefused) {
-  for (const Words& words :
-       {Words{"label", log_, "1:3"}, Words{"label", log_, "1:3", "post"},
-        Words{"label", log_, "1:3", "post", "--withdraw", "--by", "Ada"}, Words{"label", log_, "--by", "Ada"},
-        Words{"label", log_, "1:3", "--serve"}, Words{"note", log_, "rain"}, Words{"note", log_, "--by", "Ada"},
-        Words{"doctor"}, Words{"migrate", log_}})
+  for (const Words& words : {Words{"label", log_, "1:3"}, Words{"label", log_, "1:3", "post"},
+                             Words{"label", log_, "1:3", "post", "--withdraw", "--by", "Ada"},
+                             Words{"label", log_, "--by", "Ada"}, Words{"label", log_, "1:3", "--serve"},
+                             Words{"note", log_, "rain"}, Words{"note", log_, "--by", "Ada"}, Words{"doctor"}})
     EXPECT_THROW(said(words), UsageError) << words[1];
   EXPECT_THROW(said({"label", log_, "1:3", "goal", "--by", "Ada"}), CLI::ValidationError);
   EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "1:9", "post", "--by", "Ada"}),
@@ -151,15 +149,6 @@ TEST_F(AfterTheMatch, WhileAMatchIsOnNoPageIsServed) {
   std::ofstream(path("match.toml")) << "[run]\nmatch_mode = true\n";
   EXPECT_THAT(why_refused<std::runtime_error>({"label", log_, "--serve", "--config", path("match.toml").string()}),
               HasSubstr("run.match_mode = true: a match is on, and trivela label --serve waits"));
-}
-
-TEST_F(AfterTheMatch, AnOlderLogIsMigratedInItsPlaceAndThenLabelled) {
-  const std::string old = evaluator::older_match_log(path("old.db"), 7).string();
-  EXPECT_THAT(why_refused<std::runtime_error>({"label", old, "1:1", "post", "--by", "Ada"}),
-              HasSubstr("trivela migrate " + old + " --in-place"));
-  EXPECT_THAT(said({"migrate", old, "--in-place"}), HasSubstr("the old log is " + path("old.version-7.db").string()));
-  EXPECT_THAT(said({"label", old, "1:1", "post", "--by", "Ada"}),
-              HasSubstr("post, says Ada; the observer says on target"));
 }
 
 }  // namespace

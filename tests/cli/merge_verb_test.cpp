@@ -7,7 +7,6 @@
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
-#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -107,16 +106,6 @@ TEST_F(MergeVerb, LeavesNothingWhereItIsStopped) {
   EXPECT_EQ(run.out, "");
   EXPECT_THAT(run.errors, HasSubstr("interrupted: there is no " + path("out.db").string()));
   EXPECT_THAT(files(), testing::UnorderedElementsAre("one.db", "two.db"));
-}
-
-TEST_F(MergeVerb, OfMigrationLeavesTheOldLogAloneWhereItIsStopped) {
-  const std::string old = evaluator::older_match_log(path("old.db"), 7).string();
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"migrate", old, "--out", path("new.db")}, {"migrate", old, "--in-place"}}) {
-    const PressedCtrlC now;
-    EXPECT_EQ(run_verbs({add_migrate}, words).exit_code, kFailed);
-    EXPECT_THAT(files(), testing::ElementsAre("old.db"));
-  }
 }
 
 }  // namespace

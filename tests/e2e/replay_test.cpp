@@ -1,8 +1,12 @@
 // A recorded match is decided again, and a disk that does not keep up costs no row.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
@@ -110,6 +114,54 @@ TEST(Replay, DecidesTheSessionThatIsNamed) {
     EXPECT_THAT(decided_otherwise(folder, log, out.c_str()), IsEmpty());
   }
   EXPECT_FALSE(exists(folder / "out.db"));
+}
+
+/// The log with the robot's rows once more, as those of a robot 2 that was recorded in the same session.
+void add_a_second_robot(const std::filesystem::path& log) {
+  SQLite::Database database{log.string(), SQLite::OPEN_READWRITE};
+  const auto names_of = [&](const std::string& sql) {
+    std::vector<std::string> names;
+    for (SQLite::Statement query{database, sql}; query.executeStep();) names.push_back(query.getColumn(0).getString());
+    return names;
+  };
+  constexpr std::int64_t kOneRobotOn = std::int64_t{1} << 40;  // in a kick_id
+  database.exec("DELETE FROM digests; DELETE FROM tallied_sessions; UPDATE sessions SET closed_t_ns = NULL");
+  for (const std::string& table : names_of(
+           "SELECT name FROM sqlite_schema AS t WHERE type = 'table' AND name NOT LIKE '%tallies' AND name NOT IN "
+           "('sessions', 'losses') AND EXISTS (SELECT 1 FROM pragma_table_info(t.name) WHERE name = 'robot_id')")) {
+    const auto columns = names_of("SELECT name FROM pragma_table_info('" + table + "')");
+    std::vector<std::string> values = columns;
+    for (std::string& value : values) {
+      if (value == "robot_id") value = "2";
+      if (value == "kick_id" || value == "last_kick_id")
+        value = fmt::format("CASE WHEN {0} > 0 THEN {0} + {1} ELSE {0} END", value, kOneRobotOn);
+    }
+    database.exec(fmt::format("INSERT INTO {0} ({1}) SELECT {2} FROM {0} WHERE robot_id = 1", table,
+                              fmt::join(columns, ", "), fmt::join(values, ", ")));
+  }
+}
+
+TEST(Replay, DecidesEachRobotOfASessionByItsOwnRows) {
+  const Folder folder;
+  Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  add_a_second_robot(folder / "match.db");
+  const std::string said = replay(folder, {"match.db", "--out", "same.db"});
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("robot 1: "), HasSubstr("robot 2: ")));
+  EXPECT_GT(number_of(Reader{folder / "same.db"}, "SELECT count(*) FROM kick_orders WHERE robot_id = 2"), 0);
+  EXPECT_THAT(decided_otherwise(folder, "match.db", "same.db"), IsEmpty());
+
+  // One of the two loses the ball for the first ten seconds: the other one's decisions stay.
+  SQLite::Database{(folder / "match.db").string(), SQLite::OPEN_READWRITE}.exec(
+      "UPDATE vision_frames SET ball_seen = 0 WHERE robot_id = 2 AND t_exposure_ns < 10000000000");
+  replay(folder, {"match.db", "--out", "other.db"});
+  const auto decisions = [&](const char* log, int robot_id) {
+    return rows_of(
+        Reader{folder / log},
+        fmt::format("SELECT t_ns, fire, reason FROM kick_decisions WHERE robot_id = {} ORDER BY seq", robot_id));
+  };
+  EXPECT_EQ(decisions("other.db", 1), decisions("same.db", 1));
+  EXPECT_NE(decisions("other.db", 2), decisions("same.db", 2));
 }
 
 TEST(Replay, KeepsAndSaysWhatItDecidedWhereItIsStopped) {

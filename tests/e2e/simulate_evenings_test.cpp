@@ -88,7 +88,7 @@ TEST(SimulateEvenings, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refusal(evenings("no.db", 3, {"--robot", kRobot}), 2), HasSubstr("--robot and --calibrations"));
   EXPECT_THAT(folder.files(".db"), IsEmpty());
   run(folder, evenings("ab.db", 3));
-  EXPECT_THAT(refusal(evenings("ab.db", 3, {}, 2), 1), HasSubstr("other arguments"));
+  EXPECT_THAT(refusal(evenings("ab.db", 3, {}, 2), 2), HasSubstr("other arguments"));
 }
 
 std::vector<std::string> tune(const std::string& policy, const std::string& out, std::vector<std::string> more = {},

@@ -96,11 +96,15 @@ TEST(Simulate, RefusesToGoOnWithOtherArguments) {
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--seed", "2"}, std::vector<std::string>{"--set", "policy.settle_s=0.5"}}) {
     Program other{"trivela", simulate("ab.db", 2, more), folder.path()};
-    EXPECT_EQ(other.wait(), 1);
+    EXPECT_EQ(other.wait(), 2);
     EXPECT_THAT(other.errors(), HasSubstr("other arguments"));
   }
   Program longer{"trivela", simulate("ab.db", 3), folder.path()};
-  EXPECT_EQ(longer.wait(), 1);
+  EXPECT_EQ(longer.wait(), 2);
+  std::ofstream(folder / "mine.db") << "my own";
+  Program foreign{"trivela", simulate("mine.db", 2), folder.path()};
+  EXPECT_EQ(foreign.wait(), 2) << "as any verb whose output is there already";
+  EXPECT_EQ(std::filesystem::file_size(folder / "mine.db"), 6u);
   run(folder, simulate("ab.db", 2));  // there is nothing left to play
 }
 

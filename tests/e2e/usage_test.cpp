@@ -293,7 +293,6 @@ TEST(Usage, FoldersInPlaceOfFilesAreSaidSo) {
                                              {"calibrate", "deflection", "."},
                                              {"report", "."},
                                              {"compare", "."},
-                                             {"migrate", ".", "--out", "new.db"},
                                              {"replay", "."},
                                              {"scan", "--info", "."},
                                              {"scan", "--emulate", "."},

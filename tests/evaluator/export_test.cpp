@@ -177,7 +177,7 @@ TEST_F(Export, AnEmptyLogIsAFileWithItsSessionAlone) {
 
 TEST(StreamTables, AreTheSchemasOwn) {
   SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  empty.exec(std::string(log::schema_of(log::kMatchLog, log::kMatchLog.version)));
+  empty.exec(std::string(log::schema_of(log::kMatchLog)));
   for (const log::StreamTable& stream : log::stream_tables()) {
     const auto columns = log::columns_of(empty, stream.name);
     ASSERT_TRUE(columns);

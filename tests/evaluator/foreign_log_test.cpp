@@ -196,10 +196,15 @@ TEST_F(ForeignLog, WhatIsNotRecordedMayBeAdded) {
 }
 
 TEST_F(ForeignLog, AnotherVersionOrKindIsRefused) {
-  exec("PRAGMA user_version = 2");
-  EXPECT_THAT(said(), HasSubstr("no match log of version 2 that can be trusted"));
-  exec("PRAGMA user_version = -1");
-  EXPECT_THAT(said(), HasSubstr("is not a match log"));
+  for (const int version : {2, 7, 8, 1000}) {
+    exec("PRAGMA user_version = " + std::to_string(version));
+    EXPECT_THAT(said(), HasSubstr("is a match log of version " + std::to_string(version) +
+                                  "; this program reads version 1 alone"));
+  }
+  for (const int version : {0, -1}) {
+    exec("PRAGMA user_version = " + std::to_string(version));
+    EXPECT_THAT(said(), HasSubstr("is not a match log"));
+  }
   exec("PRAGMA user_version = 3; PRAGMA application_id = 0x5343414E");
   EXPECT_THAT(said(), HasSubstr("is not a match log but a scan record"));
 }
@@ -214,8 +219,8 @@ TEST_F(ForeignLog, PagesOfAnySizeAreReadRight) {
 TEST_F(ForeignLog, Utf16IsReadRight) {
   std::filesystem::rename(path(), path("utf8.db"));
   SQLite::Database database(path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 8;");
-  database.exec(std::string(log::schema_of(log::kMatchLog, log::kMatchLog.version)));
+  database.exec("PRAGMA encoding = 'UTF-16le'; PRAGMA application_id = 0x4B49434B; PRAGMA user_version = 1;");
+  database.exec(std::string(log::schema_of(log::kMatchLog)));
   SQLite::Database source(path("utf8.db").string());
   for (const std::string& table : log::tables_of(source)) {
     if (table.starts_with("sqlite_")) continue;

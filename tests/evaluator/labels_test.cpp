@@ -8,14 +8,12 @@
 #include "evaluator/learning/predicted_kicks.hpp"
 #include "evaluator/log/additions.hpp"
 #include "evaluator/log/merge.hpp"
-#include "evaluator/log/migration.hpp"
 #include "evaluator/report/hand_labels.hpp"
 #include "evaluator/report/log_kicks.hpp"
 #include "evaluator/report/named_kicks.hpp"
 #include "evaluator/report/session_notes.hpp"
 #include "evaluator/report/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
-#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -204,12 +202,10 @@ TEST_F(Labels, WhatIsNoneIsRefusedAndNothingIsAdded) {
   EXPECT_EQ(number("SELECT count(*) FROM labels"), 0);
 }
 
-TEST_F(Labels, OfAnOlderLogNeedAMigrationAndOfANewerOneAnotherProgram) {
-  const auto old = older_match_log(path("old.db"), 7);
-  EXPECT_THAT(why_refused([&] { Additions{old}; }), HasSubstr("version 7, which has no place for labels and notes"));
+TEST_F(Labels, OfAnotherVersionAreRefused) {
   match();
   SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 9");
-  EXPECT_THAT(why_refused([&] { Additions{path()}; }), HasSubstr("this program reads version 8"));
+  EXPECT_THAT(why_refused([&] { Additions{path()}; }), HasSubstr("this program reads version 1 alone"));
   std::ofstream(path("none.db")) << "no log";
   EXPECT_THAT(why_refused([&] { Additions{path("none.db")}; }), HasSubstr("is not a match log"));
 }
@@ -300,65 +296,6 @@ TEST_F(Notes, OfNobodyOrOfAnotherKindAreRefused) {
               HasSubstr("'weather' is none of match, opponent, venue, note"));
   EXPECT_THAT(why_refused([&] { additions.add(log::Note{1, "note", "wet", ""}, 1); }), HasSubstr("somebody"));
   EXPECT_EQ(number("SELECT count(*) FROM notes"), 0);
-}
-
-class MigrationInPlace : public LogTest {
- protected:
-  static std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  static void migrate(const std::filesystem::path& log) {
-    log::migrate_in_place(log, log::backup_of(log), [](Int, Int) { return true; });
-  }
-};
-
-TEST_F(MigrationInPlace, KeepsTheOldLogBesideTheNewOne) {
-  for (const int version : {1, 7}) {
-    std::filesystem::remove(path());
-    const std::string before = text_of(older_match_log(path(), version));
-    const auto backup = path("match.version-" + std::to_string(version) + ".db");
-    EXPECT_EQ(log::backup_of(path()), backup);
-    migrate(path());
-    EXPECT_EQ(text_of(backup), before);
-    EXPECT_EQ(Reader(path(), Check::kWhole).version(), log::kMatchLog.version);
-    EXPECT_FALSE(std::filesystem::exists(path("match.db.migrating")));
-    Additions(path()).add(log::Label{7, 1, 1, 0, "post", "Ada", ""}, 1);
-    EXPECT_EQ(make_report(Reader(path())).hand_labels.disagreed, 1);
-  }
-}
-
-TEST_F(MigrationInPlace, ChangesNothingWhereItCannot) {
-  const auto refused = [&](const std::filesystem::path& log) {
-    const std::string before = text_of(log);
-    std::string why = "it was not refused";
-    try {
-      migrate(log);
-    } catch (const std::runtime_error& error) {
-      why = error.what();
-    }
-    EXPECT_EQ(text_of(log), before);
-    return why;
-  };
-  older_match_log(path("held.db"), 7);
-  {
-    const SQLite::Database reading(path("held.db").string(), SQLite::OPEN_READWRITE);
-    SQLite::Database(path("held.db").string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = WAL");
-    SQLite::Statement row(reading, "SELECT * FROM sessions");
-    row.executeStep();
-    EXPECT_THAT(refused(path("held.db")), HasSubstr("has it"));
-  }
-  older_match_log(path("old.db"), 7);
-  std::ofstream(path("old.version-7.db")) << "mine";
-  EXPECT_THAT(refused(path("old.db")), HasSubstr("exists already"));
-  EXPECT_EQ(text_of(path("old.version-7.db")), "mine");
-  { const MatchLog now(path(), session(), options()); }
-  EXPECT_THAT(refused(path()), HasSubstr("is of version 8 already"));
-  older_match_log(path("damaged.db"), 7);
-  SQLite::Database(path("damaged.db").string(), SQLite::OPEN_READWRITE)
-      .exec("UPDATE kick_outcomes SET outcome = 'over'");
-  EXPECT_THAT(refused(path("damaged.db")), HasSubstr("damaged or was changed"));
-  EXPECT_FALSE(std::filesystem::exists(path("damaged.version-7.db")));
 }
 
 }  // namespace

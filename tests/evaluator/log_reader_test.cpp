@@ -37,7 +37,7 @@ TEST_F(LogReader, ALogIsKnownByItsApplicationIdAndVersion) {
   write_log();
   SQLite::Database database(path().string());
   EXPECT_EQ(database.execAndGet("PRAGMA application_id").getInt(), 0x4B49434B);
-  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 8);
+  EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 1);
   EXPECT_EQ(database.execAndGet("PRAGMA journal_mode").getString(), "delete");
 }
 
@@ -66,7 +66,7 @@ TEST_F(LogReader, ALogThatSqliteCallsMalformedNamesWhoSaysWhatCanBeDone) {
 TEST_F(LogReader, ANewerLogIsRefusedWithBothVersions) {
   write_log();
   SQLite::Database(path().string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 9");
-  EXPECT_THAT(message_of_opening(), HasSubstr("of version 9; this program reads version 8"));
+  EXPECT_THAT(message_of_opening(), HasSubstr("of version 9; this program reads version 1 alone"));
 }
 
 TEST_F(LogReader, ATruncatedLogIsDamagedWhereverItEnds) {

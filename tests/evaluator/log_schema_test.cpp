@@ -60,7 +60,7 @@ TEST(Schema, EveryTableIsStrictWithoutRowidAndKeyedBySession) {
 
 /// Policies that a log takes in a table, in the order of its schema.
 std::vector<std::string> policies_of(const std::string& table) {
-  const std::string schema(log::schema_of(log::kMatchLog, log::kMatchLog.version));
+  const std::string schema(log::schema_of(log::kMatchLog));
   const auto begin = schema.find("CREATE TABLE " + table + " (");
   const std::string text = schema.substr(begin, schema.find(") STRICT", begin) - begin);
   const std::regex label("policy = '([a-z_]+)'");

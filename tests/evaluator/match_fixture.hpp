@@ -56,8 +56,8 @@ class MatchLog {
   }
 
   void receipt(Int kick_id, const std::string& refusal = "none") {
-    writer_.push(receipts_, {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none"}, refusal, t_ns(), t_ns(), t_ns(),
-                             20.0, Int{0}, Int{0}});
+    writer_.push(receipts_, {robot_id, ++seq_, t_ns(), kick_id, Int{refusal == "none" || refusal == "not_known"},
+                             refusal, t_ns(), t_ns(), t_ns(), 20.0, Int{0}, Int{0}});
   }
 
   void outcome(Int kick_id, const std::string& label) {

@@ -8,13 +8,11 @@
 #include <map>
 
 #include "evaluator/log/additions.hpp"
-#include "evaluator/log/migration.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/stoppable.hpp"
 #include "evaluator/report/merge_report.hpp"
 #include "evaluator/report/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
-#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -361,19 +359,6 @@ TEST_F(Merge, TheOffsetsThatARecorderNotesAreReadAgain) {
   EXPECT_EQ(offsets[0].offset_ns, -7);
 }
 
-class MergeOfVersion : public Merge, public testing::WithParamInterface<int> {};
-
-TEST_P(MergeOfVersion, AnOlderLogComesAlong) {
-  const Path old = older_match_log(path("old.db"), GetParam());
-  const log::Merged result = merged({old, robot_log("one.db", 1, 2, 0)});
-  const Reader reader(path("merged.db"), Check::kWhole);
-  EXPECT_EQ(reader.kicks().size(), 4u);
-  EXPECT_TRUE(reader.verification().compared);
-  EXPECT_EQ(reader.verification().without_digest, 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Version, MergeOfVersion, testing::Values(1, 2, 3, 4, 5, 6));
-
 class StoppedWriting : public Merge {
  protected:
   /// Says to stop once the new log is under way.
@@ -401,13 +386,6 @@ TEST_F(StoppedWriting, OfAMergeLeavesNothing) {
   EXPECT_THAT(files(), testing::UnorderedElementsAre("one.db", "two.db"));
   log::merge({one, two}, path("out.db"));
   EXPECT_EQ(table2_of(path("out.db")).at("stopped on_target"), 1000) << "and nothing stands in the way of the next";
-}
-
-TEST_F(StoppedWriting, OfAMigrationLeavesNothing) {
-  const Path one = robot_log("one.db", 1, 2000, 2000);
-  EXPECT_THROW(log::migrate(one, path("new.db"), stop_within("new.db")), log::Stopped);
-  EXPECT_TRUE(stopped_);
-  EXPECT_THAT(files(), ElementsAre("one.db"));
 }
 
 TEST(Stoppable, EndsALongStatementAndSaysWhatWentWrongElse) {

@@ -45,7 +45,7 @@ struct TwoPolicies {
     report.policies[1].policy = "moving";
     report.policies[1].kicks_by_outcome = {{"on_target", 100}, {"post", 30}, {"unknown", 2}};
     report.policies[1].played_min = 10.0;
-    data.logs = {{"match.db", std::string(64, 'a'), 7}};
+    data.logs = {{"match.db", std::string(64, 'a')}};
     data.no_comparison = "fewer than two policies";
   }
   PageView view() const { return {report, data, false}; }
@@ -243,7 +243,7 @@ TEST(PageDrift, CountsWhatDidNotChangeInALargeExperiment) {
 
 TEST(PageChanges, HasATableOfWhatIsNotAsInTheLogBefore) {
   TwoPolicies two;
-  two.data.logs = {{"sunday.db", "", 7}, {"<saturday>.db", "", 7}};
+  two.data.logs = {{"sunday.db", ""}, {"<saturday>.db", ""}};
   two.data.changes = {{1, 0, {{"settings", "policy.keep_off_m", {{"2.5"}, {"3.0", "4.0"}}}}}};
   const std::string text = changes_section(two.view());
   EXPECT_THAT(text, HasSubstr("<h3>sunday.db, after &lt;saturday&gt;.db</h3>"));
@@ -254,7 +254,7 @@ TEST(PageChanges, HasATableOfWhatIsNotAsInTheLogBefore) {
 
 TEST(PageChanges, KeepsALongListShort) {
   TwoPolicies two;
-  two.data.logs = {{"a.db", "", 7}, {"b.db", "", 7}};
+  two.data.logs = {{"a.db", ""}, {"b.db", ""}};
   two.data.changes = {{0, 1, std::vector<LogDifference>(100, {"settings", "key", {{"1"}, {"2"}}})}};
   const std::string text = changes_section(two.view());
   EXPECT_EQ(count(text, "settings key"), 40U);

@@ -308,6 +308,22 @@ TEST_F(ReportOfALog, AnOrderThatWasAcceptedAndNotFiredIsCountedAmongTheRefused) 
               HasSubstr("refused orders, no kicks: 2 x fault (stopped); accepted at first and not fired: 1"));
 }
 
+TEST_F(ReportOfALog, AKickThatMayHaveBeenFiredCountsAndIsNamed) {
+  MatchLog match(path(), session(), options());
+  const auto kick = match.decide(1);
+  match.order(kick);
+  match.receipt(kick, "none");
+  match.receipt(kick, "not_known");
+  match.outcome(kick, "on_target");
+  match.close();
+  const Report report = make_report(log::Reader(path()));
+  ASSERT_THAT(report.refused_orders, SizeIs(1));
+  EXPECT_EQ(report.refused_orders[0].not_fired, 0);
+  EXPECT_EQ(row_of(report, "stopped").kicks(), 1);
+  EXPECT_THAT(to_text(report), HasSubstr("kicks that may not have been fired: 1 (stopped): the driver was killed while "
+                                         "it told the device"));
+}
+
 TEST_F(ReportOfALog, AnOrderSentTwiceIsOneAcceptedKick) {
   MatchLog match(path(), session(), options());
   const auto kick = match.kick(1, "on_target");

@@ -1,4 +1,4 @@
-// The digest of a session's rows, and its way to a newer version.
+// The digest of a session's rows.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <set>
 
-#include "evaluator/log/migration.hpp"
 #include "evaluator/log/row_digest.hpp"
 #include "evaluator/log/schema.hpp"
 #include "evaluator/report/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
-#include "tests/evaluator/older_log.hpp"
 
 namespace trivela::evaluator {
 namespace {
@@ -56,7 +54,7 @@ TEST_F(DigestOfRows, IsWhatItsDefinitionSays) {
   record();
   EXPECT_EQ(noted(path()), now());
   EXPECT_EQ(now().row_count, 19);
-  EXPECT_EQ(now().sha256, "a4c4d6b21705859b4e01208630da929f1f9e360cad30392f95f9bf8a26a8b7d2")
+  EXPECT_EQ(now().sha256, "80737bf41c0ed470b7713ea52bb9592a4689dd6d50b262a57bc01417143d92e7")
       << "another definition is another version of the log";
 }
 
@@ -96,7 +94,7 @@ TEST_F(DigestOfRows, LeavesOutWhatIsSaidAfterwards) {
   const RowDigest before = now();
   exec(
       "INSERT INTO session_clocks VALUES (1, 0, 0, 0.0, 0, 'other');"
-      "INSERT INTO merged_sessions VALUES (1, 'match.db', 8, 1, '');"
+      "INSERT INTO merged_sessions VALUES (1, 'match.db', 1, '');"
       "INSERT INTO labels VALUES (1, 1, 1, 5, 'Ada', 0, 'on_target', ''), (1, 1, 1, 6, 'Ada', 0, NULL, 'the video');"
       "INSERT INTO notes VALUES (1, 'opponent', 5, 'Ada', 'them');"
       "INSERT INTO session_tallies VALUES (1, 1, 'moving', 1, 2, 1, 0, 9, 1);"
@@ -130,61 +128,6 @@ TEST_F(DigestOfRows, ASessionThatNeverEndedHasNone) {
   writer.flush();
   const Reader reader(path());
   EXPECT_THAT(reader.doubt().value_or(""), HasSubstr("not verified: a session that never ended"));
-}
-
-class Migration : public DigestOfRows {
- protected:
-  log::Migrated migrated(const std::filesystem::path& from) {
-    return log::migrate(from, path("new.db"), [](std::int64_t, std::int64_t) { return true; });
-  }
-
-  /// Without the line that only one of the two can have.
-  static std::string report_of(const std::filesystem::path& log) {
-    Report report = make_report(Reader(log));
-    report.doubt.reset();
-    report.verified_rows = 0;
-    return to_text(report);
-  }
-};
-
-TEST_F(Migration, AnOlderLogSaysTheSameAndHasADigest) {
-  for (const int version : {1, 2, 3, 4, 5, 6, 7}) {
-    const auto old = older_match_log(path("old.db"), version);
-    std::filesystem::remove(path("new.db"));
-    const log::Migrated result = migrated(old);
-    EXPECT_EQ(result.from_version, version);
-    EXPECT_EQ(result.sessions, 1);
-    EXPECT_EQ(report_of(path("new.db")), report_of(old)) << version;
-    const Reader reader(path("new.db"), Check::kWhole);
-    EXPECT_TRUE(reader.verification().compared);
-    EXPECT_EQ(reader.verification().rows, result.rows);
-    EXPECT_EQ(reader.whole(reader.sessions().at(0)).config_toml, "a = 1");
-    EXPECT_EQ(reader.whole(reader.sessions().at(0)).idl, "struct X {};");
-    EXPECT_EQ(Reader(old).version(), version) << "the old one stays as it is";
-  }
-}
-
-TEST_F(Migration, ALogOfThisVersionKeepsItsDigest) {
-  record();
-  migrated(path());
-  EXPECT_EQ(noted(path("new.db")), noted(path()));
-}
-
-TEST_F(Migration, AChangedLogIsRefusedAndNothingIsLeftBehind) {
-  record();
-  exec("UPDATE kick_outcomes SET outcome = 'on_target'");
-  EXPECT_THROW(migrated(path()), std::runtime_error);
-  const auto old = older_match_log(path("old.db"), 1);
-  SQLite::Database(old.string(), SQLite::OPEN_READWRITE).exec("UPDATE sessions SET config_toml = 'b = 1'");
-  EXPECT_THROW(migrated(old), std::runtime_error);
-  EXPECT_FALSE(std::filesystem::exists(path("new.db")));
-}
-
-TEST_F(Migration, AFileThatExistsIsNeverOverwritten) {
-  record();
-  std::filesystem::copy_file(path(), path("new.db"));
-  EXPECT_THROW(migrated(path()), std::runtime_error);
-  EXPECT_EQ(report_of(path("new.db")), report_of(path()));
 }
 
 }  // namespace

@@ -202,6 +202,19 @@ TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheStopIsNotFired) {
   EXPECT_TRUE(wait_for_pulses(1)) << "what is judged afterwards is fired";
 }
 
+TEST_F(IoBoardKickerTest, SaysThatAShotWasWrittenAndNothingOfOneThatWasDropped) {
+  const auto kicker = open();
+  ASSERT_TRUE(kicker->connected(kPatience));
+  std::atomic<int> written = 0;
+  kicker->call_when_written([&] { ++written; });
+  kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = steady_ns(), .until_ns = 1});
+  wait_for_looks(board().looks() + 3);
+  EXPECT_EQ(written, 0);
+  kicker->fire({.kick_id = 2, .power = 100.0, .t_ns = steady_ns()});
+  EXPECT_TRUE(wait_for_pulses(1));
+  EXPECT_EQ(written, 1);
+}
+
 TEST(EmulatedIoBoard, IgnoresAShotWhileAPulseRunsAndAHeightWhileTheLeverMoves) {
   EmulatedBoard board;
   const auto tell = [&](Command command, std::uint8_t value, std::int64_t t_ns) {

@@ -103,6 +103,14 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
     const std::lock_guard lock{link_mutex_};
     hold_ = hold;
   }
+  void call_when_written(const std::function<void()>& written) {
+    const std::lock_guard lock{link_mutex_};
+    written_ = written;
+  }
+  void was_written() const {
+    const std::lock_guard lock{link_mutex_};
+    if (written_) written_();
+  }
   /// Whether a shot that was judged then is held.
   bool holds(std::int64_t judged_ns) const {
     const std::lock_guard lock{link_mutex_};
@@ -134,6 +142,7 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::string link_;
   std::optional<hal::ShotResult> result_;
   hal::Kicker::Hold hold_;
+  std::function<void()> written_;
 };
 
 class FakeWheels : public hal::Wheels {
@@ -156,11 +165,13 @@ class FakeKicker : public hal::Kicker {
   bool connected(std::chrono::nanoseconds) override { return true; }
   std::optional<hal::KickerSample> read(std::chrono::nanoseconds timeout) override { return far_side_->next(timeout); }
   void fire(const hal::Shot& shot) override {
-    if (!far_side_->safe && !far_side_->holds(shot.judged_ns))
-      far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
+    if (far_side_->safe || far_side_->holds(shot.judged_ns)) return;
+    far_side_->command({shot.kick_id, shot.power, shot.t_ns, shot.until_ns, std::this_thread::get_id()});
+    far_side_->was_written();
   }
   void withdraw(std::int64_t kick_id) override { far_side_->withdrawn = kick_id; }
   void hold_when(const Hold& hold) override { far_side_->hold_when(hold); }
+  void call_when_written(const std::function<void()>& written) override { far_side_->call_when_written(written); }
   std::optional<hal::ShotResult> take_result() override { return far_side_->take_result(); }
   std::string beyond(double power) const override {
     return power > far_side_->most_power ? "it has no such pulse" : std::string{};

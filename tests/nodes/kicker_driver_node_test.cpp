@@ -47,6 +47,18 @@ class KickerDriverNodeTest : public NodeTest {
     out.possession = true;
     return out;
   }
+  /// What a driver before this one said of kick 41.
+  static msg::KickReceipt accepted_by_predecessor() {
+    msg::KickReceipt out{};
+    out.robot_id = 1;
+    out.seq = 7;
+    out.kick_id = 41;
+    out.accepted = true;
+    out.order_t_ns = 900'000'000;
+    out.fired_t_ns = 919'000'000;
+    out.release_t_ns = 979'000'000;
+    return out;
+  }
   /// Whether it becomes true while real time goes on and the nodes' time hardly does.
   bool eventually(const std::function<bool()>& true_now) {
     const auto deadline = std::chrono::steady_clock::now() + kPlenty;
@@ -512,7 +524,7 @@ TEST_F(KickerDriverNodeTest, WhereTwoProgramsDriveInTheDecisionNodesNameNothingI
 
 TEST_F(KickerDriverNodeTest, WhatAKilledDriverAcceptedAndNeverToldTheDeviceGetsAReceiptOfItsSuccessor) {
   const std::string name = PendingKick::name_of(context.settings.domain, 1);
-  PendingKick{name}.accepted(41, 900'000'000);  // and there it was killed
+  PendingKick{name}.accepted(accepted_by_predecessor());  // and there it was killed
   start();
   sample();
   const auto left = receipt.nth(++orders);
@@ -524,6 +536,24 @@ TEST_F(KickerDriverNodeTest, WhatAKilledDriverAcceptedAndNeverToldTheDeviceGetsA
   sample();
   ASSERT_TRUE(answer(wish(42)).accepted);
   EXPECT_FALSE(PendingKick{name}.left()) << "the device was told";
+}
+
+TEST_F(KickerDriverNodeTest, WhereADriverWasKilledWhileItToldTheDeviceTheKickCountsAndItsReceiptSaysNotKnown) {
+  const std::string name = PendingKick::name_of(context.settings.domain, 1);
+  {
+    PendingKick predecessor{name};
+    predecessor.accepted(accepted_by_predecessor());
+    predecessor.being_told();  // and there it was killed
+  }
+  start();
+  sample();
+  const auto left = receipt.nth(++orders);
+  EXPECT_EQ(left.kick_id, 41);
+  EXPECT_TRUE(left.accepted);
+  EXPECT_EQ(left.refusal, msg::REFUSAL_NOT_KNOWN);
+  EXPECT_EQ(left.fired_t_ns, 919'000'000);
+  EXPECT_EQ(left.release_t_ns, 979'000'000);
+  EXPECT_FALSE(msg::begins_kick(left)) << "nobody starts anything by it";
 }
 
 TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {

@@ -59,6 +59,17 @@ TEST(KickLedger, ARefusedOrderIsNoKickAndOneThatIsCalledOffIsNoneAfterAll) {
   EXPECT_EQ(moving(ledger).refused, 1) << "the earlier receipt, heard once more";
 }
 
+TEST(KickLedger, WhatADriverThatWasStartedAnewSaysHoldsThoughItCountsFrom1) {
+  KickLedger ledger;
+  ledger.hear(decision(1, 7, msg::POLICY_MOVING), kNow);
+  ledger.hear(receipt(1, 7, true, 20), kNow);
+  msg::KickReceipt of_successor = receipt(1, 7, false, 1, msg::REFUSAL_FAULT);
+  of_successor.t_ns = kNow;
+  ledger.hear(of_successor, kNow);
+  EXPECT_EQ(moving(ledger).under_way, 0);
+  EXPECT_EQ(moving(ledger).refused, 1);
+}
+
 TEST(KickLedger, AnOrderThatCameTwiceStaysFired) {
   KickLedger ledger;
   ledger.hear(decision(1, 7, msg::POLICY_MOVING), kNow);

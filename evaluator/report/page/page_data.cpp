@@ -269,7 +269,7 @@ PageData read_page_data(const std::vector<fs::path>& logs, const PageProgress& p
   for (const fs::path& path : logs) {
     open.push_back(std::make_unique<log::Reader>(path, log::Check::kSchema));  // the report has looked closer
     readers.push_back({open.back().get(), path.filename().string()});
-    data.logs.push_back({readers.back().name, {}, open.back()->version()});
+    data.logs.push_back({readers.back().name, {}});
   }
   LoggedOpportunities logged;
   parts.read("chances", [&] {

@@ -27,7 +27,6 @@ inline constexpr std::size_t kMostReplays = 1000;
 struct PageLog {
   std::string name;    ///< of the file, without its folder
   std::string sha256;  ///< of the file
-  int version = 0;     ///< of its schema
 };
 
 /// A kick, and which log it is from.

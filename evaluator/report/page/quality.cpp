@@ -105,10 +105,9 @@ std::string sessions(const Report& report) {
 }
 
 std::string inputs(const PageData& data) {
-  std::vector<Cells> rows{{"log", "file", "version", "SHA-256"}};
+  std::vector<Cells> rows{{"log", "file", "SHA-256"}};
   for (std::size_t i = 0; i < data.logs.size(); ++i)
-    rows.push_back(
-        {n_of(static_cast<std::int64_t>(i) + 1), data.logs[i].name, n_of(data.logs[i].version), data.logs[i].sha256});
+    rows.push_back({n_of(static_cast<std::int64_t>(i) + 1), data.logs[i].name, data.logs[i].sha256});
   return "<h3>Inputs</h3>\n" + table("Files that this page was made of", rows);
 }
 
