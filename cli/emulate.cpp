@@ -14,10 +14,10 @@
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "hal/cia402/emulated_drives.hpp"
-#include "hal/ioboard/emulated_board.hpp"
-#include "hal/mti/emulated_mti.hpp"
-#include "hal/rekick/emulated_board.hpp"
+#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/ioboard/emulated_board.hpp"
+#include "emulators/mti/emulated_mti.hpp"
+#include "emulators/rekick/emulated_board.hpp"
 
 namespace trivela::cli {
 namespace {

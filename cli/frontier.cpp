@@ -4,7 +4,7 @@
 #include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/frontier/report.hpp"
 
 namespace trivela::cli {

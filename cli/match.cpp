@@ -14,7 +14,8 @@
 #include "config/field.hpp"
 #include "config/installation.hpp"
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
+#include "config/scenario/scenario_field.hpp"
 #include "config/settings.hpp"
 #include "nodes/simulator/simulator_node.hpp"
 

@@ -13,9 +13,9 @@
 #include "cli/open_file.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "hal/refbox/box_keys.hpp"
-#include "hal/refbox/box_script.hpp"
-#include "hal/refbox/emulated_box.hpp"
+#include "emulators/refbox/box_keys.hpp"
+#include "emulators/refbox/box_script.hpp"
+#include "emulators/refbox/emulated_box.hpp"
 #include "hal/refbox/refbox_client.hpp"
 
 namespace trivela::cli {

@@ -9,7 +9,7 @@
 #include "cli/study_run.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/sensitivity/analysis.hpp"
 
 namespace trivela::cli {

@@ -1,7 +1,7 @@
 #include "cli/world.hpp"
 
 #include "cli/open_file.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 
 namespace trivela::cli {
 

@@ -3,7 +3,7 @@
 #include "config/field_types.hpp"
 #include "config/settings.hpp"
 #include "kicking/kick_id.hpp"
-#include "sim/scenario_fields.hpp"
+#include "kicking/policy/field_fields.hpp"
 
 /// The keys of default.toml, each named once.
 namespace trivela::config {

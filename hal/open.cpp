@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "hal/bus/sim_range_finder.hpp"
 #include "hal/gyro_wheels.hpp"
 #include "hal/line/line.hpp"
 #include "hal/mti/mti.hpp"
 #include "hal/scip/scip_range_finder.hpp"
-#include "hal/sim/sim_range_finder.hpp"
 
 namespace trivela::hal {
 namespace {

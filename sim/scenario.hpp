@@ -3,18 +3,13 @@
 #include <vector>
 
 #include "kicking/policy/match_rules.hpp"
+#include "kicking/policy/playing_field.hpp"
 
 /// Every input of the simulated world: a named value with its unit and its source. "Assumption" marks a number that no
 /// publication gives; results depend on it and reports must say so. SI throughout; angles in rad.
 namespace trivela::sim {
 
-struct Field {
-  double goal_line_y_m = 9.0;        ///< 18 x 12 m field of the paper
-  double side_line_x_m = 6.0;        ///< 18 x 12 m field of the paper
-  double goal_half_width_m = 1.0;    ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_width 2000 mm
-  double goal_height_m = 1.0;        ///< inner; CAMBADA release 1.0 cambada.conf.xml goal_height 1000 mm
-  double frame_thickness_m = 0.125;  ///< posts: CAMBADA release 1.0 cambada.conf.xml; bar: assumption, the same
-};
+using Field = kicking::PlayingField;
 
 struct BallPhysics {
   double mass_kg = 0.43;                   ///< FIFA size 5: 0.43 +- 0.02 kg

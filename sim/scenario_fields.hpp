@@ -3,36 +3,17 @@
 #include <optional>
 #include <string>
 
+#include "kicking/policy/field_fields.hpp"
 #include "kicking/range.hpp"
 #include "sim/scenario.hpp"
 
 /// The keys of a scenario, each named once with the range it may take: `fields(visitor, struct)` calls
 /// `visitor(key, member, range)` for each member and `visitor(key, struct)` for each nested struct. Found by ADL.
-namespace trivela::kicking {
-
-template <class V>
-void fields(V& v, MatchRules& r) {
-  v("opponents_half_only", r.opponents_half_only);
-  v("carry_limit_m", r.carry_limit_m, Range{0.0, 60.0});
-  v("set_piece_s", r.set_piece_s, Range{0.0, 60.0});
-}
-
-}  // namespace trivela::kicking
-
 namespace trivela::sim {
 
 using kicking::Degrees, kicking::Range;
 
 inline constexpr Range kRatio{0.0, 1.0};
-
-template <class V>
-void fields(V& v, Field& f) {
-  v("goal_line_y_m", f.goal_line_y_m, Range{1.0, 30.0});
-  v("side_line_x_m", f.side_line_x_m, Range{1.0, 30.0});
-  v("goal_half_width_m", f.goal_half_width_m, Range{0.3, 5.0});
-  v("goal_height_m", f.goal_height_m, Range{0.3, 5.0});
-  v("frame_thickness_m", f.frame_thickness_m, Range{0.0, 0.5});
-}
 
 template <class V>
 void fields(V& v, BallPhysics& b) {

@@ -9,13 +9,6 @@
 
 namespace trivela::sim {
 
-kicking::Goal goal_of(const Field& field) {
-  return {.y_m = field.goal_line_y_m,
-          .half_width_m = field.goal_half_width_m,
-          .height_m = field.goal_height_m,
-          .post_width_m = field.frame_thickness_m};
-}
-
 namespace {
 
 constexpr std::int64_t kNear_ns = 1'000'000;  // step beside an opponent: a centimetre of the ball's way

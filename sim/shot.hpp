@@ -16,9 +16,6 @@
 
 namespace trivela::sim {
 
-/// The goal of a field.
-kicking::Goal goal_of(const Field& field);
-
 /// What a shot came to.
 struct ShotResult {
   std::int64_t t_ns = 0;

@@ -11,7 +11,8 @@
 #include "cli/launch/record_match.hpp"
 #include "cli/output.hpp"
 #include "config/field.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
+#include "config/scenario/scenario_field.hpp"
 #include "evaluator/log/scan_log.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 

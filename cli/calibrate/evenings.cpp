@@ -14,7 +14,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "evaluator/report/json_values.hpp"
 #include "experiment/evening/evening_study.hpp"
 #include "kicking/fit/least_squares.hpp"

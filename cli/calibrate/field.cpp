@@ -12,7 +12,7 @@
 #include "cli/match_mode.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/evening/evening.hpp"
 
 namespace trivela::cli {

@@ -18,7 +18,7 @@
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/record_match.hpp"
 #include "cli/output.hpp"
-#include "hal/refbox/emulated_box.hpp"
+#include "emulators/refbox/emulated_box.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
 

@@ -13,7 +13,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/evening/evening.hpp"
 #include "sim/kicker.hpp"

@@ -9,7 +9,7 @@
 #include "cli/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "hal/scip/emulator.hpp"
+#include "emulators/scip/emulator.hpp"
 
 namespace trivela::cli {
 namespace {

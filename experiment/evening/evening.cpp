@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/evening/drive_in_process.hpp"
 #include "experiment/run/in_threads.hpp"
 #include "sim/kicker.hpp"

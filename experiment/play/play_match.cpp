@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "config/field.hpp"
+#include "config/scenario/scenario_field.hpp"
+#include "emulators/sim/sim_messages.hpp"
 #include "experiment/play/oracle.hpp"
 #include "experiment/play/robot_chain.hpp"
-#include "hal/sim/sim_messages.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/random/draws.hpp"
 #include "robot/observer/observer.hpp"

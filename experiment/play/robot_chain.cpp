@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "emulators/sim/sim_messages.hpp"
 #include "experiment/play/oracle.hpp"
-#include "hal/sim/sim_messages.hpp"
 #include "kicking/in_place.hpp"
 
 namespace trivela::experiment {

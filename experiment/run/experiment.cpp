@@ -9,7 +9,7 @@
 
 #include "config/error.hpp"
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "evaluator/log/digest.hpp"
 #include "evaluator/log/experiment_log.hpp"
 #include "evaluator/log/reader.hpp"

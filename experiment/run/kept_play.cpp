@@ -5,7 +5,7 @@
 #include <map>
 
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/effects/summary.hpp"
 #include "experiment/run/arms.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/recording/session_text.hpp"

@@ -9,11 +9,11 @@
 
 #include "bus/stop.hpp"
 #include "config/settings.hpp"
-#include "hal/board/emulated_kicker.hpp"
-#include "hal/cia402/emulated_wheels.hpp"
-#include "hal/mti/emulated_gyro.hpp"
-#include "hal/refbox/emulated_box.hpp"
-#include "hal/refbox/referee_voice.hpp"
+#include "emulators/board/emulated_kicker.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
+#include "emulators/mti/emulated_gyro.hpp"
+#include "emulators/refbox/emulated_box.hpp"
+#include "emulators/refbox/referee_voice.hpp"
 #include "sim/sensors.hpp"
 
 namespace trivela::nodes {

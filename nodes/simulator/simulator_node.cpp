@@ -10,8 +10,9 @@
 
 #include "bus/renewal.hpp"
 #include "config/field.hpp"
-#include "config/scenario.hpp"
-#include "hal/sim/sim_messages.hpp"
+#include "config/scenario/scenario.hpp"
+#include "config/scenario/scenario_field.hpp"
+#include "emulators/sim/sim_messages.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"

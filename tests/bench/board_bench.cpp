@@ -22,8 +22,8 @@
 #include <utility>
 #include <vector>
 
+#include "emulators/ioboard/emulated_board.hpp"
 #include "hal/board/board_kicker.hpp"
-#include "hal/ioboard/emulated_board.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "tests/bench/board_driver.hpp"
 

@@ -18,7 +18,7 @@
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "config/settings.hpp"
-#include "hal/ioboard/emulated_board.hpp"
+#include "emulators/ioboard/emulated_board.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "idl/messages.hpp"
 #include "tests/e2e/folder.hpp"

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "experiment/play/play_match.hpp"
 

@@ -17,8 +17,9 @@
 #include <string>
 #include <vector>
 
+#include "emulators/cia402/emulated_drives.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/cia402/cia402_wheels.hpp"
-#include "hal/cia402/emulated_drives.hpp"
 
 namespace {
 

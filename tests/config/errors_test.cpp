@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "config/toml_source.hpp"
 

@@ -9,7 +9,8 @@
 #include <string>
 
 #include "config/error.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
+#include "config/scenario/scenario_field.hpp"
 
 namespace trivela::config {
 namespace {

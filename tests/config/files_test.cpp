@@ -5,7 +5,7 @@
 #include <set>
 
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "config/toml_source.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::config {

@@ -11,7 +11,7 @@
 #include "config/field.hpp"
 #include "config/learned_model.hpp"
 #include "config/robot.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
 #include "config/team.hpp"
 #include "config/team_bus.hpp"

@@ -11,7 +11,7 @@
 #include <optional>
 #include <regex>
 
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"

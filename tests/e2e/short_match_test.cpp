@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"

@@ -212,7 +212,7 @@ TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
   EXPECT_LT(kept.size(), whole.size());
   EXPECT_EQ(book(folder, "book.db"), whole);
   const Ran other = ran(folder, study, {"--tallies", "book.db", "--seed", "2"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("was begun with other arguments"));
 }
 
@@ -227,7 +227,7 @@ TEST(StudyShards, SayWhatIsMissingBeforeTheyPlay) {
   EXPECT_EQ(ran(folder, kFactorial, {"--tallies", "none/a.db"}).exit_code, 1);
   std::ofstream{folder / "other.db"} << "no book";
   const Ran other = ran(folder, kFactorial, {"--tallies", "other.db"});
-  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("other.db"));
   EXPECT_EQ(text_of(folder / "other.db"), "no book");
 }

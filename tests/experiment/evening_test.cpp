@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/evening/calibration_check.hpp"
 #include "experiment/evening/evening_study.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/factorial/play.hpp"
 #include "experiment/factorial/report.hpp"
 

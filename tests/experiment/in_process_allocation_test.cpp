@@ -4,9 +4,9 @@
 #include <new>
 #include <string>
 
+#include "emulators/sim/sim_messages.hpp"
 #include "experiment/play/play_match.hpp"
 #include "experiment/play/robot_chain.hpp"
-#include "hal/sim/sim_messages.hpp"
 #include "sim/match.hpp"
 
 namespace {

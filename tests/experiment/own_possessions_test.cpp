@@ -5,7 +5,7 @@
 #include <string>
 
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 #include "experiment/play/play_match.hpp"
 
 namespace trivela::experiment {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "config/installation.hpp"
-#include "config/scenario.hpp"
+#include "config/scenario/scenario.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "bus/writer.hpp"
+#include "emulators/cia402/emulated_drives.hpp"
 #include "hal/can/frame.hpp"
-#include "hal/cia402/emulated_drives.hpp"
 #include "idl/messages.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"

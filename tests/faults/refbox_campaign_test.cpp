@@ -8,7 +8,7 @@
 #include <array>
 
 #include "bus/reader.hpp"
-#include "hal/refbox/emulated_box.hpp"
+#include "emulators/refbox/emulated_box.hpp"
 #include "tests/faults/kicker_rig.hpp"
 
 namespace trivela::faults {

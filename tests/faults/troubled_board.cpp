@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "emulators/ioboard/emulated_board.hpp"
+#include "emulators/rekick/emulated_board.hpp"
 #include "hal/can/frame.hpp"
-#include "hal/ioboard/emulated_board.hpp"
-#include "hal/rekick/emulated_board.hpp"
 
 namespace trivela::faults {
 namespace {

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "hal/refbox/box_script.hpp"
-#include "hal/refbox/emulated_box.hpp"
+#include "emulators/refbox/box_script.hpp"
+#include "emulators/refbox/emulated_box.hpp"
 #include "hal/refbox/words.hpp"
 #include "tests/fuzz/script.hpp"
 

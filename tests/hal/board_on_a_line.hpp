@@ -9,10 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "emulators/ioboard/emulated_board.hpp"
+#include "emulators/rekick/emulated_board.hpp"
 #include "hal/board/board_kicker.hpp"
-#include "hal/ioboard/emulated_board.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/ioboard/io_board.hpp"
-#include "hal/rekick/emulated_board.hpp"
 #include "hal/rekick/rekick.hpp"
 
 namespace trivela::tests {

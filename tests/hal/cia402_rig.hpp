@@ -6,8 +6,9 @@
 #include <memory>
 #include <numbers>
 
+#include "emulators/cia402/emulated_drives.hpp"
+#include "hal/can/can_line.hpp"
 #include "hal/cia402/cia402_wheels.hpp"
-#include "hal/cia402/emulated_drives.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 
 namespace trivela::tests {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "emulators/cia402/emulated_drives.hpp"
 #include "hal/cia402/drives.hpp"
-#include "hal/cia402/emulated_drives.hpp"
 
 namespace trivela::tests {
 

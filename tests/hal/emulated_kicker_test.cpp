@@ -1,5 +1,5 @@
 // The board of a world's kicker and the backend of a robot, over the line between them.
-#include "hal/board/emulated_kicker.hpp"
+#include "emulators/board/emulated_kicker.hpp"
 
 #include <gmock/gmock.h>
 

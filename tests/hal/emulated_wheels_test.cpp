@@ -1,5 +1,5 @@
 // The drives of a world's base and the backend of a robot, over the bus between them.
-#include "hal/cia402/emulated_wheels.hpp"
+#include "emulators/cia402/emulated_wheels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "emulators/refbox/emulated_box.hpp"
 #include "hal/line/descriptor.hpp"
-#include "hal/refbox/emulated_box.hpp"
 #include "hal/refbox/refbox_client.hpp"
 
 namespace trivela::tests {

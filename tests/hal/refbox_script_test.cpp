@@ -1,9 +1,9 @@
-#include "hal/refbox/box_script.hpp"
+#include "emulators/refbox/box_script.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/refbox/box_keys.hpp"
+#include "emulators/refbox/box_keys.hpp"
 
 namespace trivela::hal::refbox {
 namespace {

@@ -1,5 +1,5 @@
 // The emulator says what the specification says: requests as text, replies as text.
-#include "hal/scip/emulated_scanner.hpp"
+#include "emulators/scip/emulated_scanner.hpp"
 
 #include <gtest/gtest.h>
 

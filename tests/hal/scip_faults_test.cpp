@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "hal/scip/emulated_scanner.hpp"
+#include "emulators/scip/emulated_scanner.hpp"
 #include "tests/hal/scip_link.hpp"
 
 namespace trivela::hal::scip {

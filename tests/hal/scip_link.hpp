@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "emulators/scip/emulator.hpp"
 #include "hal/line/line.hpp"
 #include "hal/open.hpp"
-#include "hal/scip/emulator.hpp"
 #include "hal/scip/scip_range_finder.hpp"
 
 namespace trivela::tests {

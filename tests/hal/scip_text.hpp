@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "hal/scip/emulated_scanner.hpp"
+#include "emulators/scip/emulated_scanner.hpp"
 
 namespace trivela::tests {
 

@@ -1,4 +1,4 @@
-#include "hal/sim/sim_range_finder.hpp"
+#include "hal/bus/sim_range_finder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/sim/sim_messages.hpp"
+#include "emulators/sim/sim_messages.hpp"
 #include "tests/sim/played_match.hpp"
 
 namespace trivela::sim {

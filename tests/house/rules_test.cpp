@@ -57,13 +57,14 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"kicking", {}},
     {"idl", {}},
     {"sim", {"kicking/"}},
-    {"config", {"kicking/", "sim/"}},
+    {"config", {"kicking/"}},
+    {"config/scenario", {"sim/"}},
     {"refbox", {}},
     {"evaluator", {"kicking/", "refbox/"}},
     {"bus", {"idl/"}},
-    {"hal", {"kicking/", "refbox/", "sim/", "idl/", "config/devices.hpp"}},
+    {"hal", {"kicking/", "refbox/", "idl/", "config/devices.hpp"}},
     {"hal/bus", {"bus/"}},
-    {"hal/sim", {"bus/"}},
+    {"emulators", {"kicking/", "refbox/", "sim/", "idl/", "hal/", "config/devices.hpp"}},
     {"robot",
      {"kicking/", "config/", "idl/", "hal/kicker.hpp", "hal/wheels.hpp", "hal/range_finder.hpp",
       "hal/refbox/command.hpp"}},
@@ -73,18 +74,20 @@ const std::map<std::string, std::vector<std::string>> kMayInclude{
     {"nodes/kicker_drift", {"evaluator/drift/"}},
     {"nodes/recorder", {"evaluator/log/"}},
     {"nodes/scan_recorder", {"evaluator/log/"}},
-    {"nodes/simulator", {"sim/"}},
+    {"nodes/simulator", {"sim/", "emulators/"}},
     {"security", {"idl/", "nodes/runtime/readers.hpp"}},
     {"calibration", {"kicking/", "config/", "evaluator/", "hal/"}},
     {"experiment",
-     {"kicking/", "idl/", "sim/", "config/", "evaluator/", "robot/", "hal/sim/", "hal/wheels.hpp", "calibration/"}},
+     {"kicking/", "idl/", "sim/", "config/", "evaluator/", "robot/", "emulators/sim/", "hal/wheels.hpp",
+      "calibration/"}},
     {"pages", {"kicking/", "idl/", "bus/", "config/", "evaluator/", "hal/", "calibration/"}},
     {"pages/monitor", {"monitor/", "robot/watch/"}},
 };
 
-const std::vector<std::string> kRooms{"kicking",    "refbox", "idl",   "sim",     "config",   "evaluator",
-                                      "bus",        "hal",    "robot", "monitor", "nodes",    "calibration",
-                                      "experiment", "pages",  "cli",   "include", "examples", "security"};
+const std::vector<std::string> kRooms{"kicking",   "refbox",  "idl",         "sim",        "config",
+                                      "evaluator", "bus",     "hal",         "emulators",  "robot",
+                                      "monitor",   "nodes",   "calibration", "experiment", "pages",
+                                      "cli",       "include", "examples",    "security"};
 
 std::string room_of(const std::string& path) {
   const auto slash = path.find('/');

@@ -7,7 +7,7 @@
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "hal/ioboard/emulated_board.hpp"
+#include "emulators/ioboard/emulated_board.hpp"
 #include "idl/messages.hpp"
 #include "nodes/kicker_driver/pending_kick.hpp"
 #include "tests/nodes/spawned.hpp"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "hal/refbox/emulated_box.hpp"
+#include "emulators/refbox/emulated_box.hpp"
 #include "tests/hal/json_schema.hpp"
 #include "tests/nodes/node_fixture.hpp"
 

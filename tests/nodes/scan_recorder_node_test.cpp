@@ -1,8 +1,8 @@
 #include "nodes/scan_recorder/scan_recorder_node.hpp"
 
+#include "emulators/scip/emulator.hpp"
+#include "hal/bus/sim_range_finder.hpp"
 #include "hal/open.hpp"
-#include "hal/scip/emulator.hpp"
-#include "hal/sim/sim_range_finder.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <atomic>
 
+#include "emulators/scip/emulator.hpp"
 #include "hal/open.hpp"
-#include "hal/scip/emulator.hpp"
 #include "pages/lob/live_scene.hpp"
 #include "pages/lob/scene.hpp"
 #include "pages/serve/page_server.hpp"

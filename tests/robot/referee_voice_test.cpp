@@ -1,10 +1,10 @@
 // A simulated referee's word through an emulated box's bytes: whoever hears them knows the same.
-#include "hal/refbox/referee_voice.hpp"
+#include "emulators/refbox/referee_voice.hpp"
 
 #include <gmock/gmock.h>
 
-#include "hal/refbox/emulated_box.hpp"
-#include "hal/sim/sim_messages.hpp"
+#include "emulators/refbox/emulated_box.hpp"
+#include "emulators/sim/sim_messages.hpp"
 #include "robot/referee/match_state.hpp"
 #include "tests/sim/played_match.hpp"
 

@@ -1,0 +1,30 @@
+#include "emulators/mti/emulated_mti.hpp"
+
+#include <algorithm>
+
+#include "hal/mti/message.hpp"
+
+namespace trivela::hal::mti {
+namespace {
+
+const std::string kPacketCounter{"\x10\x20\x02", 3};
+
+}  // namespace
+
+std::vector<std::string> EmulatedMti::tick(std::int64_t now_ns) {
+  const std::int64_t t_ns = next_ns_ == 0 ? now_ns : next_ns_;
+  next_ns_ = std::max(t_ns, now_ns - kPeriod_ns) + kPeriod_ns;
+  ++said_;
+  if (faults.silent) return {};
+  Reading reading{.sample_time = static_cast<std::uint32_t>(t_ns / Reading::kTick_ns), .rate_radps = {}};
+  if (!faults.no_rate) reading.rate_radps = {0.0, 0.0, rate_radps};
+  Message message = message_of(reading);
+  const std::string counter{static_cast<char>(said_ >> 8U & 0xFFU), static_cast<char>(said_ & 0xFFU)};
+  message.data = kPacketCounter + counter + message.data;
+  std::string bytes = encode(message);
+  if (hits(faults.wrong_sums_every)) bytes.back() = static_cast<char>(bytes.back() + 1);
+  if (hits(faults.garbled_every)) bytes = bytes.substr(bytes.size() / 2);
+  return {bytes};
+}
+
+}  // namespace trivela::hal::mti
