@@ -119,6 +119,7 @@ DriveSummary CalibrationRun::standing() {
   kicking::TableFit fit = fit_rising(tracked.trials, summary.left_out);
   fit.exit_angle_rad = tracked.exit_angle_rad;
   fit.exit_angle_rad.se = std::hypot(fit.exit_angle_rad.se, kLaserAngle_rad);
+  if (!fit.shared_angle_warning.empty()) summary.left_out.push_back(fit.shared_angle_warning);
   summary.left_out.insert(summary.left_out.end(), fit.warnings.begin(), fit.warnings.end());
   update_.set_table(fit, {}, names(scans));
   summary.found = fmt::format("{} set-points, {:.2f} to {:.2f} m/s, exit angle {}", fit.set_points.size(),

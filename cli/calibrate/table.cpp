@@ -104,11 +104,9 @@ ExitCode calibrate_table(const TableFlags& flags) {
   calibration::Trials trials = calibration::read_trials(flags.inputs, how);
   const kicking::TableFit fit = kicking::fit_table(trials.trials, flags.options);
   FitReport report{to_text(fit, flags), to_json(fit, flags), std::move(trials.warnings)};
-  for (const std::string& warning : fit.warnings) {
-    // Kept apart, angles that differ from set-point to set-point harm no more.
-    const bool kept_apart = choice.angle_per_set_point && warning.starts_with("the exit angle differs");
-    if (!kept_apart) report.warnings.push_back(warning);
-  }
+  if (!choice.angle_per_set_point && !fit.shared_angle_warning.empty())
+    report.warnings.push_back(fit.shared_angle_warning);
+  report.warnings.insert(report.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   const std::vector<std::string> falling = not_rising(fit);
   report.warnings.insert(report.warnings.end(), falling.begin(), falling.end());
   const bool usable = fit.rises();

@@ -78,6 +78,7 @@ msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) 
 int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder& order, SignalInbox& signals) {
   std::optional<hal::KickerSample> newest;
   const std::string before = kicker.status();
+  while (kicker.take_result()) continue;  // of nobody
   kicker.fire({.kick_id = order.kick_id,
                .power = order.power,
                .t_ns = order.t_ns,
@@ -86,7 +87,7 @@ int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder&
   listen(kicker, gate, newest, KickClock::now() + kAftermath, signals, [] { return false; });
   const std::string status = kicker.status();
   if (status != before && !status.empty()) say(fmt::format("kicker says: {}\n", status));
-  if (status.find("was not fired") != std::string::npos) return kFailed;  // as Kicker::status() says it
+  if (const auto result = kicker.take_result(); result && result->what != hal::ShotResult::What::kFired) return kFailed;
   say(fmt::format("fired with set-point {:.2f}; {}\n", order.power, newest ? kicker_text(*newest) : "no sample"));
   return kDone;
 }

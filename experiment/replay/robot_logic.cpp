@@ -43,6 +43,7 @@ LogicDecision RobotLogic::decide(const msg::WorldState& world, const DecisionInp
   if (set_pieces_ && inputs.referee != nullptr) decider_.hear(*inputs.referee);
   const robot::CycleDecision& decision =
       decider_.decide(world, kicker ? &*kicker : nullptr, outcome, nullptr, inputs.late ? kOld_s : 0.0);
+  decider_.commit();
   if (decision.order && inputs.recorded_kick_id != 0) own_kick_ids_[inputs.recorded_kick_id] = decision.order->kick_id;
   return {decider_.record(world, kicker ? &*kicker : nullptr), decision.order, decision.judgement.drive};
 }

@@ -84,9 +84,9 @@ void fit_angle(const TrialsByPower& by_power, const TableOptions& options, Table
   fit.exit_angles = angles.size();
   fit.angle_spread_rad = most - least;
   if (fit.angle_spread_rad > kAngleSpread_rad) {
-    fit.warnings.push_back("the exit angle differs by " + in_degrees(fit.angle_spread_rad) +
-                           " from set-point to set-point: one mean angle is wrong for some; "
-                           "give each set-point its own");
+    fit.shared_angle_warning = "the exit angle differs by " + in_degrees(fit.angle_spread_rad) +
+                               " from set-point to set-point: one mean angle is wrong for some; "
+                               "give each set-point its own";
   }
 }
 

@@ -52,6 +52,7 @@ struct TableFit {
   std::vector<std::size_t> not_rising;     ///< set-points not faster than an earlier one, before the isotonic fit
   bool isotonic = false;                   ///< the isotonic fit changed the speeds
   std::vector<double> residual_mps;        ///< trial - speed of its set-point, in the order of the trials
+  std::string shared_angle_warning;        ///< why one mean angle is wrong for some set-points; empty: it is not
   std::vector<std::string> warnings;       ///< single trials, angles that differ by more than 1 degree
 
   /// Does each speed lie above its predecessor?

@@ -97,9 +97,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   }
   const robot::CycleDecision& decision = decider_.decide(world, kicker, outcome(world, kicker), nullptr, age_s(world));
   if (in_charge()) {
+    decider_.commit();
     say(world, kicker, decision);
-  } else {
-    decider_.unsay();
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
 }

@@ -41,7 +41,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
       set_piece_(settings.policy.rules.set_piece_s),
       validity_ns_(kicking::nanoseconds(settings.assignment.order_validity_s)),
       robot_id_(robot_id),
-      kick_id_{session, robot_id} {
+      session_(session) {
   if (!settings.assignment.shadows) return;
   for (const PolicyName policy : kicking::kEveryPolicy) {
     if (!facts(policy).rides_along || (facts(policy).needs_model() && !settings.policy.learned)) continue;
@@ -90,21 +90,18 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   judge_shadows(input);
   decision_.order.reset();
   const kicking::Judgement& judgement = decision_.judgement;
-  said_ = world.possession || judgement.fire;  // the oracle alone may fire where the robot sees no ball
-  if (said_) ++decisions_;
+  counts_ = world.possession || judgement.fire;  // the oracle alone may fire where the robot sees no ball
   if (!judgement.fire) return decision_;
-  kick_id_.counter = ++orders_;
+  fired_t_ns_ = std::exchange(last_fire(policy), std::nullopt);  // pending for the policy once it is committed
   msg::KickOrder& order = decision_.order.emplace();
   order.robot_id = robot_id_;
-  order.seq = orders_;
+  order.seq = orders_ + 1;
   order.t_ns = world.t_ns;
-  order.kick_id = kick_id_.number();
+  order.kick_id = kicking::KickId{session_, robot_id_, order.seq}.number();
   order.power = *judgement.power;
   order.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
   order.valid_until_t_ns = world.t_ns + validity_ns_;
   order.possession = world.possession;
-  order_before_ = std::exchange(last_order_, order);
-  possession_before_id_ = std::exchange(last_order_possession_id_, world.possession_id);
   return decision_;
 }
 
@@ -118,15 +115,19 @@ void Decider::judge_shadows(const kicking::PolicyInput& input) {
   }
 }
 
-void Decider::unsay() {
-  if (said_) --decisions_;
-  said_ = false;
-  if (!decision_.order) return;
-  decision_.order.reset();
-  --orders_;
-  last_order_ = order_before_;
-  last_order_possession_id_ = possession_before_id_;
-  std::visit([](kicking::PossessionMemory& any) { any.fired_t_ns.reset(); }, memory(decision_.in_charge.policy));
+void Decider::commit() {
+  if (counts_) ++decisions_;
+  counts_ = false;
+  if (!decision_.order || decision_.order->seq == orders_) return;
+  ++orders_;
+  last_order_ = *decision_.order;
+  last_order_possession_id_ = possession_id_;
+  last_fire(decision_.in_charge.policy) = fired_t_ns_;
+}
+
+std::optional<std::int64_t>& Decider::last_fire(PolicyName policy) {
+  return std::visit(
+      [](kicking::PossessionMemory & any) -> auto& { return any.fired_t_ns; }, memory(policy));
 }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {

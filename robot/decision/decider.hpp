@@ -61,10 +61,11 @@ class Decider {
                               const std::optional<msg::KickOutcome>& outcome,
                               const kicking::PolicyInput* truth = nullptr, double world_age_s = 0.0);
 
-  /// Takes the last decide() back: nobody hears of it. Its order has no number, and none is pending for the policies.
-  void unsay();
+  /// Remembers the last decide(): its order has its number and is pending for the policies. Without it nobody hears of
+  /// the decision, and the next order takes the number. Again it changes nothing.
+  void commit();
 
-  /// The record of the last decide(), which was given these. Its seq counts the cycles with the ball.
+  /// The record of the last decide(), which was given these, after commit(). Its seq counts the cycles with the ball.
   msg::KickDecision record(const msg::WorldState& world, const msg::KickerStatus* kicker) const;
 
   /// Whether the turn drive, before it goes on, has to hear what became of the kick ordered at last_order_t_ns().
@@ -80,6 +81,7 @@ class Decider {
   void see_last_kick(const std::optional<msg::KickOutcome>& outcome, kicking::PolicyInput& input) const;
   void judge_shadows(const kicking::PolicyInput& input);
   kicking::PolicyMemory& memory(kicking::PolicyName policy) { return memory_[static_cast<std::size_t>(policy)]; }
+  std::optional<std::int64_t>& last_fire(kicking::PolicyName policy);
 
   const kicking::RobotModel& model_;
   kicking::PolicyConfig policy_;
@@ -90,18 +92,19 @@ class Decider {
   std::vector<kicking::PolicyName> shadows_;
   std::int64_t validity_ns_;
   std::uint8_t robot_id_;
-  kicking::KickId kick_id_;  // the last order's
+  std::uint32_t session_;  // of each kick_id
   CycleDecision decision_;
   std::array<kicking::PolicyMemory, kicking::kPolicyCount> memory_{};
   std::optional<std::uint8_t> half_;
   std::uint32_t possession_id_ = 0;  // of half_
-  msg::KickOrder last_order_{}, order_before_{};
-  std::uint32_t last_order_possession_id_ = 0, possession_before_id_ = 0;
+  msg::KickOrder last_order_{};
+  std::uint32_t last_order_possession_id_ = 0;
   std::int64_t accepted_kick_id_ = 0;          // the last one that the driver said
   std::optional<std::int64_t> anothers_t_ns_;  // when it was one of the robot's other decision node
   std::uint32_t orders_ = 0;
   std::uint64_t decisions_ = 0;
-  bool said_ = false;  // the last cycle counts among them
+  bool counts_ = false;                     // the last cycle, among them, once it is committed
+  std::optional<std::int64_t> fired_t_ns_;  // of the last order, until it is committed
 };
 
 }  // namespace trivela::robot

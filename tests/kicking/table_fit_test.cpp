@@ -45,6 +45,7 @@ TEST(TableFit, AveragesTheTrialsOfAPower) {
   EXPECT_NEAR(fit.exit_speed_sd_mps, 0.2, 1e-12);  // sqrt((0 + 0.08) / 2)
   EXPECT_NEAR(fit.residual_mps[2], 0.2, 1e-12);
   EXPECT_THAT(fit.warnings, IsEmpty());
+  EXPECT_EQ(fit.shared_angle_warning, "");
   EXPECT_TRUE(fit.rises());
   EXPECT_EQ(fit.table()[1].speed_mps, fit.set_points[1].exit_speed_mps.mean);
 }
@@ -55,8 +56,8 @@ TEST(TableFit, WarnsOfAnglesThatDifferAndOfSingleTrials) {
                                                     {30, radians(43.5), 7},
                                                     {40, radians(43.0), 8},
                                                     {40, radians(44.5), 8}});
-  EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("differs by 1.5 degrees from set-point to set-point"),
-                                        HasSubstr("power 20: a single trial"),
+  EXPECT_THAT(fit.shared_angle_warning, HasSubstr("differs by 1.5 degrees from set-point to set-point"));
+  EXPECT_THAT(fit.warnings, ElementsAre(HasSubstr("power 20: a single trial"),
                                         HasSubstr("power 40: the exit angle differs by 1.5 degrees from trial")));
 }
 

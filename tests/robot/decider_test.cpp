@@ -17,6 +17,12 @@ struct Robot {
   Robot() { settings.kick_decision.policy_by_half = {kicking::PolicyName::kMoving}; }
 
   const CycleDecision& cycle() {
+    const CycleDecision& decision = judged();
+    decider.commit();
+    return decision;
+  }
+  /// Without commit().
+  const CycleDecision& judged() {
     world.t_ns += kCycle_ns;
     kicker.t_ns = world.t_ns;
     return decider.decide(world, &kicker, std::nullopt);
@@ -54,6 +60,20 @@ TEST(Decider, AKickThatTheOtherNodeOrderedIsUnderWayForThisOneToo) {
   const CycleDecision& decision = robot.cycle();
   EXPECT_FALSE(decision.order);
   EXPECT_EQ(decision.judgement.reason, kicking::Reason::kKickerNotReady);
+}
+
+TEST(Decider, WhatIsNotCommittedIsDecidedAgainWithTheSameNumber) {
+  Robot robot;
+  const msg::KickOrder first = robot.judged().order.value();
+  const msg::KickOrder again = robot.judged().order.value();
+  EXPECT_EQ(again.kick_id, first.kick_id);
+  EXPECT_EQ(robot.decider.orders(), 0u);
+  robot.decider.commit();
+  robot.decider.commit();
+  EXPECT_EQ(robot.decider.orders(), 1u);
+  EXPECT_EQ(robot.decider.record(robot.world, &robot.kicker).seq, 1u) << "the two before count for nothing";
+  EXPECT_FALSE(robot.judged().order) << "the order is under way";
+  EXPECT_EQ(robot.decider.last_order_t_ns(), again.t_ns);
 }
 
 TEST(Decider, AKickOfTheOtherNodeThatTheDriverRefusedHoldsNothingBack) {
