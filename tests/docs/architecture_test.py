@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """docs/architecture.md says of rooms, storeys and libraries what tests/house/rules_test.cpp keeps, and the functions of its
-walks stand in the files beside them."""
+call chain stand in the files beside them."""
 import pathlib
 import re
 import sys
@@ -48,7 +48,7 @@ class Architecture(unittest.TestCase):
         shown = {named(cells[0])[0].rstrip("/"): set(named(cells[1])) for cells in rows("| library |")}
         self.assertEqual(shown, map_of(part("doors{", "};")))
 
-    def test_functions_of_the_walks_are_in_their_files(self):
+    def test_functions_of_the_call_chain_are_in_their_files(self):
         steps, files = 0, []
         for step in re.findall(r"^\| \d+ \|(.*)\|$", PAGE, re.M):
             function, place, gives = step.split("|", 2)
@@ -60,7 +60,7 @@ class Architecture(unittest.TestCase):
             for name, file in re.findall(r"`(\w+)` \(`([\w/.]+\.\w+)`\)", gives):
                 self.assertRegex((ROOT / file).read_text(), rf"\b{name}\b", f"{name} is not in {file}")
             steps += 1
-        self.assertGreater(steps, 60)
+        self.assertGreater(steps, 10)
 
 
 if __name__ == "__main__":
