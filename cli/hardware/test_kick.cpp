@@ -78,7 +78,7 @@ msg::KickOrder order_of(double power, double validity_s, std::uint8_t robot_id) 
 int carry_out(hal::Kicker& kicker, robot::OrderGate& gate, const msg::KickOrder& order, SignalInbox& signals) {
   std::optional<hal::KickerSample> newest;
   const std::string before = kicker.status();
-  while (kicker.take_result()) continue;  // of nobody
+  while (kicker.take_result()) continue;  // of shots before this one
   kicker.fire({.kick_id = order.kick_id,
                .power = order.power,
                .t_ns = order.t_ns,

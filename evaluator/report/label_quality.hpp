@@ -38,7 +38,7 @@ struct KickerDoubt {
 struct LabelQuality {
   std::vector<SightingsRow> rows;   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
   std::vector<KickerDoubt> doubts;  ///< by session, robot and policy
-  bool has_probabilities = false;   ///< false: an older log, whose labels are taken at their word
+  bool has_probabilities = false;   ///< false: the labels came without them, and count as certain
   std::int64_t stopped_free = 0;    ///< kicks seen flying freely until the game was stopped, before the goal line
   std::int64_t kicks = 0;
   std::optional<double> goal_y_m;        ///< of the robots' settings; none: no kick says it

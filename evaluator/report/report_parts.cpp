@@ -118,7 +118,7 @@ ReportPart label_quality_part(const LabelQuality& labels) {
     part.table.push_back({row.sightings, shown(row.kicks), shown(row.unknown),
                           labels.has_probabilities ? fmt::format("{:.2f}", row.expected_wrong) : "-"});
   }
-  if (!labels.has_probabilities) part.notes.emplace_back("an older log: its labels came without their probabilities");
+  if (!labels.has_probabilities) part.notes.emplace_back("the labels came without their probabilities");
   return part;
 }
 

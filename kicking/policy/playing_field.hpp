@@ -4,7 +4,7 @@
 
 namespace trivela::kicking {
 
-/// A field and its goals, half of it each way from the centre. SI.
+/// A field and its goals. The lines lie at +-goal_line_y_m and +-side_line_x_m in F. SI.
 struct PlayingField {
   double goal_line_y_m = 9.0;        ///< 18 x 12 m field of the paper
   double side_line_x_m = 6.0;        ///< 18 x 12 m field of the paper

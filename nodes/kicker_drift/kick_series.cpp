@@ -11,7 +11,7 @@ namespace trivela::nodes {
 namespace {
 
 // An order that came twice is refused as `double` after it was fired: what was said before holds. A driver that was
-// started anew counts from 1.
+// restarted counts from 1.
 auto weight(const msg::KickReceipt& receipt) {
   return std::tuple(receipt.refusal != msg::REFUSAL_DOUBLE, receipt.t_ns, receipt.seq);
 }

@@ -31,7 +31,9 @@ PendingKick::PendingKick(const std::string& name) : name_("/" + name) {
   if (place == MAP_FAILED) return;
   record_ = static_cast<Record*>(place);  // zeros where it is new
   const State state = record_->state;
-  if (state != State::kNone) left_ = Left{record_->receipt, state == State::kBeingTold};
+  // Of another program, or of another version of this one, it may hold anything.
+  const bool known = state == State::kAccepted || state == State::kBeingTold;
+  if (known && record_->receipt.kick_id > 0) left_ = Left{record_->receipt, state == State::kBeingTold};
 }
 
 PendingKick::~PendingKick() {

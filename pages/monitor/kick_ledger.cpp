@@ -14,7 +14,7 @@ bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
 }
 
 // Whether this receipt says more than the last one: an order that came twice is refused as `double` after it was fired.
-// A driver that was started anew counts from 1.
+// A driver that was restarted counts from 1.
 bool outweighs(const msg::KickReceipt& receipt, const KnownKick::Answered& last) {
   return std::tuple{receipt.refusal != msg::REFUSAL_DOUBLE, receipt.t_ns, receipt.seq} >
          std::tuple{last.refusal != msg::REFUSAL_DOUBLE, last.t_ns, last.seq};

@@ -1,4 +1,4 @@
-// The verbs that say something of a log afterwards: label, note, doctor, migrate.
+// The verbs that say something of a log afterwards: label, note, doctor.
 #include <gmock/gmock.h>
 
 #include <cstdlib>

@@ -126,6 +126,24 @@ TEST_F(KickerDriftNodeTest, WordsOfAKickMayComeInAnyOrder) {
   EXPECT_EQ(drift.nth(1).changed_kick_id, 41);
 }
 
+TEST_F(KickerDriftNodeTest, AKickThatARestartedDriverTakesBackIsNoSignOfAChange) {
+  start();
+  for (const Kick& one : failing_kicks(60)) {
+    decision(one.decision());
+    msg::KickReceipt accepted = one.receipt();
+    accepted.seq = 100 + static_cast<std::uint64_t>(one.kick_id);
+    receipt(accepted);
+    if (one.kick_id > 40) {
+      msg::KickReceipt not_fired = one.receipt(false);
+      not_fired.seq = 1;
+      not_fired.t_ns += kSecond_ns / 4;
+      receipt(not_fired);
+    }
+    outcome(one.outcome());
+  }
+  EXPECT_TRUE(drift.now().empty());
+}
+
 TEST_F(KickerDriftNodeTest, WhatWasRefusedOrNotSeenIsNoSignOfAChange) {
   start();
   for (const Kick& one : failing_kicks(60)) {

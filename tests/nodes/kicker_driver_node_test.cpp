@@ -556,6 +556,14 @@ TEST_F(KickerDriverNodeTest, WhereADriverWasKilledWhileItToldTheDeviceTheKickCou
   EXPECT_FALSE(msg::begins_kick(left)) << "nobody starts anything by it";
 }
 
+TEST_F(KickerDriverNodeTest, MemoryThatHoldsNoKickGivesNoReceipt) {
+  const std::string name = PendingKick::name_of(context.settings.domain, 1);
+  msg::KickReceipt none{};
+  PendingKick{name}.accepted(none);
+  EXPECT_FALSE(PendingKick{name}.left());
+  PendingKick{name}.settled();
+}
+
 TEST_F(KickerDriverNodeTest, AnOrderAloneIsNoSignThatTheDecisionNodeLives) {
   start();
   sample();

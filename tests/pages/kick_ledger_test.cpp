@@ -59,7 +59,7 @@ TEST(KickLedger, ARefusedOrderIsNoKickAndOneThatIsCalledOffIsNoneAfterAll) {
   EXPECT_EQ(moving(ledger).refused, 1) << "the earlier receipt, heard once more";
 }
 
-TEST(KickLedger, WhatADriverThatWasStartedAnewSaysHoldsThoughItCountsFrom1) {
+TEST(KickLedger, TheReceiptOfARestartedDriverHoldsThoughItsSeqIsLower) {
   KickLedger ledger;
   ledger.hear(decision(1, 7, msg::POLICY_MOVING), kNow);
   ledger.hear(receipt(1, 7, true, 20), kNow);
