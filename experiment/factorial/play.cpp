@@ -1,6 +1,7 @@
 #include "experiment/factorial/play.hpp"
 
 #include <mutex>
+#include <utility>
 
 #include "experiment/play/play_match.hpp"
 #include "experiment/run/in_threads.hpp"
@@ -32,13 +33,16 @@ void play_matches(const sim::Scenario& scenario, const std::vector<Arm>& arms, c
                   const std::function<void(const ArmMatch&, const MatchTally&)>& played) {
   const EveningArms by_evening{arms, plan.evenings};
   std::mutex one_at_a_time;
+  bool stopped = false;  // by an exception of `played`: matches that were under way are not reported
   in_threads(matches.size(), plan.jobs, [&](std::size_t i) {
     const auto& [arm, match] = matches[i];
     const MatchTally tally =
         tally_of(play_match(scenario, by_evening.of(match)[arm], plan.seed, match, plan.possessions),
                  by_evening.evening_of(match));
     const std::lock_guard lock{one_at_a_time};
+    if (std::exchange(stopped, true)) return;
     played(matches[i], tally);
+    stopped = false;
   });
 }
 

@@ -28,7 +28,7 @@ struct ArmMatch {
 };
 
 /// Plays these matches; `played(match, tally)` is called from one thread at a time, as they end; where it throws,
-/// nothing more is played. Rethrows what it or a match throws.
+/// nothing more is begun or reported. Rethrows what it or a match throws.
 void play_matches(const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
                   const std::vector<ArmMatch>& matches,
                   const std::function<void(const ArmMatch&, const MatchTally&)>& played);
