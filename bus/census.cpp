@@ -7,7 +7,7 @@
 #include <charconv>
 #include <tuple>
 
-#include "bus/qos.hpp"
+#include "bus/domain/qos.hpp"
 
 namespace trivela::bus {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bus/cyclone.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/participant.hpp"
 #include "bus/waitset.hpp"
 
 namespace trivela::bus {

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "bus/hearing.hpp"
+#include "bus/domain/reader_health.hpp"
 #include "bus/renewal.hpp"
 
 namespace trivela::bus {
@@ -17,7 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kDeviceTimeout{50};
 
 // How often it is looked, in real time, whether a topic has fallen silent.
-constexpr std::chrono::milliseconds kGlance{100};
+constexpr std::chrono::milliseconds kPollInterval{100};
 
 using Clock = std::chrono::steady_clock;
 
@@ -105,7 +105,7 @@ void Executor::wait_for_stop() {
   if (!real_time && !pulse_.beat) return stop_.wait();
   pollfd stop{stop_.file_descriptor(), POLLIN, 0};
   for (beat(); !stop_.requested(); beat()) {
-    poll(&stop, 1, static_cast<int>(kGlance.count()));
+    poll(&stop, 1, static_cast<int>(kPollInterval.count()));
     if (real_time && !look_after_hearing()) return;
   }
 }
@@ -141,7 +141,7 @@ std::string Executor::late() const {
 }
 
 // Ends this run, but not what the stop is for: who made the executor may make another.
-void Executor::give_up(const Deaf& deaf) {
+void Executor::give_up(const BusUnresponsive& deaf) {
   const std::lock_guard lock(failure_mutex_);
   if (!failure_) failure_ = std::make_exception_ptr(deaf);
   over_ = true;
@@ -184,8 +184,8 @@ void Executor::serve_topics(Node& node) {
       if (node.slots_[i]->reader) attach(i);
     const bool real_time = node.participant().hearing() != nullptr;
     while (!over()) {
-      if (real_time) node.turn_.due(Clock::now() + kGlance);
-      for (const std::intptr_t i : waitset.wait(real_time ? kGlance : std::chrono::nanoseconds::max()))
+      if (real_time) node.turn_.due(Clock::now() + kPollInterval);
+      for (const std::intptr_t i : waitset.wait(real_time ? kPollInterval : std::chrono::nanoseconds::max()))
         if (i >= 0) react(*node.slots_[static_cast<std::size_t>(i)]);
       if (!real_time) continue;
       for (std::size_t i = 0; i < node.slots_.size(); ++i)

@@ -33,8 +33,8 @@ class Executor {
 
   /// Runs until the stop is requested; what has then arrived for a reaction with ReaderOptions::keep_all is still
   /// delivered. Throws Error naming the topics if the reactions form a cycle (kListener), and
-  /// rethrows the first exception of a reaction, which ends the run; Deaf, where a participant in real time does not
-  /// hear what its nodes need and making readers anew does not help.
+  /// rethrows the first exception of a reaction, which ends the run; BusUnresponsive, where a participant in real time
+  /// does not hear what its nodes need and making readers anew does not help.
   void run();
 
  private:
@@ -48,7 +48,7 @@ class Executor {
   void beat() const;
   std::string late() const;
   bool in_real_time() const;
-  void give_up(const class Deaf& deaf);
+  void give_up(const class BusUnresponsive& deaf);
   bool over() const { return over_ || stop_.requested(); }
   void finish() noexcept;
   void serve_topics(Node& node);

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include "bus/cyclone.hpp"
-#include "bus/last_heard.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/last_received.hpp"
 #include "bus/reaction_scope.hpp"
 #include "bus/reader.hpp"
 #include "bus/renewal.hpp"
@@ -61,8 +61,8 @@ class Mailbox {
     }
   }
 
-  /// When a sample was taken last (LastHeard::ns()). Where that was before `before_ns`, takes what has arrived, unless
-  /// another thread is at it.
+  /// When a sample was taken last (LastReceived::ns()). Where that was before `before_ns`, takes what has arrived,
+  /// unless another thread is at it.
   std::int64_t heard_ns(std::int64_t before_ns) {
     if (heard_.ns() >= before_ns) return heard_.ns();
     if (const std::unique_lock lock(mutex_, std::try_to_lock); lock) take();
@@ -94,7 +94,7 @@ class Mailbox {
   Waitset waitset_;
   OnEach on_each_;
   std::optional<T> latest_;
-  LastHeard heard_;
+  LastReceived heard_;
 };
 
 }  // namespace trivela::bus

@@ -26,8 +26,8 @@ void Node::add_input(std::string name, double period_s, std::function<std::int64
   inputs_.push_back({std::move(name), period_s, std::move(heard_ns)});
 }
 
-std::shared_ptr<LastHeard> Node::listen(std::string input, double period_s) {
-  auto heard = std::make_shared<LastHeard>();
+std::shared_ptr<LastReceived> Node::listen(std::string input, double period_s) {
+  auto heard = std::make_shared<LastReceived>();
   add_input(std::move(input), period_s, [heard](std::int64_t) { return heard->ns(); });
   return heard;
 }

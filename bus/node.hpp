@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bus/graph.hpp"
-#include "bus/last_heard.hpp"
+#include "bus/last_received.hpp"
 #include "bus/mailbox.hpp"
 #include "bus/pulse.hpp"
 #include "bus/reaction_scope.hpp"
@@ -181,7 +181,7 @@ class Node {
   std::string owner() const;
   Slot& add(const std::string& what, std::string input, std::vector<std::string> outputs);
   void add_input(std::string name, double period_s, std::function<std::int64_t(std::int64_t)> heard_ns);
-  std::shared_ptr<LastHeard> listen(std::string input, double period_s);
+  std::shared_ptr<LastReceived> listen(std::string input, double period_s);
 
   Participant participant_;
   std::string name_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/cyclone.hpp"
+#include "bus/domain/cyclone.hpp"
 
 namespace trivela::bus {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 #include <utility>
 
-#include "bus/cyclone.hpp"
-#include "bus/hearing.hpp"
-#include "bus/qos.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/qos.hpp"
+#include "bus/domain/reader_health.hpp"
 
 namespace trivela::bus {
 namespace {
@@ -86,8 +86,8 @@ AnyReader::AnyReader(const Participant& participant, const dds_topic_descriptor&
       callbacks_(new Callbacks{listener, context, options.on_liveliness}) {
   topic_entity_ = Entity(checked(dds_create_topic(participant.handle(), &descriptor, topic_.c_str(), nullptr, nullptr),
                                  "dds_create_topic", topic_));
-  if (const Hearing* hearing = participant_.hearing()) {
-    silence_.emplace(periodic_ ? RenewalPatience::of_period(period) : kEventSilence);
+  if (const ReaderHealth* hearing = participant_.hearing()) {
+    silence_.emplace(periodic_ ? ReconnectBackoff::of_period(period) : kEventSilence);
     renewals_seen_ = hearing->renewals();
   }
   reader_ = open();
@@ -116,7 +116,7 @@ Entity AnyReader::open() const {
 }
 
 bool AnyReader::time_to_renew() {
-  Hearing* const hearing = participant_.hearing();
+  ReaderHealth* const hearing = participant_.hearing();
   if (hearing == nullptr) return false;
   const auto now = Clock::now();
   const bool due = silence_->due(now);

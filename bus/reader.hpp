@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "bus/cyclone.hpp"
-#include "bus/options.hpp"
-#include "bus/participant.hpp"
-#include "bus/renewal_patience.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/options.hpp"
+#include "bus/domain/participant.hpp"
+#include "bus/reconnect_backoff.hpp"
 #include "bus/waitset.hpp"
 #include "idl/meta.hpp"
 
@@ -130,9 +130,9 @@ class AnyReader {
   };
   std::vector<Newest> newest_;
   std::vector<KnownWriter> writers_;
-  KnownWriter gone_{};                      // the last one that had gone before its sample was taken
-  std::optional<RenewalPatience> silence_;  // in real time
-  std::uint64_t renewals_seen_ = 0;         // of the participant's readers that have a period
+  KnownWriter gone_{};                       // the last one that had gone before its sample was taken
+  std::optional<ReconnectBackoff> silence_;  // in real time
+  std::uint64_t renewals_seen_ = 0;          // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};
   Entity predecessor_;  // of a topic without a period, for a while after it was made anew
 };

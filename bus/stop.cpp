@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "bus/cyclone.hpp"
+#include "bus/domain/cyclone.hpp"
 
 namespace trivela::bus {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <dds/dds.h>
 
-#include "bus/cyclone.hpp"
+#include "bus/domain/cyclone.hpp"
 
 namespace trivela::bus {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "bus/cyclone.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/participant.hpp"
 
 namespace trivela::bus {
 

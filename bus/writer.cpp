@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "bus/cyclone.hpp"
-#include "bus/qos.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/qos.hpp"
 #include "bus/waitset.hpp"
 
 namespace trivela::bus {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string>
 
-#include "bus/cyclone.hpp"
-#include "bus/options.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/options.hpp"
+#include "bus/domain/participant.hpp"
 #include "idl/meta.hpp"
 
 namespace trivela::bus {

@@ -231,7 +231,7 @@ DriveSummary CalibrationRun::straight() {
   return summary;
 }
 
-std::vector<DriveSummary> CalibrationRun::evening(const std::function<void(const DriveSummary&)>& said) {
+std::vector<DriveSummary> CalibrationRun::calibration(const std::function<void(const DriveSummary&)>& said) {
   std::vector<DriveSummary> drives;
   for (const auto step : {&CalibrationRun::standing, &CalibrationRun::delay, &CalibrationRun::direction,
                           &CalibrationRun::lateral, &CalibrationRun::turn, &CalibrationRun::straight}) {

@@ -37,8 +37,8 @@ struct DriveSummary {
   std::vector<std::string> left_out;  ///< kinds of kicks without use
 };
 
-/// The evening's procedure: each step plays its matches, fits, and brings the robot up to date with what was found. All
-/// that a fit sees is what the robot and the laser recorded. Throws what the source throws, and std::runtime_error
+/// The calibration's procedure: each step plays its matches, fits, and brings the robot up to date with what was found.
+/// All that a fit sees is what the robot and the laser recorded. Throws what the source throws, and std::runtime_error
 /// where there are too few kicks, saying how many more are needed.
 class CalibrationRun {
  public:
@@ -55,7 +55,7 @@ class CalibrationRun {
   DriveSummary straight();   ///< transfer, forward and backward
 
   /// All of them in that order, each said when it is done.
-  std::vector<DriveSummary> evening(const std::function<void(const DriveSummary&)>& said);
+  std::vector<DriveSummary> calibration(const std::function<void(const DriveSummary&)>& said);
 
   const RobotUpdate& robot() const { return update_; }
 

@@ -7,9 +7,9 @@
 
 #include "calibration/robot_update.hpp"
 #include "calibration/rows/recorded_drives.hpp"
-#include "evaluator/log/reader.hpp"
 #include "kicking/lob/lob_record.hpp"
 #include "kicking/policy/policy.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::calibration {
 
@@ -28,7 +28,7 @@ struct DrivePlan {
 struct DriveRecord {
   std::string log;    ///< path of the match log; in process the name that it would have
   std::string scans;  ///< of the scans; empty: the plan has no laser
-  std::vector<evaluator::log::Kick> kicks;
+  std::vector<log::Kick> kicks;
   RecordedDrives drives;
   std::vector<double> kicked_powers;          ///< of the kicks over the laser
   std::vector<kicking::lob::LobRecord> lobs;  ///< refused ones too

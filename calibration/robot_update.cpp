@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/error.hpp"
-#include "evaluator/report/write_file.hpp"
+#include "config/text/error.hpp"
+#include "evaluator/render/write_file.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::calibration {

@@ -4,13 +4,13 @@
 
 #include <chrono>
 
-#include "config/error.hpp"
-#include "config/installation.hpp"
+#include "config/text/error.hpp"
+#include "config/text/installation.hpp"
 
 namespace trivela::calibration {
 
-evaluator::log::ScanSession scanner_session(const hal::RangeFinder& finder, const kicking::lob::LaserMount& mount,
-                                            const std::string& device) {
+log::ScanSession scanner_session(const hal::RangeFinder& finder, const kicking::lob::LaserMount& mount,
+                                 const std::string& device) {
   const auto since = [](auto instant) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(instant.time_since_epoch()).count();
   };

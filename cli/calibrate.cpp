@@ -13,7 +13,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   add_calibrate_delay(*verb, exit_code);
   add_calibrate_plot(*verb, exit_code);
   add_calibrate_run(*verb, exit_code);
-  add_calibrate_evenings(*verb, exit_code);
+  add_calibrate_repeat(*verb, exit_code);
 }
 
 }  // namespace trivela::cli

@@ -7,10 +7,10 @@
 
 #include "cli/collect/fetch.hpp"
 #include "cli/launch/progress_bar.hpp"
-#include "cli/output.hpp"
-#include "cli/sound_team.hpp"
+#include "cli/options/output.hpp"
+#include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "evaluator/render/text_table.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -30,7 +30,7 @@ std::vector<LogHost> hosts_of(const CollectArguments& arguments) {
       hosts.push_back(log_host(host, arguments.folder));
       continue;
     }
-    const config::Team team = sound_team(host);
+    const config::Team team = valid_team(host);
     for (const config::TeamRobot& robot : team.robots) hosts.push_back({robot.address, team.team.logs});
   }
   return hosts;

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
-#include "cli/sound_team.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
+#include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/settings.hpp"
-#include "evaluator/report/log_findings.hpp"
+#include "config/text/installation.hpp"
+#include "evaluator/sessions/log_findings.hpp"
 #include "monitor/network/findings.hpp"
 #include "monitor/network/gather.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -72,7 +72,7 @@ void say_json(const std::vector<network::Finding>& findings) {
 /// The team's machines are peers, its interface and the domain between the machines what is looked at.
 DoctorFlags with_team(DoctorFlags flags) {
   if (flags.team.empty()) return flags;
-  const config::Team team = sound_team(flags.team);
+  const config::Team team = valid_team(flags.team);
   if (flags.interface.empty()) flags.interface = team.team.interface;
   if (!flags.domain) flags.domain = team.domains.team;
   for (const config::TeamRobot& robot : team.robots) flags.peers.push_back(robot.address);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/report/log_drift.hpp"
+#include "evaluator/drift_report/log_drift.hpp"
 
 namespace trivela::cli {
 

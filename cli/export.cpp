@@ -6,9 +6,9 @@
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 #include "evaluator/export/export_files.hpp"
 
 namespace trivela::cli {
@@ -61,7 +61,7 @@ int run_export(const ExportFlags& flags) {
   if (flags.csv.empty() && flags.mcap.empty()) throw UsageError{"give --csv FOLDER, --mcap FILE or both"};
   if (!flags.csv.empty()) require_folder("--csv", flags.csv, flags.force);
   if (!flags.mcap.empty()) require_file("--mcap", flags.mcap, flags.force);
-  const evaluator::log::Reader reader(flags.log);
+  const log::Reader reader(flags.log);
   SignalInbox signals;
   try {
     ProgressBar bar;
@@ -90,7 +90,7 @@ void add_export(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("export", "Write a match log as CSV, or as MCAP for Foxglove and PlotJuggler");
   verb->footer(
       "A file or folder gets its name when it is whole: nothing half is left behind by Ctrl-C. Streams are the tables\n"
-      "of evaluator/log/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read\n"
+      "of log/schema/schema.sql; names of columns say the units, NULL is an empty cell, and every number is read\n"
       "back to the bit. The log is only read.");
   const auto flags = std::make_shared<ExportFlags>();
   verb->add_option("log", flags->log, "Match log of any version")->required();

@@ -8,20 +8,20 @@
 #include <string>
 #include <vector>
 
-#include "bus/participant.hpp"
-#include "cli/hardware/claims.hpp"
-#include "cli/hardware/fixtures.hpp"
+#include "bus/domain/participant.hpp"
+#include "cli/hardware/device_locks.hpp"
+#include "cli/hardware/device_probes.hpp"
 #include "cli/hardware/spin.hpp"
 #include "cli/hardware/test_kick.hpp"
 #include "cli/hardware/watching.hpp"
 #include "cli/launch/person.hpp"
-#include "cli/match_mode.hpp"
-#include "cli/number_checks.hpp"
-#include "cli/output.hpp"
+#include "cli/options/match_mode.hpp"
+#include "cli/options/number_checks.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"
+#include "config/text/installation.hpp"
 #include "nodes/runtime/node_main.hpp"
 
 namespace trivela::cli {
@@ -43,7 +43,7 @@ struct Bench {
   config::Robot robot;
   SignalInbox& signals;
   bus::Participant participant;
-  Claims claims;
+  DeviceLocks claims;
 
   hal::Owner owner() const { return {participant, static_cast<std::uint8_t>(settings.run.robot_id), robot.base}; }
   config::Hal devices() const { return config::hal_for(settings.hal, robot); }
@@ -58,7 +58,7 @@ Bench bench_of(const HardwareFlags& flags, SignalInbox& signals) {
   config::Robot robot = config::robot_for(config::load_robot(settings.run.robot), settings);
   const bus::Participant participant{nodes::domain_of(settings.domain)};
   const auto robot_id = static_cast<std::uint8_t>(settings.run.robot_id);
-  return {std::move(settings), std::move(robot), signals, participant, Claims{participant, robot_id}};
+  return {std::move(settings), std::move(robot), signals, participant, DeviceLocks{participant, robot_id}};
 }
 
 void say_who(const Bench& bench) {
@@ -67,35 +67,35 @@ void say_who(const Bench& bench) {
 }
 
 /// Wheels, and a gyro that is a device of its own.
-void add_base(const Bench& bench, std::vector<std::unique_ptr<Fixture>>& fixtures) {
+void add_base(const Bench& bench, std::vector<std::unique_ptr<DeviceProbe>>& probes) {
   const config::Hal& devices = bench.settings.hal;
   const bool own_gyro = !std::holds_alternative<config::WheelsGyro>(devices.gyro);
   const std::string wheels = device_text(devices.wheels), gyro = device_text(devices.gyro);
   if (bench.claims.odometry_runs()) {
-    fixtures.push_back(held_by("wheels", wheels, "odometry"));
-    if (own_gyro) fixtures.push_back(held_by("gyro", gyro, "odometry"));
+    probes.push_back(held_by("wheels", wheels, "odometry"));
+    if (own_gyro) probes.push_back(held_by("gyro", gyro, "odometry"));
     return;
   }
   config::Hal wheels_alone = devices;
   wheels_alone.gyro = config::WheelsGyro{};
-  fixtures.push_back(wheels_fixture(hal::open_wheels(wheels_alone, bench.owner(), hal::WheelsUse::kListen), wheels));
-  if (own_gyro) fixtures.push_back(gyro_fixture(hal::open_gyro(devices.gyro), gyro));
+  probes.push_back(wheels_probe(hal::open_wheels(wheels_alone, bench.owner(), hal::WheelsUse::kListen), wheels));
+  if (own_gyro) probes.push_back(gyro_probe(hal::open_gyro(devices.gyro), gyro));
 }
 
 int list_and_watch(const Bench& bench, std::optional<double> seconds) {
   const config::Settings& settings = bench.settings;
   const std::string kicker = device_text(settings.hal.kicker);
-  std::vector<std::unique_ptr<Fixture>> fixtures;
-  add_base(bench, fixtures);
-  fixtures.push_back(bench.claims.kicker_driver_runs()
-                         ? held_by("kicker", kicker, "kicker_driver")
-                         : kicker_fixture(hal::open_kicker(bench.devices(), bench.owner()), kicker));
-  fixtures.push_back(range_finder_fixture(settings.scan_recorder, bench.owner()));
-  fixtures.push_back(bench.claims.referee_is_written() && is_wanted(settings.refbox)
-                         ? held_by("referee box", "none", "refbox, a simulator")
-                         : referee_box_fixture(settings.refbox));
+  std::vector<std::unique_ptr<DeviceProbe>> probes;
+  add_base(bench, probes);
+  probes.push_back(bench.claims.kicker_driver_runs()
+                       ? held_by("kicker", kicker, "kicker_driver")
+                       : kicker_probe(hal::open_kicker(bench.devices(), bench.owner()), kicker));
+  probes.push_back(range_finder_probe(settings.scan_recorder, bench.owner()));
+  probes.push_back(bench.claims.referee_is_written() && is_wanted(settings.refbox)
+                       ? held_by("referee box", "none", "refbox, a simulator")
+                       : referee_box_probe(settings.refbox));
   say_who(bench);
-  return watch(fixtures, seconds, bench.signals);
+  return watch(probes, seconds, bench.signals);
 }
 
 int no_wheel_turned(const std::string& why) {

@@ -8,7 +8,7 @@
 #include "cli/import/match_rows.hpp"
 #include "cli/import/refbox_report.hpp"
 #include "cli/launch/log_claim.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/text/printable.hpp"
 

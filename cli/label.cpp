@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/match_mode.hpp"
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
+#include "cli/options/match_mode.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/settings.hpp"
-#include "evaluator/log/additions.hpp"
-#include "evaluator/report/log_opportunities.hpp"
-#include "evaluator/report/named_kicks.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "config/text/installation.hpp"
+#include "evaluator/counting/log_opportunities.hpp"
+#include "evaluator/counting/named_kicks.hpp"
+#include "evaluator/render/text_table.hpp"
+#include "log/write/additions.hpp"
 #include "pages/labels/label_server.hpp"
 
 namespace trivela::cli {
@@ -45,7 +45,7 @@ std::int64_t now_utc_ns() {
 }
 
 std::vector<NamedKick> counted_kicks(const std::string& log) {
-  const evaluator::log::Reader reader(log);
+  log::Reader reader(log);
   evaluator::read_opportunities(reader, log, false);  // from here on each kick once
   return evaluator::named_kicks(reader);
 }
@@ -75,15 +75,15 @@ int add_one(const LabelArguments& arguments) {
   const NamedKick& kick = evaluator::kick_called(kicks, arguments.kick, arguments.session);
   if (arguments.withdraw && !kick.by_hand)
     throw std::runtime_error{fmt::format("{} has no label by hand to withdraw", text_of(kick))};
-  evaluator::log::Label label{.session_id = kick.session_id,
-                              .robot_id = kick.robot_id,
-                              .kick_id = kick.kick_id,
-                              .t_ns = kick.t_ns,
-                              .outcome = std::nullopt,
-                              .who = arguments.who,
-                              .note = arguments.note};
+  log::Label label{.session_id = kick.session_id,
+                   .robot_id = kick.robot_id,
+                   .kick_id = kick.kick_id,
+                   .t_ns = kick.t_ns,
+                   .outcome = std::nullopt,
+                   .who = arguments.who,
+                   .note = arguments.note};
   if (!arguments.withdraw) label.outcome = arguments.outcome;
-  evaluator::log::Additions(arguments.log).add(label, now_utc_ns());
+  log::Additions(arguments.log).add(label, now_utc_ns());
   const std::string observed = kick.observed.empty() ? "nothing" : evaluator::words(kick.observed);
   say(arguments.withdraw
           ? fmt::format("{}: {} by {} is withdrawn; the observer says {}, and that holds\n", text_of(kick),
@@ -98,7 +98,7 @@ int serve(const LabelArguments& arguments) {
     throw UsageError{"--serve: the page asks for kicks, outcomes and names itself"};
   refuse_in_a_match(config::load_settings(arguments.config), "trivela label --serve");
   SignalInbox signals;  // before all threads, which must not take them
-  pages::LabelDesk desk(arguments.log);
+  pages::LabelStore desk(arguments.log);
   const pages::LabelServer server(desk, arguments.port);
   say(server.url() + '\n');
   std::fflush(stdout);
@@ -115,8 +115,7 @@ int run_label(const LabelArguments& arguments) {
     return list_kicks(arguments);
   }
   if (arguments.withdraw == !arguments.outcome.empty()) {
-    throw UsageError{
-        fmt::format("say what became of the kick ({}), or --withdraw", fmt::join(evaluator::log::kLabels, ", "))};
+    throw UsageError{fmt::format("say what became of the kick ({}), or --withdraw", fmt::join(log::kLabels, ", "))};
   }
   if (arguments.who.empty()) throw UsageError{"--by WHO: who says so?"};
   return add_one(arguments);
@@ -140,8 +139,8 @@ void add_label(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<LabelArguments>();
   verb->add_option("log", arguments->log, "Match log")->required();
   verb->add_option("kick", arguments->kick, "ROBOT:NUMBER as in trivela label LOG, its number alone, or its kick_id");
-  verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(evaluator::log::kLabels, ", ")))
-      ->check(CLI::IsMember(std::vector<std::string>(evaluator::log::kLabels.begin(), evaluator::log::kLabels.end())));
+  verb->add_option("outcome", arguments->outcome, fmt::format("{}", fmt::join(log::kLabels, ", ")))
+      ->check(CLI::IsMember(std::vector<std::string>(log::kLabels.begin(), log::kLabels.end())));
   verb->add_option("--by", arguments->who, "Who says so");
   verb->add_option("--note", arguments->note, "Why, such as the video's time");
   verb->add_option("--session", arguments->session, "How the uuid of the kick's session begins");

@@ -12,9 +12,9 @@
 #include <sstream>
 #include <utility>
 
-#include "cli/csv_rows.hpp"
-#include "cli/open_file.hpp"
-#include "evaluator/report/lob_json.hpp"
+#include "cli/kick/csv_rows.hpp"
+#include "cli/options/open_file.hpp"
+#include "evaluator/render/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 

@@ -7,16 +7,16 @@
 
 #include "cli/launch/record_match.hpp"
 #include "cli/launch/throwaway_keys.hpp"
-#include "cli/number_checks.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
-#include "config/error.hpp"
 #include "config/field.hpp"
-#include "config/installation.hpp"
 #include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/scenario/scenario_field.hpp"
 #include "config/settings.hpp"
+#include "config/text/error.hpp"
+#include "config/text/installation.hpp"
 #include "nodes/simulator/simulator_node.hpp"
 
 namespace trivela::cli {

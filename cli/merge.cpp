@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "cli/launch/stoppable_bar.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/log_file.hpp"
-#include "evaluator/log/merge.hpp"
-#include "evaluator/log/shard_merge.hpp"
-#include "evaluator/log/stoppable.hpp"
-#include "evaluator/log/tally_book.hpp"
-#include "evaluator/report/merge_report.hpp"
+#include "evaluator/sessions/merge_report.hpp"
+#include "log/file/log_file.hpp"
+#include "log/file/stoppable.hpp"
+#include "log/merge/merge.hpp"
+#include "log/shards/shard_merge.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -25,29 +24,13 @@ struct MergeArguments {
   std::optional<int> reference_robot;
 };
 
-/// Shards that were copied, as progress.
-auto shown_on(StoppableBar& bar) {
-  return [&bar](std::size_t done, std::size_t all) {
-    return bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
-  };
-}
-
-int merge_books(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
-  if (arguments.reference_robot) throw UsageError{"--reference: tallies have no clock"};
-  const auto merged = [&] {
-    StoppableBar bar;
-    return evaluator::log::merge_books(shards, arguments.out, shown_on(bar));
-  }();
-  say(fmt::format("{}: {} matches of {} arms, of {} shards\nmissing: nothing\n", arguments.out, merged.matches,
-                  merged.arms, merged.shards));
-  return kDone;
-}
-
 int merge_shards(const MergeArguments& arguments, const std::vector<std::filesystem::path>& shards) {
   if (arguments.reference_robot) throw UsageError{"--reference: shards of an experiment have one clock"};
   const auto merged = [&] {
     StoppableBar bar;
-    return evaluator::log::merge_shards(shards, arguments.out, shown_on(bar));
+    return log::merge_shards(shards, arguments.out, [&](std::size_t done, std::size_t all) {
+      return bar.show(static_cast<double>(done), static_cast<double>(all), "shards", "");
+    });
   }();
   say(fmt::format("{}: {} sessions of {} matches, of {} shards\nmissing: nothing\n", arguments.out, merged.sessions,
                   merged.matches, merged.shards));
@@ -58,8 +41,8 @@ int merge_shards(const MergeArguments& arguments, const std::vector<std::filesys
 void require_match_logs(const std::vector<std::filesystem::path>& logs) {
   for (const std::filesystem::path& log : logs) {
     try {
-      const evaluator::log::Reader reader(log, evaluator::log::Check::kSchema);
-    } catch (const evaluator::log::NoSuchLog&) {
+      const log::Reader reader(log, log::Check::kSchema);
+    } catch (const log::NoSuchLog&) {
       throw;
     } catch (const std::exception&) {  // merging takes what can be read, and says what is wrong with the rest
     }
@@ -69,22 +52,20 @@ void require_match_logs(const std::vector<std::filesystem::path>& logs) {
 int run_merge(const MergeArguments& arguments) try {
   require_new("OUT", arguments.out);
   const std::vector<std::filesystem::path> logs{arguments.logs.begin(), arguments.logs.end()};
-  if (evaluator::log::any_is_tally_book(logs)) return merge_books(arguments, logs);
-  if (evaluator::log::any_is_shard(logs)) return merge_shards(arguments, logs);
+  if (log::any_is_shard(logs)) return merge_shards(arguments, logs);
   require_match_logs(logs);
-  evaluator::log::MergeOptions options;
+  log::MergeOptions options;
   options.reference_robot = arguments.reference_robot;
-  const evaluator::log::Merged merged = [&] {
+  const log::Merged merged = [&] {
     StoppableBar bar;
     options.progress = [&](std::int64_t read, std::int64_t all) {
       return bar.show(static_cast<double>(read), static_cast<double>(all), "rows", "copied");
     };
-    return evaluator::log::merge(logs, arguments.out, options);
+    return log::merge(logs, arguments.out, options);
   }();
   if (arguments.reference_robot && !merged.alignment.reference_robot)
     warn(fmt::format("no clock was measured against that of robot {}", *arguments.reference_robot));
-  const evaluator::log::Reader reader(arguments.out, evaluator::log::Check::kQuick);
-  const evaluator::MergeReport report = evaluator::report_merge(merged, reader);
+  const evaluator::MergeReport report = evaluator::report_merge(merged, log::Reader(arguments.out, log::Check::kQuick));
   say(fmt::format("{}\n{}: {}\n", report.table, arguments.out, report.total));
   for (const std::string& note : report.notes) say(note + '\n');
   if (!report.conflicts.empty()) {
@@ -98,7 +79,7 @@ int run_merge(const MergeArguments& arguments) try {
   say("missing:\n");
   for (const std::string& line : report.missing) say("  " + line + '\n');
   return kDoneWithLoss;
-} catch (const evaluator::log::Stopped&) {
+} catch (const log::Stopped&) {
   warn(fmt::format("interrupted: there is no {}", arguments.out));
   return kFailed;
 }
@@ -116,9 +97,7 @@ void add_merge(CLI::App& app, int& exit_code) {
       "\"missing: nothing\", or with what is missing and exit code 3, as where two files say different things of a "
       "kick. Shards of an experiment (trivela simulate "
       "--shard)\n"
-      "become the log that one run writes, books of tallies of factorial, frontier, sensitivity and tune the book that "
-      "one\n"
-      "run writes; a shard that lacks, is not finished or of another experiment is refused.");
+      "become the log that one run writes; a shard that lacks, is not finished or of another experiment is refused.");
   const auto arguments = std::make_shared<MergeArguments>();
   verb->add_option("out", arguments->out, "The new log, must not exist")->required();
   verb->add_option("logs", arguments->logs, "Match logs of any version, merged ones, too")->required();

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/open_file.hpp"
-#include "cli/sound_team.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/team/valid_team.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/watch_page.hpp"
-#include "config/installation.hpp"
 #include "config/robot.hpp"
+#include "config/text/installation.hpp"
 #include "nodes/runtime/node_flags.hpp"
 
 namespace trivela::cli {
@@ -28,7 +28,7 @@ struct MonitorFlags {
 
 /// What the team's file says: names, and the domain of the bus between its machines, where that is looked at.
 void look_at_team(const MonitorFlags& flags, config::Settings& settings, pages::SceneSettings& scene) {
-  const config::Team team = sound_team(flags.team);
+  const config::Team team = valid_team(flags.team);
   scene.title = team.team.name;
   for (const config::TeamRobot& robot : team.robots)
     scene.names[static_cast<std::uint8_t>(robot.number)] = config::load_robot(robot.robot).name;

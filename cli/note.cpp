@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/additions.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/report/session_notes.hpp"
+#include "evaluator/sessions/session_notes.hpp"
+#include "log/read/reader.hpp"
+#include "log/write/additions.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -26,8 +26,8 @@ struct NoteArguments {
 };
 
 /// What was said, each kind once.
-std::vector<evaluator::log::Note> said(const NoteArguments& arguments) {
-  std::vector<evaluator::log::Note> notes;
+std::vector<log::Note> said(const NoteArguments& arguments) {
+  std::vector<log::Note> notes;
   const auto say_of = [&](const char* kind, const std::string& text) {
     if (!text.empty()) notes.push_back({.session_id = 0, .kind = kind, .text = text, .who = arguments.who});
   };
@@ -41,7 +41,7 @@ std::vector<evaluator::log::Note> said(const NoteArguments& arguments) {
 }
 
 int list_notes(const NoteArguments& arguments) {
-  const evaluator::log::Reader reader(arguments.log);
+  const log::Reader reader(arguments.log);
   const auto notes = evaluator::session_notes(reader);
   for (const evaluator::SessionNote& note : notes) {
     if (!note.uuid.starts_with(arguments.session)) continue;
@@ -61,8 +61,8 @@ struct Meant {
 /// Throws std::runtime_error where no session is meant, or nothing is to be withdrawn.
 Meant sessions_meant(const NoteArguments& arguments) {
   Meant meant;
-  const evaluator::log::Reader reader(arguments.log);
-  for (const evaluator::log::RecordedSession& session : reader.sessions())
+  const log::Reader reader(arguments.log);
+  for (const log::RecordedSession& session : reader.sessions())
     if (session.uuid.starts_with(arguments.session)) meant.all.push_back(session.session_id);
   if (meant.all.empty())
     throw std::runtime_error{fmt::format("{} has no session that begins with '{}'", arguments.log, arguments.session)};
@@ -77,12 +77,12 @@ Meant sessions_meant(const NoteArguments& arguments) {
   return meant;
 }
 
-int add_notes(const NoteArguments& arguments, std::vector<evaluator::log::Note> notes) {
+int add_notes(const NoteArguments& arguments, std::vector<log::Note> notes) {
   const Meant meant = sessions_meant(arguments);
-  evaluator::log::Additions additions(arguments.log);
+  log::Additions additions(arguments.log);
   const auto now_utc_ns = std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count();
   std::set<std::int64_t> noted;
-  for (evaluator::log::Note& note : notes) {
+  for (log::Note& note : notes) {
     for (const std::int64_t session_id : meant.all) {
       if (!note.text && !meant.to_withdraw.contains(session_id)) continue;
       note.session_id = session_id;
@@ -111,8 +111,7 @@ void add_note(CLI::App& app, int& exit_code) {
   verb->add_option("--venue", arguments->venue, "Where");
   verb->add_option("--withdraw", arguments->withdraw,
                    "What was said of this no longer holds: match, opponent, venue, note")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(evaluator::log::kNoteKinds.begin(), evaluator::log::kNoteKinds.end())));
+      ->check(CLI::IsMember(std::vector<std::string>(log::kNoteKinds.begin(), log::kNoteKinds.end())));
   verb->add_option("--by", arguments->who, "Who says so");
   verb->add_option("--session", arguments->session, "How the uuid of the session begins; default: all of the log");
   verb->callback([arguments, &exit_code] {

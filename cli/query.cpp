@@ -6,19 +6,19 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/metrics/metrics.hpp"
-#include "evaluator/report/escaped_text.hpp"
-#include "evaluator/report/log_opportunities.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "evaluator/counting/log_opportunities.hpp"
+#include "evaluator/counting/metrics.hpp"
+#include "evaluator/render/escaped_text.hpp"
+#include "evaluator/render/text_table.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::cli {
 namespace {
 
-using LogCell = evaluator::log::Value;
+using LogCell = log::Value;
 using Json = nlohmann::ordered_json;
 
 struct QueryArguments {
@@ -37,7 +37,7 @@ std::string text_of_cell(const LogCell& cell) {
   if (const auto* const number = std::get_if<double>(&cell)) return fmt::to_string(*number);
   if (const auto* const text = std::get_if<std::string>(&cell)) return *text;
   std::string digits;
-  if (const auto* const bytes = std::get_if<evaluator::log::Blob>(&cell)) {
+  if (const auto* const bytes = std::get_if<log::Blob>(&cell)) {
     for (const auto byte : *bytes) digits += fmt::format("{:02x}", byte);
   }
   return digits;
@@ -78,7 +78,7 @@ std::string question(const QueryArguments& arguments) {
   return std::string(metric->sql);
 }
 
-void print_rows(const evaluator::log::Reader& reader, const QueryArguments& arguments) {
+void print_rows(log::Reader& reader, const QueryArguments& arguments) {
   const std::string asked = question(arguments);
   // As report counts: what several sessions recorded of one play, and what a merge holds twice, counts once.
   if (asked.find("counted_kicks") != std::string::npos) evaluator::read_opportunities(reader, arguments.log, false);
@@ -122,7 +122,7 @@ void print_metrics() {
 void add_query(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("query", "Ask a match log: a metric by its name, or one SELECT of your own");
   verb->footer(
-      "Tables and columns are those of evaluator/log/schema.sql, in a log of an older version, too; view\n"
+      "Tables and columns are those of log/schema/schema.sql, in a log of an older version, too; view\n"
       "counted_kicks has each kick once. The log is only read.");
   const auto arguments = std::make_shared<QueryArguments>();
   auto* const log = verb->add_option("log", arguments->log, "Match log, such as out/match.db");
@@ -136,10 +136,10 @@ void add_query(CLI::App& app, int& exit_code) {
     exit_code = kDone;
     if (arguments->list) return print_metrics();
     if (arguments->log.empty()) throw UsageError{"give a match log, or --list"};
-    const evaluator::log::Reader reader(arguments->log);
+    log::Reader reader(arguments->log);
     try {
       print_rows(reader, *arguments);
-    } catch (const evaluator::log::BadQuestion& bad) {
+    } catch (const log::BadQuestion& bad) {
       throw UsageError{fmt::format("cannot ask that: {}", bad.what())};
     }
     for (const std::string& warning : reader.warnings()) warn(warning);

@@ -14,22 +14,22 @@
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/stoppable_bar.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
-#include "evaluator/log/additions.hpp"
-#include "evaluator/report/decided_again.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "config/text/installation.hpp"
+#include "evaluator/render/text_table.hpp"
+#include "evaluator/story/decided_again.hpp"
 #include "experiment/replay/replay_match.hpp"
 #include "kicking/geometry/time.hpp"
+#include "log/write/additions.hpp"
 #include "robot/recording/session_text.hpp"
 
 namespace trivela::cli {
 namespace {
 
-using evaluator::log::Reader;
-using evaluator::log::RecordedSession;
 using experiment::RobotSetup;
+using log::Reader;
+using log::RecordedSession;
 
 struct ReplayFlags {
   std::string log;
@@ -168,8 +168,8 @@ std::vector<std::string> check_lines(const experiment::RobotReplay& replay, bool
   return lines;
 }
 
-std::string beside_text(const Reader& log, const ReplayFlags& flags) {
-  const Reader again{flags.out};
+std::string beside_text(Reader& log, const ReplayFlags& flags) {
+  Reader again{flags.out};
   std::string text;
   for (const auto& beside : evaluator::decided_again({{&log, flags.log}, {&again, flags.out}})) {
     for (const std::string& sentence : evaluator::sentences_of(beside)) text += sentence + "\n";
@@ -199,9 +199,8 @@ std::vector<Plan> plans_of(const Reader& reader, const RecordedSession& session,
   return plans;
 }
 
-evaluator::log::Session replay_session(const RecordedSession& original, const std::vector<Plan>& plans,
-                                       const std::string& log) {
-  evaluator::log::Session session;
+log::Session replay_session(const RecordedSession& original, const std::vector<Plan>& plans, const std::string& log) {
+  log::Session session;
   session.robot_id = original.robot_id;
   session.started_t_ns = original.started_t_ns;
   session.simulated_clock = original.simulated_clock;
@@ -230,7 +229,7 @@ struct Replayed {
 };
 
 Replayed decide_again(const Reader& reader, const RecordedSession& session, const std::vector<Plan>& plans,
-                      evaluator::log::Writer& log, std::size_t queue_capacity) {
+                      log::Writer& log, std::size_t queue_capacity) {
   const double all_s = kicking::seconds(session.closed_t_ns.value_or(session.started_t_ns) - session.started_t_ns);
   StoppableBar bar;
   Replayed replayed;
@@ -249,20 +248,20 @@ Replayed decide_again(const Reader& reader, const RecordedSession& session, cons
 }
 
 int replay(const ReplayFlags& flags) {
-  const Reader reader{flags.log};
+  Reader reader{flags.log};
   const RecordedSession session = session_called(reader, flags);
   const std::vector<Plan> plans = plans_of(reader, session, flags);
   const LogClaim claim{flags.out};
-  evaluator::log::WriterOptions options;
+  log::WriterOptions options;
   options.warn = [](const std::string& line) { warn(line); };
-  evaluator::log::Writer log{flags.out, replay_session(session, plans, flags.log), options};
+  log::Writer log{flags.out, replay_session(session, plans, flags.log), options};
   const Replayed replayed = decide_again(reader, session, plans, log, options.queue_capacity);
   log.finalise(session.closed_t_ns);
-  evaluator::log::Additions{flags.out}.add(
-      evaluator::log::Note{.session_id = log.session_id(),
-                           .kind = "note",
-                           .text = fmt::format("Decided again, open loop: {}", fmt::join(replayed.lines, "; ")),
-                           .who = "trivela replay"},
+  log::Additions{flags.out}.add(
+      log::Note{.session_id = log.session_id(),
+                .kind = "note",
+                .text = fmt::format("Decided again, open loop: {}", fmt::join(replayed.lines, "; ")),
+                .who = "trivela replay"},
       std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count());
   say(fmt::format("{}\n{}", fmt::join(replayed.lines, "\n"), beside_text(reader, flags)));
   if (replayed.stopped) warn(fmt::format("stopped: {} holds what was decided so far", flags.out));

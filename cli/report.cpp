@@ -5,16 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/gate_option.hpp"
 #include "cli/launch/progress_bar.hpp"
-#include "cli/output.hpp"
+#include "cli/options/gate_option.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/tally_book.hpp"
-#include "evaluator/report/gate.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "evaluator/report/page/report_page.hpp"
-#include "evaluator/report/table2.hpp"
-#include "experiment/effects/summary.hpp"
+#include "evaluator/page/report_page.hpp"
+#include "evaluator/render/gate.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "evaluator/table2/table2.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -41,16 +39,15 @@ void allow_many_files() {
 }
 
 evaluator::Report report_of(const ReportArguments& arguments) {
-  using evaluator::log::Check;
+  using log::Check;
   const auto gates = parse_gates(arguments.gates, evaluator::report_gate_metrics());
   require_writable("--out", arguments.out);
   require_writable("--html", arguments.html);
   allow_many_files();
-  std::vector<std::unique_ptr<evaluator::log::Reader>> readers;
+  std::vector<std::unique_ptr<log::Reader>> readers;
   std::vector<evaluator::OpenLog> logs;
   for (const std::string& log : arguments.logs) {
-    readers.push_back(
-        std::make_unique<evaluator::log::Reader>(log, arguments.verify ? Check::kWhole : Check::kIfShort));
+    readers.push_back(std::make_unique<log::Reader>(log, arguments.verify ? Check::kWhole : Check::kIfShort));
     logs.push_back({readers.back().get(), log});
   }
   evaluator::Report report = evaluator::make_report(logs, arguments.blocked == "apart");
@@ -70,20 +67,6 @@ std::string written(const evaluator::Report& report, const ReportArguments& argu
 void warn_of(const evaluator::Report& report) {
   for (const std::string& warning : report.warnings) warn(warning);
   if (report.doubt) warn(*report.doubt);
-}
-
-/// Of a book of tallies, what it says.
-void report_book(const ReportArguments& arguments) {
-  if (arguments.logs.size() > 1) throw UsageError("a book of tallies is reported alone: its matches are no log's");
-  if (arguments.markdown || arguments.latex || !arguments.html.empty() || !arguments.gates.empty())
-    throw UsageError("of a book of tallies there are text, --json and --csv, and no gates");
-  require_writable("--out", arguments.out);
-  const auto summary =
-      experiment::summary_of(evaluator::log::read_book(arguments.logs.front()), arguments.blocked == "apart");
-  const std::string text = arguments.json  ? evaluator::json_text(to_json(summary))
-                           : arguments.csv ? to_csv(summary)
-                                           : to_text(summary);
-  arguments.out.empty() ? say(text) : write_file(arguments.out, text);
 }
 
 }  // namespace
@@ -112,11 +95,6 @@ void add_report(CLI::App& app, int& exit_code) {
                    "Write a page with figures, the list of kicks and their replays to this file as well: one file that "
                    "needs nothing else");
   verb->callback([arguments, &exit_code] {
-    if (evaluator::log::any_is_tally_book({arguments->logs.begin(), arguments->logs.end()})) {
-      report_book(*arguments);
-      exit_code = kDone;
-      return;
-    }
     const evaluator::Report report = report_of(*arguments);
     if (!arguments->html.empty()) {
       ProgressBar bar;

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "calibration/scanner_session.hpp"
-#include "cli/number_checks.hpp"
+#include "cli/options/number_checks.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 

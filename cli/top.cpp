@@ -10,15 +10,15 @@
 
 #include "bus/stop.hpp"
 #include "cli/launch/terminal.hpp"
-#include "cli/number_checks.hpp"
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
-#include "cli/sound_team.hpp"
+#include "cli/options/number_checks.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
+#include "cli/team/valid_team.hpp"
 #include "cli/top/live_bus.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/settings.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team_settings.hpp"
+#include "config/text/installation.hpp"
 #include "nodes/runtime/node_flags.hpp"
 #include "nodes/runtime/node_main.hpp"
 
@@ -60,7 +60,7 @@ class Redrawn {
 
 /// What the team's file says: of --dds the domain between its machines, else the bus of a robot or of the base.
 void look_at_team(const TopFlags& flags, config::Settings& settings) {
-  const config::Team team = sound_team(flags.team);
+  const config::Team team = valid_team(flags.team);
   if (!flags.dds.empty()) {
     settings.domain.domain_id = team.domains.team;
     return;

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::cli {
 
@@ -17,9 +17,7 @@ struct UsageError : config::BadArgument {
 /// Each adds its subcommand with flags, help and a callback that sets `exit_code`.
 void add_match(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
-void add_refbox(CLI::App& app, int& exit_code);
 void add_scan(CLI::App& app, int& exit_code);
-void add_emulate(CLI::App& app, int& exit_code);
 void add_top(CLI::App& app, int& exit_code);
 void add_monitor(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
@@ -37,13 +35,8 @@ void add_query(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_drift(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
-void add_evaluate_policy(CLI::App& app, int& exit_code);
-void add_learn(CLI::App& app, int& exit_code);
-void add_factorial(CLI::App& app, int& exit_code);
-void add_frontier(CLI::App& app, int& exit_code);
-void add_sensitivity(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
-void add_tune(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_align(CLI::App& app, int& exit_code);
 void add_predict(CLI::App& app, int& exit_code);

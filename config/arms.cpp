@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "config/settings_fields.hpp"
-#include "config/toml_source.hpp"
+#include "config/text/toml_source.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::config {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "config/calibration.hpp"
-#include "config/field_types.hpp"
+#include "config/text/field_types.hpp"
 
 /// The keys of a robot's [calibration], each named once.
 namespace trivela::config {

@@ -1,6 +1,6 @@
 #include "config/field.hpp"
 
-#include "config/toml_source.hpp"
+#include "config/text/toml_source.hpp"
 #include "kicking/policy/field_fields.hpp"
 
 namespace trivela::config {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "config/toml_source.hpp"
-#include "config/toml_text.hpp"
+#include "config/text/toml_source.hpp"
+#include "config/text/toml_text.hpp"
 
 namespace trivela::config {
 

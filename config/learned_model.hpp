@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "config/field_types.hpp"
+#include "config/text/field_types.hpp"
 #include "kicking/policy/learned_model.hpp"
 
 namespace trivela::config {
@@ -39,8 +39,8 @@ struct LearnedModelFile {
   HeldOut held_out;
 };
 
-/// Reads a file of `trivela learn`. Throws Error naming file, line and key: also for a list that has not one number for
-/// each feature, features of other names or another order, and a scale of 0.
+/// Reads a file of `trivela study learn`. Throws Error naming file, line and key: also for a list that has not one
+/// number for each feature, features of other names or another order, and a scale of 0.
 LearnedModelFile load_learned_model(const std::filesystem::path& path);
 
 /// The file as TOML that load_learned_model() reads back.

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "config/robot_fields.hpp"
-#include "config/toml_source.hpp"
-#include "config/toml_text.hpp"
+#include "config/text/toml_source.hpp"
+#include "config/text/toml_text.hpp"
 
 namespace trivela::config {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "config/calibration.hpp"
-#include "config/field_types.hpp"
 #include "config/settings.hpp"
+#include "config/text/field_types.hpp"
 #include "kicking/model/distance_table.hpp"
 #include "kicking/model/omni_kinematics.hpp"
 #include "kicking/model/robot_model.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "config/calibration_fields.hpp"
-#include "config/field_types.hpp"
 #include "config/robot.hpp"
+#include "config/text/field_types.hpp"
 
 /// The keys of a robot's file, each named once.
 namespace trivela::kicking {

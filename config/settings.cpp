@@ -10,12 +10,12 @@
 #include <sstream>
 
 #include "config/field.hpp"
-#include "config/installation.hpp"
-#include "config/ipv4.hpp"
 #include "config/learned_model.hpp"
 #include "config/settings_fields.hpp"
-#include "config/toml_source.hpp"
-#include "config/toml_text.hpp"
+#include "config/text/installation.hpp"
+#include "config/text/ipv4.hpp"
+#include "config/text/toml_source.hpp"
+#include "config/text/toml_text.hpp"
 
 namespace trivela::config {
 namespace {
@@ -41,7 +41,7 @@ void read_learned_model(Settings& settings, const std::string& source) {
     const auto who = std::ranges::find_if(policies, [](auto policy) { return facts(policy).needs_model(); });
     if (who == policies.end()) continue;
     throw Error{fmt::format(
-        "{}: policy \"{}\" needs kick_decision.learned_model, a file that `trivela learn` has written, such as "
+        "{}: policy \"{}\" needs kick_decision.learned_model, a file that `trivela study learn` has written, such as "
         "--set 'kick_decision.learned_model=\"config/learned.toml\"'",
         source, name(*who))};
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/devices.hpp"
-#include "config/field_types.hpp"
+#include "config/text/field_types.hpp"
 #include "kicking/geometry/goal.hpp"
 #include "kicking/policy/policy.hpp"
 
@@ -81,8 +81,8 @@ struct KickDecision {
   std::vector<kicking::PolicyName> random;           ///< one of these is drawn for each possession
   std::vector<double> random_probabilities;          ///< of those, their sum 1; empty: alike
   std::uint64_t assignment_seed = 1;                 ///< of the draw
-  std::string learned_model;       ///< file of `trivela learn`, read into policy.learned; policy "learned" needs one
-  bool shadows = true;             ///< judge with the other policies as well
+  std::string learned_model;  ///< file of `trivela study learn`, read into policy.learned; policy "learned" needs one
+  bool shadows = true;        ///< judge with the other policies as well
   double order_validity_s = 0.05;  ///< an order older than this is refused
   DriveMode drive = DriveMode::kAlways;
   bool standby = false;  ///< a second decision node stands by; in real time alone
@@ -197,7 +197,7 @@ struct Settings {
 };
 
 /// The defaults overridden by `path`; relative file names in it are relative to its folder, robot and scenario that it
-/// does not name the shipped ones (config/installation.hpp). Throws config::Error.
+/// does not name the shipped ones (config/text/installation.hpp). Throws config::Error.
 Settings load_settings(const std::filesystem::path& path);
 
 /// Makes relative names of files whole, for a copy of the settings that is read from elsewhere.

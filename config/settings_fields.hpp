@@ -1,7 +1,7 @@
 #pragma once
 
-#include "config/field_types.hpp"
 #include "config/settings.hpp"
+#include "config/text/field_types.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/policy/field_fields.hpp"
 

@@ -34,7 +34,7 @@ struct alignas(4) KickerCapabilities {
 };
 
 /// What a capacitor shall do: stay as it is, be charged, be emptied.
-enum class ChargeWord { kHold, kUp, kEmpty };
+enum class ChargeCommand { kHold, kCharge, kDischarge };
 
 /// The deadline of a kick that has none, as in lockstep and replay.
 constexpr std::int64_t kNoDeadline_ns = std::numeric_limits<std::int64_t>::max();
@@ -103,9 +103,9 @@ class Kicker {
   /// Why the device has no pulse for the set-point `power`. Empty: it has one.
   virtual std::string beyond(double power) const { return static_cast<void>(power), std::string{}; }
 
-  /// What the capacitor shall do from now on, where the device can be told: kUp and kHold need charge_control, kEmpty
-  /// needs discharge. Said again with each sample. By default nobody listens.
-  virtual void charge(ChargeWord word) { static_cast<void>(word); }
+  /// What the capacitor shall do from now on, where the device can be told: kCharge and kHold need charge_control,
+  /// kDischarge needs discharge. Said again with each sample. By default nobody listens.
+  virtual void charge(ChargeCommand word) { static_cast<void>(word); }
 
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;

@@ -39,14 +39,14 @@ std::string node_of(const std::string& process) {
   return process.starts_with(kPrefix) ? process.substr(kPrefix.size()) : process;
 }
 
-void BusBoard::add(const std::string& topic, const std::string& profile, double period_s) {
+void BusSnapshot::add(const std::string& topic, const std::string& profile, double period_s) {
   Topic& added = topics_.emplace_back();
   added.about.topic = topic;
   added.about.profile = profile;
   added.about.period_s = period_s;
 }
 
-void BusBoard::hear(const std::string& topic, std::uint8_t robot_id, const Heard& heard) {
+void BusSnapshot::hear(const std::string& topic, std::uint8_t robot_id, const Heard& heard) {
   if (only_ && robot_id != *only_) return;
   const auto found = std::ranges::find_if(topics_, [&](const Topic& known) { return known.about.topic == topic; });
   if (found == topics_.end()) return;
@@ -59,12 +59,12 @@ void BusBoard::hear(const std::string& topic, std::uint8_t robot_id, const Heard
 }
 
 // A writer that names no robot may write for any.
-bool BusBoard::is_looked_at(const std::string& owner) const {
+bool BusSnapshot::is_looked_at(const std::string& owner) const {
   const auto slash = owner.rfind('/');
   return !only_ || slash == std::string::npos || owner.substr(slash + 1) == std::to_string(*only_);
 }
 
-void BusBoard::look_at_writers(Topic& topic, const bus::Census& census, const Loads& loads) const {
+void BusSnapshot::look_at_writers(Topic& topic, const bus::Census& census, const Loads& loads) const {
   std::vector<WriterPicture> now;
   for (const bus::End& end : census.writers) {
     if (end.topic != topic.about.topic || !is_looked_at(end.owner)) continue;
@@ -85,8 +85,8 @@ void BusBoard::look_at_writers(Topic& topic, const bus::Census& census, const Lo
   topic.known = std::move(now);
 }
 
-BusPicture BusBoard::look(const bus::Census& census, std::int64_t now_ns,
-                          const std::function<std::optional<ProcessReading>(std::int64_t pid)>& reading_of) {
+BusPicture BusSnapshot::look(const bus::Census& census, std::int64_t now_ns,
+                             const std::function<std::optional<ProcessReading>(std::int64_t pid)>& reading_of) {
   BusPicture picture;
   Loads loads;
   const auto now = std::chrono::steady_clock::time_point{std::chrono::nanoseconds{now_ns}};

@@ -55,11 +55,11 @@ struct BusPicture {
 };
 
 /// Puts together what was heard and who is there. It remembers writers that have gone, so that they can be named.
-class BusBoard {
+class BusSnapshot {
  public:
   /// `host`: the name of this machine, whose processes can be looked up; `only`: the robot that is looked at, if not
   /// all.
-  BusBoard(std::string host, std::optional<std::uint8_t> only) : host_(std::move(host)), only_(only) {}
+  BusSnapshot(std::string host, std::optional<std::uint8_t> only) : host_(std::move(host)), only_(only) {}
 
   /// A topic of the list, in its order.
   void add(const std::string& topic, const std::string& profile, double period_s);

@@ -8,7 +8,7 @@
 namespace trivela::security {
 namespace {
 
-// config/domain: ids above 100 are refused by bus/domain.cpp.
+// config/domain: ids above 100 are refused by bus/domain/domain.cpp.
 constexpr const char* kDomains = "<domains><id_range><min>0</min><max>100</max></id_range></domains>";
 
 std::string topic_rule(std::string_view topic, const char* parts) {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/kicker.hpp"
+#include "sim/kicker/kicker.hpp"
 #include "sim/laser/field_laser.hpp"
 #include "sim/opportunity.hpp"
 #include "sim/scenario_fields.hpp"
@@ -219,8 +219,8 @@ struct Match::State {
     begin_possession();
   }
 
-  RefereeWord word() const {
-    RefereeWord said{half, phase == Phase::kPlay, possession_id, goals, commands, {}, false};
+  RefereeState word() const {
+    RefereeState said{half, phase == Phase::kPlay, possession_id, goals, commands, {}, false};
     said.set_piece = scenario.referee.set_pieces && phase == Phase::kStop;
     if (half_play_t_ns) said.half_s = kicking::seconds(world.t_ns() - *half_play_t_ns);
     return said;

@@ -186,8 +186,8 @@ struct Laser {
   double wall_ahead_m = 12.0;                       ///< upright wall before the scanner; assumption
 };
 
-/// How the old height table was made by hand, for arms that play with it (sim/hand_table.hpp). No number of it was
-/// published: the paper says how the table was made, not how well.
+/// How the old height table was made by hand, for arms that play with it (sim/kicker/hand_table.hpp). No number of it
+/// was published: the paper says how the table was made, not how well.
 struct HandTable {
   std::vector<double> distances_m{3, 4, 5, 6, 7, 8, 9};  ///< ball to goal line; assumption
   double target_height_m = 0.70;                         ///< CAMBADA release 1.0 kicker.map

@@ -50,7 +50,7 @@ struct FlightFrame {
 };
 
 /// What the referee has said.
-struct RefereeWord {
+struct RefereeState {
   int half = 1;
   bool playing = false;
   std::uint32_t possession_id = 0;  ///< counts from 1 in each half; the next one begins with its stop
@@ -75,7 +75,7 @@ struct Sensors {
   KickerSample kicker;
   VisionFrame vision;
   FlightFrame flight;
-  RefereeWord referee;
+  RefereeState referee;
   std::vector<kicking::lob::Scan> scans;  ///< of the laser, finished in the cycle before t_ns
 };
 

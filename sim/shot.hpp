@@ -8,7 +8,7 @@
 #include "kicking/maybe.hpp"
 #include "kicking/outcome/outcome.hpp"
 #include "kicking/random/draws.hpp"
-#include "sim/flight.hpp"
+#include "sim/kicker/flight.hpp"
 #include "sim/opponent_body.hpp"
 #include "sim/scenario.hpp"
 #include "sim/sensors.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/csv_reader.hpp"
+#include "config/text/csv_reader.hpp"
 
 namespace trivela::tests {
 

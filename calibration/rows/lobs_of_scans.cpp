@@ -10,16 +10,16 @@ constexpr std::int64_t kSameLaunch_ns = 500'000'000;  // no kicker charges twice
 
 }  // namespace
 
-void annotate(kicking::lob::LobRecord& lob, std::span<const evaluator::log::TestedSetPoint> set_points,
-              std::span<const evaluator::log::Verdict> verdicts) {
-  const evaluator::log::TestedSetPoint* latest = nullptr;
-  for (const evaluator::log::TestedSetPoint& tested : set_points) {
+void annotate(kicking::lob::LobRecord& lob, std::span<const log::TestedSetPoint> set_points,
+              std::span<const log::Verdict> verdicts) {
+  const log::TestedSetPoint* latest = nullptr;
+  for (const log::TestedSetPoint& tested : set_points) {
     if (tested.t_ns > lob.launch_t_ns || (latest != nullptr && tested.t_ns < latest->t_ns)) continue;
     latest = &tested;
   }
   if (latest != nullptr) lob.power = latest->power;
-  const evaluator::log::Verdict* last = nullptr;
-  for (const evaluator::log::Verdict& verdict : verdicts) {
+  const log::Verdict* last = nullptr;
+  for (const log::Verdict& verdict : verdicts) {
     if (std::abs(verdict.launch_t_ns - lob.launch_t_ns) <= kSameLaunch_ns) last = &verdict;
   }
   if (last == nullptr) return;
@@ -32,9 +32,9 @@ void annotate(kicking::lob::LobRecord& lob, std::span<const evaluator::log::Test
   }
 }
 
-std::vector<kicking::lob::LobRecord> lobs_of_scans(const evaluator::log::ScanReader& scans,
+std::vector<kicking::lob::LobRecord> lobs_of_scans(const log::ScanReader& scans,
                                                    const kicking::lob::AnalyzerConfig& config,
-                                                   std::span<const evaluator::log::Verdict> later_verdicts) {
+                                                   std::span<const log::Verdict> later_verdicts) {
   std::vector<kicking::lob::LobRecord> lobs;
   const auto keep = [&](std::optional<kicking::lob::LobRecord> lob) {
     if (lob) lobs.push_back(std::move(*lob));
@@ -43,8 +43,8 @@ std::vector<kicking::lob::LobRecord> lobs_of_scans(const evaluator::log::ScanRea
   for (std::size_t i = 0; i < scans.size(); ++i) keep(analyzer.add(scans.scan(i)));
   keep(analyzer.finish());
 
-  const std::vector<evaluator::log::TestedSetPoint> set_points = scans.set_points();
-  std::vector<evaluator::log::Verdict> verdicts = scans.verdicts();
+  const std::vector<log::TestedSetPoint> set_points = scans.set_points();
+  std::vector<log::Verdict> verdicts = scans.verdicts();
   verdicts.insert(verdicts.end(), later_verdicts.begin(), later_verdicts.end());
   for (kicking::lob::LobRecord& lob : lobs) annotate(lob, set_points, verdicts);
   return lobs;

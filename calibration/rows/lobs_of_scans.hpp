@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/log/scan_log.hpp"
 #include "kicking/lob/analyzer.hpp"
 #include "kicking/lob/lob_record.hpp"
+#include "log/write/scan_log.hpp"
 
 namespace trivela::calibration {
 
@@ -13,14 +13,14 @@ namespace trivela::calibration {
 /// lob whose launch is within half a second of its own, since another fit gives another instant. Rejected:
 /// Refusal::kOperator with the human's words. Accepted: the refusal is lifted where there are effective values, and
 /// stays where there are none. Verdicts in the order they were said.
-void annotate(kicking::lob::LobRecord& lob, std::span<const evaluator::log::TestedSetPoint> set_points,
-              std::span<const evaluator::log::Verdict> verdicts);
+void annotate(kicking::lob::LobRecord& lob, std::span<const log::TestedSetPoint> set_points,
+              std::span<const log::Verdict> verdicts);
 
 /// The lobs of a scan record in the order of their flights, refused ones too, each with its power and the verdicts of
 /// the record; `later_verdicts`, said of a finished record and kept beside it, come after those.
 /// Throws std::runtime_error where the record cannot be read, std::invalid_argument where its geometry makes no sense.
-std::vector<kicking::lob::LobRecord> lobs_of_scans(const evaluator::log::ScanReader& scans,
+std::vector<kicking::lob::LobRecord> lobs_of_scans(const log::ScanReader& scans,
                                                    const kicking::lob::AnalyzerConfig& config = {},
-                                                   std::span<const evaluator::log::Verdict> later_verdicts = {});
+                                                   std::span<const log::Verdict> later_verdicts = {});
 
 }  // namespace trivela::calibration

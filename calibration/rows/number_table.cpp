@@ -6,8 +6,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "config/error.hpp"
-#include "config/open_file.hpp"
+#include "config/text/error.hpp"
+#include "config/text/open_file.hpp"
 
 namespace trivela::calibration {
 namespace {

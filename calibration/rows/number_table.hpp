@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/csv_row.hpp"
+#include "config/text/csv_row.hpp"
 
 namespace trivela::calibration {
 

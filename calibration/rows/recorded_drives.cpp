@@ -6,7 +6,7 @@
 
 #include "calibration/rows/ball_sightings.sql.hpp"
 #include "calibration/rows/drive_kicks.sql.hpp"
-#include "evaluator/report/log_sessions.hpp"
+#include "evaluator/sessions/log_sessions.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::calibration {
@@ -33,9 +33,9 @@ std::optional<kicking::FlightState> fit_track(std::span<const kicking::Sighting>
 
 }  // namespace
 
-RecordedDrives recorded_drives(const evaluator::log::Reader& reader) {
+RecordedDrives recorded_drives(const log::Reader& reader) {
   RecordedDrives result;
-  evaluator::SessionBook book;
+  evaluator::SessionIndex book;
   const evaluator::SessionPlaces places = book.add(reader, "");
   book.settle();
   reader.query(

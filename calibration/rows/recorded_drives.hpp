@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "evaluator/log/reader.hpp"
 #include "kicking/ballistics/flight.hpp"
 #include "kicking/geometry/frames.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::calibration {
 
@@ -41,7 +41,7 @@ struct RecordedDrives {
 };
 
 /// The drives of a match log.
-RecordedDrives recorded_drives(const evaluator::log::Reader& reader);
+RecordedDrives recorded_drives(const log::Reader& reader);
 
 /// Order to release of one kick [s]: the instant at which two straight tracks over the floor meet. The one in the
 /// handler is fitted to the 0.2 s before the order; the one in flight to the first eight sightings farther than 0.25 m

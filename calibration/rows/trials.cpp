@@ -11,9 +11,9 @@
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/number_table.hpp"
 #include "calibration/rows/verdicts_file.hpp"
-#include "config/error.hpp"
-#include "config/open_file.hpp"
-#include "evaluator/log/scan_log.hpp"
+#include "config/text/error.hpp"
+#include "config/text/open_file.hpp"
+#include "log/write/scan_log.hpp"
 
 namespace trivela::calibration {
 namespace {
@@ -84,7 +84,7 @@ Trials trials_of_numbers(const std::string& file, const TrialFlags& flags) {
 Trials trials_of_scans(const std::string& file, const TrialFlags& flags) {
   if (flags.exit_angle_rad)
     throw BadArgument(fmt::format("{}: the lobs of {} give the angle", flags.angle_called, file));
-  const evaluator::log::ScanReader scans(file);
+  const log::ScanReader scans(file);
   Trials trials = trials_of_lobs(lobs_of_scans(scans, {}, verdicts_beside(file)), flags.kind, file);
   trials.simulated = scans.session().simulated;
   return trials;
@@ -141,7 +141,7 @@ InputKind input_kind(const std::string& file) {
   std::string start(magic.size(), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start != magic) return InputKind::kNumbers;
-  return evaluator::log::is_scan_log(file) ? InputKind::kScanRecord : InputKind::kMatchLog;
+  return log::is_scan_log(file) ? InputKind::kScanRecord : InputKind::kMatchLog;
 }
 
 }  // namespace trivela::calibration

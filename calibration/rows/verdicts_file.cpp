@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "evaluator/report/write_file.hpp"
+#include "evaluator/render/write_file.hpp"
 
 namespace trivela::calibration {
 
@@ -18,9 +18,9 @@ fs::path verdicts_path(const fs::path& record) {
   return path;
 }
 
-std::vector<evaluator::log::Verdict> verdicts_beside(const fs::path& record) {
+std::vector<log::Verdict> verdicts_beside(const fs::path& record) {
   const fs::path path = verdicts_path(record);
-  std::vector<evaluator::log::Verdict> verdicts;
+  std::vector<log::Verdict> verdicts;
   if (!fs::exists(path)) return verdicts;
   try {
     std::ifstream in(path);
@@ -35,9 +35,9 @@ std::vector<evaluator::log::Verdict> verdicts_beside(const fs::path& record) {
   return verdicts;
 }
 
-void write_verdicts(const fs::path& record, std::span<const evaluator::log::Verdict> verdicts) {
+void write_verdicts(const fs::path& record, std::span<const log::Verdict> verdicts) {
   auto list = nlohmann::ordered_json::array();
-  for (const evaluator::log::Verdict& verdict : verdicts) {
+  for (const log::Verdict& verdict : verdicts) {
     list.push_back({{"launch_t_ns", verdict.launch_t_ns}, {"accepted", verdict.accepted}, {"why", verdict.why}});
   }
   evaluator::replace_file(verdicts_path(record), list.dump(2) + '\n', "the verdicts");

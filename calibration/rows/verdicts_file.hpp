@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/log/scan_log.hpp"
+#include "log/write/scan_log.hpp"
 
 namespace trivela::calibration {
 
@@ -14,9 +14,9 @@ namespace trivela::calibration {
 std::filesystem::path verdicts_path(const std::filesystem::path& record);
 
 /// Empty where there is no such file. Throws std::runtime_error naming a file that is something else.
-std::vector<evaluator::log::Verdict> verdicts_beside(const std::filesystem::path& record);
+std::vector<log::Verdict> verdicts_beside(const std::filesystem::path& record);
 
 /// Replaces the file as a whole. Throws std::runtime_error naming the file that cannot be written.
-void write_verdicts(const std::filesystem::path& record, std::span<const evaluator::log::Verdict> verdicts);
+void write_verdicts(const std::filesystem::path& record, std::span<const log::Verdict> verdicts);
 
 }  // namespace trivela::calibration

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include "cli/calibrate/drive_match.hpp"
-#include "cli/output.hpp"
-#include "config/csv_row.hpp"
-#include "config/parse_number.hpp"
+#include "cli/options/output.hpp"
+#include "config/text/csv_row.hpp"
+#include "config/text/parse_number.hpp"
 
 namespace trivela::cli {
 namespace {
 
-std::string answer_to(Person& person, const std::string& question, const calibration::EveningBook& book) {
+std::string answer_to(Person& person, const std::string& question, const calibration::CalibrationRecord& book) {
   const auto said = person.ask(question);
   std::string answer = said ? config::trimmed(*said) : "q";
   if (answer == "q" || answer == "Q" || answer == "quit")
@@ -20,7 +20,7 @@ std::string answer_to(Person& person, const std::string& question, const calibra
 }
 
 /// Whoever types anything else did not mean to start a robot.
-void wait_for_enter(Person& person, const calibration::EveningBook& book) {
+void wait_for_enter(Person& person, const calibration::CalibrationRecord& book) {
   for (;;) {
     const std::string answer = answer_to(person, "Enter: begin; q: leave for today: ", book);
     if (answer.empty()) return;
@@ -30,7 +30,7 @@ void wait_for_enter(Person& person, const calibration::EveningBook& book) {
 
 }  // namespace
 
-double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::EveningBook& book,
+double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& book,
                Person& person) {
   if (const auto known = book.measured(measure.name)) {
     say(fmt::format("{}: {:.3f} (measured before)\n", measure.question, *known));

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "calibration/calibration_record.hpp"
 #include "calibration/drive_source.hpp"
-#include "calibration/evening_book.hpp"
 #include "calibration/field_steps.hpp"
 #include "cli/launch/person.hpp"
 #include "config/settings.hpp"
@@ -14,16 +14,16 @@ struct LeftForToday : std::runtime_error {
 };
 
 /// Asks for the length, proposing what is in the book, else `proposed`; keeps the answer. Throws LeftForToday.
-double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::EveningBook& book,
+double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& book,
                Person& person);
 
-/// The drives of an evening on a field: before each a person is told what to place and asked to go on, and each that
+/// The drives of a calibration on a field: before each a person is told what to place and asked to go on, and each that
 /// was played to its end is in the book. One that the book has is read from its records.
 class AskedDrives : public calibration::DriveSource {
  public:
   /// All outlive it. `played_by`: plays what was confirmed.
-  AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings, calibration::EveningBook& book,
-              Person& person)
+  AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
+              calibration::CalibrationRecord& book, Person& person)
       : played_by_(played_by), settings_(settings), book_(book), person_(person) {}
 
   /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
@@ -32,7 +32,7 @@ class AskedDrives : public calibration::DriveSource {
  private:
   calibration::DriveSource& played_by_;
   const config::Settings& settings_;
-  calibration::EveningBook& book_;
+  calibration::CalibrationRecord& book_;
   Person& person_;
 };
 

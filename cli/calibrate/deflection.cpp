@@ -5,8 +5,8 @@
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/number_checks.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "cli/options/number_checks.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/geometry/angle.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "evaluator/render/text_table.hpp"
 
 namespace trivela::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include "cli/launch/log_claim.hpp"
 #include "cli/launch/match_run.hpp"
 #include "cli/launch/record_match.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "config/field.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/scenario/scenario_field.hpp"
-#include "evaluator/log/scan_log.hpp"
-#include "experiment/evening/drive_in_process.hpp"
+#include "experiment/calibration/drive_in_process.hpp"
+#include "log/write/scan_log.hpp"
 
 namespace trivela::cli {
 
@@ -55,11 +55,11 @@ calibration::DriveRecord drive_files(const fs::path& folder, const calibration::
 }
 
 void read_back(calibration::DriveRecord& record) {
-  const evaluator::log::Reader reader{record.log};
+  const log::Reader reader{record.log};
   record.kicks = reader.kicks();
   record.drives = calibration::recorded_drives(reader);
   if (record.scans.empty()) return;
-  const evaluator::log::ScanReader scans{record.scans};
+  const log::ScanReader scans{record.scans};
   for (const auto& tested : scans.set_points()) {
     if (tested.power) record.kicked_powers.push_back(*tested.power);
   }

@@ -16,7 +16,7 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::chrono::seconds kPatience{2};  // in which a writer that runs is known, on a busy machine too
+constexpr std::chrono::seconds kTimeout{2};  // in which a writer that runs is known, on a busy machine too
 
 /// What lacks, by looking for the writers of a topic each, all within the same two seconds.
 class Lacking {
@@ -38,7 +38,7 @@ class Lacking {
   static constexpr std::chrono::milliseconds kShortest{100};  // whoever runs is known to the participant by now
 
   const bus::Participant& participant_;
-  const std::chrono::steady_clock::time_point until_ = std::chrono::steady_clock::now() + kPatience;
+  const std::chrono::steady_clock::time_point until_ = std::chrono::steady_clock::now() + kTimeout;
   std::vector<std::string> what_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "calibration/drive_source.hpp"
 #include "config/settings.hpp"
 

@@ -9,18 +9,18 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
-#include "cli/match_mode.hpp"
-#include "cli/output.hpp"
+#include "cli/options/match_mode.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/scenario/scenario.hpp"
-#include "experiment/evening/evening.hpp"
+#include "experiment/calibration/simulated_calibration.hpp"
 
 namespace trivela::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the evening takes place.
+/// Where the calibration takes place.
 struct Field {
   config::Settings settings;
   std::optional<sim::Scenario> world;        ///< a rehearsal's
@@ -32,13 +32,13 @@ Field field_of(const RunFlags& flags) {
   config::override_settings(field.settings, flags.overrides, "--set");
   field.settings.run.log_level = flags.log_level;
   if (!flags.rehearse) {
-    refuse_in_a_match(field.settings, "the evening on a field");
-    field.settings = experiment::evening_settings(std::move(field.settings));
+    refuse_in_a_match(field.settings, "the calibration on a field");
+    field.settings = experiment::calibration_settings(std::move(field.settings));
     return field;
   }
   field.world = config::load_scenario(flags.scenario);
   field.check_world = config::load_scenario(flags.check);
-  field.settings = experiment::evening_settings(std::move(field.settings), *field.world);
+  field.settings = experiment::calibration_settings(std::move(field.settings), *field.world);
   return field;
 }
 
@@ -49,7 +49,7 @@ void refuse_flags_of_simulation(const RunFlags& flags) {
   if (flags.json) throw UsageError{"--json goes with --in simulation: on a field standard output is for questions"};
 }
 
-/// What an evening must have been begun with to go on: the rest is of no consequence for its records.
+/// What a calibration must have been begun with to go on: the rest is of no consequence for its records.
 std::string arguments_of(const RunFlags& flags, bool rehearsal) {
   return fmt::format("--in field{} --robot {} --seed {} --kicks {} --lobs {} --drive-kicks {} --turn-kicks {}",
                      rehearsal ? " (rehearsal)" : "", flags.robot, flags.seed, flags.effort.kicks, flags.effort.lobs,
@@ -77,7 +77,7 @@ int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& 
   const fs::path folder = fs::absolute(flags.out_dir);
   fs::path part = file;
   part += ".part";  // until every figure is in it
-  calibration::EveningBook book{folder, arguments_of(flags, field.world.has_value())};
+  calibration::CalibrationRecord book{folder, arguments_of(flags, field.world.has_value())};
   Person person{signals};
   config::Settings& settings = field.settings;
   const double standing_m = ask_for(calibration::standing_distance(),
@@ -90,7 +90,7 @@ int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& 
   const auto played = drives_in(field.world, settings, folder, part, signals);
   AskedDrives asked{*played, settings, book, person};
   calibration::CalibrationRun run{asked, standing_m, settings, flags.effort, flags.seed * 100, start};
-  run.evening([&](const calibration::DriveSummary& summary) {
+  run.calibration([&](const calibration::DriveSummary& summary) {
     report.add(summary);
     std::fflush(stdout);
   });

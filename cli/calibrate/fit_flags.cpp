@@ -7,8 +7,8 @@
 
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/robot_file.hpp"
-#include "cli/output.hpp"
-#include "evaluator/report/json_values.hpp"
+#include "cli/options/output.hpp"
+#include "evaluator/render/json_values.hpp"
 
 namespace trivela::cli {
 
@@ -33,8 +33,8 @@ bool is_match_log(const FitFlags& flags) {
 
 bool is_simulated(const FitFlags& flags) {
   if (!is_match_log(flags)) return false;
-  const evaluator::log::Reader reader{flags.input};
-  return std::ranges::any_of(reader.sessions(), &evaluator::log::RecordedSession::simulated);
+  const log::Reader reader{flags.input};
+  return std::ranges::any_of(reader.sessions(), &log::RecordedSession::simulated);
 }
 
 calibration::NumberTable number_table(const FitFlags& flags) {

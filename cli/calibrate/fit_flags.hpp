@@ -12,12 +12,12 @@
 #include "calibration/rows/drive_rows.hpp"
 #include "calibration/rows/number_table.hpp"
 #include "calibration/rows/trials.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/report/svg_chart.hpp"
+#include "evaluator/render/svg_chart.hpp"
 #include "kicking/fit/least_squares.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::cli {
 
@@ -75,9 +75,8 @@ template <class Fit>
 void run_fit(const typename Fit::Flags& flags) {
   require_writable("--plot", flags.plot);
   const auto robot = robot_of(flags, Fit::kNeedsRobot);
-  const Fit fit(is_match_log(flags)
-                    ? Fit::rows(calibration::recorded_drives(evaluator::log::Reader(flags.input)), flags, robot)
-                    : Fit::rows(number_table(flags), flags, robot),
+  const Fit fit(is_match_log(flags) ? Fit::rows(calibration::recorded_drives(log::Reader(flags.input)), flags, robot)
+                                    : Fit::rows(number_table(flags), flags, robot),
                 flags, robot);
   if constexpr (requires { fit.chart(false); }) {
     if (!flags.plot.empty()) write_file(flags.plot, evaluator::to_svg(fit.chart(is_simulated(flags))));

@@ -7,9 +7,9 @@
 #include "calibration/rows/trials.hpp"
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/output.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "cli/options/output.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "kicking/constants.hpp"
 #include "kicking/geometry/angle.hpp"
 

@@ -13,11 +13,11 @@
 #include "bus/reader.hpp"
 #include "cli/calibrate/drive_match.hpp"
 #include "cli/calibrate/drive_needs.hpp"
-#include "cli/hardware/claims.hpp"
+#include "cli/hardware/device_locks.hpp"
 #include "cli/launch/child_process.hpp"
 #include "cli/launch/config_file.hpp"
 #include "cli/launch/record_match.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "emulators/refbox/emulated_box.hpp"
 #include "kicking/geometry/time.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using DriveClock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kStopPatience{10};
+constexpr std::chrono::seconds kStopTimeout{10};
 constexpr std::chrono::milliseconds kLookAtNodes{100};
 constexpr const char* kOwnGroup = "224.16.32.1";  // on the loopback, between this process and its refbox node
 
@@ -60,7 +60,7 @@ class NodesOfADrive {
     for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].terminate();
     for (; !nodes_.empty(); nodes_.pop_back()) {
       if (nodes_.size() == 1) nodes_.back().terminate();
-      nodes_.back().wait(kStopPatience);
+      nodes_.back().wait(kStopTimeout);
     }
   }
 
@@ -128,7 +128,7 @@ class DriveProgress {
 
 /// Throws where somebody else's nodes have the robot. True: somebody writes `referee`.
 bool somebody_referees(const bus::Participant& participant, std::uint8_t robot_id) {
-  const Claims claims{participant, robot_id};
+  const DeviceLocks claims{participant, robot_id};
   claims.require_wheels();
   claims.require_kicker();
   return claims.referee_is_written();

@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 
 namespace trivela::cli {
 namespace {

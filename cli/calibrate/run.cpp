@@ -9,14 +9,14 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/run_flags.hpp"
 #include "cli/calibrate/run_report.hpp"
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/scenario/scenario.hpp"
-#include "experiment/evening/drive_in_process.hpp"
-#include "experiment/evening/evening.hpp"
-#include "sim/kicker.hpp"
+#include "config/text/installation.hpp"
+#include "experiment/calibration/drive_in_process.hpp"
+#include "experiment/calibration/simulated_calibration.hpp"
+#include "sim/kicker/kicker.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -54,11 +54,11 @@ Worlds worlds_of(const RunFlags& flags) {
   return worlds;
 }
 
-experiment::EveningOptions options_of(const RunFlags& flags, const sim::Scenario& world) {
+experiment::SimulatedCalibrationOptions options_of(const RunFlags& flags, const sim::Scenario& world) {
   config::Settings settings = config::load_settings(flags.config);
   settings.run.log_level = flags.log_level;
   return {.scenario = world,
-          .settings = experiment::evening_settings(std::move(settings), world),
+          .settings = experiment::calibration_settings(std::move(settings), world),
           .start = config::load_robot(flags.start),
           .name = flags.robot,
           .seed = flags.seed,
@@ -101,7 +101,7 @@ int calibrate_in_simulation(const RunFlags& flags) {
   if (!flags.overrides.empty()) throw UsageError{"--set goes with --in field"};
   if (flags.rehearse) throw UsageError{"--rehearse goes with --in field"};
   const Worlds worlds = worlds_of(flags);
-  const experiment::EveningOptions options = options_of(flags, worlds.drives);
+  const experiment::SimulatedCalibrationOptions options = options_of(flags, worlds.drives);
   const config::Settings& settings = options.settings;
   const fs::path file = place_of(flags);
   fs::path part = file;
@@ -113,17 +113,17 @@ int calibrate_in_simulation(const RunFlags& flags) {
     return std::make_unique<DriveMatches>(world, settings, fs::absolute(flags.out_dir), part, signals);
   };
   RunReport report{flags.json};
-  const experiment::Evening evening = experiment::play_evening(
+  const experiment::SimulatedCalibration calibration = experiment::play_calibration(
       options, *source_in(worlds.drives), [&](const calibration::DriveSummary& summary) { report.add(summary); });
-  evening.robot.write(file);
+  calibration.robot.write(file);
 
   const calibration::DriveRecord played =
-      source_in(worlds.check)->play(check_plan(flags, worlds.check.laser.enabled), evening.robot);
+      source_in(worlds.check)->play(check_plan(flags, worlds.check.laser.enabled), calibration.robot);
   std::error_code none;
   fs::remove(part, none);
   const experiment::AimErrors observed = experiment::observed_errors(played.kicks, settings);
-  report.finish(evening.robot, file.string(), observed, experiment::true_errors(played.kicks, settings),
-                experiment::against_world(evening.robot.robot(), worlds.drives, settings));
+  report.finish(calibration.robot, file.string(), observed, experiment::true_errors(played.kicks, settings),
+                experiment::against_world(calibration.robot.robot(), worlds.drives, settings));
   return passes_gate(observed) ? kDone : kDoneWithLoss;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "calibration/calibration_run.hpp"
-#include "config/installation.hpp"
-#include "experiment/evening/calibration_check.hpp"
+#include "config/text/installation.hpp"
+#include "experiment/calibration/calibration_check.hpp"
 
 namespace trivela::cli {
 
@@ -40,7 +40,7 @@ calibration::DrivePlan check_plan(const RunFlags& flags, bool laser);
 /// Does the calibration hold what it is held to? If not, says so.
 bool passes_gate(const experiment::AimErrors& observed);
 
-/// --in field: the same evening on a robot, asking a person for each step. Returns the exit code.
+/// --in field: the same calibration on a robot, asking a person for each step. Returns the exit code.
 int calibrate_in_field(const RunFlags& flags);
 
 }  // namespace trivela::cli

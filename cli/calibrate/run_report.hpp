@@ -9,8 +9,8 @@
 
 #include "calibration/calibration_run.hpp"
 #include "calibration/robot_update.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "experiment/evening/calibration_check.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "experiment/calibration/calibration_check.hpp"
 
 namespace trivela::cli {
 

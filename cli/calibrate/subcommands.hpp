@@ -17,7 +17,7 @@ void add_calibrate_plot(CLI::App& calibrate, int& exit_code);
 /// finished robot file. The simulator's truth is read once, for a report at the end.
 void add_calibrate_run(CLI::App& calibrate, int& exit_code);
 
-/// `trivela calibrate evenings`: many of them in process, beside the world's truth.
-void add_calibrate_evenings(CLI::App& calibrate, int& exit_code);
+/// `trivela calibrate repeat`: many of them in process, beside the world's truth.
+void add_calibrate_repeat(CLI::App& calibrate, int& exit_code);
 
 }  // namespace trivela::cli

@@ -8,9 +8,9 @@
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "cli/output.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "cli/options/output.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {

@@ -2,7 +2,7 @@
 
 #include "cli/calibrate/fit_flags.hpp"
 #include "cli/calibrate/subcommands.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {

@@ -10,8 +10,8 @@
 
 #include "cli/collect/remote_command.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/log/scan_log.hpp"
+#include "log/read/reader.hpp"
+#include "log/write/scan_log.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -63,13 +63,13 @@ std::string wrong_with(const fs::path& log, const RemoteFile& there) {
   if (static_cast<std::int64_t>(bytes) != there.size_B) return fmt::format("{} of {} bytes came", bytes, there.size_B);
   std::string why;
   try {
-    const evaluator::log::Reader reader(log, evaluator::log::Check::kQuick);
+    const log::Reader reader(log, log::Check::kQuick);
     return "";
   } catch (const std::exception& not_read) {
     why = not_read.what();
   }
   try {
-    const evaluator::log::ScanReader scans(log);
+    const log::ScanReader scans(log);
     return "";
   } catch (const std::exception&) {
     return why;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cli/hardware/fixtures.hpp"
-#include "cli/output.hpp"
+#include "cli/hardware/device_probes.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/model/omni_kinematics.hpp"
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/hardware/fixtures.hpp"
-#include "cli/output.hpp"
+#include "cli/hardware/device_probes.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 #include "kicking/geometry/time.hpp"
 #include "robot/driver/order_gate.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 using KickClock = std::chrono::steady_clock;
 constexpr std::int64_t kTestKick = 1;
-constexpr std::chrono::seconds kKickerPatience{3};
+constexpr std::chrono::seconds kKickerTimeout{3};
 constexpr std::chrono::milliseconds kSampleWait{50};
 constexpr std::chrono::milliseconds kAftermath{500};  // until the board has said what became of the shot
 
@@ -34,7 +34,7 @@ class SafeAfterwards {
   SafeAfterwards(const SafeAfterwards&) = delete;
   SafeAfterwards& operator=(const SafeAfterwards&) = delete;
   ~SafeAfterwards() {
-    kicker_.charge(hal::ChargeWord::kEmpty);  // where the device can
+    kicker_.charge(hal::ChargeCommand::kDischarge);  // where the device can
     kicker_.make_safe();
   }
 
@@ -108,7 +108,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
   robot::OrderGate gate{settings.kicker_driver, powers, settings.run.cycle_s};
   gate.referee(robot::RefereeSays::kPlay);
   std::optional<hal::KickerSample> newest;
-  if (!listen(kicker, gate, newest, KickClock::now() + kKickerPatience, signals,
+  if (!listen(kicker, gate, newest, KickClock::now() + kKickerTimeout, signals,
               [&] { return newest && sound(*newest) && newest->armed; }))
     return not_fired("stopped");
   if (!newest) throw std::runtime_error{fmt::format("the kicker does not answer: {}", kicker.status())};
@@ -121,10 +121,10 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                   kicker_text(*newest), powers.min, robot.name));
   if (!person.confirms("kick")) return not_fired("not confirmed");
   const std::chrono::duration<double> patience =
-      kKickerPatience + std::chrono::duration<double>{config::modelled_charge_s(settings.hal.kicker)};
+      kKickerTimeout + std::chrono::duration<double>{config::modelled_charge_s(settings.hal.kicker)};
   say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", patience.count()));
   std::fflush(stdout);
-  kicker.charge(hal::ChargeWord::kUp);
+  kicker.charge(hal::ChargeCommand::kCharge);
   newest.reset();  // what waited while the person thought is too old
   if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(patience),
               signals, [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "cli/launch/terminal.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
 
 namespace trivela::cli {
@@ -19,18 +19,18 @@ namespace {
 
 using WatchClock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatienceOfAListing{3};
-constexpr std::chrono::milliseconds kGlance{10};   // between two looks at the devices
-constexpr std::chrono::milliseconds kRedraw{200};  // on a terminal
-constexpr std::chrono::seconds kBetweenLines{1};   // in a pipe
+constexpr std::chrono::seconds kListingTimeout{3};
+constexpr std::chrono::milliseconds kPollInterval{10};  // between two looks at the devices
+constexpr std::chrono::milliseconds kRedraw{200};       // on a terminal
+constexpr std::chrono::seconds kBetweenLines{1};        // in a pipe
 
-bool silent(Fixture& fixture) { return fixture.wanted() && !fixture.found(); }
+bool silent(DeviceProbe& fixture) { return fixture.wanted() && !fixture.found(); }
 
 /// Who has answered, and who did not at a later look.
 struct Heard {
-  std::set<const Fixture*> once, lapsed;
+  std::set<const DeviceProbe*> once, lapsed;
 
-  void note(Fixture& fixture) {
+  void note(DeviceProbe& fixture) {
     if (!silent(fixture))
       once.insert(&fixture);
     else if (once.contains(&fixture))
@@ -39,34 +39,34 @@ struct Heard {
 };
 
 /// Looks at every device until `end`. False: somebody asked to stop.
-bool look_until(Fixtures& fixtures, WatchClock::time_point end, SignalInbox& signals, Heard& heard) {
+bool look_until(DeviceProbes& probes, WatchClock::time_point end, SignalInbox& signals, Heard& heard) {
   do {
-    for (const auto& fixture : fixtures) {
+    for (const auto& fixture : probes) {
       fixture->look();
       heard.note(*fixture);
     }
     pollfd inbox{signals.file_descriptor(), POLLIN, 0};
-    ::poll(&inbox, 1, static_cast<int>(kGlance.count()));
+    ::poll(&inbox, 1, static_cast<int>(kPollInterval.count()));
     if (signals.stop_requested()) return false;
   } while (WatchClock::now() < end);
   return true;
 }
 
-bool all_found(const Fixtures& fixtures) {
-  return std::ranges::none_of(fixtures, [](const auto& fixture) { return silent(*fixture); });
+bool all_found(const DeviceProbes& probes) {
+  return std::ranges::none_of(probes, [](const auto& fixture) { return silent(*fixture); });
 }
 
-std::string line_of(const Fixture& fixture, const std::string& values) {
+std::string line_of(const DeviceProbe& fixture, const std::string& values) {
   return fmt::format("{}: {}", fixture.name(), values);
 }
 
 /// Draws over what it drew before.
-class Board {
+class LiveTable {
  public:
-  void draw(const Fixtures& fixtures) {
+  void draw(const DeviceProbes& probes) {
     if (drawn_ > 0) fmt::print("\x1b[{}A", drawn_);
     drawn_ = 0;
-    for (const auto& fixture : fixtures) {
+    for (const auto& fixture : probes) {
       if (!fixture->wanted()) continue;
       fmt::print("\r\x1b[K");
       say(cut_to("  " + line_of(*fixture, fixture->values()), columns_of(STDOUT_FILENO)) + "\n");
@@ -79,9 +79,9 @@ class Board {
   int drawn_ = 0;
 };
 
-void say_line(const Fixtures& fixtures) {
+void say_line(const DeviceProbes& probes) {
   std::string line;
-  for (const auto& fixture : fixtures) {
+  for (const auto& fixture : probes) {
     if (fixture->wanted()) line += (line.empty() ? "" : " | ") + line_of(*fixture, fixture->values());
   }
   say(line + "\n");
@@ -90,13 +90,13 @@ void say_line(const Fixtures& fixtures) {
 
 }  // namespace
 
-bool all_answer(const Fixtures& fixtures) {
-  return all_found(fixtures) && std::ranges::all_of(fixtures, [](const auto& fixture) { return fixture->opened(); });
+bool all_answer(const DeviceProbes& probes) {
+  return all_found(probes) && std::ranges::all_of(probes, [](const auto& fixture) { return fixture->opened(); });
 }
 
-std::string listing(const Fixtures& fixtures) {
+std::string listing(const DeviceProbes& probes) {
   std::string rows;
-  for (const auto& fixture : fixtures) {
+  for (const auto& fixture : probes) {
     const std::string says = fixture->says();
     rows += fmt::format("  {:<14}{:<28} {}{}\n", fixture->name(), fixture->device(),
                         !fixture->wanted()   ? "not used"
@@ -108,31 +108,31 @@ std::string listing(const Fixtures& fixtures) {
   return rows;
 }
 
-int watch(Fixtures& fixtures, std::optional<double> seconds, SignalInbox& signals) {
-  const auto patience_ends = WatchClock::now() + kPatienceOfAListing;
+int watch(DeviceProbes& probes, std::optional<double> seconds, SignalInbox& signals) {
+  const auto patience_ends = WatchClock::now() + kListingTimeout;
   bool goes_on = true;
   Heard heard;
-  while (goes_on && !all_found(fixtures) && WatchClock::now() < patience_ends)
-    goes_on = look_until(fixtures, WatchClock::now(), signals, heard);
-  if (goes_on) goes_on = look_until(fixtures, WatchClock::now() + kRedraw, signals, heard);
-  say(listing(fixtures));
+  while (goes_on && !all_found(probes) && WatchClock::now() < patience_ends)
+    goes_on = look_until(probes, WatchClock::now(), signals, heard);
+  if (goes_on) goes_on = look_until(probes, WatchClock::now() + kRedraw, signals, heard);
+  say(listing(probes));
   std::fflush(stdout);
   const bool terminal = can_be_drawn_over(STDOUT_FILENO);
   const auto step = terminal ? WatchClock::duration{kRedraw} : WatchClock::duration{kBetweenLines};
   const double lasts_s = std::max(seconds.value_or(1.0), terminal ? 0.0 : 1.0);
-  Board board;
+  LiveTable board;
   const auto began = WatchClock::now();
   for (int i = 1; goes_on; ++i) {
     if (!(terminal && !seconds) && std::chrono::duration<double>(step).count() * i > lasts_s) break;
-    goes_on = look_until(fixtures, began + i * step, signals, heard);
+    goes_on = look_until(probes, began + i * step, signals, heard);
     if (!goes_on) break;
-    terminal ? board.draw(fixtures) : say_line(fixtures);
+    terminal ? board.draw(probes) : say_line(probes);
   }
-  for (const auto& fixture : fixtures) {
+  for (const auto& fixture : probes) {
     if (heard.lapsed.contains(fixture.get()) && !silent(*fixture))
       warn(fmt::format("{} did not answer all the time: is its cable loose?", fixture->name()));
   }
-  return heard.lapsed.empty() && all_answer(fixtures) ? kDone : kFailed;
+  return heard.lapsed.empty() && all_answer(probes) ? kDone : kFailed;
 }
 
 }  // namespace trivela::cli

@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "config/csv_reader.hpp"
-#include "config/csv_row.hpp"
-#include "config/parse_number.hpp"
+#include "config/text/csv_reader.hpp"
+#include "config/text/csv_row.hpp"
+#include "config/text/parse_number.hpp"
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::cli {

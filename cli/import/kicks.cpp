@@ -10,13 +10,13 @@
 
 #include "cli/import/kick_labels.hpp"
 #include "cli/import/row_writing.hpp"
-#include "cli/open_file.hpp"
-#include "cli/output.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/log/digest.hpp"
 #include "idl/none.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/text/printable.hpp"
+#include "log/schema/digest.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -54,7 +54,7 @@ msg::KickDecision decision_of(const KickLabel& label) {
 }
 
 /// An outcome without a sighting. What was outside for no noted reason has the label unknown, and 0 as the probability
-/// that it was inside (`labelled_kicks`, evaluator/log/reading_views.sql).
+/// that it was inside (`labelled_kicks`, log/schema/reading_views.sql).
 msg::KickOutcome outcome_of(const KickLabel& label) {
   msg::KickOutcome outcome{};
   outcome.robot_id = static_cast<std::uint8_t>(label.robot_id);
@@ -72,7 +72,7 @@ msg::KickOutcome outcome_of(const KickLabel& label) {
 void write_kicks(const KickLabels& labels, const std::string& out) {
   const auto session = imported_session(labels.file, sentences_of(labels), labels.text, 0);
   RowWriting rows(out, session);
-  const auto number = kicking::kick_session(static_cast<std::uint64_t>(evaluator::log::session_id_of(session.uuid)));
+  const auto number = kicking::kick_session(static_cast<std::uint64_t>(log::session_id_of(session.uuid)));
   std::int64_t t_ns = 0;
   std::map<int, std::uint64_t> counters;  // by robot
   for (const KickLabel& label : labels.kicks) {

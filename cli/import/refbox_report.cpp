@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "evaluator/imports/record_times.hpp"
-#include "evaluator/report/text_table.hpp"
+#include "evaluator/render/text_table.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::cli {
@@ -132,7 +132,7 @@ nlohmann::json json_of_team(const TeamSummary& summary) {
           {"speed_max_mps", json_cell(imports::quantile(speeds, 1.0))}};
 }
 
-nlohmann::json json_of_faults(const std::string& file, const imports::FaultBook& faults) {
+nlohmann::json json_of_faults(const std::string& file, const imports::FaultCounter& faults) {
   nlohmann::json all = nlohmann::json::array();
   for (const imports::Fault& fault : faults.all()) {
     all.push_back({{"file", file},
@@ -170,7 +170,7 @@ std::string to_text(const RefboxSummary& summary) {
 std::string to_json(const RefboxSummary& summary) {
   nlohmann::json json = {
       {"referee", nlohmann::json::array()}, {"teams", nlohmann::json::array()}, {"faults", nlohmann::json::array()}};
-  const auto add_faults = [&](const std::string& file, const imports::FaultBook& faults) {
+  const auto add_faults = [&](const std::string& file, const imports::FaultCounter& faults) {
     for (nlohmann::json& fault : json_of_faults(file, faults)) json["faults"].push_back(std::move(fault));
   };
   for (const RefereeSummary& game : summary.referee) {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "cli/launch/log_claim.hpp"
-#include "evaluator/log/session.hpp"
-#include "evaluator/log/writer.hpp"
+#include "log/schema/session.hpp"
+#include "log/write/writer.hpp"
 #include "robot/recording/message_row.hpp"
 
 namespace trivela::cli {
@@ -25,8 +25,8 @@ namespace trivela::cli {
 class RowWriting {
  public:
   /// Throws UsageError where the file exists, std::runtime_error where it cannot be made.
-  RowWriting(const std::filesystem::path& out, const evaluator::log::Session& session)
-      : out_(out), claim_(out), writer_(std::make_unique<evaluator::log::Writer>(out, session)) {}
+  RowWriting(const std::filesystem::path& out, const log::Session& session)
+      : out_(out), claim_(out), writer_(std::make_unique<log::Writer>(out, session)) {}
   RowWriting(const RowWriting&) = delete;
   RowWriting& operator=(const RowWriting&) = delete;
   ~RowWriting() {
@@ -40,12 +40,12 @@ class RowWriting {
   template <bus::Struct T>
   void write(const T& message, std::initializer_list<std::string_view> without = {}) {
     const auto place = tables_.find(typeid(T));
-    const evaluator::log::TableId table =
+    const log::TableId table =
         place != tables_.end()
             ? place->second
             : tables_.emplace(typeid(T), writer_->table(robot::table_of<T>(), robot::columns_of<T>())).first->second;
     if (++rows_ % kGroup == 0) writer_->flush();  // nothing is lost to a full queue
-    std::vector<evaluator::log::Value> row = robot::row_of(message);
+    std::vector<log::Value> row = robot::row_of(message);
     for (const std::string_view column : without) {
       const auto columns = robot::columns_of<T>();
       row.at(static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin())) = std::monostate{};
@@ -66,8 +66,8 @@ class RowWriting {
 
   std::filesystem::path out_;
   LogClaim claim_;
-  std::unique_ptr<evaluator::log::Writer> writer_;
-  std::map<std::type_index, evaluator::log::TableId> tables_;
+  std::unique_ptr<log::Writer> writer_;
+  std::map<std::type_index, log::TableId> tables_;
   std::int64_t rows_ = 0;
   bool finished_ = false;
 };
@@ -75,7 +75,7 @@ class RowWriting {
 /// The session of an imported match: no simulation, by UTC (realtime_offset_ns is when its clock was 0), with the
 /// sentences on what was imported and the text that it was imported from in place of a configuration. Its uuid is made
 /// of these, so that what is imported twice counts once.
-evaluator::log::Session imported_session(const std::string& name, const std::vector<std::string>& sentences,
-                                         const std::string& source, std::int64_t realtime_offset_ns);
+log::Session imported_session(const std::string& name, const std::vector<std::string>& sentences,
+                              const std::string& source, std::int64_t realtime_offset_ns);
 
 }  // namespace trivela::cli

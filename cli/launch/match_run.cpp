@@ -20,7 +20,7 @@
 namespace trivela::cli {
 namespace {
 
-constexpr std::chrono::seconds kChildPatience{10};
+constexpr std::chrono::seconds kChildTimeout{10};
 
 /// Where nobody reads.
 class Nowhere {
@@ -56,7 +56,7 @@ void stop_all(std::deque<ChildProcess>& children, std::size_t last, std::string&
   for (; !children.empty(); children.pop_back()) {
     ChildProcess& child = children.back();
     if (children.size() <= last) child.terminate();
-    if (!child.wait(kChildPatience)) {
+    if (!child.wait(kChildTimeout)) {
       complain(fmt::format("{} did not stop within 10 s", child.name()));
     } else if (ran[children.size() - 1] && !child.succeeded()) {
       complain(fmt::format("{} failed on stopping ({})", child.name(), child.how_it_ended()));
@@ -128,7 +128,7 @@ MatchResult run_match(const std::string& feeder, const std::filesystem::path& co
       trouble = "interrupted";
       break;
     }
-    if (over && children.back().wait(kChildPatience) && children.back().succeeded()) {
+    if (over && children.back().wait(kChildTimeout) && children.back().succeeded()) {
       children.pop_back();
       if (!progress.whole()) trouble = fmt::format("{} was stopped before the end", feeder);
       break;

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdio>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 
 namespace trivela::cli {
 

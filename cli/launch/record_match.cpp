@@ -12,7 +12,7 @@
 #include "cli/launch/match_run.hpp"
 #include "cli/verbs.hpp"
 #include "cli/watch/match_watch.hpp"
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::cli {
 
@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 
 std::int64_t lost_rows(const std::string& log) {
   std::int64_t missing = 0;
-  for (const auto& loss : evaluator::log::Reader{log, evaluator::log::Check::kQuick}.losses())
-    missing += loss.missing();
+  for (const auto& loss : log::Reader{log, log::Check::kQuick}.losses()) missing += loss.missing();
   if (missing > 0) fmt::print(stderr, "trivela: {} rows are missing in {}: trivela report says which\n", missing, log);
   return missing;
 }

@@ -9,8 +9,8 @@
 
 #include "calibration/scanner_session.hpp"
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/match_mode.hpp"
-#include "cli/open_file.hpp"
+#include "cli/options/match_mode.hpp"
+#include "cli/options/open_file.hpp"
 #include "cli/verbs.hpp"
 #include "config/robot.hpp"
 #include "config/settings.hpp"

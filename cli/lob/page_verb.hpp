@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/scan/mount_flags.hpp"
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 #include "kicking/lob/analyzer.hpp"
 
 namespace trivela::cli {

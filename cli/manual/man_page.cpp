@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 
 namespace trivela::cli {
 namespace {

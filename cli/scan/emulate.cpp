@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/launch/signal_inbox.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "emulators/scip/emulator.hpp"
@@ -30,7 +30,7 @@ class Playback {
     if (size() == 0) throw std::runtime_error{fmt::format("{} holds no scans", flags.source)};
   }
 
-  const evaluator::log::ScanSession& session() const { return session_; }
+  const log::ScanSession& session() const { return session_; }
 
   std::optional<kicking::lob::Scan> next() {
     if (next_ == size()) {
@@ -52,9 +52,9 @@ class Playback {
 
   double speed_;
   bool loop_;
-  std::optional<evaluator::log::ScanReader> record_;
+  std::optional<log::ScanReader> record_;
   std::vector<kicking::lob::Scan> scans_;
-  evaluator::log::ScanSession session_;
+  log::ScanSession session_;
   std::size_t next_ = 0;
   std::int64_t first_t_ns_ = 0;
   std::int64_t offset_ns_ = 0;

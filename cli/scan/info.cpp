@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include "calibration/rows/lobs_of_scans.hpp"
 #include "calibration/rows/verdicts_file.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "evaluator/report/json_values.hpp"
-#include "evaluator/report/lob_json.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "evaluator/render/lob_json.hpp"
 #include "kicking/geometry/time.hpp"
 
 namespace trivela::cli {
@@ -20,7 +20,7 @@ using kicking::lob::LobRecord;
 /// What a scan record holds.
 struct ScanInfo {
   std::string file;
-  evaluator::log::ScanSession session;
+  log::ScanSession session;
   std::size_t scans = 0;
   double duration_s = 0.0;
   std::uintmax_t bytes = 0;
@@ -29,7 +29,7 @@ struct ScanInfo {
   std::vector<std::string> warnings;
 };
 
-ScanInfo info_of(const evaluator::log::ScanReader& record, const std::filesystem::path& path) {
+ScanInfo info_of(const log::ScanReader& record, const std::filesystem::path& path) {
   ScanInfo info{.file = path.string(),
                 .session = record.session(),
                 .scans = record.size(),
@@ -53,7 +53,7 @@ Json to_json(const LobRecord& lob) {
 }
 
 Json to_json(const ScanInfo& info) {
-  const evaluator::log::ScanSession& session = info.session;
+  const log::ScanSession& session = info.session;
   const kicking::lob::ScanGeometry& geometry = session.geometry;
   Json json{{"file", info.file},
             {"synthetic", session.simulated},
@@ -125,7 +125,7 @@ std::string to_text(const ScanInfo& info) {
 }  // namespace
 
 int show_scan_info(const std::filesystem::path& record, bool json) {
-  const ScanInfo info = info_of(evaluator::log::ScanReader(record), record);
+  const ScanInfo info = info_of(log::ScanReader(record), record);
   fmt::print("{}", json ? evaluator::json_text(to_json(info)) : to_text(info));
   return info.warnings.empty() ? kDone : kDoneWithLoss;
 }

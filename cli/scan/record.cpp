@@ -7,7 +7,7 @@
 #include "calibration/scanner_session.hpp"
 #include "cli/launch/signal_inbox.hpp"
 #include "cli/launch/terminal.hpp"
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
 #include "hal/open.hpp"
@@ -52,8 +52,8 @@ int record_scans(const std::filesystem::path& out, const std::string& device, co
     line.show("waiting for " + device + ": " + finder->status());
     if (signals.stop_requested()) throw std::runtime_error{fmt::format("nothing was recorded: {}", finder->status())};
   }
-  const evaluator::log::ScanSession session = calibration::scanner_session(*finder, mount.mount(), device);
-  evaluator::log::ScanWriter writer(out, session);
+  const log::ScanSession session = calibration::scanner_session(*finder, mount.mount(), device);
+  log::ScanWriter writer(out, session);
   if (power) writer.set_point({.t_ns = session.started_t_ns, .power = *power});
   const Clock::time_point started = Clock::now();
   std::size_t scans = 0;

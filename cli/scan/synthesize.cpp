@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "cli/scan/verb_parts.hpp"
 #include "cli/verbs.hpp"
-#include "config/installation.hpp"
 #include "config/robot.hpp"
+#include "config/text/installation.hpp"
 #include "kicking/random/draws.hpp"
 
 namespace trivela::cli {
@@ -86,9 +86,9 @@ SyntheticScans synthesize(const SyntheticFlags& flags, const MountFlags& mount) 
 
 int write_synthetic(const SyntheticScans& scans, const std::filesystem::path& out, const std::string& truth_csv) {
   require_writable("--truth", truth_csv);
-  evaluator::log::WriterOptions options;
+  log::WriterOptions options;
   options.queue_capacity += scans.record.scans.size();  // all come at once
-  evaluator::log::ScanWriter writer(out, scans.session, options);
+  log::ScanWriter writer(out, scans.session, options);
   for (const sim::KickedTruth& kicked : scans.record.truth) {
     if (kicked.kick.power) writer.set_point({.t_ns = kicked.launch_t_ns - kEntered_ns, .power = *kicked.kick.power});
   }

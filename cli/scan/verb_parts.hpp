@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/scan/mount_flags.hpp"
-#include "evaluator/log/scan_log.hpp"
+#include "log/write/scan_log.hpp"
 #include "sim/laser/record.hpp"
 
 namespace trivela::cli {
@@ -33,7 +33,7 @@ struct SyntheticFlags {
 
 /// A synthetic record and what it says about itself.
 struct SyntheticScans {
-  evaluator::log::ScanSession session;
+  log::ScanSession session;
   sim::SyntheticRecord record;
 };
 

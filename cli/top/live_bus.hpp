@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "bus/census.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "monitor/bus_picture.hpp"
-#include "monitor/ear.hpp"
+#include "monitor/subscriber.hpp"
 
 namespace trivela::cli {
 
@@ -29,8 +29,8 @@ class Listening {
   bus::Participant participant_;
   bus::CensusTaker census_;
   std::mutex mutex_;  // of the board: samples come on the bus's threads
-  monitor::BusBoard board_;
-  std::vector<std::unique_ptr<monitor::AnyEar>> ears_;
+  monitor::BusSnapshot board_;
+  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> ears_;
 };
 
 /// The bus as tables: topics, then processes. What nobody writes and nobody said is left out but for a line that names

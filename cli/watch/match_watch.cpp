@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "nodes/runtime/node_flags.hpp"
 
 namespace trivela::cli {

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "cli/output.hpp"
+#include "cli/options/output.hpp"
 #include "config/robot.hpp"
 #include "nodes/runtime/node_main.hpp"
 #include "pages/serve/token.hpp"

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "config/field.hpp"
-#include "config/toml_source.hpp"
-#include "config/toml_text.hpp"
+#include "config/text/toml_source.hpp"
+#include "config/text/toml_text.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::config {

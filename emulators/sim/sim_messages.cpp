@@ -78,7 +78,7 @@ msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame
   return out;
 }
 
-msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word) {
+msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeState& word) {
   msg::Referee out{};
   out.t_ns = t_ns;
   out.half = static_cast<std::uint8_t>(word.half);

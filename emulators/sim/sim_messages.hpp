@@ -13,7 +13,7 @@ msg::DeviceKicker kicker_message(const sim::Sensors& sensors);
 msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame);
 msg::FlightFrame flight_message(std::int64_t t_ns, const sim::FlightFrame& frame);
 /// A set piece of ours is announced as the kick-off for a half's first possession, as a free kick for each further one.
-msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeWord& word);
+msg::Referee referee_message(std::int64_t t_ns, const sim::RefereeState& word);
 msg::SimScan scan_message(const kicking::lob::Scan& scan, const kicking::lob::ScanGeometry& geometry);
 msg::KickTruth truth_message(const sim::KickTruth& truth);
 msg::PossessionTruth possession_message(const sim::PossessionTruth& truth);

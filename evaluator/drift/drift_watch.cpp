@@ -143,7 +143,7 @@ class Watch {
  public:
   Watch(std::span<const KickResidual> kicks, const DriftRule& rule) : kicks_(kicks), rule_(rule) {}
 
-  DriftStory tell() {
+  DriftEstimate tell() {
     for (std::size_t i = 0; i < kicks_.size(); ++i) {
       const auto [by_height, by_speed] = add(kicks_[i]);
       if (by_height || by_speed) settle(i, by_height);
@@ -203,14 +203,16 @@ class Watch {
   const DriftRule& rule_;
   FactorChart height_{rule_.height}, speed_{rule_.speed};
   std::size_t from_ = 0;  // the kicks that the charts have seen begin here
-  DriftStory story_;
+  DriftEstimate story_;
 };
 
 double percent(double ln) { return 100.0 * std::abs(std::exp(ln) - 1.0); }
 
 }  // namespace
 
-DriftStory drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule) { return Watch(kicks, rule).tell(); }
+DriftEstimate drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule) {
+  return Watch(kicks, rule).tell();
+}
 
 std::string words_of(const Drift& drift) {
   const char* const way = drift.factor.value < 0.0 ? "fell" : "rose";

@@ -45,7 +45,7 @@ struct DriftLevel {
   Shift height{}, speed{};  ///< means
 };
 
-struct DriftStory {
+struct DriftEstimate {
   std::vector<Drift> drifts;
   DriftLevel level;  ///< since the last of them
 };
@@ -53,7 +53,7 @@ struct DriftStory {
 /// What the kicks of one robot, in their order, say of its kicker. After a change the charts begin anew with the kicks
 /// after it. The same kicks, and any before whose story is the same, give the same drifts: a kick more adds some at the
 /// end and changes none.
-DriftStory drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule = {});
+DriftEstimate drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule = {});
 
 /// What to do, as a sentence for people: by what to multiply the table's speeds, what to measure anew.
 std::string correction_of(const Drift& drift);

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "evaluator/export/draft.hpp"
-#include "evaluator/report/escaped_text.hpp"
+#include "evaluator/render/escaped_text.hpp"
 
 namespace trivela::evaluator {
 namespace {

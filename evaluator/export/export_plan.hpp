@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/reader.hpp"
-#include "evaluator/log/stream_table.hpp"
+#include "log/read/reader.hpp"
+#include "log/read/stream_table.hpp"
 
 namespace trivela::evaluator {
 

@@ -3,10 +3,10 @@
 #include <numbers>
 #include <optional>
 
-#include "evaluator/log/queries.hpp"
 #include "evaluator/mcap/ros_types.hpp"
-#include "evaluator/report/decided_segments.hpp"
+#include "evaluator/story/decided_segments.hpp"
 #include "kicking/constants.hpp"
+#include "log/schema/queries.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "evaluator/log/row.hpp"
-#include "evaluator/log/stream_table.hpp"
 #include "evaluator/mcap/cdr.hpp"
-#include "evaluator/report/session_setup.hpp"
+#include "evaluator/sessions/session_setup.hpp"
+#include "log/read/stream_table.hpp"
+#include "log/schema/row.hpp"
 
 namespace trivela::evaluator {
 

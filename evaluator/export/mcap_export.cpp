@@ -11,10 +11,10 @@
 
 #include "evaluator/export/draft.hpp"
 #include "evaluator/export/match_scene.hpp"
-#include "evaluator/log/queries.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"
 #include "evaluator/mcap/ros_types.hpp"
 #include "evaluator/mcap/row_message.hpp"
+#include "log/schema/queries.hpp"
 
 namespace trivela::evaluator {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "refbox/command.hpp"
+#include "idl/refbox/command.hpp"
 
 namespace trivela::evaluator::imports {
 
@@ -17,7 +17,7 @@ constexpr BoxSide side_of(std::optional<refbox::Colour> team) {
 }
 
 /// A command of a log with its side; of one that was sent as JSON the side is that of its targetTeam.
-struct BoxWord {
+struct SidedCommand {
   BoxCommand command{};
   BoxSide side = BoxSide::kBoth;
 };

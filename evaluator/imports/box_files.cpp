@@ -26,7 +26,7 @@ bool is_of_a_team(std::istream& in, std::string_view name) {
 /// `fault`: what the stream itself says after it was read to its end.
 template <class Fault>
 void read_one(std::istream& in, const std::string& name, BoxLogs& logs, Fault&& fault) {
-  const auto note = [&](FaultBook& faults) {
+  const auto note = [&](FaultCounter& faults) {
     if (const std::string why = fault(); !why.empty()) faults.note("cannot be read to its end", 0, why, "");
   };
   if (is_of_a_team(in, name)) {
@@ -82,7 +82,7 @@ std::int64_t BoxLogs::unusable() const {
 
 std::vector<std::string> BoxLogs::faults() const {
   std::vector<std::string> all;
-  const auto add = [&](const FaultBook& faults) { std::ranges::move(faults.sentences(), std::back_inserter(all)); };
+  const auto add = [&](const FaultCounter& faults) { std::ranges::move(faults.sentences(), std::back_inserter(all)); };
   for (const RefereeLog& log : referee) add(log.faults);
   for (const SidedTeamLog& team : teams) add(team.log.faults);
   return all;

@@ -164,21 +164,22 @@ class RefereeLogReading {
 
   /// `behind`: of a box before 2020 its own words, else the team's name, with "robotID:N," before it where it is of
   /// one.
-  std::optional<BoxWord> word_of(Text code, Text behind, std::int64_t line) {
+  std::optional<SidedCommand> word_of(Text code, Text behind, std::int64_t line) {
     if (code.starts_with('{')) return word_of_json(code, line);
-    std::optional<BoxWord> word;
+    std::optional<SidedCommand> word;
     if (code.size() == 1) {
-      if (const auto letter = refbox::word_of_letter(code.front())) word = BoxWord{letter->kind, side_of(letter->team)};
+      if (const auto letter = refbox::word_of_letter(code.front()))
+        word = SidedCommand{letter->kind, side_of(letter->team)};
     }
     if (const auto command = refbox::kind_of(code)) {
       const Text name = refbox::name(*command) == code ? Text{} : behind.substr(behind.rfind(',') + 1);
-      word = BoxWord{*command, sides_.of_name(name, *command == BoxCommand::kWelcome)};
+      word = SidedCommand{*command, sides_.of_name(name, *command == BoxCommand::kWelcome)};
     }
     if (!word) log_.faults.note("unknown command", line, "code", code);
     return word;
   }
 
-  std::optional<BoxWord> word_of_json(Text code, std::int64_t line) {
+  std::optional<SidedCommand> word_of_json(Text code, std::int64_t line) {
     const auto json = nlohmann::json::parse(code, nullptr, false);
     const auto text_of = [&](const char* key) {
       const auto value = json.is_object() ? json.find(key) : json.end();
@@ -189,7 +190,7 @@ class RefereeLogReading {
       return std::nullopt;
     }
     const auto command = refbox::kind_of(text_of("command"));
-    if (command) return BoxWord{*command, sides_.of(text_of("targetTeam"))};
+    if (command) return SidedCommand{*command, sides_.of(text_of("targetTeam"))};
     log_.faults.note(json.contains("command") ? "unknown command" : "object without command", line, "code", code);
     return std::nullopt;
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluator/imports/box_command.hpp"
-#include "evaluator/imports/fault_book.hpp"
+#include "evaluator/imports/fault_counter.hpp"
 
 namespace trivela::evaluator::imports {
 
@@ -30,7 +30,7 @@ struct RefereeLog {
   std::int64_t accepted = 0;       ///< connections of teams
   std::int64_t dropped = 0;        ///< and how many were lost
   std::int64_t refused = 0;        ///< base stations that were not let in
-  FaultBook faults;
+  FaultCounter faults;
 };
 
 /// Reads `ms,time(run time),state,code,text` line by line, code being a letter of the old protocol, a command's name or

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/imports/fault_book.hpp"
+#include "evaluator/imports/fault_counter.hpp"
 
 namespace trivela::evaluator::imports {
 
@@ -41,7 +41,7 @@ struct TeamLog {
   std::string team;  ///< as the box names it
   std::int64_t records = 0;
   std::vector<TeamRecord> usable;  ///< in the file's order
-  FaultBook faults;
+  FaultCounter faults;
 };
 
 /// Reads a JSON array of worldstate records, one at a time: of the file no more than one record is in memory. Faults

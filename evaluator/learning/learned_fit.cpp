@@ -12,7 +12,7 @@
 
 #include "evaluator/stats/cluster_variance.hpp"
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/logistic_ridge.hpp"
 #include "kicking/outcome/p_inside.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluator/learning/predicted_kicks.hpp"
-#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/counts/counts.hpp"
 
 namespace trivela::evaluator {
 

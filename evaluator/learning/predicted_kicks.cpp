@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "evaluator/log/reader.hpp"
 #include "evaluator/metrics/predicted_kicks.sql.hpp"
-#include "evaluator/report/log_sessions.hpp"
+#include "evaluator/sessions/log_sessions.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::evaluator {
 PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, PredictionSource source,
@@ -16,7 +16,7 @@ PredictedKicks predicted_kicks(const std::vector<std::filesystem::path>& logs, P
     PredictedKick kick;
   };
   std::vector<Recorded> recorded;
-  SessionBook book;
+  SessionIndex book;
   for (const std::filesystem::path& path : logs) {
     told(static_cast<std::size_t>(&path - logs.data()), logs.size());
     const log::Reader reader{path};

@@ -29,7 +29,7 @@ struct PredictedKicks {
   std::vector<std::string> remarks;
 };
 
-/// Reads the predicted kicks of match logs, each kick once, with its match, as SessionBook says.
+/// Reads the predicted kicks of match logs, each kick once, with its match, as SessionIndex says.
 /// Throws std::runtime_error as log::Reader does.
 /// `told(done, all)`: logs that were read.
 PredictedKicks predicted_kicks(

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <limits>
 
-#include "evaluator/log/queries.hpp"
+#include "log/schema/queries.hpp"
 
 namespace trivela::evaluator::mcap {
 namespace {

@@ -3,10 +3,10 @@
 #include <span>
 #include <string>
 
-#include "evaluator/log/row.hpp"
-#include "evaluator/log/stream_table.hpp"
 #include "evaluator/mcap/cdr.hpp"
 #include "evaluator/mcap/mcap_writer.hpp"
+#include "log/read/stream_table.hpp"
+#include "log/schema/row.hpp"
 
 namespace trivela::evaluator::mcap {
 

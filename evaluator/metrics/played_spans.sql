@@ -1,4 +1,4 @@
--- Spans of play by possession (evaluator/log/played_spans_of.sql).
+-- Spans of play by possession (log/file/played_spans_of.sql).
 -- Columns: session_id, of_robot (NULL: of all), half, possession_id, from_ns, to_ns (by UTC, in lockstep by the
 -- simulator's clock), played_ns.
 SELECT p.session_id, of_robot, half, possession_id, from_t_ns + offset_ns AS from_ns, to_t_ns + offset_ns AS to_ns,

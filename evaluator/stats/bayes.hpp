@@ -1,7 +1,7 @@
 #pragma once
 
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 

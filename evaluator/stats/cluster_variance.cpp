@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/counts/counts.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 
@@ -18,7 +18,7 @@ inline constexpr std::size_t kFewestCalibrations = 5;
 /// calibration are summed.
 struct Influence {
   std::uint32_t match = 0;
-  std::uint32_t calibration = 0;  ///< the evening that the robots were calibrated on; the same one for many matches
+  std::uint32_t calibration = 0;  ///< the calibration that the robots were calibrated on; the same one for many matches
   double u = 0.0;                 ///< in the estimate's unit
 };
 

@@ -9,9 +9,9 @@
 
 #include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/cluster_variance.hpp"
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

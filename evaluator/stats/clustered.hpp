@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 
@@ -27,7 +27,7 @@ struct MatchCounts {
   std::uint32_t stratum = 0;  ///< number of the stratum; 0 where there is one
   Counts older;
   Counts newer;
-  std::uint32_t calibration = 0;  ///< number of the evening that the robots were calibrated on
+  std::uint32_t calibration = 0;  ///< number of the calibration that the robots were calibrated on
 };
 
 /// Interval of a difference that allows for kicks of one match being alike.

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "evaluator/stats/bias_reduced.hpp"
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/exact.hpp"
+#include "evaluator/stats/counts/exact.hpp"
 
 namespace trivela::evaluator::stats {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 

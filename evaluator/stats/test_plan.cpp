@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include "evaluator/stats/counts.hpp"
-#include "evaluator/stats/quantile.hpp"
+#include "evaluator/stats/counts/counts.hpp"
+#include "evaluator/stats/counts/quantile.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -6,16 +6,15 @@ set -euo pipefail
 tasks=$1 folder=$2 out=$3
 shift 3
 here=$(dirname "$(realpath "$0")")
-mkdir -p "$folder"
-step=$(find "$folder" -name 'merged_*.db' | wc -l)
-while :; do
-  after=()
-  if ((step > 0)); then after=(--after "$folder/merged_$step.db"); fi
+with=()
+for ((step = 1; ; ++step)); do
   code=0
-  sbatch --wait --array="1-$tasks" "$here/study.sbatch" "$folder" tune "$@" "${after[@]}" || code=$?
-  if ((code == 0)); then break; fi   # the search has ended
-  if ((code != 3)); then exit "$code"; fi
-  step=$((step + 1))
-  "${TRIVELA:-trivela}" merge "$folder/merged_$step.db" "$folder"/shard_*.db
+  if [[ ! -e $folder/step_$step/done ]]; then
+    sbatch --wait --array="1-$tasks" "$here/study.sbatch" "$folder/step_$step" tune "$@" "${with[@]}" || code=$?
+    if ((code == 0)); then break; fi   # the search has ended
+    if ((code != 3)); then exit "$code"; fi
+    touch "$folder/step_$step/done"
+  fi
+  with=(--with "$folder/step_$step"/shard_*.db)
 done
-exec "${TRIVELA:-trivela}" tune "$@" --tallies "$folder/merged_$step.db" --out "$out"
+exec "${TRIVELA:-trivela}" study tune "$@" --with "$folder/step_$step"/shard_*.db --out "$out"

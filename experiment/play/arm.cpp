@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/hand_table.hpp"
-#include "sim/kicker.hpp"
+#include "sim/kicker/hand_table.hpp"
+#include "sim/kicker/kicker.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::experiment {

@@ -16,7 +16,7 @@
 namespace trivela::experiment {
 
 inline constexpr const char* kNewTable = "new";  ///< the robot files' own tables
-inline constexpr const char* kOldTable = "old";  ///< another hand-made one for each match (sim/hand_table.hpp)
+inline constexpr const char* kOldTable = "old";  ///< another hand-made one for each match (sim/kicker/hand_table.hpp)
 
 /// One way to play: what the robots decide by and what they know of themselves. The same opportunities can be played
 /// with any number of arms.
@@ -28,7 +28,7 @@ struct Arm {
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
   std::vector<robot::PolicyChance> random;             ///< drawn for each possession anew
-  bool own_robots = false;                             ///< evenings of an experiment leave `robots` as they are
+  bool own_robots = false;                             ///< calibrations of an experiment leave `robots` as they are
 };
 
 /// What is recorded beside the possessions.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/kicker.hpp"
+#include "sim/kicker/kicker.hpp"
 
 namespace trivela::experiment {
 

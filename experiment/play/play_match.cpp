@@ -8,8 +8,8 @@
 
 #include "config/scenario/scenario_field.hpp"
 #include "emulators/sim/sim_messages.hpp"
+#include "experiment/play/in_process_robot.hpp"
 #include "experiment/play/oracle.hpp"
-#include "experiment/play/robot_chain.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/random/draws.hpp"
 #include "robot/observer/observer.hpp"
@@ -77,7 +77,7 @@ class Game {
     const msg::Referee referee = hear(sensors);
     if (follows) observe(sensors, referee);
     sim::Commands commands;
-    RobotChain& chain = chain_of(robot_id_);
+    InProcessRobot& chain = chain_of(robot_id_);
     std::optional<sim::TrueState> truth;
     if (oracle_) truth = match_.true_state();
     if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
@@ -130,7 +130,7 @@ class Game {
   }
 
   /// Gives the order to the driver and, where it accepts, to the device.
-  std::optional<sim::Fire> send(const robot::CycleDecision& decision, const RobotChain& chain) {
+  std::optional<sim::Fire> send(const robot::CycleDecision& decision, const InProcessRobot& chain) {
     const msg::KickReceipt& receipt = *chain.receipt();
     if (record_) {
       record_->orders.push_back(*decision.order);
@@ -159,7 +159,7 @@ class Game {
 
   /// Who is in charge is known from the first decision in play. A robot may lose the ball and have it again in one of
   /// the simulator's possessions: what counts there is whom it put in charge first.
-  void note_assignment(const RobotChain& chain, const robot::PolicyChance& chance) {
+  void note_assignment(const InProcessRobot& chain, const robot::PolicyChance& chance) {
     const msg::WorldState& world = chain.world();
     const std::pair assigned{robot_id_, world.possession_id};
     if (assigned_ == assigned || !world.possession || !world.playing) return;
@@ -200,21 +200,21 @@ class Game {
     }
   }
 
-  RobotChain& chain_of(std::uint8_t robot_id) {
+  InProcessRobot& chain_of(std::uint8_t robot_id) {
     const std::size_t index = robot_id - 1u;
     if (chains_.size() <= index) chains_.resize(index + 1);
     if (!chains_[index]) {
-      chains_[index] = std::make_unique<RobotChain>(settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id),
-                                                    robot_id, session_, seat(robot_id));
+      chains_[index] = std::make_unique<InProcessRobot>(
+          settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id), robot_id, session_, seat(robot_id));
       chains_[index]->hear(*first_word_);
     }
     return *chains_[index];
   }
 
-  std::optional<robot::OracleSeat> seat(std::uint8_t robot_id) const {
+  std::optional<robot::GroundTruthPolicy> seat(std::uint8_t robot_id) const {
     if (!knows_the_truth(settings_.kick_decision, robot_id)) return std::nullopt;
-    return robot::OracleSeat{oracle_config(settings_.policy, scenario_),
-                             oracle_robot(scenario_, match_.true_kicker(robot_id))};
+    return robot::GroundTruthPolicy{oracle_config(settings_.policy, scenario_),
+                                    oracle_robot(scenario_, match_.true_kicker(robot_id))};
   }
 
   /// Whose kick it is: of this possession, or of one before, where it was seen late.
@@ -236,7 +236,7 @@ class Game {
   bool oracle_;
   sim::Match match_;
   robot::Observer observer_;
-  std::vector<std::unique_ptr<RobotChain>> chains_;  // by robot, made when it first has the ball
+  std::vector<std::unique_ptr<InProcessRobot>> chains_;  // by robot, made when it first has the ball
   PlayedMatch played_;
   std::vector<std::int64_t> kick_ids_;  // by possession; 0: none
   std::optional<msg::KickOutcome> outcome_;

@@ -82,7 +82,7 @@ class OtherRobot {
 }  // namespace
 
 RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
-                         evaluator::log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress) {
+                         log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress) {
   refuse_oracle((other ? *other : recorded).settings.kick_decision, robot.robot_id);
   RobotReplay replay{.robot_id = robot.robot_id, .check = {}};
   RecordedCycles cycles{robot, recorded.settings, recorded.robot, kick_session(robot)};

@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
-#include "evaluator/log/writer.hpp"
 #include "experiment/replay/recorded_cycles.hpp"
+#include "log/write/writer.hpp"
 
 namespace trivela::experiment {
 
@@ -33,6 +33,6 @@ using ReplayProgress = std::function<bool(double done_s)>;
 /// to fire them. Throws config::Error where the policies make no sense together, std::runtime_error where a log cannot
 /// be read or written.
 RobotReplay replay_robot(const RecordedRobot& robot, const RobotSetup& recorded, const std::optional<RobotSetup>& other,
-                         evaluator::log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress = {});
+                         log::Writer& log, std::size_t queue_capacity, const ReplayProgress& progress = {});
 
 }  // namespace trivela::experiment

@@ -6,13 +6,13 @@ namespace trivela::experiment {
 namespace {
 
 template <class T>
-evaluator::log::TableId table(evaluator::log::Writer& log) {
+log::TableId table(log::Writer& log) {
   return log.table(robot::table_of<T>(), robot::columns_of<T>());
 }
 
 }  // namespace
 
-ReplayRows::ReplayRows(evaluator::log::Writer& log, std::size_t queue_capacity)
+ReplayRows::ReplayRows(log::Writer& log, std::size_t queue_capacity)
     : log_(log),
       most_waiting_(queue_capacity / 2),
       referee_(table<msg::Referee>(log)),
@@ -24,7 +24,7 @@ ReplayRows::ReplayRows(evaluator::log::Writer& log, std::size_t queue_capacity)
       orders_(table<msg::KickOrder>(log)),
       assignments_(log.table("assignments", robot::assignment_columns())) {}
 
-void ReplayRows::push(evaluator::log::TableId table, std::vector<evaluator::log::Value> row) {
+void ReplayRows::push(log::TableId table, std::vector<log::Value> row) {
   if (log_.waiting() > most_waiting_) log_.flush();
   log_.push(table, std::move(row));
 }

@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "evaluator/log/writer.hpp"
 #include "experiment/replay/robot_logic.hpp"
+#include "log/write/writer.hpp"
 #include "robot/recording/message_row.hpp"
 
 namespace trivela::experiment {
@@ -15,7 +15,7 @@ namespace trivela::experiment {
 class ReplayRows {
  public:
   /// `queue_capacity`: of the log.
-  ReplayRows(evaluator::log::Writer& log, std::size_t queue_capacity);
+  ReplayRows(log::Writer& log, std::size_t queue_capacity);
 
   /// The same row again.
   void write(const msg::Referee& word) { push(referee_, robot::row_of(word)); }
@@ -28,12 +28,12 @@ class ReplayRows {
   std::int64_t orders() const { return orders_made_; }
 
  private:
-  void push(evaluator::log::TableId table, std::vector<evaluator::log::Value> row);
+  void push(log::TableId table, std::vector<log::Value> row);
   void write_decision(const msg::KickDecision& decision);
 
-  evaluator::log::Writer& log_;
+  log::Writer& log_;
   std::size_t most_waiting_;
-  evaluator::log::TableId referee_, odometry_, worlds_, drives_, decisions_, shadows_, orders_, assignments_;
+  log::TableId referee_, odometry_, worlds_, drives_, decisions_, shadows_, orders_, assignments_;
   std::uint64_t cycles_ = 0;
   std::int64_t decisions_made_ = 0, orders_made_ = 0;
   std::set<std::tuple<std::uint8_t, std::uint32_t>> assigned_;  // half and possession

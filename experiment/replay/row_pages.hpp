@@ -14,15 +14,15 @@
 #include <type_traits>
 #include <utility>
 
-#include "evaluator/log/reader.hpp"
 #include "idl/meta.hpp"
 #include "idl/none.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::experiment {
 
 /// One robot's part of one session in a match log. The reader outlives it.
 struct RecordedRobot {
-  const evaluator::log::Reader& reader;
+  const log::Reader& reader;
   std::int64_t session_id = 0;
   int robot_id = 0;
   bool lockstep = false;  ///< its streams share their instants
@@ -30,15 +30,15 @@ struct RecordedRobot {
 
 /// The message whose columns_of<T>() a row holds; NaN for a number that is NULL. Throws WrongCell.
 template <bus::Message T>
-T message_of(std::span<const evaluator::log::Value> cells) {
-  using evaluator::log::cell_as;
+T message_of(std::span<const log::Value> cells) {
+  using log::cell_as;
   T message{};
   std::size_t column = 0;
   bus::visit_columns(message, [&](std::string_view, auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (bus::Enumeration<Field>) {
       const auto value = bus::from_label<Field>(cell_as<std::string>(cells[column], column));
-      if (!value) throw evaluator::log::WrongCell{column, "a label of its enum"};
+      if (!value) throw log::WrongCell{column, "a label of its enum"};
       field = *value;
     } else if constexpr (std::is_floating_point_v<Field>) {
       field = cell_as<std::optional<Field>>(cells[column], column).value_or(msg::kNone);
@@ -74,9 +74,9 @@ class RowPages {
     constexpr int kPageRows = 1024;
     const auto sql =
         fmt::format("SELECT {} FROM {} WHERE session_id = {} AND robot_id = {} AND seq > {} ORDER BY seq LIMIT {}",
-                    fmt::join(bus::columns_of<T>(), ", "), evaluator::log::table_of_message(bus::meta<T>::name).value(),
+                    fmt::join(bus::columns_of<T>(), ", "), log::table_of_message(bus::meta<T>::name).value(),
                     robot_.session_id, robot_.robot_id, after_seq_, kPageRows);
-    robot_.reader.query(sql, [this](std::span<const evaluator::log::Value> cells) {
+    robot_.reader.query(sql, [this](std::span<const log::Value> cells) {
       page_.push_back(message_of<T>(cells));
       after_seq_ = static_cast<std::int64_t>(page_.back().seq);
     });

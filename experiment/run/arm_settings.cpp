@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "config/error.hpp"
 #include "config/learned_model.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::experiment {
 namespace {

@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "config/arms.hpp"
-#include "config/error.hpp"
-#include "config/installation.hpp"
-#include "config/open_file.hpp"
+#include "config/text/error.hpp"
+#include "config/text/installation.hpp"
+#include "config/text/open_file.hpp"
 #include "experiment/play/play_match.hpp"
 #include "robot/recording/session_text.hpp"
 

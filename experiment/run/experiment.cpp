@@ -4,29 +4,30 @@
 #include <time.h>
 
 #include <chrono>
-#include <system_error>
-#include <thread>
+#include <functional>
+#include <map>
+#include <mutex>
 
-#include "config/error.hpp"
-#include "config/installation.hpp"
 #include "config/scenario/scenario.hpp"
-#include "evaluator/log/digest.hpp"
-#include "evaluator/log/experiment_log.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/report/simulated.hpp"
-#include "experiment/effects/summary.hpp"
+#include "config/text/error.hpp"
+#include "config/text/installation.hpp"
+#include "evaluator/render/simulated.hpp"
 #include "experiment/run/arms.hpp"
-#include "experiment/run/match_queue.hpp"
+#include "experiment/run/in_threads.hpp"
 #include "experiment/run/record_match.hpp"
+#include "experiment/study/report.hpp"
 #include "kicking/geometry/time.hpp"
+#include "log/read/reader.hpp"
+#include "log/schema/digest.hpp"
+#include "log/write/experiment_log.hpp"
 #include "robot/decision/assignment.hpp"
 #include "robot/recording/session_text.hpp"
 
 namespace trivela::experiment {
 namespace {
 
-using evaluator::log::ExperimentLog;
-using evaluator::log::Session;
+using log::ExperimentLog;
+using log::Session;
 
 constexpr std::uint32_t kTriedMatches = 100;  // whose robots are made before the log is
 
@@ -44,8 +45,8 @@ double processor_s() {
   return static_cast<double>(now.tv_sec) + kicking::seconds(now.tv_nsec);
 }
 
-std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& evenings, std::uint32_t match_id) {
-  const std::vector<Arm>& arms = evenings.of(match_id);
+std::vector<Played> play_all(const ExperimentPlan& plan, const CalibratedArms& calibrations, std::uint32_t match_id) {
+  const std::vector<Arm>& arms = calibrations.of(match_id);
   std::vector<Played> played(arms.size());
   for (std::size_t i = 0; i < arms.size(); ++i) {
     const double before_s = processor_s();
@@ -59,9 +60,9 @@ std::vector<Played> play_all(const ExperimentPlan& plan, const EveningArms& even
 }
 
 /// The policy of the half where all robots have the same one, else each robot's; none where it is drawn.
-std::vector<evaluator::log::HalfPolicy> policies_of(const ExperimentPlan& plan, const Arm& arm) {
+std::vector<log::HalfPolicy> policies_of(const ExperimentPlan& plan, const Arm& arm) {
   if (const auto policy = only_policy(plan.scenario, arm)) return {{1, kicking::name(*policy)}};
-  std::vector<evaluator::log::HalfPolicy> policies;
+  std::vector<log::HalfPolicy> policies;
   const config::KickDecision settings = settings_of(arm, plan.options).kick_decision;
   for (std::uint8_t robot_id = 1; robot_id <= team_size(plan.scenario); ++robot_id) {
     const robot::PolicyAssignment assignment{settings, robot_id};
@@ -85,22 +86,22 @@ Session session_of(const ExperimentPlan& plan, const Arm& arm) {
   return session;
 }
 
-/// Sessions of an experiment's arms; what all matches of an evening share is made once.
+/// Sessions of an experiment's arms; what all matches of a calibration share is made once.
 class Sessions {
  public:
-  Sessions(const ExperimentPlan& plan, const EveningArms& evenings, const std::string& arguments)
-      : arguments_sha256_(evaluator::log::sha256(arguments)), sessions_(evenings.evenings()) {
-    for (std::uint32_t k = 0; k < evenings.evenings(); ++k) {
-      for (const Arm& arm : evenings.of(k)) {
+  Sessions(const ExperimentPlan& plan, const CalibratedArms& calibrations, const std::string& arguments)
+      : arguments_sha256_(log::sha256(arguments)), sessions_(calibrations.calibrations()) {
+    for (std::uint32_t k = 0; k < calibrations.calibrations(); ++k) {
+      for (const Arm& arm : calibrations.of(k)) {
         sessions_[k].push_back(session_of(plan, arm));
-        if (!plan.evenings.empty()) sessions_[k].back().calibration_id = k;
+        if (!plan.calibrations.empty()) sessions_[k].back().calibration_id = k;
       }
     }
   }
 
   const Session& of(std::uint32_t match_id, std::size_t arm, std::uint64_t match_seed) {
     Session& session = sessions_[match_id % sessions_.size()][arm];
-    session.uuid = evaluator::log::experiment_uuid(arguments_sha256_, match_id, static_cast<std::uint32_t>(arm));
+    session.uuid = log::experiment_uuid(arguments_sha256_, match_id, static_cast<std::uint32_t>(arm));
     session.match_id = match_id;
     session.seed = static_cast<std::int64_t>(match_seed);
     return session;
@@ -108,60 +109,44 @@ class Sessions {
 
  private:
   std::string arguments_sha256_;
-  std::vector<std::vector<Session>> sessions_;  // by evening and arm
+  std::vector<std::vector<Session>> sessions_;  // by calibration and arm
 };
 
-/// Threads that play matches, and write them in order, until none is left.
-class Workers {
+/// Somebody asked to stop.
+struct Interrupted {};
+
+/// Writes matches in the order of their numbers, whatever order they are played in; for one thread at a time.
+class OrderedWriter {
  public:
-  /// Throws std::runtime_error where so many threads cannot be started.
-  Workers(const ExperimentPlan& plan, const EveningArms& evenings, MatchQueue<std::vector<Played>>& queue,
-          unsigned jobs, auto write)
-      : queue_(queue) {
-    try {
-      for (unsigned i = 0; i < jobs; ++i) {
-        threads_.emplace_back([&plan, &evenings, &queue, write] {
-          try {
-            while (const auto match_id = queue.next())
-              queue.done(*match_id, play_all(plan, evenings, *match_id), write);
-          } catch (...) {
-            queue.fail(std::current_exception());
-          }
-        });
-      }
-    } catch (const std::system_error& error) {
-      const std::size_t started = threads_.size();
-      end();
-      throw std::runtime_error{
-          fmt::format("{} of {} threads can be started: {}; choose fewer jobs", started, jobs, error.code().message())};
+  OrderedWriter(std::uint32_t first, std::function<void(std::uint32_t, const std::vector<Played>&)> write)
+      : next_(first), write_(std::move(write)) {}
+
+  void add(std::uint32_t match_id, std::vector<Played> played) {
+    waiting_.emplace(match_id, std::move(played));
+    for (auto found = waiting_.extract(next_); found; found = waiting_.extract(next_)) {
+      write_(next_, found.mapped());
+      ++next_;
     }
   }
-  ~Workers() { end(); }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
 
  private:
-  void end() {
-    queue_.close();
-    for (std::thread& thread : threads_) thread.join();
-    threads_.clear();
-  }
-
-  MatchQueue<std::vector<Played>>& queue_;
-  std::vector<std::thread> threads_;
+  std::uint32_t next_;
+  std::function<void(std::uint32_t, const std::vector<Played>&)> write_;
+  std::map<std::uint32_t, std::vector<Played>> waiting_;
 };
 
 /// What the arms did in each match.
 std::map<std::string, ArmTally> tallies_of(const ExperimentPlan& plan, const std::string& out) {
   std::map<std::string, ArmTally> arms;
-  const EveningArms evenings{{}, plan.evenings};
-  const evaluator::log::MatchRange range = plan.range();
+  const CalibratedArms calibrations{{}, plan.calibrations};
+  const log::MatchRange range = plan.range();
   for (const Arm& arm : plan.arms) {
     ArmTally& tally = arms[arm.name];
     tally.reserve(range.size());
-    for (std::uint32_t m = range.begin; m < range.end; ++m) tally.push_back({.calibration = evenings.evening_of(m)});
+    for (std::uint32_t m = range.begin; m < range.end; ++m)
+      tally.push_back({.calibration = calibrations.calibration_of(m)});
   }
-  const evaluator::log::Reader reader{out, evaluator::log::Check::kQuick};  // it was just written
+  const log::Reader reader{out, log::Check::kQuick};  // it was just written
   const auto count = [&](const std::string& rows, std::int64_t MatchTally::*field) {
     reader.query("SELECT arm, match_id, count(*) FROM sessions JOIN " + rows + " GROUP BY arm, match_id",
                  [&](const std::string& arm, std::size_t match, std::int64_t n) {
@@ -199,12 +184,11 @@ std::string to_text(const ExperimentPlan& plan, const ExperimentRun& run, unsign
                         keeper ? fmt::format("  {:>17.4f}", goals) : "",
                         run.processor_s[i] > 0.0 ? fmt::format("{:.0f}", played / run.processor_s[i]) : "-");
   }
-  if (plan.evenings.empty()) {
-    text += fmt::format(
-        "intervals by match: for these robot files, not for other evenings of calibration (--calibrations)\n");
+  if (plan.calibrations.empty()) {
+    text += fmt::format("intervals by match: for these robot files, not for other calibrations (--calibrations)\n");
   } else {
-    text += fmt::format("intervals by match and evening: {} evenings of calibration, match m has evening m mod {}\n",
-                        plan.evenings.size(), plan.evenings.size());
+    text += fmt::format("intervals by match and calibration: {} calibrations, match m has calibration m mod {}\n",
+                        plan.calibrations.size(), plan.calibrations.size());
   }
   if (keeper) text += fmt::format("goals: by the simulator's truth, on target and past its keeper\n");
   for (const Arm& arm : plan.arms) text += label_warning(arm.name, arms.at(arm.name));
@@ -220,22 +204,22 @@ std::string ExperimentPlan::arguments() const {
                                  config::software_version(), seed, possessions, options.shadows, options.every_cycle);
   text += "\n### scenario " + scenario_name + "\n" + config::to_toml_text(scenario);
   for (const Arm& arm : arms) text += "\n### arm\n" + describe(arm);
-  for (std::size_t k = 0; k < evenings.size(); ++k) {
-    text += fmt::format("\n### evening {} of calibration\n", k);
-    for (const config::Robot& robot : evenings[k]) text += config::to_toml_text(robot);
+  for (std::size_t k = 0; k < calibrations.size(); ++k) {
+    text += fmt::format("\n### calibration {}\n", k);
+    for (const config::Robot& robot : calibrations[k]) text += config::to_toml_text(robot);
   }
   return text;
 }
 
 void check_playable(const ExperimentPlan& plan) {
-  if (plan.arms.size() > evaluator::log::kMostArms)
+  if (plan.arms.size() > log::kMostArms)
     throw config::BadArgument{
-        fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), evaluator::log::kMostArms)};
-  const EveningArms evenings{plan.arms, plan.evenings};
+        fmt::format("{} arms, {} at most fit into an experiment", plan.arms.size(), log::kMostArms)};
+  const CalibratedArms calibrations{plan.arms, plan.calibrations};
   for (std::size_t i = 0; i < plan.arms.size(); ++i) {
     check_playable(plan.scenario, plan.arms[i], plan.possessions);
     for (std::uint32_t match_id = 0; match_id < std::min(plan.matches, kTriedMatches); ++match_id) {
-      const Arm& arm = evenings.of(match_id)[i];
+      const Arm& arm = calibrations.of(match_id)[i];
       for (std::uint8_t robot_id = 1; robot_id <= team_size(plan.scenario); ++robot_id) {
         try {
           robot_of(plan.scenario, arm, plan.seed, match_id, robot_id);
@@ -250,13 +234,12 @@ void check_playable(const ExperimentPlan& plan) {
 ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const std::string& out,
                              const ExperimentWatch& watch) {
   const std::string arguments = plan.arguments();
-  const evaluator::log::MatchRange range = plan.range();
-  ExperimentLog log{out,
-                    {plan.shard ? evaluator::log::stamped_arguments({arguments, *plan.shard, plan.matches}) : arguments,
-                     range.size()}};
+  const log::MatchRange range = plan.range();
+  ExperimentLog log{
+      out, {plan.shard ? log::stamped_arguments({arguments, *plan.shard, plan.matches}) : arguments, range.size()}};
   MatchTables tables{log};
-  const EveningArms evenings{plan.arms, plan.evenings};
-  Sessions sessions{plan, evenings, arguments};
+  const CalibratedArms calibrations{plan.arms, plan.calibrations};
+  Sessions sessions{plan, calibrations, arguments};
   const auto first = range.begin + static_cast<std::uint32_t>(log.matches_done());
   watch.found(log.matches_done());
   ExperimentRun run{.processor_s = std::vector<double>(plan.arms.size())};
@@ -270,24 +253,31 @@ ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const st
     }
     log.end_match();
   };
-  {
-    MatchQueue<std::vector<Played>> queue{first, range.end, 4 * jobs};
-    const Workers workers{plan, evenings, queue, jobs, write};
-    std::uint32_t done = first;
-    while (done < range.end && !watch.stop()) {
-      done = queue.wait(std::chrono::milliseconds{100});
-      const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
-      const double opportunities =
-          static_cast<double>(done - first) * plan.possessions * static_cast<double>(plan.arms.size());
-      watch.progress(static_cast<double>(done - first), range.end - first,
-                     fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
-    }
-    run.complete = done == range.end;
+  OrderedWriter writer{first, write};
+  std::mutex one_at_a_time;
+  try {
+    in_threads(
+        range.end - first, jobs,
+        [&](std::size_t i) {
+          const std::uint32_t match_id = first + static_cast<std::uint32_t>(i);
+          std::vector<Played> played = play_all(plan, calibrations, match_id);
+          const std::lock_guard lock{one_at_a_time};
+          writer.add(match_id, std::move(played));
+        },
+        [&](std::size_t done, std::size_t all) {
+          const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;
+          const double opportunities = static_cast<double>(done * plan.possessions * plan.arms.size());
+          watch.progress(static_cast<double>(done), static_cast<double>(all),
+                         fmt::format("{:.0f} opportunities/s", opportunities / wall.count()));
+          if (watch.stop()) throw Interrupted{};
+        });
+  } catch (const Interrupted&) {
   }
   log.commit();
   run.wall_s = std::chrono::duration<double>{std::chrono::steady_clock::now() - started}.count();
   run.in_log = log.matches_done();
   run.matches = range.begin + run.in_log - first;
+  run.complete = run.in_log == range.size();
   if (run.complete) log.finish();
   return run;
 }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/shard.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/run/evening_arms.hpp"
+#include "experiment/run/calibrated_arms.hpp"
+#include "log/shards/shard.hpp"
 
 namespace trivela::experiment {
 
@@ -21,11 +21,11 @@ struct ExperimentPlan {
   std::uint32_t matches = 1;
   std::uint32_t possessions = 60;
   PlayOptions options;
-  std::vector<Team> evenings;  ///< of calibration; match m is played with evening m mod their number; empty: none
-  std::optional<evaluator::log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
+  std::vector<Team> calibrations;     ///< match m is played with calibration m mod their number; empty: none
+  std::optional<log::Shard> shard{};  ///< whose share of the matches is played; none: all of them
 
   /// The matches that are played.
-  evaluator::log::MatchRange range() const { return evaluator::log::range_of(shard, matches); }
+  log::MatchRange range() const { return log::range_of(shard, matches); }
 
   /// Everything that the rows of a match depend on, as text.
   std::string arguments() const;

@@ -6,13 +6,13 @@ namespace trivela::experiment {
 namespace {
 
 template <class T>
-std::size_t add_table(evaluator::log::ExperimentLog& log) {
+std::size_t add_table(log::ExperimentLog& log) {
   return log.table(robot::table_of<T>(), robot::columns_of<T>());
 }
 
 }  // namespace
 
-MatchTables::MatchTables(evaluator::log::ExperimentLog& log)
+MatchTables::MatchTables(log::ExperimentLog& log)
     : log_(log),
       referee_(add_table<msg::Referee>(log)),
       decisions_(add_table<msg::KickDecision>(log)),

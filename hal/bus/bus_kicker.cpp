@@ -96,29 +96,29 @@ std::string BusKicker::status() const {
   return fmt::format("several programs write device/kicker of robot {}: nothing is fired; stop all but one", robot_id_);
 }
 
-void BusKicker::charge(ChargeWord word) {
+void BusKicker::charge(ChargeCommand word) {
   if (!safe_) write_charge(word);
 }
 
 void BusKicker::make_safe() noexcept {
   safe_ = true;
   try {
-    write_charge(ChargeWord::kEmpty);
+    write_charge(ChargeCommand::kDischarge);
   } catch (const std::exception&) {
     // The bus is gone; the bridge holds for want of words.
   }
 }
 
-void BusKicker::write_charge(ChargeWord word) {
+void BusKicker::write_charge(ChargeCommand word) {
   const KickerCapabilities can = capabilities_;
   if (!can.charge_control && !can.discharge) return;
   msg::DeviceCharge out{};
   out.robot_id = robot_id_;
   out.seq = ++charge_seq_;
   out.t_ns = now_ns();
-  out.word = word == ChargeWord::kUp      ? msg::CHARGE_UP
-             : word == ChargeWord::kEmpty ? msg::CHARGE_EMPTY
-                                          : msg::CHARGE_HOLD;
+  out.word = word == ChargeCommand::kCharge      ? msg::CHARGE_UP
+             : word == ChargeCommand::kDischarge ? msg::CHARGE_EMPTY
+                                                 : msg::CHARGE_HOLD;
   charges_.write(out);
 }
 

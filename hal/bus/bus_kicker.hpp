@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "bus/writer_watch.hpp"
@@ -32,7 +32,7 @@ class BusKicker final : public Kicker {
   void hold_when(const Hold& hold) override { hold_ = hold; }
   void call_when_written(const std::function<void()>& written) override { written_ = written; }
   std::optional<ShotResult> take_result() override;
-  void charge(ChargeWord word) override;
+  void charge(ChargeCommand word) override;
   void make_safe() noexcept override;
   /// That several bridges write, which is a fault of the link while it lasts.
   std::string status() const override;
@@ -40,7 +40,7 @@ class BusKicker final : public Kicker {
   KickerCapabilities capabilities() const override { return capabilities_; }
 
  private:
-  void write_charge(ChargeWord word);
+  void write_charge(ChargeCommand word);
 
   std::uint8_t robot_id_;
   bus::Reader<msg::DeviceKicker> samples_;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "hal/wheels.hpp"

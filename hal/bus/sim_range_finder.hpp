@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "bus/reader.hpp"
 #include "hal/range_finder.hpp"
 #include "idl/messages.hpp"

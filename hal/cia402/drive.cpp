@@ -38,7 +38,7 @@ void Drive::start(std::int64_t now_ns, Frames& out) {
 
 void Drive::ask(std::int64_t now_ns, Frames& out) {
   out.push_back(start_up_->request());
-  due_ns_ = now_ns + start_up_->patience_ns();
+  due_ns_ = now_ns + start_up_->timeout_ns();
 }
 
 void Drive::go_on(StartUp::Progress progress, std::int64_t now_ns, Frames& out) {

@@ -7,7 +7,7 @@
 namespace trivela::hal::cia402 {
 namespace {
 
-constexpr std::int64_t kBootPatience_ns = 3'000'000'000, kPatience_ns = 250'000'000;
+constexpr std::int64_t kBootTimeout_ns = 3'000'000'000, kTimeout_ns = 250'000'000;
 constexpr std::uint32_t kMaxon = 0xFB;  // whose drives without object 60A9 count in rpm
 constexpr std::uint32_t kRpm = 0xB44700;
 constexpr int kGreatestPower = 6;
@@ -101,7 +101,7 @@ can::Frame StartUp::request() const {
   return open->value ? sdo_write(node_, open->object, *open->value, open->size) : sdo_read(node_, open->object);
 }
 
-std::int64_t StartUp::patience_ns() const { return !up_ && reset_ == Reset::kYes ? kBootPatience_ns : kPatience_ns; }
+std::int64_t StartUp::timeout_ns() const { return !up_ && reset_ == Reset::kYes ? kBootTimeout_ns : kTimeout_ns; }
 
 StartUp::Progress StartUp::take(const can::Frame& frame) {
   if (const auto state = heartbeat_of(frame, node_)) {

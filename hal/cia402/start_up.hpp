@@ -46,7 +46,7 @@ class StartUp {
 
   can::Frame request() const;
   /// How long its answer may take.
-  std::int64_t patience_ns() const;
+  std::int64_t timeout_ns() const;
 
   Progress take(const can::Frame& frame);
   /// The answer did not come: the request is repeated once, passed over where the rest works without, or given up.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "refbox/command.hpp"
+#include "idl/refbox/command.hpp"
 
 namespace trivela::hal::refbox {
 

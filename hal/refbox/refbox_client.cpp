@@ -12,19 +12,19 @@ namespace trivela::hal::refbox {
 namespace {
 
 // How often it is looked whether what was sent has been acknowledged.
-constexpr std::chrono::milliseconds kGlance{20};
+constexpr std::chrono::milliseconds kPollInterval{20};
 // What the other side takes, it takes at once.
 constexpr std::chrono::milliseconds kSendingTime{50};
 
 }  // namespace
 
 RefboxClient::RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds patience)
-    : line_(std::move(line)), team_(std::move(team)), patience_(patience), words_(team_) {}
+    : line_(std::move(line)), team_(std::move(team)), timeout_(patience), words_(team_) {}
 
 std::optional<BoxEvent> RefboxClient::next(std::chrono::nanoseconds timeout) {
   const auto deadline = Clock::now() + timeout;
   while (events_.empty()) {
-    const auto until = std::min(deadline, Clock::now() + kGlance);
+    const auto until = std::min(deadline, Clock::now() + kPollInterval);
     connected_ ? hear(until) : open(until);
     if (events_.empty() && Clock::now() >= deadline) return std::nullopt;
   }
@@ -47,7 +47,7 @@ void RefboxClient::open(Clock::time_point deadline) {
       accepted_ = turned_away_ = false;
       attempt_since_.reset();
       said_.clear();
-      words_ = WordStream{team_};
+      words_ = CommandStream{team_};
       unacknowledged_ = {};
       events_.emplace_back(Connected{});
   }
@@ -79,7 +79,7 @@ void RefboxClient::hear(Clock::time_point deadline) {
 
 void RefboxClient::look_at_acknowledgements() {
   const auto age = unacknowledged_.age(line_->unacknowledged_bytes(), Clock::now());
-  if (age <= patience_) return;
+  if (age <= timeout_) return;
   lose(fmt::format("it has not acknowledged for {:.2f} s what we sent", std::chrono::duration<double>(age).count()));
 }
 

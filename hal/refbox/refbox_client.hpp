@@ -65,12 +65,12 @@ class RefboxClient {
 
   std::unique_ptr<Line> line_;
   TeamMarks team_;
-  std::chrono::nanoseconds patience_;
+  std::chrono::nanoseconds timeout_;
   bool connected_ = false;
   bool accepted_ = false;     // the box has said a word on this connection that is no RESET
   bool turned_away_ = false;  // it has said RESET and nothing else
   std::deque<BoxEvent> events_;
-  WordStream words_;
+  CommandStream words_;
   Unacknowledged unacknowledged_;
   Clock::time_point retry_at_{};
   std::optional<Clock::time_point> attempt_since_;

@@ -65,12 +65,12 @@ Word read_letter(char letter, Colour ours) {
   return Command{known->kind, *known->team == ours ? Side::kOurs : Side::kTheirs};
 }
 
-std::optional<std::string_view> WordStream::wrong_protocol() const {
+std::optional<std::string_view> CommandStream::wrong_protocol() const {
   if (!objects_for_letters_) return std::nullopt;
   return "it speaks objects, not letters: set refbox.letters = false";
 }
 
-std::vector<Word> WordStream::letters(std::string_view bytes) {
+std::vector<Word> CommandStream::letters(std::string_view bytes) {
   std::vector<Word> words;
   for (const char letter : bytes) {
     objects_for_letters_ = objects_for_letters_ || letter == '{';
@@ -81,7 +81,7 @@ std::vector<Word> WordStream::letters(std::string_view bytes) {
   return words;
 }
 
-std::optional<Word> WordStream::no_object(std::string_view bytes) {
+std::optional<Word> CommandStream::no_object(std::string_view bytes) {
   using namespace std::string_view_literals;
   const auto first = bytes.find_first_not_of(" \t\r\n\0"sv);
   if (begun_ || first == std::string_view::npos) return std::nullopt;
@@ -91,7 +91,7 @@ std::optional<Word> WordStream::no_object(std::string_view bytes) {
                     bytes.substr(first, 1));
 }
 
-std::vector<Word> WordStream::add(std::string_view bytes) {
+std::vector<Word> CommandStream::add(std::string_view bytes) {
   if (team_.protocol == Protocol::kLetters) return letters(bytes);
   std::vector<Word> words;
   if (auto word = no_object(bytes)) words.push_back(std::move(*word));

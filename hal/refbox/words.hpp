@@ -40,9 +40,9 @@ struct TeamMarks {
 };
 
 /// The words in a stream of bytes; one for each connection.
-class WordStream {
+class CommandStream {
  public:
-  explicit WordStream(TeamMarks team) : team_(std::move(team)) {}
+  explicit CommandStream(TeamMarks team) : team_(std::move(team)) {}
 
   /// The words that these bytes end, in their order. None of those that follow an object where letters are spoken: the
   /// letters of its text are commands, too, a START among them.

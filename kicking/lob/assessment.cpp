@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "kicking/lob/effective_fit.hpp"
-#include "kicking/lob/true_fit.hpp"
+#include "kicking/lob/fit/effective_fit.hpp"
+#include "kicking/lob/fit/true_fit.hpp"
 
 namespace trivela::kicking::lob {
 namespace {

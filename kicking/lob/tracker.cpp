@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kicking/geometry/time.hpp"
-#include "kicking/lob/free_fall.hpp"
+#include "kicking/lob/fit/free_fall.hpp"
 
 namespace trivela::kicking::lob {
 namespace {

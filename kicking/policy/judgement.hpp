@@ -20,7 +20,7 @@ inline Judgement describe(const PolicyConfig& config, const Goal& goal, const Sh
 
 /// How far the robot may still go with the ball that it took at memory.taken_m. However it turns, the ball is at most
 /// ball_offset_m farther from there than its centre: radius = carry_limit_m - carry_margin_m - ball_offset_m.
-inline CarryReach carry_reach(const PolicyConfig& config, const RobotModel& robot, const PossessionMemory& memory) {
+inline DribbleLimit carry_reach(const PolicyConfig& config, const RobotModel& robot, const PossessionMemory& memory) {
   if (!memory.taken_m) return {};
   const double radius_m = config.rules.carry_limit_m - config.carry_margin_m - robot.ball_offset_m;
   return {radius_m, config.max_brake_mps2, *memory.taken_m};

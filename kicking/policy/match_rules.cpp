@@ -5,7 +5,7 @@
 
 namespace trivela::kicking {
 
-Twist CarryReach::kept(const Twist& command, const Eigen::Vector2d& centre_m, const Eigen::Vector2d& forward) const {
+Twist DribbleLimit::kept(const Twist& command, const Eigen::Vector2d& centre_m, const Eigen::Vector2d& forward) const {
   const Eigen::Vector2d way = centre_m - taken_m_;
   const double carried_m = way.norm();
   if (!(carried_m > 0.0)) return command;

@@ -17,14 +17,14 @@ struct MatchRules {
 };
 
 /// How far a robot may still go with the ball: its centre within a circle about the place where the ball was taken.
-class CarryReach {
+class DribbleLimit {
  public:
   /// `taken_m`: the ball's centre in F then.
-  CarryReach(double radius_m, double max_brake_mps2, const Eigen::Vector2d& taken_m)
+  DribbleLimit(double radius_m, double max_brake_mps2, const Eigen::Vector2d& taken_m)
       : radius_m_(radius_m), brake_mps2_(max_brake_mps2), taken_m_(taken_m), limited_(true) {}
 
   /// No limit.
-  CarryReach() = default;
+  DribbleLimit() = default;
 
   /// The command in R of a robot at centre_m in F, unit vector of its heading `forward`: its part away from where the
   /// ball was taken is v <= sqrt(2 a room), a the braking and room what is left of the radius; beyond it none.

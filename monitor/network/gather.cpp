@@ -20,7 +20,7 @@
 #include <thread>
 
 #include "bus/census.hpp"
-#include "bus/own_sockets.hpp"
+#include "bus/domain/own_sockets.hpp"
 #include "monitor/network/probes.hpp"
 
 namespace trivela::monitor::network {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "monitor/network/readings.hpp"
 
 namespace trivela::monitor::network {

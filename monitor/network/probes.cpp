@@ -16,7 +16,7 @@
 namespace trivela::monitor::network {
 namespace {
 
-constexpr int kPatience_ms = 500;
+constexpr int kTimeout_ms = 500;
 constexpr unsigned kLastPort = 65535;
 constexpr char kWord[] = "trivela doctor";  // no RTPS: a participant passes it over
 
@@ -57,7 +57,7 @@ Probed send_and_hear(const Socket& out, const Socket& in, const sockaddr_in& to)
   if (sendto(out.descriptor(), kWord, sizeof kWord, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to) < 0)
     return errno == EPERM ? Probed{Probe::kLost, "the firewall refuses it"} : not_sent();
   pollfd readable{in.descriptor(), POLLIN, 0};
-  for (int i = 0; i < 100 && poll(&readable, 1, kPatience_ms) > 0; ++i) {
+  for (int i = 0; i < 100 && poll(&readable, 1, kTimeout_ms) > 0; ++i) {
     std::array<char, 64> heard{};
     const ssize_t n = recv(in.descriptor(), heard.data(), heard.size(), 0);
     if (n == sizeof kWord && std::memcmp(heard.data(), kWord, sizeof kWord) == 0) return {Probe::kArrived, {}};
@@ -109,7 +109,7 @@ Peer probe_peer(const std::string& name) {
     return {name, PeerState::kThere};
   if (errno != EINPROGRESS) return {name, PeerState::kSilent};
   pollfd writable{socket.descriptor(), POLLOUT, 0};
-  if (poll(&writable, 1, kPatience_ms) <= 0) return {name, PeerState::kSilent};
+  if (poll(&writable, 1, kTimeout_ms) <= 0) return {name, PeerState::kSilent};
   int outcome = 0;
   socklen_t size = sizeof outcome;
   getsockopt(socket.descriptor(), SOL_SOCKET, SO_ERROR, &outcome, &size);

@@ -71,7 +71,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context, DecisionNode which)
       first_(context.settings.run.lockstep) {
   refuse_oracle(decider_.assignment());
   refuse_second(context_, which_);
-  refuse_twin(context_, order_out_, node_.name());
+  reject_duplicate_node(context_, order_out_, node_.name());
   if (which_ == DecisionNode::kSecond) {
     node_.on<msg::DriveCommand>([this, first = bus::owner_of_robot(kDecisionNode, context_.robot_id())](
                                     const msg::DriveCommand&, const bus::SampleInfo& info) {

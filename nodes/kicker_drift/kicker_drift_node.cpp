@@ -19,7 +19,7 @@ bus::ReaderOptions looking_on() {
   return options;
 }
 
-msg::KickerDrift drift_message(const evaluator::DriftStory& story, std::span<const evaluator::WatchedKick> kicks) {
+msg::KickerDrift drift_message(const evaluator::DriftEstimate& story, std::span<const evaluator::WatchedKick> kicks) {
   msg::KickerDrift message{};
   message.factor = message.factor_se = message.height_m = message.table_factor = msg::kNone;
   if (story.drifts.empty()) return message;
@@ -48,7 +48,7 @@ KickerDriftNode::KickerDriftNode(NodeContext& context)
     : context_(context),
       node_(context.participant, "kicker_drift", context.robot_id()),
       drift_out_(node_.writer<msg::KickerDrift>()) {
-  refuse_twin(context_, drift_out_, "kicker_drift");
+  reject_duplicate_node(context_, drift_out_, "kicker_drift");
   listen<msg::KickDecision>();
   listen<msg::KickReceipt>();
   listen<msg::KickOutcome>();
@@ -70,7 +70,7 @@ void KickerDriftNode::judge() {
   std::vector<evaluator::KickResidual> residuals;
   residuals.reserve(kicks.size());
   for (const evaluator::WatchedKick& kick : kicks) residuals.push_back(evaluator::residual_of(kick));
-  const evaluator::DriftStory story = evaluator::drifts_of(residuals);
+  const evaluator::DriftEstimate story = evaluator::drifts_of(residuals);
   const msg::KickerDrift message = drift_message(story, kicks);
   if (says_the_same(message, said_)) return;
   say(message);

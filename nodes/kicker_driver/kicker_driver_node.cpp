@@ -37,7 +37,7 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       referee_(context.settings.run.referee_timeout_s),
       first_(context.settings.run.lockstep) {
   demand_pulses();
-  refuse_twin(context_, receipt_out_, "kicker_driver");
+  reject_duplicate_node(context_, receipt_out_, "kicker_driver");
   if (!context_.settings.run.lockstep) begin_in_real_time();
   node_.on_device(
       "kicker",
@@ -107,7 +107,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
   say_link(sample.fault == hal::KickerFault::kLink);
   const msg::KickerStatus status = desk_.status(sample, referee_says(word), now_t_ns());
   look_for_decision();
-  kicker_->charge(desk_.charge_word());  // before anybody hears of the state that it belongs to
+  kicker_->charge(desk_.charge_command());  // before anybody hears of the state that it belongs to
   status_out_.write(status);
   withdraw();
   take_results();
@@ -147,7 +147,7 @@ void KickerDriverNode::tell_charge() {
   if (context_.settings.run.lockstep) return;
   const std::lock_guard lock{mutex_};
   look_for_decision();
-  kicker_->charge(desk_.charge_word());
+  kicker_->charge(desk_.charge_command());
   take_results();
 }
 

@@ -12,18 +12,18 @@
 #include "bus/writer_watch.hpp"
 #include "hal/kicker.hpp"
 #include "nodes/kicker_driver/pending_kick.hpp"
-#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "robot/driver/order_desk.hpp"
+#include "nodes/runtime/simulated_device_notice.hpp"
+#include "robot/driver/kicker_controller.hpp"
 #include "robot/watch/loop_watch.hpp"
 
 namespace trivela::nodes {
 
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
-/// the OrderDesk accepts the order. An order may be fired up to a cycle after it was judged: the device has it and
-/// waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the kick
-/// is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game, and so
-/// does a WorldState that does not play: it hears him by a way of its own, and is of a robot that knows where it is.
+/// the KickerController accepts the order. An order may be fired up to a cycle after it was judged: the device has it
+/// and waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the
+/// kick is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game, and
+/// so does a WorldState that does not play: it hears him by a way of its own, and is of a robot that knows where it is.
 /// Leaving, by whichever way, makes the device safe.
 class KickerDriverNode {
  public:
@@ -63,7 +63,7 @@ class KickerDriverNode {
   std::mutex mutex_;                    // device thread and order reaction
   std::optional<PendingKick> pending_;  // real time
   std::unique_ptr<hal::Kicker> kicker_;
-  robot::OrderDesk desk_;
+  robot::KickerController desk_;
   std::int64_t sample_t_ns_ = 0;
   std::atomic<std::int64_t> called_off_ns_ = 0;  // the last stop, by the steady clock
   bool clock_differs_ = false;
@@ -78,7 +78,7 @@ class KickerDriverNode {
   bus::Node node_;
   bus::Output<msg::KickerStatus> status_out_;
   bus::Output<msg::KickReceipt> receipt_out_;
-  EmulationWord emulation_;
+  SimulatedDeviceNotice emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_of_cycle_;  // lockstep
   robot::RefereeWatch referee_;                                   // real time

@@ -21,7 +21,7 @@ OdometryNode::OdometryNode(NodeContext& context, std::unique_ptr<hal::Wheels> wh
       first_(context.settings.run.lockstep),
       world_(node_.stores<msg::WorldState>()),
       arbiter_(context.settings.kick_decision.drive, context.settings.odometry) {
-  refuse_twin(context_, odometry_out_, "odometry");
+  reject_duplicate_node(context_, odometry_out_, "odometry");
   if (context_.settings.kick_decision.drive == config::DriveMode::kAdvice)
     context_.logger->info("kick_decision.drive = \"advice\": the base moves by team_drive alone");
   node_.on_device(

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "hal/wheels.hpp"
-#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/simulated_device_notice.hpp"
 #include "robot/odometry/drive_arbiter.hpp"
 #include "robot/odometry/wheel_odometry.hpp"
 
@@ -36,7 +36,7 @@ class OdometryNode {
   robot::WheelOdometry odometry_;
   bus::Node node_;
   bus::Output<msg::Odometry> odometry_out_;
-  EmulationWord emulation_;
+  SimulatedDeviceNotice emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   FirstCycle first_;
   std::counting_semaphore<> cycle_over_{1};

@@ -17,8 +17,8 @@ namespace trivela::nodes {
 namespace {
 
 namespace fs = std::filesystem;
-using evaluator::log::Session;
-using evaluator::log::Writer;
+using log::Session;
+using log::Writer;
 
 // Where a log goes whose own folder refuses: the last one is memory, gone when the machine is switched off. A service
 // has its state folder ($STATE_DIRECTORY, of systemd); its /tmp and /var/tmp may be its own and go with it
@@ -73,7 +73,7 @@ bool holds_anything(const fs::path& path) {
 
 }  // namespace
 
-PlacedLog place_log(const NodeContext& context, const evaluator::log::WriterOptions& options) {
+PlacedLog place_log(const NodeContext& context, const log::WriterOptions& options) {
   const config::Settings& settings = context.settings;
   const std::int64_t now_utc_ns = now_ns(std::chrono::system_clock::now());
   const robot::LogNaming naming{settings.run.team, settings.run.robot_id, now_utc_ns};

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "evaluator/log/writer.hpp"
+#include "log/write/writer.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {
@@ -11,7 +11,7 @@ namespace trivela::nodes {
 /// A log that a recorder writes to, and where it is.
 struct PlacedLog {
   std::filesystem::path path;
-  std::unique_ptr<evaluator::log::Writer> writer;
+  std::unique_ptr<log::Writer> writer;
 };
 
 /// Opens the file that recorder.log names (robot/recording/log_name.hpp). In real time a match is going on that is not
@@ -20,6 +20,6 @@ struct PlacedLog {
 /// state folder ($STATE_DIRECTORY), without one in the temporary folder or /var/tmp, or in /dev/shm; the logger says
 /// where, as an error. It goes on from the newest session of that name's logs. Throws std::runtime_error where none of
 /// them can be written, in lockstep where the file itself cannot.
-PlacedLog place_log(const NodeContext& context, const evaluator::log::WriterOptions& options);
+PlacedLog place_log(const NodeContext& context, const log::WriterOptions& options);
 
 }  // namespace trivela::nodes

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "bus/executor.hpp"
-#include "evaluator/log/additions.hpp"
 #include "kicking/geometry/time.hpp"
+#include "log/write/additions.hpp"
 #include "nodes/recorder/log_place.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -22,10 +22,10 @@ namespace trivela::nodes {
 
 constexpr double kTeamPeriod_s = 0.35;  // a second without a state is a silence: on the air a few are lost in a row
 
-using evaluator::log::LossKind;
-using evaluator::log::TableId;
+using log::LossKind;
+using log::TableId;
 
-RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, std::shared_ptr<RecordingState> state)
+RecorderNode::RecorderNode(NodeContext& context, log::Writer& log, std::shared_ptr<RecordingState> state)
     : context_(context),
       log_(log),
       node_(context.participant, "recorder"),
@@ -41,7 +41,7 @@ RecorderNode::RecorderNode(NodeContext& context, evaluator::log::Writer& log, st
   }
   bus::for_each_message([this]<class T>() {
     if constexpr (requires(T sample) { sample.seq; }) {
-      if (const auto table = evaluator::log::table_of_message(bus::meta<T>::name)) record<T>(*table);
+      if (const auto table = log::table_of_message(bus::meta<T>::name)) record<T>(*table);
     }
   });
   if (state_->silences) {
@@ -78,8 +78,8 @@ void RecorderNode::note_fires(const std::vector<msg::DeviceFire>& fires) {
   if (fires.size() > 1) text += fmt::format("; {} more kicks were told in this way", fires.size() - 1);
   context_.logger->error(text);
   try {
-    evaluator::log::Additions{state_->log}.add(
-        evaluator::log::Note{.session_id = log_.session_id(), .kind = "note", .text = text, .who = "recorder"},
+    log::Additions{state_->log}.add(
+        log::Note{.session_id = log_.session_id(), .kind = "note", .text = text, .who = "recorder"},
         now_ns(std::chrono::system_clock::now()));
   } catch (const std::exception& error) {
     context_.logger->error("the log has no note of that: {}", error.what());
@@ -202,13 +202,13 @@ int recorder_main(int argc, char** argv) {
   const auto state = std::make_shared<RecordingState>();
   return node_main(argc, argv, "recorder", [&placed, &state](NodeContext& context) {
     const config::Recorder& settings = context.settings.recorder;
-    evaluator::log::WriterOptions options;
+    log::WriterOptions options;
     options.queue_capacity = settings.queue_capacity;
     options.group_commit_s = settings.group_commit_s;
     options.warn_late = !context.settings.run.lockstep;  // where nobody looks at a clock
     options.warn = [logger = context.logger](const std::string& line) { logger->warn(line); };
     if (!placed) placed.emplace(place_log(context, options));
-    evaluator::log::Writer& log = *placed->writer;
+    log::Writer& log = *placed->writer;
     state->log = placed->path;
     RecorderNode node{context, log, state};
     // Its own thread takes the samples: the bus's receive thread must never wait for the log.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bus/reader.hpp"
-#include "evaluator/log/clock_offsets.hpp"
-#include "evaluator/log/writer.hpp"
+#include "log/read/clock_offsets.hpp"
+#include "log/write/writer.hpp"
 #include "nodes/recorder/recording_state.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/watch/cycle_watch.hpp"
@@ -20,7 +20,7 @@ namespace trivela::nodes {
 class RecorderNode {
  public:
   /// `state`: of the same log, which an earlier node of this process wrote to; empty: there was no such node.
-  RecorderNode(NodeContext& context, evaluator::log::Writer& log,
+  RecorderNode(NodeContext& context, log::Writer& log,
                std::shared_ptr<RecordingState> state = std::make_shared<RecordingState>());
   bus::Node& node() { return node_; }
 
@@ -34,7 +34,7 @@ class RecorderNode {
   /// The number that the sample is recorded with; none: it is there already, or cannot be true and is counted as
   /// rejected.
   template <class T>
-  std::optional<std::int64_t> store(const std::string& table, evaluator::log::TableId id, StreamWatch& watch, T sample,
+  std::optional<std::int64_t> store(const std::string& table, log::TableId id, StreamWatch& watch, T sample,
                                     std::uint64_t writer);
 
   /// What a decision, recorded by the number `seq`, says of its possession and of who was not in charge.
@@ -51,10 +51,10 @@ class RecorderNode {
   void report_cycle(std::size_t stream, std::int64_t t_ns);
 
   NodeContext& context_;
-  evaluator::log::Writer& log_;
+  log::Writer& log_;
   bus::Node node_;
-  evaluator::log::TableId shadows_, assignments_;
-  evaluator::log::ClockOffsetWriter clocks_;
+  log::TableId shadows_, assignments_;
+  log::ClockOffsetWriter clocks_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   std::optional<bus::Reader<msg::DeviceFire>> fires_;
   std::mutex mutex_;  // of cycles_
@@ -63,9 +63,9 @@ class RecorderNode {
 };
 
 /// What the log says about this session before anything was heard: it is simulated where it replays what was.
-evaluator::log::Session session_of(const NodeContext& context);
+log::Session session_of(const NodeContext& context);
 
 /// The world that the configuration names, in which the session was played if there is a writer of truth.
-evaluator::log::Simulation simulation_of(const config::Settings& settings);
+log::Simulation simulation_of(const config::Settings& settings);
 
 }  // namespace trivela::nodes

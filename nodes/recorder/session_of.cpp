@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "config/installation.hpp"
 #include "config/scenario/scenario.hpp"
+#include "config/text/installation.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/recording/session_text.hpp"
@@ -20,11 +20,11 @@ std::optional<double> minutes_of_half(const config::Settings& settings) {
 
 }  // namespace
 
-evaluator::log::Simulation simulation_of(const config::Settings& settings) {
+log::Simulation simulation_of(const config::Settings& settings) {
   const config::Simulator& simulator = settings.simulator;
-  evaluator::log::Simulation world{.seed = simulator.seed,
-                                   .scenario = std::filesystem::path{settings.run.scenario}.stem().string(),
-                                   .paired_halves = simulator.paired_halves};
+  log::Simulation world{.seed = simulator.seed,
+                        .scenario = std::filesystem::path{settings.run.scenario}.stem().string(),
+                        .paired_halves = simulator.paired_halves};
   // A half that may end with its possessions has no length that anybody could know.
   if (simulator.max_possessions > 0) return world;
   const std::optional<double> minutes = minutes_of_half(settings);
@@ -32,12 +32,12 @@ evaluator::log::Simulation simulation_of(const config::Settings& settings) {
   return world;
 }
 
-evaluator::log::Session session_of(const NodeContext& context) {
+log::Session session_of(const NodeContext& context) {
   const config::Settings& settings = context.settings;
   // The bridge may be the simulator.
   const bool perhaps_simulated =
       settings.run.lockstep || std::holds_alternative<config::BusDevice>(settings.hal.wheels);
-  evaluator::log::Session session;
+  log::Session session;
   session.simulated_clock = settings.run.lockstep;
   const std::int64_t realtime_ns = now_ns(std::chrono::system_clock::now());
   if (!session.simulated_clock) session.started_t_ns = now_ns(std::chrono::steady_clock::now());

@@ -33,7 +33,7 @@ void SilenceRecord::look(std::int64_t now_ns) {
 }
 
 void SilenceRecord::write(const robot::SilenceEdge& edge) {
-  const evaluator::log::Silence silence{tables_[edge.stream], edge.robot_id, edge.from_ns, edge.to_ns};
+  const log::Silence silence{tables_[edge.stream], edge.robot_id, edge.from_ns, edge.to_ns};
   if (edge.was_delay()) {
     log_.withdraw(silence);
   } else {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/writer.hpp"
+#include "log/write/writer.hpp"
 #include "robot/watch/silence_lines.hpp"
 #include "robot/watch/silence_watch.hpp"
 
@@ -23,7 +23,7 @@ class SilenceRecord {
   static constexpr std::chrono::milliseconds kStep{20};
 
   /// Streams have at least the period of a cycle.
-  SilenceRecord(std::shared_ptr<spdlog::logger> logger, double cycle_s, evaluator::log::Writer& log)
+  SilenceRecord(std::shared_ptr<spdlog::logger> logger, double cycle_s, log::Writer& log)
       : logger_(std::move(logger)), cycle_s_(cycle_s), log_(log) {}
 
   /// The number of a stream, by the table of its samples, and with its period where it is new.
@@ -37,7 +37,7 @@ class SilenceRecord {
 
   const std::shared_ptr<spdlog::logger> logger_;
   const double cycle_s_;
-  evaluator::log::Writer& log_;
+  log::Writer& log_;
   std::mutex mutex_;  // of what follows
   std::vector<std::string> tables_;
   robot::SilenceWatch watch_{std::chrono::nanoseconds{kStep}.count()};

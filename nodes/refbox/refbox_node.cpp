@@ -50,7 +50,7 @@ RefboxNode::RefboxNode(NodeContext& context, std::shared_ptr<RefboxLink> link)
     throw std::runtime_error{"refbox.group is empty: the referee box names us by our multicast group, 224.16.32.N"};
   for (const std::uint32_t robot_id : robots_of(context.settings))
     robots_.push_back({static_cast<std::uint8_t>(robot_id), node_.writer<msg::Referee>(referee_of(robot_id))});
-  for (const Robot& robot : robots_) refuse_twin(context_, robot.referee_out, "referee", robot.robot_id);
+  for (const Robot& robot : robots_) reject_duplicate_node(context_, robot.referee_out, "referee", robot.robot_id);
   node_.on<msg::WorldState>([this](const msg::WorldState& world) { on_world(world); });
   node_.on<msg::TeamHeard>([this](const msg::TeamHeard& heard) {  // on the base: of robots whose own bus is elsewhere
     if (const auto world = robot::world_of(heard)) on_world(*world);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hal/refbox/refbox_client.hpp"
-#include "nodes/runtime/emulation_word.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/simulated_device_notice.hpp"
 #include "robot/referee/match_state.hpp"
 
 namespace trivela::nodes {
@@ -58,7 +58,7 @@ class RefboxNode {
   NodeContext& context_;
   std::shared_ptr<RefboxLink> link_;
   bus::Node node_;
-  EmulationWord emulation_;
+  SimulatedDeviceNotice emulation_;
   std::vector<Robot> robots_;
   std::uint64_t seq_ = 0;
   std::chrono::steady_clock::time_point next_tick_{};

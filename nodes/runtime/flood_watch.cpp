@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kGlancesBetween = 10;  // of what is looked at less often than memory
+constexpr int kPollsBetween = 10;  // of what is looked at less often than memory
 constexpr std::int64_t kMb = std::int64_t{1} << 20;
 constexpr std::int64_t kGrown = 32 * kMb;  // a node starts with less
 
@@ -85,7 +85,7 @@ std::string FloodWatch::fault() {
   const std::int64_t bytes = resident_bytes();
   if (bytes > limit_mb_ * kMb)
     return fmt::format("takes {} MB of memory, more than run.memory_limit_mb = {}", bytes / kMb, limit_mb_);
-  if (glances_ % kGlancesBetween != 0) return {};
+  if (glances_ % kPollsBetween != 0) return {};
   if (gives_back_ && bytes > start_bytes_ + kGrown) malloc_trim(0);
   if (handshakes_turn()) return "the thread of handshakes does not come round, nobody would be let in any more";
   return {};
@@ -95,7 +95,7 @@ std::string FloodWatch::fault() {
 /// processor; one that sleeps has not run.
 bool FloodWatch::handshakes_turn() {
   bool turns = false;
-  const std::int64_t tenth_ns = std::chrono::nanoseconds{glance_ * kGlancesBetween}.count() / 10;
+  const std::int64_t tenth_ns = std::chrono::nanoseconds{glance_ * kPollsBetween}.count() / 10;
   for (const auto& task : fs::directory_iterator{"/proc/self/task"}) {
     if (first_word(task.path() / "comm") != kHandshakes) continue;
     Turns now{pauses_of(task.path()), 0};

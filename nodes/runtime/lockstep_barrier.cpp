@@ -8,8 +8,8 @@
 namespace trivela::nodes {
 namespace {
 
-constexpr std::chrono::seconds kPatience{20};
-constexpr std::chrono::milliseconds kGlance{100};  // how often a stop is looked for
+constexpr std::chrono::seconds kTimeout{20};
+constexpr std::chrono::milliseconds kPollInterval{100};  // how often a stop is looked for
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
     if (finished(t_ns)) return true;
     if (stop.requested()) return false;
     if (taken > 0) last_news = std::chrono::steady_clock::now();
-    if (std::chrono::steady_clock::now() - last_news > kPatience) {
+    if (std::chrono::steady_clock::now() - last_news > kTimeout) {
       std::string missing;
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
         if (nodes_[i].t_ns < due(i, t_ns)) missing += std::string{" "} + bus::label(static_cast<msg::StepNode>(i));
@@ -38,7 +38,7 @@ bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
       throw std::runtime_error{fmt::format("cycle of t {} ns was not finished within 20 s by:{}", t_ns,
                                            missing.empty() ? " kicker_driver (an order is unanswered)" : missing)};
     }
-    reader_.wait(kGlance);
+    reader_.wait(kPollInterval);
   }
 }
 

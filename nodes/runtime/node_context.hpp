@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "bus/domain/participant.hpp"
 #include "bus/node.hpp"
-#include "bus/participant.hpp"
 #include "bus/pulse.hpp"
 #include "bus/stop.hpp"
 #include "config/robot.hpp"
@@ -58,8 +58,8 @@ struct NodeContext {
 /// begin together stays.
 /// Throws std::runtime_error naming node, robot and topic.
 template <class T>
-void refuse_twin(const NodeContext& context, const bus::Output<T>& output, const std::string& node,
-                 std::optional<std::uint32_t> robot_id = {}) {
+void reject_duplicate_node(const NodeContext& context, const bus::Output<T>& output, const std::string& node,
+                           std::optional<std::uint32_t> robot_id = {}) {
   if (!output.elder_writer_exists()) return;
   throw std::runtime_error{"another " + node + " of robot " +
                            std::to_string(robot_id.value_or(context.settings.run.robot_id)) + " writes " +
@@ -79,14 +79,14 @@ inline constexpr const char* kDecisionNode = "kick_decision";
 inline constexpr const char* kSecondDecisionNode = "kick_decision_second";
 
 /// How long a node waits in lockstep for the others before it gives up.
-inline constexpr std::chrono::seconds kLockstepPatience{20};
+inline constexpr std::chrono::seconds kLockstepTimeout{20};
 
 /// Asks `ready(timeout)` again and again until it says so. False: the stop was requested first. Throws
 /// std::runtime_error with `what` when the patience is over.
 [[nodiscard]] bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
-  constexpr std::chrono::milliseconds kGlance{100};  // how often the stop is looked for
-  const auto deadline = std::chrono::steady_clock::now() + kLockstepPatience;
-  while (!ready(kGlance)) {
+  constexpr std::chrono::milliseconds kPollInterval{100};  // how often the stop is looked for
+  const auto deadline = std::chrono::steady_clock::now() + kLockstepTimeout;
+  while (!ready(kPollInterval)) {
     if (stop.requested()) return false;
     if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error{what + " after 20 s"};
   }
@@ -110,7 +110,7 @@ class FirstCycle {
 
 /// Waits until a device's other side is there; throws std::runtime_error when it does not come.
 void expect_device(auto& device) {
-  if (!device.connected(kLockstepPatience)) throw std::runtime_error{"the device has not answered within 20 s"};
+  if (!device.connected(kLockstepTimeout)) throw std::runtime_error{"the device has not answered within 20 s"};
 }
 
 /// The sample of cycle t_ns in lockstep, else the latest. Throws std::runtime_error when lockstep's never comes, unless
@@ -118,7 +118,7 @@ void expect_device(auto& device) {
 template <class T>
 std::optional<T> input_of_cycle(const NodeContext& context, bus::Mailbox<T>& mailbox, std::int64_t t_ns) {
   if (!context.settings.run.lockstep) return mailbox.latest();
-  auto sample = mailbox.await(t_ns, kLockstepPatience);
+  auto sample = mailbox.await(t_ns, kLockstepTimeout);
   if (!sample && !context.stop.requested()) {
     throw std::runtime_error{"no " + std::string(bus::meta<T>::topic) + " of cycle " + std::to_string(t_ns) +
                              " ns after 20 s"};

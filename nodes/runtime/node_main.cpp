@@ -13,12 +13,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
+#include "bus/domain/library_log.hpp"
+#include "bus/domain/process.hpp"
+#include "bus/domain/reader_health.hpp"
 #include "bus/executor.hpp"
-#include "bus/hearing.hpp"
-#include "bus/library_log.hpp"
-#include "bus/process.hpp"
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
 #include "nodes/runtime/flood_watch.hpp"
@@ -50,7 +50,7 @@ bus::Pulse NodeContext::pulse() const {
     logger->error("{} does not come round: the service manager hears nothing of this node", late);
   };
   // In lockstep a reaction may wait for the others' samples.
-  const std::chrono::seconds patience = settings.run.lockstep ? kLockstepPatience : std::chrono::seconds{1};
+  const std::chrono::seconds patience = settings.run.lockstep ? kLockstepTimeout : std::chrono::seconds{1};
   return {.beat = beat, .patience = patience};
 }
 
@@ -109,7 +109,7 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
       logger->info("robot {} ({}) in domain {}{}", settings.run.robot_id, robot.name, settings.domain.domain_id,
                    domain.xml.find("<Security>") == std::string::npos ? "" : ", secured");
       return body(context);
-    } catch (const bus::Deaf& deaf) {
+    } catch (const bus::BusUnresponsive& deaf) {
       logger->error("{}: joins the bus anew", deaf.what());
     }
   }

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "nodes/runtime/node_context.hpp"
 
 namespace trivela::nodes {

@@ -45,7 +45,7 @@ std::size_t readers_of(const config::Settings& settings) {
 template <bus::Message T>
 void expect_readers(const NodeContext& context, const bus::Output<T>& output) {
   const std::size_t n = readers_of<T>(context.settings);
-  if (output.wait_for_readers(n, kLockstepPatience)) return;
+  if (output.wait_for_readers(n, kLockstepTimeout)) return;
   throw std::runtime_error{output.topic() + " has " + std::to_string(output.readers()) + " of " + std::to_string(n) +
                            " readers after 20 s"};
 }

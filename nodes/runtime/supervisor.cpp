@@ -12,7 +12,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "config/parse_number.hpp"
+#include "config/text/parse_number.hpp"
 
 namespace trivela::nodes {
 namespace {

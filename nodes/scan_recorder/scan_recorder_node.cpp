@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bus/executor.hpp"
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 #include "hal/open.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/node_main.hpp"
@@ -14,10 +14,9 @@
 namespace trivela::nodes {
 namespace {
 
-evaluator::log::ScanSession session_of_scans(const NodeContext& context, const hal::RangeFinder& scanner,
-                                             std::int64_t t_ns) {
+log::ScanSession session_of_scans(const NodeContext& context, const hal::RangeFinder& scanner, std::int64_t t_ns) {
   const config::ScanRecorder& settings = context.settings.scan_recorder;
-  evaluator::log::ScanSession session;
+  log::ScanSession session;
   session.identity = scanner.identity();
   session.geometry = scanner.geometry();
   session.mount = {.x_m = settings.mount_x_m,
@@ -76,7 +75,7 @@ std::optional<kicking::lob::Scan> ScanRecorderNode::next_scan(std::chrono::nanos
 
 /// Throws std::runtime_error where the record cannot be made.
 void ScanRecorderNode::open(std::int64_t t_ns) {
-  evaluator::log::WriterOptions options;
+  log::WriterOptions options;
   options.warn = [logger = context_.logger](const std::string& line) { logger->warn(line); };
   log_.emplace(context_.settings.scan_recorder.file, session_of_scans(context_, *scanner_, t_ns), options);
   emulation_.see(msg::PART_RANGE_FINDER, is_emulated(scanner_->identity()), t_ns);
@@ -102,7 +101,7 @@ void ScanRecorderNode::on_scan(const kicking::lob::Scan& scan) {
 
 void ScanRecorderNode::on_receipt(const msg::KickReceipt& receipt) {
   if (!msg::begins_kick(receipt)) return;
-  const evaluator::log::TestedSetPoint tested{receipt.fired_t_ns, receipt.power, receipt.kick_id};
+  const log::TestedSetPoint tested{receipt.fired_t_ns, receipt.power, receipt.kick_id};
   const std::lock_guard lock{mutex_};
   if (log_) {
     log_->set_point(tested);

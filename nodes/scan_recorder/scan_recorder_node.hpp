@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "evaluator/log/scan_log.hpp"
 #include "hal/range_finder.hpp"
-#include "nodes/runtime/emulation_word.hpp"
+#include "log/write/scan_log.hpp"
 #include "nodes/runtime/node_context.hpp"
+#include "nodes/runtime/simulated_device_notice.hpp"
 
 namespace trivela::nodes {
 
@@ -34,14 +34,14 @@ class ScanRecorderNode {
   NodeContext& context_;
   std::unique_ptr<hal::RangeFinder> scanner_;
   bus::Node node_;
-  EmulationWord emulation_;
+  SimulatedDeviceNotice emulation_;
   std::optional<bus::Output<msg::StepDone>> step_done_;
   bool connected_ = false;
   bool waiting_ = false;  ///< said so
   bool up_ = false;
   std::mutex mutex_;  // of log_ and early_
-  std::optional<evaluator::log::ScanWriter> log_;
-  std::vector<evaluator::log::TestedSetPoint> early_;  // kicks before the first scan
+  std::optional<log::ScanWriter> log_;
+  std::vector<log::TestedSetPoint> early_;  // kicks before the first scan
   std::uint64_t scans_ = 0;
   std::uint64_t lost_ = 0;
 };

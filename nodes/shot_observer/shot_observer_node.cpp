@@ -13,7 +13,7 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
       step_done_(step_done_writer(context, node_)),
       referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
-  refuse_twin(context_, outcome_out_, "shot_observer");
+  reject_duplicate_node(context_, outcome_out_, "shot_observer");
   node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); },
                              bus::writes<msg::KickOutcome>());
   node_.on<msg::FlightFrame>([this](const msg::FlightFrame& frame) { on_frame(frame); },

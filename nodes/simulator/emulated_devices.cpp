@@ -27,10 +27,10 @@ box::BoxConfig box_of(const config::Refbox& settings) {
 const config::Settings& playable(const config::Settings& settings) {
   if (settings.run.lockstep)
     throw std::runtime_error{"simulator.devices = \"emulated\" with run.lockstep = true: a board waits for nobody"};
-  if (settings.simulator.halves > std::uint32_t{box::RefereeVoice::kMostHalves}) {
+  if (settings.simulator.halves > std::uint32_t{box::RefereeOutput::kMostHalves}) {
     throw std::runtime_error{
         fmt::format("simulator.halves = {}: a referee box has words for {}, and simulator.devices = \"emulated\"",
-                    settings.simulator.halves, box::RefereeVoice::kMostHalves)};
+                    settings.simulator.halves, box::RefereeOutput::kMostHalves)};
   }
   return settings;
 }
@@ -78,7 +78,7 @@ std::vector<hal::CoilPulse> EmulatedDevices::take_pulses() {
   return pulses;
 }
 
-void EmulatedDevices::say_over() { say(box::RefereeVoice::over()); }
+void EmulatedDevices::say_over() { say(box::RefereeOutput::over()); }
 
 void EmulatedDevices::say(const std::vector<box::Said>& words) {
   for (const box::Said& word : words) {

@@ -13,7 +13,7 @@
 #include "emulators/cia402/emulated_wheels.hpp"
 #include "emulators/mti/emulated_gyro.hpp"
 #include "emulators/refbox/emulated_box.hpp"
-#include "emulators/refbox/referee_voice.hpp"
+#include "emulators/refbox/referee_output.hpp"
 #include "sim/sensors.hpp"
 
 namespace trivela::nodes {
@@ -62,7 +62,7 @@ class EmulatedDevices {
   std::unique_ptr<hal::EmulatedWheels> base_;    // none: on the bus
   std::unique_ptr<hal::EmulatedGyro> gyro_;      // none: the wheels' own
   hal::refbox::EmulatedBox box_;
-  hal::refbox::RefereeVoice voice_;
+  hal::refbox::RefereeOutput voice_;
 };
 
 }  // namespace trivela::nodes

@@ -134,13 +134,31 @@ bool SimulatorNode::nodes_are_here() {
          (devices_ == nullptr || devices_->wait_for_nodes(stop));
 }
 
+namespace {
+
+/// Is the field an instant of the world, by its name?
+constexpr bool is_instant(std::string_view name) {
+  return name == "t_ns" || name.ends_with("_t_ns") || name == "t_exposure_ns";
+}
+
+/// Has the message no other time, such as a duration, which no start would shift?
+template <class T>
+constexpr bool has_instants_alone() {
+  return std::ranges::all_of(bus::meta<T>::fields, [](const bus::Field& field) {
+    return !field.name.ends_with("_ns") || is_instant(field.name);
+  });
+}
+
+}  // namespace
+
 template <class T>
 void SimulatorNode::write(bus::Writer<T>& writer, T message, std::uint64_t seq) {
+  static_assert(has_instants_alone<T>());
   message.robot_id = context_.robot_id();
   message.seq = seq;
   bus::visit_fields(message, [this](std::string_view name, std::string_view, auto& field) {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, std::int64_t>) {
-      if (name.ends_with("_ns")) field += started_ns_;  // an instant of the world
+      if (is_instant(name)) field += started_ns_;
     }
   });
   writer.write(message);

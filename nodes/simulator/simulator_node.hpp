@@ -7,7 +7,7 @@
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/runtime/progress_line.hpp"
 #include "nodes/simulator/emulated_devices.hpp"
-#include "nodes/simulator/receipt_book.hpp"
+#include "nodes/simulator/recent_receipts.hpp"
 #include "nodes/simulator/referee_repeats.hpp"
 #include "sim/match.hpp"
 
@@ -76,7 +76,7 @@ class SimulatorNode {
   std::optional<bus::Writer<msg::DeviceKicker>> kicker_;   // where it has no board
   std::optional<bus::Writer<msg::Referee>> referee_;       // where there is no box
   std::optional<bus::Reader<msg::KickReceipt>> receipts_;  // where the kicker has a board
-  ReceiptBook book_;
+  RecentReceipts book_;
   RefereeRepeats referee_repeats_;
   bus::Mailbox<msg::DeviceDrive> drive_;
   bus::Reader<msg::DeviceFire> fire_;

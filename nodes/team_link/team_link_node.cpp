@@ -18,7 +18,7 @@ bus::ReaderOptions looking_on() {
 }
 
 template <class T>
-robot::LastWord<T> last_word(bus::Mailbox<T>& mailbox) {
+robot::LatestSample<T> last_word(bus::Mailbox<T>& mailbox) {
   return {mailbox.latest(), mailbox.heard_ns(0)};
 }
 
@@ -50,7 +50,7 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
   const bool takes_referee = !base_ && context.settings.team_link.referee;
   if (takes_referee) {
     referee_out_.emplace(node_.writer<msg::Referee>(referee_of(own_)));
-    refuse_twin(context_, *referee_out_, "referee");
+    reject_duplicate_node(context_, *referee_out_, "referee");
   }
   if (base_) {
     listen_to_referee();
@@ -61,7 +61,7 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
   node_.every(base_ ? kBasePeriod : kRobotPeriod, "team_state", [this] { say_state(); });
   node_.on_device(
       "team", [this](std::chrono::nanoseconds timeout) { return member_->next(timeout); },
-      [this](const TeamMember::HeardWord& heard) { hear(heard); }, bus::writes<msg::TeamHeard, msg::Referee>());
+      [this](const TeamMember::ReceivedMessage& heard) { hear(heard); }, bus::writes<msg::TeamHeard, msg::Referee>());
 }
 
 void TeamLinkNode::listen_to_robot() {
@@ -107,13 +107,13 @@ void TeamLinkNode::say_state() {
   member_->say(state);
 }
 
-void TeamLinkNode::hear(const TeamMember::HeardWord& heard) {
+void TeamLinkNode::hear(const TeamMember::ReceivedMessage& heard) {
   const std::lock_guard lock{mutex_};
   std::visit([&](const auto& word) { hear(word, heard.t_ns); }, heard.word);
 }
 
 void TeamLinkNode::hear(const msg::TeamState& state, std::int64_t t_ns) {
-  if (book_.is_twin(state)) return note_twin();
+  if (book_.is_duplicate(state)) return note_twin();
   const auto news = book_.heard(state, t_ns);
   if (!news) return;
   if (base_) note_alarms(news->other_robot_id, news->summary.alarms);

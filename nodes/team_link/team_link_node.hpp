@@ -10,7 +10,7 @@
 
 #include "nodes/runtime/node_context.hpp"
 #include "nodes/team_link/team_member.hpp"
-#include "robot/team/team_book.hpp"
+#include "robot/team/peer_table.hpp"
 #include "robot/team/team_summary.hpp"
 
 namespace trivela::nodes {
@@ -43,7 +43,7 @@ class TeamLinkNode {
   void listen_to_referee();
   void say_state();
   msg::TeamSummary summary();
-  void hear(const TeamMember::HeardWord& heard);
+  void hear(const TeamMember::ReceivedMessage& heard);
   void hear(const msg::TeamState& state, std::int64_t t_ns);
   void hear(const msg::Referee& word, std::int64_t t_ns);
   void note_alarms(std::uint8_t other, std::uint32_t alarms);
@@ -57,8 +57,8 @@ class TeamLinkNode {
   std::optional<bus::Output<msg::Referee>> referee_out_;
   OfRobot robot_;
   std::mutex mutex_;  // of what follows
-  robot::TeamBook book_;
-  robot::LastWord<msg::Referee> referee_;  // of the base
+  robot::PeerTable book_;
+  robot::LatestSample<msg::Referee> referee_;  // of the base
   std::array<std::uint32_t, 256> alarms_{};
   std::int64_t twin_told_ns_ = 0;
   std::optional<TeamMember> member_;

@@ -23,10 +23,10 @@
 namespace trivela::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kGlance{200};  // how often the interface is looked at
-constexpr std::chrono::seconds kPause{1};          // before it is tried again
-constexpr std::chrono::seconds kShortestPatience{15};
-constexpr std::chrono::seconds kLongestPatience{120};
+constexpr std::chrono::milliseconds kPollInterval{200};  // how often the interface is looked at
+constexpr std::chrono::seconds kPause{1};                // before it is tried again
+constexpr std::chrono::seconds kShortestBackoff{15};
+constexpr std::chrono::seconds kLongestBackoff{120};
 // Thirty signs of life a second of it, between six machines, were a seventh of all that crosses the air.
 constexpr std::chrono::seconds kLease{5};
 
@@ -70,7 +70,7 @@ TeamMember::TeamMember(const NodeContext& context, bus::DomainConfig domain, std
       domain_(std::move(domain)),
       owner_(fmt::format("team_link/{}", own)),
       listens_to_referee_(referee),
-      patience_(kShortestPatience),
+      timeout_(kShortestBackoff),
       thread_([this] { run(); }) {}
 
 TeamMember::~TeamMember() {
@@ -96,7 +96,7 @@ void TeamMember::run() {
     const auto address = this->address();
     if (!address) {
       note_obstacle(why_without_address(context_.settings.team_link.interface));
-      ends_.wait_until(Clock::now() + kGlance);
+      ends_.wait_until(Clock::now() + kPollInterval);
       continue;
     }
     try {
@@ -126,7 +126,7 @@ void TeamMember::be_member(const std::string& address) {
       },
       bus::writes<msg::TeamState, msg::Referee>());
   bus::Stop over;
-  node.every(kGlance, "interface", [&] { look_after(address, over); });
+  node.every(kPollInterval, "interface", [&] { look_after(address, over); });
   last_heard_ = Clock::now();
   said_.clear();
   note_obstacle("");
@@ -158,11 +158,11 @@ void TeamMember::look_after(const std::string& address, bus::Stop& over) {
     return over.request();
   }
   const auto silent = Clock::now() - last_heard_.load();
-  if (silent < kGlance) patience_ = kShortestPatience;
-  if (silent < patience_) return;
+  if (silent < kPollInterval) timeout_ = kShortestBackoff;
+  if (silent < timeout_) return;
   context_.logger->info("nobody is heard on the team's bus for {} s: joins it anew",
                         std::chrono::duration_cast<std::chrono::seconds>(silent).count());
-  patience_ = std::min<Clock::duration>(2 * patience_, kLongestPatience);
+  timeout_ = std::min<Clock::duration>(2 * timeout_, kLongestBackoff);
   over.request();
 }
 

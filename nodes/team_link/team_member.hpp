@@ -8,10 +8,10 @@
 #include <thread>
 #include <variant>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/node.hpp"
 #include "nodes/runtime/node_context.hpp"
-#include "nodes/team_link/handover.hpp"
+#include "nodes/team_link/bounded_queue.hpp"
 
 namespace trivela::nodes {
 
@@ -24,7 +24,7 @@ class TeamMember {
   using Word = std::variant<msg::TeamState, msg::Referee>;
 
   /// A word with the instant at which it came, by this machine's clock.
-  struct HeardWord {
+  struct ReceivedMessage {
     Word word;
     std::int64_t t_ns;
   };
@@ -38,7 +38,7 @@ class TeamMember {
   void say(const Word& word) { said_.put(word); }
 
   /// What others said next, waiting no longer than the timeout.
-  std::optional<HeardWord> next(std::chrono::nanoseconds timeout) { return heard_.next(timeout); }
+  std::optional<ReceivedMessage> next(std::chrono::nanoseconds timeout) { return heard_.next(timeout); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -54,10 +54,10 @@ class TeamMember {
   const bus::DomainConfig domain_;
   const std::string owner_;
   const bool listens_to_referee_;
-  Handover<Word> said_;
-  Handover<HeardWord> heard_;
+  BoundedQueue<Word> said_;
+  BoundedQueue<ReceivedMessage> heard_;
   std::atomic<Clock::time_point> last_heard_{Clock::time_point{}};
-  Clock::duration patience_;
+  Clock::duration timeout_;
   std::string obstacle_;  // that was told last
   bus::Stop ends_;        // with the object
   std::thread thread_;

@@ -25,7 +25,7 @@ WorldStateNode::WorldStateNode(NodeContext& context)
           })),
       kicker_(node_.stores<msg::KickerStatus>()),
       first_(context.settings.run.lockstep) {
-  refuse_twin(context_, world_out_, "world_state");
+  reject_duplicate_node(context_, world_out_, "world_state");
   node_.on<msg::Odometry>([this](const msg::Odometry& odometry) { on_odometry(odometry); },
                           bus::writes<msg::WorldState>());
 }

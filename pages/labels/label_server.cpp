@@ -10,9 +10,9 @@
 #include <string_view>
 #include <thread>
 
-#include "config/parse_number.hpp"
-#include "evaluator/log/digest.hpp"
-#include "evaluator/report/replay/replay.hpp"
+#include "config/text/parse_number.hpp"
+#include "evaluator/story/replay.hpp"
+#include "log/schema/digest.hpp"
 #include "pages/labels/label_page.css.hpp"
 #include "pages/labels/label_page.html.hpp"
 #include "pages/labels/label_page.js.hpp"
@@ -26,7 +26,7 @@ using httplib::Response;
 using nlohmann::json;
 
 constexpr const char* kHost = "127.0.0.1";
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::seconds kTimeout{2};
 constexpr std::size_t kMostConnections = 512;
 
 void answer(Response& response, int status, const json& body) {
@@ -58,8 +58,8 @@ std::int64_t now_utc_ns() {
 }  // namespace
 
 struct LabelServer::Impl {
-  LabelDesk& desk;
-  std::string token = evaluator::log::make_uuid();
+  LabelStore& desk;
+  std::string token = log::make_uuid();
   int port = 0;
   httplib::Server server{};
   std::atomic<bool> ended = false;
@@ -82,7 +82,7 @@ struct LabelServer::Impl {
       answer(response, 200, desk.state());
     } catch (const LabelRefused& error) {
       refuse(response, 400, error.what());
-    } catch (const evaluator::log::BadAddition& error) {
+    } catch (const log::BadAddition& error) {
       refuse(response, 400, error.what());
     } catch (const json::exception& error) {
       refuse(response, 400, fmt::format("the label makes no sense: {}", error.what()));
@@ -132,8 +132,8 @@ struct LabelServer::Impl {
     server.set_socket_options(set_socket_options);
     server.set_tcp_nodelay(true);
     server.set_keep_alive_max_count(1);  // an idle connection would hold up the end
-    server.set_read_timeout(kPatience);
-    server.set_write_timeout(kPatience);
+    server.set_read_timeout(kTimeout);
+    server.set_write_timeout(kTimeout);
     server.set_payload_max_length(std::size_t{64} * 1024);
     server.set_default_headers({{"Content-Security-Policy",
                                  "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src "
@@ -158,7 +158,7 @@ struct LabelServer::Impl {
   }
 };
 
-LabelServer::LabelServer(LabelDesk& desk, int port) : impl_(new Impl{.desk = desk}) {
+LabelServer::LabelServer(LabelStore& desk, int port) : impl_(new Impl{.desk = desk}) {
   impl_->route();
   impl_->listen(port);
 }

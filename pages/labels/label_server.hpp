@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "pages/labels/label_desk.hpp"
+#include "pages/labels/label_store.hpp"
 
 namespace trivela::pages {
 
@@ -15,7 +15,7 @@ class LabelServer {
  public:
   /// Listens. `port` 0: any free one. Throws std::runtime_error naming the address where that is refused. The desk must
   /// outlive it.
-  LabelServer(LabelDesk& desk, int port);
+  LabelServer(LabelStore& desk, int port);
   ~LabelServer();
   LabelServer(const LabelServer&) = delete;
   LabelServer& operator=(const LabelServer&) = delete;

@@ -80,8 +80,8 @@ void LiveScene::run() {
 }
 
 void LiveScene::begin() {
-  const evaluator::log::ScanSession session = calibration::scanner_session(*finder_, options_.mount, options_.device);
-  auto writer = std::make_unique<evaluator::log::ScanWriter>(options_.record, session);
+  const log::ScanSession session = calibration::scanner_session(*finder_, options_.mount, options_.device);
+  auto writer = std::make_unique<log::ScanWriter>(options_.record, session);
   const std::lock_guard lock(mutex_);
   writer_ = std::move(writer);
   analyzer_.emplace(session.geometry, session.mount, options_.analyzer);
@@ -90,7 +90,7 @@ void LiveScene::begin() {
   broadcast_.publish(Channel::kSetup, setup_.dump());
   if (!power_ && !options_.plan.powers.empty()) power_ = options_.plan.powers.front();
   if (!power_) return;
-  const evaluator::log::TestedSetPoint tested{.t_ns = session.started_t_ns, .power = power_};
+  const log::TestedSetPoint tested{.t_ns = session.started_t_ns, .power = power_};
   writer_->set_point(tested);
   book_.set_point(tested);
 }
@@ -119,7 +119,7 @@ void LiveScene::set_power(std::optional<double> power) {
   power_ = power;
   if (!writer_) return broadcast_.publish(Channel::kStatus, status().dump());
   const std::int64_t now_ns = views_.empty() ? 0 : views_.back().t_ns;
-  const evaluator::log::TestedSetPoint tested{.t_ns = now_ns, .power = power};
+  const log::TestedSetPoint tested{.t_ns = now_ns, .power = power};
   writer_->set_point(tested);
   book_.set_point(tested);
   broadcast_.publish(Channel::kStatus, status().dump());

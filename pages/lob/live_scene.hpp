@@ -8,10 +8,10 @@
 #include <optional>
 #include <thread>
 
-#include "evaluator/log/scan_log.hpp"
 #include "hal/range_finder.hpp"
+#include "log/write/scan_log.hpp"
 #include "pages/lob/frame.hpp"
-#include "pages/lob/lob_book.hpp"
+#include "pages/lob/lob_session.hpp"
 #include "pages/lob/scene.hpp"
 #include "pages/serve/broadcast.hpp"
 
@@ -60,17 +60,17 @@ class LiveScene : public Scene {
   mutable std::mutex mutex_;  // of all below
   nlohmann::json setup_;
   nlohmann::json link_;
-  std::unique_ptr<evaluator::log::ScanWriter> writer_;
+  std::unique_ptr<log::ScanWriter> writer_;
   std::optional<kicking::lob::Analyzer> analyzer_;
   std::vector<SceneView> views_;  // one for each scan in the record
-  LobBook book_;
+  LobSession book_;
   std::optional<double> power_;
   std::uint64_t refused_ = 0;  // scans that were not recorded
   double max_range_m_ = 0.0;
   std::exception_ptr failure_;
-  std::mutex back_mutex_;                           // of the next
-  std::optional<evaluator::log::ScanReader> back_;  // for looking back
-  std::thread thread_;                              // last: everything that it uses exists
+  std::mutex back_mutex_;                // of the next
+  std::optional<log::ScanReader> back_;  // for looking back
+  std::thread thread_;                   // last: everything that it uses exists
 };
 
 }  // namespace trivela::pages

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "evaluator/report/lob_json.hpp"
+#include "evaluator/render/lob_json.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 
@@ -53,7 +53,7 @@ struct Spread {
 
 }  // namespace
 
-nlohmann::json setup_json(const std::string& mode, const std::string& file, const evaluator::log::ScanSession& session,
+nlohmann::json setup_json(const std::string& mode, const std::string& file, const log::ScanSession& session,
                           const kicking::lob::AnalyzerConfig& config) {
   const kicking::lob::ScanGeometry& geometry = session.geometry;
   const kicking::lob::LaserMount& mount = session.mount;

@@ -5,14 +5,14 @@
 #include <span>
 #include <string>
 
-#include "evaluator/log/scan_log.hpp"
 #include "kicking/lob/analyzer.hpp"
+#include "log/write/scan_log.hpp"
 #include "pages/lob/plan.hpp"
 
 namespace trivela::pages {
 
 /// What the page must know before it draws a scan. `mode`: "live" or "replay"; `file`: of the record.
-nlohmann::json setup_json(const std::string& mode, const std::string& file, const evaluator::log::ScanSession& session,
+nlohmann::json setup_json(const std::string& mode, const std::string& file, const log::ScanSession& session,
                           const kicking::lob::AnalyzerConfig& config);
 
 /// One lob as the page shows it. "curve": {"x_m", "z_m", "k_per_m"} of z = z_m - k_per_m (x - x_m)^2 through its

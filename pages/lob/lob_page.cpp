@@ -1,6 +1,6 @@
 #include "pages/lob/scene.hpp"
 
-#include "config/parse_number.hpp"
+#include "config/text/parse_number.hpp"
 #include "pages/lob/page.css.hpp"
 #include "pages/lob/page.html.hpp"
 #include "pages/lob/page.js.hpp"

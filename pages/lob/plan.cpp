@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "config/error.hpp"
-#include "config/parse_number.hpp"
+#include "config/text/error.hpp"
+#include "config/text/parse_number.hpp"
 
 namespace trivela::pages {
 namespace {

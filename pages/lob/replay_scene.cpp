@@ -18,15 +18,14 @@ using nlohmann::json;
 constexpr std::chrono::milliseconds kTick{4};  // a tenth of the shortest scan period and less
 constexpr double kFastest = 1000.0;
 
-std::vector<std::int64_t> times_of(const evaluator::log::ScanReader& record, const std::filesystem::path& path) {
+std::vector<std::int64_t> times_of(const log::ScanReader& record, const std::filesystem::path& path) {
   std::vector<std::int64_t> t_ns;
   for (std::size_t i = 0; i < record.size(); ++i) t_ns.push_back(record.t_ns(i));
   if (t_ns.empty()) throw std::runtime_error{fmt::format("{} holds no scans", path.string())};
   return t_ns;
 }
 
-std::vector<evaluator::log::Verdict> verdicts_of(const evaluator::log::ScanReader& record,
-                                                 const std::filesystem::path& path) {
+std::vector<log::Verdict> verdicts_of(const log::ScanReader& record, const std::filesystem::path& path) {
   auto verdicts = record.verdicts();
   for (const auto& later : calibration::verdicts_beside(path)) verdicts.push_back(later);
   return verdicts;

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "pages/lob/frame.hpp"
-#include "pages/lob/lob_book.hpp"
+#include "pages/lob/lob_session.hpp"
 #include "pages/lob/player.hpp"
 #include "pages/lob/scene.hpp"
 #include "pages/serve/broadcast.hpp"
@@ -44,9 +44,9 @@ class ReplayScene : public Scene {
   const std::filesystem::path path_;
   Broadcast& broadcast_;
   mutable std::mutex mutex_;  // of all below
-  evaluator::log::ScanReader record_;
+  log::ScanReader record_;
   std::vector<SceneView> views_;
-  LobBook book_;
+  LobSession book_;
   Player player_;
   nlohmann::json setup_;
   std::size_t shown_lobs_ = 0;

@@ -8,9 +8,9 @@ namespace trivela::pages {
 namespace {
 
 bool is_waited_for(const KnownKick& kick, const LedgerNow& now) {
-  if (now.over || now.heard_ns - kick.heard_ns > kSilencePatience_ns) return false;
+  if (now.over || now.heard_ns - kick.heard_ns > kSilenceTimeout_ns) return false;
   const auto robot = now.robots_t_ns.find(kick.robot_id);
-  return !kick.decided || robot == now.robots_t_ns.end() || robot->second - kick.decided->t_ns <= kOutcomePatience_ns;
+  return !kick.decided || robot == now.robots_t_ns.end() || robot->second - kick.decided->t_ns <= kOutcomeTimeout_ns;
 }
 
 // Whether this receipt says more than the last one: an order that came twice is refused as `double` after it was fired.

@@ -53,8 +53,8 @@ struct LedgerNow {
 };
 
 /// How long an outcome is waited for: of the robot's own time, and of the listener's where the robot says no more.
-inline constexpr std::int64_t kOutcomePatience_ns = 10'000'000'000;
-inline constexpr std::int64_t kSilencePatience_ns = 60'000'000'000;
+inline constexpr std::int64_t kOutcomeTimeout_ns = 10'000'000'000;
+inline constexpr std::int64_t kSilenceTimeout_ns = 60'000'000'000;
 
 /// A refused order is no kick; an outcome that never came is unknown; one on target that the rules count as no goal is
 /// outside.

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kFrameTime{40};
-constexpr int kFramesALook = 3;     // StreamBoard::kStep_ns
+constexpr int kFramesALook = 3;     // StreamStatus::kStep_ns
 constexpr int kFramesAMatch = 5;    // a person reads no faster
 constexpr int kFramesACensus = 25;  // discovery is as slow
 
@@ -51,7 +51,7 @@ MatchFeed::MatchFeed(const bus::DomainConfig& domain, bool lockstep, SceneSettin
         const std::lock_guard lock{mutex_};
         scene_.hear(sample, info.writer, clock_ns());
       };
-      ears_.push_back(std::make_unique<monitor::Ear<T>>(participant_, hear, is_said_once<T>()));
+      ears_.push_back(std::make_unique<monitor::StreamSubscriber<T>>(participant_, hear, is_said_once<T>()));
     }
   });
   thread_ = std::thread([this] { publish(); });

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bus/census.hpp"
-#include "bus/participant.hpp"
-#include "monitor/ear.hpp"
+#include "bus/domain/participant.hpp"
+#include "monitor/subscriber.hpp"
 #include "pages/monitor/match_scene.hpp"
 #include "pages/serve/broadcast.hpp"
 #include "pages/serve/page.hpp"
@@ -42,7 +42,7 @@ class MatchFeed {
   Broadcast& broadcast_;
   bus::Participant participant_;
   bus::CensusTaker census_;
-  std::vector<std::unique_ptr<monitor::AnyEar>> ears_;
+  std::vector<std::unique_ptr<monitor::PassiveSubscriber>> ears_;
   std::mutex leaving_mutex_;
   std::condition_variable left_;
   bool leaving_ = false;

@@ -10,10 +10,10 @@
 
 #include "idl/messages.hpp"
 #include "kicking/geometry/goal.hpp"
-#include "pages/monitor/alarm_book.hpp"
+#include "pages/monitor/active_alarms.hpp"
 #include "pages/monitor/kick_ledger.hpp"
 #include "pages/monitor/robot_view.hpp"
-#include "pages/monitor/stream_board.hpp"
+#include "pages/monitor/stream_status.hpp"
 
 namespace trivela::pages {
 
@@ -33,8 +33,8 @@ struct SceneState {
   std::map<std::uint8_t, RobotView> robots;
   Latest<msg::Referee> referee;
   KickLedger kicks;
-  StreamBoard streams;
-  AlarmBook alarms;
+  StreamStatus streams;
+  ActiveAlarms alarms;
   std::set<std::string> simulated;  ///< what says so; empty: nothing
   std::vector<std::string> nodes;   ///< programs that are there
   std::int64_t strangers = 0;       ///< messages of robots that found no place
@@ -71,7 +71,7 @@ class MatchScene {
   /// The match has ended as planned: silence is no alarm from here on, and no outcome is waited for.
   void note_over() { state_.over = true; }
 
-  /// To be called each StreamBoard::kStep_ns: what fell silent, which alarms hold.
+  /// To be called each StreamStatus::kStep_ns: what fell silent, which alarms hold.
   void look(std::int64_t now_ns);
 
   const SceneState& state() const { return state_; }

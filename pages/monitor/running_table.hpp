@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/counts/counts.hpp"
 #include "pages/monitor/kick_ledger.hpp"
 
 namespace trivela::pages {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "evaluator/report/decided_segments.hpp"
+#include "evaluator/story/decided_segments.hpp"
 #include "pages/monitor/running_table.hpp"
 
 namespace trivela::pages {

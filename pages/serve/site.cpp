@@ -3,8 +3,8 @@
 #include <arpa/inet.h>
 #include <fmt/core.h>
 
-#include "config/error.hpp"
-#include "config/parse_number.hpp"
+#include "config/text/error.hpp"
+#include "config/text/parse_number.hpp"
 
 namespace trivela::pages {
 namespace {

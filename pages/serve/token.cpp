@@ -10,7 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -32,7 +32,7 @@ std::int64_t fire_t_ns(std::int64_t t_ns, double fire_after_s) {
 }  // namespace
 
 Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
-                 std::uint32_t session, std::optional<OracleSeat> oracle)
+                 std::uint32_t session, std::optional<GroundTruthPolicy> oracle)
     : model_(model),
       policy_(settings.policy),
       goal_(settings.goal),

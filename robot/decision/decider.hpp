@@ -15,7 +15,7 @@
 namespace trivela::robot {
 
 /// What the oracle decides by in place of the robot's settings and model.
-struct OracleSeat {
+struct GroundTruthPolicy {
   kicking::PolicyConfig policy;
   kicking::RobotModel model;
 };
@@ -49,7 +49,7 @@ class Decider {
   /// `session`: upper 15 bits of every kick_id. `model` must outlive the decider. Throws config::Error where the
   /// policies in charge make no sense together. `oracle`: only where that policy may be in charge.
   Decider(const DeciderSettings& settings, const kicking::RobotModel& model, std::uint8_t robot_id,
-          std::uint32_t session, std::optional<OracleSeat> oracle = std::nullopt);
+          std::uint32_t session, std::optional<GroundTruthPolicy> oracle = std::nullopt);
 
   /// What the referee says, before the cycle that hears it: when a set piece of ours is to be taken.
   void hear(const msg::Referee& word) { set_piece_.hear(word); }
@@ -86,7 +86,7 @@ class Decider {
   const kicking::RobotModel& model_;
   kicking::PolicyConfig policy_;
   kicking::Goal goal_;
-  std::optional<OracleSeat> oracle_;
+  std::optional<GroundTruthPolicy> oracle_;
   PolicyAssignment assignment_;
   SetPieceClock set_piece_;
   std::vector<kicking::PolicyName> shadows_;

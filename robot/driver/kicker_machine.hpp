@@ -35,28 +35,28 @@ inline constexpr std::array kKickerEvents{KickerEvent::kArmed,       KickerEvent
                                           KickerEvent::kEnd};
 
 /// What the driver is about, and what it tells a board that can be told.
-struct KickerStand {
+struct KickerMachineState {
   msg::KickerState state = msg::STATE_OFF;
-  hal::ChargeWord word = hal::ChargeWord::kHold;
-  bool operator==(const KickerStand&) const = default;
+  hal::ChargeCommand word = hal::ChargeCommand::kHold;
+  bool operator==(const KickerMachineState&) const = default;
 };
 
 /// The kicker's state machine: where `event` leads from `stand`. It charges in charging, ready, firing and cooling, and
 /// in no other state; what empties the capacitor is undone by kArmed alone. docs/kicker.md has the table.
-constexpr KickerStand next(KickerStand stand, KickerEvent event) {
-  using enum hal::ChargeWord;
-  constexpr KickerStand kCharging{msg::STATE_CHARGING, kUp};
+constexpr KickerMachineState next(KickerMachineState stand, KickerEvent event) {
+  using enum hal::ChargeCommand;
+  constexpr KickerMachineState kCharging{msg::STATE_CHARGING, kCharge};
   const bool fault = stand.state == msg::STATE_FAULT;
   switch (event) {  // what counts in every state
     case KickerEvent::kFault:
-      return fault ? stand : KickerStand{msg::STATE_FAULT, kHold};
+      return fault ? stand : KickerMachineState{msg::STATE_FAULT, kHold};
     case KickerEvent::kOverVoltage:
-      return {msg::STATE_FAULT, kEmpty};
+      return {msg::STATE_FAULT, kDischarge};
     case KickerEvent::kDecisionLost:
     case KickerEvent::kEnd:
-      return {fault ? msg::STATE_FAULT : msg::STATE_OFF, kEmpty};
+      return {fault ? msg::STATE_FAULT : msg::STATE_OFF, kDischarge};
     case KickerEvent::kDisarmed:
-      return fault || stand.state == msg::STATE_OFF ? stand : KickerStand{msg::STATE_OFF, kHold};
+      return fault || stand.state == msg::STATE_OFF ? stand : KickerMachineState{msg::STATE_OFF, kHold};
     default:
       break;
   }
@@ -64,17 +64,17 @@ constexpr KickerStand next(KickerStand stand, KickerEvent event) {
     case msg::STATE_OFF:
       return event == KickerEvent::kArmed ? kCharging : stand;
     case msg::STATE_CHARGING:
-      return event == KickerEvent::kCharged ? KickerStand{msg::STATE_READY, kUp} : stand;
+      return event == KickerEvent::kCharged ? KickerMachineState{msg::STATE_READY, kCharge} : stand;
     case msg::STATE_READY:
-      if (event == KickerEvent::kAccepted) return {msg::STATE_FIRING, kUp};
+      if (event == KickerEvent::kAccepted) return {msg::STATE_FIRING, kCharge};
       return event == KickerEvent::kUncharged ? kCharging : stand;
     case msg::STATE_FIRING:
       if (event == KickerEvent::kCalledOff) return kCharging;
-      return event == KickerEvent::kShotOver ? KickerStand{msg::STATE_COOLING, kUp} : stand;
+      return event == KickerEvent::kShotOver ? KickerMachineState{msg::STATE_COOLING, kCharge} : stand;
     case msg::STATE_COOLING:
       return event == KickerEvent::kRested ? kCharging : stand;
     case msg::STATE_FAULT:
-      return event == KickerEvent::kSound ? KickerStand{msg::STATE_OFF, stand.word} : stand;
+      return event == KickerEvent::kSound ? KickerMachineState{msg::STATE_OFF, stand.word} : stand;
   }
   return stand;
 }

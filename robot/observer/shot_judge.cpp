@@ -7,7 +7,7 @@
 #include "kicking/constants.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/outcome/p_inside.hpp"
-#include "robot/observer/flight_stories.hpp"
+#include "robot/observer/flight_hypotheses.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -72,7 +72,7 @@ void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log
 }
 
 /// Probability that the ball had come to the line when the sightings ended.
-double reached(const FlightStories& stories, const ShotTrack& track) {
+double reached(const FlightHypotheses& stories, const ShotTrack& track) {
   if (!stories.crossing) return 0.0;
   if (stories.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
     return 1.0;
@@ -80,7 +80,7 @@ double reached(const FlightStories& stories, const ShotTrack& track) {
   return kicking::normal_below(end_s - stories.crossing->t_s, stories.crossing->sd_t_s);
 }
 
-Weights weigh(const FlightStories& stories, const ShotTrack& track, const kicking::Goal& goal,
+Weights weigh(const FlightHypotheses& stories, const ShotTrack& track, const kicking::Goal& goal,
               const config::ShotObserver& settings) {
   Weights weights;
   const double end_s = kicking::seconds(track.end_t_ns - track.release_t_ns);
@@ -121,7 +121,7 @@ Weights weigh(const FlightStories& stories, const ShotTrack& track, const kickin
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
   describe_exit(in_the_air(track.sightings), verdict);
-  const auto stories = flight_stories(track, goal.y_m);
+  const auto stories = flight_hypotheses(track, goal.y_m);
   if (!stories) return verdict;
   verdict.residual_sd_m = stories->residual_sd_m;
   verdict.bounced = stories->crossing ? stories->crossing->ball.bounced() : stories->last.bounced();

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "evaluator/log/row.hpp"
 #include "idl/messages.hpp"
+#include "log/schema/row.hpp"
 
 namespace trivela::robot {
 
@@ -16,7 +16,7 @@ using bus::columns_of;
 /// The table of a message that is recorded. Throws std::logic_error where the schema has none.
 template <bus::Struct T>
 std::string table_of() {
-  if (auto table = evaluator::log::table_of_message(bus::meta<T>::name)) return *std::move(table);
+  if (auto table = log::table_of_message(bus::meta<T>::name)) return *std::move(table);
   throw std::logic_error("the match log has no table of " + std::string(bus::meta<T>::name));
 }
 
@@ -38,7 +38,7 @@ void write_cells(auto& sink, const T& message) {
 
 /// A sink that keeps them.
 struct RowCells {
-  std::vector<evaluator::log::Value> cells;
+  std::vector<log::Value> cells;
 
   void integer(std::int64_t value) { cells.emplace_back(value); }
   void number(double value) { cells.emplace_back(value); }
@@ -47,7 +47,7 @@ struct RowCells {
 
 /// The cells of a message in the order of columns_of<T>().
 template <bus::Struct T>
-std::vector<evaluator::log::Value> row_of(const T& message) {
+std::vector<log::Value> row_of(const T& message) {
   RowCells row;
   row.cells.reserve(bus::meta<T>::fields.size());
   write_cells(row, message);

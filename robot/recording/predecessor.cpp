@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <exception>
 
-#include "evaluator/log/digest.hpp"
-#include "evaluator/log/reader.hpp"
 #include "kicking/geometry/time.hpp"
+#include "log/read/reader.hpp"
+#include "log/schema/digest.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -36,15 +36,15 @@ std::vector<fs::path> candidates(const fs::path& asked_folder, const LogFamily& 
   return paths;
 }
 
-std::int64_t first_number(const evaluator::log::Reader& reader, const std::string& sql) {
+std::int64_t first_number(const log::Reader& reader, const std::string& sql) {
   std::int64_t n = 0;
   reader.query(sql, [&](std::optional<std::int64_t> number) { n = number.value_or(0); });
   return n;
 }
 
 // Robots that said nothing in the session are where they were when it began.
-std::vector<evaluator::log::DriverCount> drivers_of(const evaluator::log::Reader& reader, std::int64_t session_id) {
-  using D = evaluator::log::DriverCount;
+std::vector<log::DriverCount> drivers_of(const log::Reader& reader, std::int64_t session_id) {
+  using D = log::DriverCount;
   return reader.rows<D>(fmt::format("SELECT robot_id, orders_handled, orders_refused FROM kicker_status AS k "
                                     "WHERE session_id = {0} AND seq = (SELECT max(seq) FROM kicker_status "
                                     "WHERE session_id = {0} AND robot_id = k.robot_id) "
@@ -58,16 +58,16 @@ std::vector<evaluator::log::DriverCount> drivers_of(const evaluator::log::Reader
 }  // namespace
 
 std::optional<Predecessor> find_predecessor(const fs::path& folder, const LogFamily& family,
-                                            const evaluator::log::Session& session, std::int64_t now_utc_ns,
+                                            const log::Session& session, std::int64_t now_utc_ns,
                                             const std::function<void(const std::string&)>& warn) {
   std::optional<Predecessor> newest;
   std::int64_t newest_start_utc_ns = 0;
-  const std::string config_sha256 = evaluator::log::sha256(session.config_toml);
+  const std::string config_sha256 = log::sha256(session.config_toml);
   for (const fs::path& path : candidates(folder, family)) {
     if (newest) break;
     try {
       // A match goes on while this looks: whether the rows are sound is for the report to say.
-      const evaluator::log::Reader reader{path, evaluator::log::Check::kQuick};
+      const log::Reader reader{path, log::Check::kQuick};
       for (const auto& recorded : reader.sessions()) {
         const std::int64_t start_utc_ns = recorded.started_t_ns + recorded.realtime_offset_ns;
         if (recorded.config_sha256 != config_sha256) continue;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/session.hpp"
+#include "log/schema/session.hpp"
 #include "robot/recording/log_name.hpp"
 
 namespace trivela::robot {
@@ -16,7 +16,7 @@ namespace trivela::robot {
 struct Predecessor {
   std::string uuid;
   std::filesystem::path log;
-  std::vector<evaluator::log::DriverCount> drivers;
+  std::vector<log::DriverCount> drivers;
 };
 
 /// How old a recording's last row may be for another to go on from it, in seconds.
@@ -26,7 +26,7 @@ inline constexpr double kLongestPause_s = 3600.0;
 /// row is no older than kLongestPause_s. The logs are read and not changed; one that cannot be read is told to `warn`
 /// and passed over.
 std::optional<Predecessor> find_predecessor(const std::filesystem::path& folder, const LogFamily& family,
-                                            const evaluator::log::Session& session, std::int64_t now_utc_ns,
+                                            const log::Session& session, std::int64_t now_utc_ns,
                                             const std::function<void(const std::string&)>& warn);
 
 }  // namespace trivela::robot

@@ -34,8 +34,8 @@ std::string session_config(const config::Settings& settings, const std::vector<c
   return text;
 }
 
-std::vector<evaluator::log::HalfPolicy> session_policies(const config::KickDecision& settings, std::size_t halves) {
-  std::vector<evaluator::log::HalfPolicy> policies;
+std::vector<log::HalfPolicy> session_policies(const config::KickDecision& settings, std::size_t halves) {
+  std::vector<log::HalfPolicy> policies;
   if (!settings.random.empty()) return policies;
   for (std::size_t robot_id = 0; robot_id <= settings.policy_by_robot.size(); ++robot_id) {
     const PolicyAssignment assignment{settings, static_cast<std::uint8_t>(robot_id)};

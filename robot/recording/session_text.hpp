@@ -6,7 +6,7 @@
 
 #include "config/robot.hpp"
 #include "config/settings.hpp"
-#include "evaluator/log/session.hpp"
+#include "log/schema/session.hpp"
 
 namespace trivela::robot {
 
@@ -17,7 +17,7 @@ std::string session_config(const config::Settings& settings, const std::vector<c
                            const std::string& scenario_toml = {});
 
 /// The policies of so many halves, and of the robots that have one of their own; none where they are drawn at random.
-std::vector<evaluator::log::HalfPolicy> session_policies(const config::KickDecision& settings, std::size_t halves);
+std::vector<log::HalfPolicy> session_policies(const config::KickDecision& settings, std::size_t halves);
 
 /// The definition of the messages.
 const char* idl_text();

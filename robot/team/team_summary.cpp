@@ -16,7 +16,7 @@ namespace {
 bool fresh(std::int64_t heard_ns, std::int64_t now_ns) { return heard_ns > 0 && now_ns - heard_ns <= kAlarmSilence_ns; }
 
 template <class T>
-const T* lately(const LastWord<T>& last, std::int64_t now_ns) {
+const T* lately(const LatestSample<T>& last, std::int64_t now_ns) {
   return last.word && fresh(last.heard_ns, now_ns) ? &*last.word : nullptr;
 }
 
@@ -96,7 +96,7 @@ msg::TeamSummary robot_summary(const TeamInputs& inputs, std::int64_t now_ns) {
   return summary;
 }
 
-msg::TeamSummary base_summary(const LastWord<msg::Referee>& referee, std::int64_t now_ns) {
+msg::TeamSummary base_summary(const LatestSample<msg::Referee>& referee, std::int64_t now_ns) {
   msg::TeamSummary summary = nothing_known();
   const auto* const word = lately(referee, now_ns);
   raise(summary, Alarm::kRefereeSilent, word == nullptr);

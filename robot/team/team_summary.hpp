@@ -9,17 +9,17 @@ namespace trivela::robot {
 
 /// The last word of one of the robot's topics, and when it came.
 template <class T>
-struct LastWord {
+struct LatestSample {
   std::optional<T> word;
   std::int64_t heard_ns = 0;  ///< steady clock; 0: never
 };
 
 /// What a robot's summary is made of.
 struct TeamInputs {
-  LastWord<msg::WorldState> world;
-  LastWord<msg::KickerStatus> kicker;
-  LastWord<msg::KickDecision> decision;
-  LastWord<msg::Referee> referee;
+  LatestSample<msg::WorldState> world;
+  LatestSample<msg::KickerStatus> kicker;
+  LatestSample<msg::KickDecision> decision;
+  LatestSample<msg::Referee> referee;
   std::int64_t vision_heard_ns = 0;
   std::int64_t drive_heard_ns = 0;
 };
@@ -28,7 +28,7 @@ struct TeamInputs {
 msg::TeamSummary robot_summary(const TeamInputs& inputs, std::int64_t now_ns);
 
 /// The base's, which has a referee and nothing else.
-msg::TeamSummary base_summary(const LastWord<msg::Referee>& referee, std::int64_t now_ns);
+msg::TeamSummary base_summary(const LatestSample<msg::Referee>& referee, std::int64_t now_ns);
 
 /// A mate's belief as a world_state of this machine's clock, for who tells the referee box; none: he does not know
 /// where he is. What a summary does not have is none.

@@ -16,7 +16,7 @@ namespace trivela::robot {
 class FireWatch {
  public:
   /// So long a receipt may take: a driver that was killed after its word is answered for by the next one.
-  static constexpr std::int64_t kPatience_ns = 5'000'000'000;
+  static constexpr std::int64_t kTimeout_ns = 5'000'000'000;
   /// A note costs the recorder a transaction, and a flood of words is not to keep it from recording.
   static constexpr std::int64_t kPause_ns = 10'000'000'000;
 
@@ -42,7 +42,7 @@ class FireWatch {
     std::vector<msg::DeviceFire> over;
     if (said_ns_ && now_ns - *said_ns_ < kPause_ns) return over;
     std::erase_if(waiting_, [&](const Waiting& one) {
-      if (now_ns - one.heard_ns < kPatience_ns) return false;
+      if (now_ns - one.heard_ns < kTimeout_ns) return false;
       over.push_back(one.fire);
       return true;
     });

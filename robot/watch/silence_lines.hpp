@@ -20,38 +20,38 @@ class SilenceLines {
  public:
   /// What is known of an edge, with the name that its stream goes by.
   void note(const SilenceEdge& edge, const std::string& name) {
-    Voice& voice = voices_.try_emplace({edge.stream, edge.robot_id}, Voice{.name = name}).first->second;
+    StreamState& state = streams_.try_emplace({edge.stream, edge.robot_id}, StreamState{.name = name}).first->second;
     if (!edge.to_ns) {
-      voice.silent_from_ns = edge.from_ns;
+      state.silent_from_ns = edge.from_ns;
       return;
     }
-    if (voice.said) {
+    if (state.said) {
       ready_.push_back(fmt::format("{} back after {:.2f} s", name, kicking::seconds(*edge.to_ns - edge.from_ns)));
-    } else if (voice.silent_from_ns) {
-      ++voice.unsaid;
+    } else if (state.silent_from_ns) {
+      ++state.unsaid;
     }
-    voice.silent_from_ns.reset();
-    voice.said = false;
+    state.silent_from_ns.reset();
+    state.said = false;
   }
 
   /// What is to be said now.
   std::vector<std::string> due(std::int64_t now_ns) {
-    for (auto& [key, voice] : voices_) {
-      if (!voice.silent_from_ns || voice.said) continue;
-      if (voice.said_ns && now_ns - *voice.said_ns < kPause_ns) continue;
+    for (auto& [key, state] : streams_) {
+      if (!state.silent_from_ns || state.said) continue;
+      if (state.said_ns && now_ns - *state.said_ns < kPause_ns) continue;
       const std::string more =
-          voice.unsaid > 0 ? fmt::format(", and {} shorter silences before", voice.unsaid) : std::string{};
+          state.unsaid > 0 ? fmt::format(", and {} shorter silences before", state.unsaid) : std::string{};
       ready_.push_back(
-          fmt::format("no {} for {:.2f} s{}", voice.name, kicking::seconds(now_ns - *voice.silent_from_ns), more));
-      voice.said = true;
-      voice.said_ns = now_ns;
-      voice.unsaid = 0;
+          fmt::format("no {} for {:.2f} s{}", state.name, kicking::seconds(now_ns - *state.silent_from_ns), more));
+      state.said = true;
+      state.said_ns = now_ns;
+      state.unsaid = 0;
     }
     return std::exchange(ready_, {});
   }
 
  private:
-  struct Voice {
+  struct StreamState {
     std::string name;
     std::optional<std::int64_t> silent_from_ns{};
     bool said = false;                      // that it is silent now
@@ -60,7 +60,7 @@ class SilenceLines {
   };
   static constexpr std::int64_t kPause_ns = 1'000'000'000;
 
-  std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;
+  std::map<std::pair<std::size_t, std::uint8_t>, StreamState> streams_;
   std::vector<std::string> ready_;
 };
 

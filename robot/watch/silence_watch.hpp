@@ -43,27 +43,27 @@ class SilenceWatch {
   /// saw it begin. The last sample once more, as a topic gives it to who joins late, is no news. `came_ns`: when it
   /// came, by the looks' clock; not known: when it was looked next.
   void heard(std::size_t stream, std::uint8_t robot_id, std::int64_t ns, std::optional<std::int64_t> came_ns = {}) {
-    const auto [place, first] = voices_.try_emplace({stream, robot_id});
-    Voice& voice = place->second;
-    if (!first && ns == voice.last_ns) return;
+    const auto [place, first] = streams_.try_emplace({stream, robot_id});
+    StreamState& state = place->second;
+    if (!first && ns == state.last_ns) return;
     const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
-    if (voice.silent || (!first && ns > voice.last_ns && ns - voice.last_ns > limit_ns))
-      edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, ns});
-    voice = {.last_ns = ns};
-    if (came_ns) voice.heard_awake_ns = awake_ns_ + awake_since_look(*came_ns);
+    if (state.silent || (!first && ns > state.last_ns && ns - state.last_ns > limit_ns))
+      edges_.push_back({stream, robot_id, limit_ns, state.last_ns, ns});
+    state = {.last_ns = ns};
+    if (came_ns) state.heard_awake_ns = awake_ns_ + awake_since_look(*came_ns);
   }
 
   /// What began or ended since the last look, in the order in which it was noticed.
   std::vector<SilenceEdge> look(std::int64_t now_ns) {
     awake_ns_ += awake_since_look(now_ns);
     looked_ns_ = now_ns;
-    for (auto& [key, voice] : voices_) {
+    for (auto& [key, state] : streams_) {
       const auto& [stream, robot_id] = key;
       const std::int64_t limit_ns = kSilentPeriods * periods_ns_[stream];
-      if (!voice.heard_awake_ns) voice.heard_awake_ns = awake_ns_;
-      if (voice.silent || awake_ns_ - *voice.heard_awake_ns <= limit_ns) continue;
-      voice.silent = true;
-      edges_.push_back({stream, robot_id, limit_ns, voice.last_ns, std::nullopt});
+      if (!state.heard_awake_ns) state.heard_awake_ns = awake_ns_;
+      if (state.silent || awake_ns_ - *state.heard_awake_ns <= limit_ns) continue;
+      state.silent = true;
+      edges_.push_back({stream, robot_id, limit_ns, state.last_ns, std::nullopt});
     }
     return std::exchange(edges_, {});
   }
@@ -74,9 +74,9 @@ class SilenceWatch {
   std::int64_t pause_ns(std::int64_t most_ns) {
     std::int64_t pause_ns = most_ns;
     for (const std::int64_t period_ns : periods_ns_) pause_ns = std::min(pause_ns, kSilentPeriods * period_ns);
-    for (const auto& [key, voice] : voices_) {
-      const std::int64_t silent_ns = awake_ns_ - voice.heard_awake_ns.value_or(awake_ns_);
-      pause_ns = voice.silent ? 0 : std::min(pause_ns, kSilentPeriods * periods_ns_[key.first] - silent_ns);
+    for (const auto& [key, state] : streams_) {
+      const std::int64_t silent_ns = awake_ns_ - state.heard_awake_ns.value_or(awake_ns_);
+      pause_ns = state.silent ? 0 : std::min(pause_ns, kSilentPeriods * periods_ns_[key.first] - silent_ns);
     }
     return longest_step_ns_ = std::max(pause_ns, step_ns_);
   }
@@ -86,7 +86,7 @@ class SilenceWatch {
     return std::clamp<std::int64_t>(ns - looked_ns_.value_or(ns), 0, longest_step_ns_);
   }
 
-  struct Voice {
+  struct StreamState {
     std::int64_t last_ns = 0;
     std::optional<std::int64_t> heard_awake_ns{};  // of the last sample, or of the first look after it
     bool silent = false;
@@ -95,7 +95,7 @@ class SilenceWatch {
   std::int64_t step_ns_;
   std::int64_t longest_step_ns_;
   std::vector<std::int64_t> periods_ns_;
-  std::map<std::pair<std::size_t, std::uint8_t>, Voice> voices_;
+  std::map<std::pair<std::size_t, std::uint8_t>, StreamState> streams_;
   std::vector<SilenceEdge> edges_;
   std::int64_t awake_ns_ = 0;  // time that went on while somebody looked
   std::optional<std::int64_t> looked_ns_;

@@ -6,7 +6,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/random/draws.hpp"
-#include "sim/flight.hpp"
+#include "sim/kicker/flight.hpp"
 #include "sim/laser/scan_builder.hpp"
 
 namespace trivela::sim {

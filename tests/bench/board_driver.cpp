@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/domain.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/domain.hpp"
+#include "bus/domain/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "config/settings.hpp"

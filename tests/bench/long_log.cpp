@@ -7,15 +7,15 @@
 #include <cstdio>
 #include <string>
 
-#include "evaluator/log/digest.hpp"
-#include "evaluator/log/new_file.hpp"
-#include "evaluator/log/row_digest.hpp"
-#include "evaluator/log/schema.hpp"
-#include "evaluator/log/session_tallies.hpp"
+#include "log/file/new_file.hpp"
+#include "log/file/session_tallies.hpp"
+#include "log/schema/digest.hpp"
+#include "log/schema/row_digest.hpp"
+#include "log/schema/schema.hpp"
 
 namespace {
 
-using namespace trivela::evaluator::log;
+using namespace trivela::log;
 
 constexpr std::int64_t kApart_ns = 7'200'000'000'000;  // starts of two matches
 

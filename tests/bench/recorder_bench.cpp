@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "bus/executor.hpp"
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "tests/bench/chain/contender.hpp"
 #include "tests/bench/chain/hogs.hpp"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{20};
+constexpr std::chrono::seconds kTimeout{20};
 
 struct Plan {
   int robots = 5;
@@ -45,7 +45,7 @@ struct Sent {
 struct Result {
   Sent sent;
   double cpu_s = 0.0;  // of the recorder
-  evaluator::log::Stats stats;
+  log::Stats stats;
   std::int64_t recorded = 0;  // decisions in the log
   std::int64_t shadows = 0;
   std::int64_t gaps = 0;      // sequence numbers that never arrived
@@ -98,7 +98,7 @@ void play_robots(const bus::DomainConfig& domain, const Plan& plan, int report, 
   for (int robot = 1; robot <= plan.robots; ++robot) writers.emplace_back(participant);
   for (const auto& writer : writers) {
     // The recorder and the one that watches for its match.
-    if (!writer.wait_for_readers(2, kPatience)) throw std::runtime_error{"the recorder has not come within 20 s"};
+    if (!writer.wait_for_readers(2, kTimeout)) throw std::runtime_error{"the recorder has not come within 20 s"};
   }
   char go = 'r';
   if (write(report, &go, 1) != 1 || read(release, &go, 1) != 1)
@@ -163,7 +163,7 @@ class Folder {
 };
 
 /// Waits until the rows are in the log, or none has come for a second: what is missing then will not come.
-void drain(evaluator::log::Writer& log, std::int64_t rows) {
+void drain(log::Writer& log, std::int64_t rows) {
   std::int64_t before = -1;
   auto last_news = Clock::now();
   while (Clock::now() - last_news < std::chrono::seconds(1)) {
@@ -182,13 +182,13 @@ void drain(evaluator::log::Writer& log, std::int64_t rows) {
 bool robots_are_ready(bus::Participant& participant, const Plan& plan, const Pipe& report) {
   bus::Reader<msg::KickDecision> watch{participant};
   char ready = 0;
-  return watch.wait_for_writers(static_cast<std::size_t>(plan.robots), kPatience) &&
+  return watch.wait_for_writers(static_cast<std::size_t>(plan.robots), kTimeout) &&
          read(report.read_end(), &ready, 1) == 1;
 }
 
 /// What of it stands in the log, and what the log says is missing.
 void add_log(Result& result, const fs::path& path) {
-  const evaluator::log::Reader reader{path};
+  const log::Reader reader{path};
   reader.query("SELECT (SELECT count(*) FROM kick_decisions), (SELECT count(*) FROM shadow_decisions)",
                [&](const auto& row) {
                  result.recorded = std::get<std::int64_t>(row[0]);
@@ -219,10 +219,10 @@ Result measure(const Plan& plan) {
   config::Settings settings;
   const auto logger = std::make_shared<spdlog::logger>("recorder", std::make_shared<spdlog::sinks::null_sink_mt>());
   nodes::NodeContext context{settings, {}, bus::Participant{domain}, logger, stop};
-  evaluator::log::WriterOptions options;
+  log::WriterOptions options;
   options.queue_capacity = settings.recorder.queue_capacity;
   options.group_commit_s = settings.recorder.group_commit_s;
-  evaluator::log::Writer log{path, evaluator::log::Session{}, options};
+  log::Writer log{path, log::Session{}, options};
   nodes::RecorderNode node{context, log};
   const double cpu_before_s = cpu_s();
   std::thread recording{[&] { bus::Executor{bus::Executor::kWaitset, stop, {&node.node()}}.run(); }};

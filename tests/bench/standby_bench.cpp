@@ -21,7 +21,7 @@ namespace {
 using namespace trivela;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kTimeout{60};
 constexpr const char* kFirst = "kick_decision";
 constexpr const char* kSecond = "kick_decision_second";
 
@@ -34,7 +34,7 @@ class Onlooker {
   /// Waits for a command of a node, and says when it came. Throws std::runtime_error where none comes.
   Clock::time_point hear(const std::string& node) {
     const std::string owner = node + "/1";
-    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
+    for (const auto end = Clock::now() + kTimeout; Clock::now() < end;) {
       drive_.wait(std::chrono::milliseconds{10});
       bool heard = false;
       drive_.take([&](const msg::DriveCommand&, const bus::SampleInfo& info) { heard |= info.owner == owner; });
@@ -46,7 +46,7 @@ class Onlooker {
   /// Waits until so much time goes by without a command of a node, while others speak.
   void wait_for_silence(const std::string& node, std::chrono::milliseconds length) {
     const std::string owner = node + "/1";
-    const auto end = Clock::now() + kPatience;
+    const auto end = Clock::now() + kTimeout;
     for (auto last = Clock::now(); Clock::now() - last < length;) {
       if (Clock::now() > end) throw std::runtime_error{node + " does not give back"};
       drive_.wait(std::chrono::milliseconds{10});

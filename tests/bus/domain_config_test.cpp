@@ -3,8 +3,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "bus/cyclone.hpp"
-#include "bus/domain.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/domain.hpp"
 
 namespace trivela::bus {
 namespace {

@@ -1,8 +1,8 @@
-#include "bus/own_sockets.hpp"
+#include "bus/domain/own_sockets.hpp"
 
 #include <gmock/gmock.h>
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::bus {

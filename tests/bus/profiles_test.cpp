@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bus/qos.hpp"
+#include "bus/domain/qos.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

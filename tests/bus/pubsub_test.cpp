@@ -3,7 +3,7 @@
 #include <future>
 #include <stdexcept>
 
-#include "bus/cyclone.hpp"
+#include "bus/domain/cyclone.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

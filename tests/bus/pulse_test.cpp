@@ -10,17 +10,17 @@
 namespace trivela::bus {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{50};
+constexpr std::chrono::milliseconds kTimeout{50};
 
 TEST(Turn, IsLateOnceItsPatienceIsOver) {
   Turn turn;
   const Turn::Time now{std::chrono::hours{1}};
-  EXPECT_FALSE(turn.late(now, kPatience)) << "nothing is due";
+  EXPECT_FALSE(turn.late(now, kTimeout)) << "nothing is due";
   turn.due(now);
-  EXPECT_FALSE(turn.late(now + kPatience, kPatience));
-  EXPECT_TRUE(turn.late(now + kPatience + std::chrono::nanoseconds{1}, kPatience));
+  EXPECT_FALSE(turn.late(now + kTimeout, kTimeout));
+  EXPECT_TRUE(turn.late(now + kTimeout + std::chrono::nanoseconds{1}, kTimeout));
   turn.idle();
-  EXPECT_FALSE(turn.late(now + std::chrono::hours{1}, kPatience));
+  EXPECT_FALSE(turn.late(now + std::chrono::hours{1}, kTimeout));
 }
 
 /// A place where a reaction hangs until it is let go.
@@ -51,7 +51,7 @@ struct PulseTest : testing::TestWithParam<Executor::Kind> {
       if (!late.empty()) hang.release();
       if (late.empty() && std::ranges::find(said, hung) != said.end()) stop.request();
     };
-    Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kPatience}}.run();
+    Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kTimeout}}.run();
     EXPECT_THAT(said, testing::Contains(hung));
     EXPECT_EQ(said.back(), "");
   }
@@ -98,7 +98,7 @@ TEST_P(PulseTest, WhatHasNothingToDoIsNotLate) {
     EXPECT_EQ(late, "");
     if (++beats == 3) stop.request();
   };
-  Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kPatience}}.run();
+  Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kTimeout}}.run();
   EXPECT_EQ(beats, 3);
 }
 

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
+#include "bus/domain/reader_health.hpp"
 #include "bus/executor.hpp"
-#include "bus/hearing.hpp"
 #include "bus/node.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
@@ -159,7 +159,7 @@ TEST(Renewal, WhereItDoesNotHelpTheExecutorEndsWithTheTopicsName) {
   try {
     Executor{Executor::kListener, stop, {&node}}.run();
     ADD_FAILURE() << "it goes on";
-  } catch (const Deaf& deaf) {
+  } catch (const BusUnresponsive& deaf) {
     EXPECT_THAT(deaf.what(), testing::HasSubstr("vision"));
   }
   EXPECT_FALSE(stop.requested()) << "the program may join anew";

@@ -1,4 +1,4 @@
-#include "bus/process.hpp"
+#include "bus/domain/process.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,8 +13,8 @@
 #include <set>
 #include <vector>
 
-#include "bus/cyclone.hpp"
-#include "bus/participant.hpp"
+#include "bus/domain/cyclone.hpp"
+#include "bus/domain/participant.hpp"
 #include "tests/bus/test_domain.hpp"
 
 namespace trivela::bus {

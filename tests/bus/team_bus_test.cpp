@@ -1,6 +1,6 @@
 // What `trivela team configure` writes for Cyclone, on real participants.
-#include "config/team_bus.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team_bus.hpp"
+#include "config/team/team_settings.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

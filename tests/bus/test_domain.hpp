@@ -6,7 +6,7 @@
 #include <atomic>
 #include <string>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 
 namespace trivela::bus {
 

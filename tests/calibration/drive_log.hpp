@@ -66,9 +66,7 @@ class DriveLog : public evaluator::LogTest {
                               1.0});
     writer_.push(receipts_, {Int{1}, ++seq_, t_ns, id, Int{accepted}, accepted ? "none" : "charging", t_ns, t_ns, t_ns,
                              kPower, Int{0}, Int{0}});
-    const auto cell = [](const std::optional<double>& value) {
-      return value ? evaluator::log::Value(*value) : evaluator::log::Value();
-    };
+    const auto cell = [](const std::optional<double>& value) { return value ? log::Value(*value) : log::Value(); };
     writer_.push(outcomes_, {Int{1}, ++seq_, t_ns, id, "wide_left", Int{0}, cell(x_cross_m), cell(z_cross_m), Int{9}});
     writer_.push(truths_, {Int{1}, ++seq_, t_ns, id, Int{1}, id, "on_target", 77.0, 77.0, t_ns, 0.0, 0.0, 0.0, 0.0, 0.0,
                            Int{0}});
@@ -98,13 +96,13 @@ class DriveLog : public evaluator::LogTest {
     }
   }
 
-  evaluator::log::Reader read() {
+  log::Reader read() {
     writer_.finalise();
-    return evaluator::log::Reader(path());
+    return log::Reader(path());
   }
 
-  evaluator::log::Writer writer_;
-  evaluator::log::TableId decisions_{}, receipts_{}, outcomes_{}, truths_{}, frames_{};
+  log::Writer writer_;
+  log::TableId decisions_{}, receipts_{}, outcomes_{}, truths_{}, frames_{};
   Int kicks_ = 0;
   Int seq_ = 0;
 };

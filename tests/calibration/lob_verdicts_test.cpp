@@ -9,10 +9,10 @@
 namespace trivela::calibration {
 namespace {
 
-using evaluator::log::TestedSetPoint;
-using evaluator::log::Verdict;
 using kicking::lob::LobRecord;
 using kicking::lob::Refusal;
+using log::TestedSetPoint;
+using log::Verdict;
 using testing::HasSubstr;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;

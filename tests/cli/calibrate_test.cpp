@@ -10,8 +10,8 @@
 #include "cli/calibrate/robot_file.hpp"
 #include "cli/calibrate/subcommands.hpp"
 #include "cli/verbs.hpp"
-#include "config/error.hpp"
 #include "config/robot.hpp"
+#include "config/text/error.hpp"
 #include "kicking/geometry/angle.hpp"
 
 namespace trivela::cli {
@@ -137,7 +137,7 @@ TEST_F(CalibrateVerb, TableJsonHasTheAgreedKeys) {
 
 TEST_F(CalibrateVerb, TableOfCommasMayHaveCommentsAnywhere) {
   write("lobs.csv",
-        "  # an evening\npower,height_m,distance_m # of the centre\n15,0.65,3.5 # first\n   \n25,1.25,6.66\n");
+        "  # a calibration\npower,height_m,distance_m # of the centre\n15,0.65,3.5 # first\n   \n25,1.25,6.66\n");
   const Result result = run("table lobs.csv --robot seven --json");
   ASSERT_EQ(result.exit_code, kDone) << result.err;
   EXPECT_EQ(json::parse(result.out)["setpoints"].size(), 2u);

@@ -1,4 +1,4 @@
-#include "cli/compare_input.hpp"
+#include "cli/compare/compare_input.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/compare_input.hpp"
+#include "cli/compare/compare_input.hpp"
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/evaluator/match_fixture.hpp"
@@ -141,7 +141,7 @@ TEST(CompareInShort, SaysOfCountsWhoIsBetterByHowMuchHowSureAndHowManyMoreAreNee
 class CompareLogs : public evaluator::LogTest {
  protected:
   void write(const std::string& name, std::int64_t seed, int half, int inside, const std::string& config) {
-    evaluator::log::Session played = session();
+    log::Session played = session();
     played.uuid = fmt::format("{:08x}-0000-4000-8000-000000000001", seed);
     played.seed = seed;
     played.config_toml = config;
@@ -154,7 +154,7 @@ class CompareLogs : public evaluator::LogTest {
 
   /// 50 kicks of both policies, so many of them inside.
   void write_both(const std::string& name, std::int64_t seed, int stopped_inside, int moving_inside) {
-    evaluator::log::Session played = session();
+    log::Session played = session();
     played.uuid = fmt::format("{:08x}-0000-4000-8000-000000000001", seed);
     played.seed = seed;
     evaluator::MatchLog match(path(name), played, options());

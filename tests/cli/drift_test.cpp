@@ -29,7 +29,7 @@ constexpr double kLower_m = -0.7;
 class DriftVerb : public evaluator::LogTest {
  protected:
   /// A session on a field, `day` days after the first.
-  static evaluator::log::Session on_field(int day, bool simulated = false) {
+  static log::Session on_field(int day, bool simulated = false) {
     auto played = session();
     played.uuid = fmt::format("{:08x}-0000-4000-8000-000000000001", day + 1);
     played.seed.reset();

@@ -17,10 +17,10 @@ class EvaluatePolicy : public evaluator::LogTest {
   std::string output_of(const std::string& flags) {
     CLI::App app;
     int exit_code = -1;
-    add_evaluate_policy(app, exit_code);
+    add_study(app, exit_code);
     testing::internal::CaptureStdout();
     try {
-      app.parse("evaluate-policy --all " + path().string() + " " + flags);
+      app.parse("study evaluate-policy --all " + path().string() + " " + flags);
     } catch (const std::exception& error) {
       testing::internal::GetCapturedStdout();
       return error.what();

@@ -19,11 +19,11 @@ hal::KickerSample armed() {
 }
 
 TEST(DevicesOfSomebodyElse, AreNotOpenedAndNotCalledThere) {
-  Fixtures fixtures;
-  fixtures.push_back(held_by("wheels", "cia402 on can0", "odometry"));
-  EXPECT_THAT(listing(fixtures),
+  DeviceProbes probes;
+  probes.push_back(held_by("wheels", "cia402 on can0", "odometry"));
+  EXPECT_THAT(listing(probes),
               ContainsRegex("wheels +cia402 on can0 +not opened: odometry or another trivela hardware has it\n"));
-  EXPECT_FALSE(all_answer(fixtures)) << "nobody looked";
+  EXPECT_FALSE(all_answer(probes)) << "nobody looked";
 }
 
 TEST(DevicesOfSomebodyElse, ABoxThatNobodyNamedIsNone) {
@@ -31,9 +31,9 @@ TEST(DevicesOfSomebodyElse, ABoxThatNobodyNamedIsNone) {
   EXPECT_FALSE(is_wanted(settings));
   settings.group = "224.16.32.39";
   EXPECT_TRUE(is_wanted(settings));
-  Fixtures fixtures;
-  fixtures.push_back(referee_box_fixture({}));
-  EXPECT_TRUE(all_answer(fixtures)) << "none is wanted";
+  DeviceProbes probes;
+  probes.push_back(referee_box_probe({}));
+  EXPECT_TRUE(all_answer(probes)) << "none is wanted";
 }
 
 TEST(ATestKick, IsAskedForWhereTheKickerCouldFire) {

@@ -70,11 +70,11 @@ TEST_F(ImportKicks, ReasonsTimesHalvesAndRobotsAreKept) {
   const std::string log = import("a",
                                  "by,outcome,policy,time,half,robot\nAnna,post,moving,1:02:03.5,2,4\n"
                                  "Ben,unknown,stopped,,1,\nAnna,inside,moving,83.25,,2\nBen,outside,moving,,,\n");
-  const evaluator::log::Reader reader(log);
+  const log::Reader reader(log);
   const auto kicks = reader.kicks();
   ASSERT_EQ(kicks.size(), 4u);
   std::vector<std::string> seen;
-  for (const evaluator::log::Kick& kick : kicks) {
+  for (const log::Kick& kick : kicks) {
     seen.push_back(fmt::format("{} {} {} {} {}", kick.robot_id, kick.half, kick.policy, kick.observed->outcome,
                                kick.t_ns / 1'000'000));
   }

@@ -13,7 +13,7 @@
 namespace trivela::cli {
 namespace {
 
-using evaluator::log::Reader;
+using log::Reader;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

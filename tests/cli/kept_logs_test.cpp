@@ -39,11 +39,11 @@ TEST_F(KeptLogs, AreNeverOverwrittenByWhatElseAVerbWrites) {
     for (const std::string& words :
          {"report " + log + " --html " + target, "report " + log + " --json --out " + target,
           "compare " + log + " --out " + target, "export " + log + " --mcap " + target + " --force",
-          "frontier --matches 2 --csv " + target, "factorial --matches 2 --svg " + target,
-          "tune moving --matches 2 --out " + target, "learn " + log + " --out " + target}) {
+          "study frontier --matches 2 --csv " + target, "study factorial --matches 2 --svg " + target,
+          "study tune moving --matches 2 --out " + target, "study learn " + log + " --out " + target}) {
       EXPECT_THAT(
           [&] {
-            run_parsed({add_report, add_compare, add_export, add_frontier, add_factorial, add_tune, add_learn}, words);
+            run_parsed({add_report, add_compare, add_export, add_study}, words);
           },
           ThrowsMessage<std::runtime_error>(
               HasSubstr(target + " holds a database, such as a match log, and is never overwritten")))

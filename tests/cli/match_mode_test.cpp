@@ -44,9 +44,9 @@ TEST_F(WhileAMatchIsOn, NoWheelIsTurnedAndNoTestKickGiven) {
               HasSubstr("run.match_mode = true: a match is on, and a test kick waits"));
 }
 
-TEST_F(WhileAMatchIsOn, NoEveningOfCalibrationBegins) {
+TEST_F(WhileAMatchIsOn, NoCalibrationOfCalibrationBegins) {
   EXPECT_THAT(why_refused(add_calibrate, {"calibrate", "run", "--in", "field", "--robot", "r", "--out-dir", folder_}),
-              HasSubstr("run.match_mode = true: a match is on, and the evening on a field waits"));
+              HasSubstr("run.match_mode = true: a match is on, and the calibration on a field waits"));
 }
 
 TEST_F(WhileAMatchIsOn, NoPageOfLobsIsServed) {

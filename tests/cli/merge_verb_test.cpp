@@ -25,7 +25,7 @@ class MergeVerb : public evaluator::LogTest {
   }
 
   std::string robot_log(const std::string& name, int robot_id) {
-    evaluator::log::Session session = LogTest::session();
+    log::Session session = LogTest::session();
     session.robot_id = robot_id;
     session.simulated_clock = session.simulated = false;
     session.seed.reset();

@@ -24,8 +24,8 @@ TEST(ProgressLine, HasNoShareWhereNobodyKnowsHowMuchThereIs) {
 }
 
 TEST(ProgressLine, CountsSlowThingsByTheMinuteAndTheHour) {
-  EXPECT_THAT(progress_line(1.0, 10.0, 60.0, "evenings", ""),
-              AllOf(HasSubstr("9 min left"), HasSubstr("0.017 evenings/s")));
+  EXPECT_THAT(progress_line(1.0, 10.0, 60.0, "calibrations", ""),
+              AllOf(HasSubstr("9 min left"), HasSubstr("0.017 calibrations/s")));
   EXPECT_THAT(progress_line(1.0, 100.0, 360.0, "", ""), HasSubstr("9.9 h left"));
 }
 

@@ -60,7 +60,7 @@ TEST_F(ReportVerb, OfALogWithoutKicksIsDone) {
 TEST_F(ReportVerb, ReportsFirstAndThenSaysThatDataWereLost) {
   evaluator::MatchLog match(path(), session(), options());
   evaluator::write_table2(match);
-  match.writer().add_loss("vision_frames", evaluator::log::LossKind::kLost, 2);
+  match.writer().add_loss("vision_frames", log::LossKind::kLost, 2);
   match.close();
   for (const char* const flags : {"", "--json", "--csv"}) {
     const Result result = run(flags);

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/row_verbs.hpp"
+#include "cli/kick/row_verbs.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "tests/cli/verb_run.hpp"
 #include "tests/vector_rows.hpp"

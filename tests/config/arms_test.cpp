@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::config {
 namespace {

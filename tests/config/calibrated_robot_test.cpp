@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/error.hpp"
 #include "config/robot.hpp"
+#include "config/text/error.hpp"
 #include "kicking/ballistics/crossing.hpp"
 
 namespace trivela::config {

@@ -1,4 +1,4 @@
-#include "config/csv_reader.hpp"
+#include "config/text/csv_reader.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "config/settings_fields.hpp"
-#include "config/toml_source.hpp"
-#include "config/toml_text.hpp"
+#include "config/text/toml_source.hpp"
+#include "config/text/toml_text.hpp"
 
 namespace trivela::config {
 namespace {

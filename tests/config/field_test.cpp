@@ -8,9 +8,9 @@
 #include <fstream>
 #include <string>
 
-#include "config/error.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/scenario/scenario_field.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::config {
 namespace {

@@ -7,7 +7,7 @@
 #include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
-#include "config/toml_source.hpp"
+#include "config/text/toml_source.hpp"
 
 namespace trivela::config {
 namespace {

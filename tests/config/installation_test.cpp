@@ -1,4 +1,4 @@
-#include "config/installation.hpp"
+#include "config/text/installation.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

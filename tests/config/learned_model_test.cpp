@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/error.hpp"
 #include "config/settings.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::config {
 namespace {
@@ -40,7 +40,7 @@ LearnedModelFile example() {
     file.model.means[i] = 1.0 + static_cast<double>(i);
     file.model.scales[i] = 2.0;
   }
-  file.training = {"trivela learn", "2015-04-13", {"ab.db"}, 70, 900, 10.0};
+  file.training = {"trivela study learn", "2015-04-13", {"ab.db"}, 70, 900, 10.0};
   file.held_out = {30, 400, 0.51, 0.52, -0.01, -0.02, -0.001, true};
   return file;
 }

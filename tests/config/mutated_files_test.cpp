@@ -13,10 +13,10 @@
 #include "config/robot.hpp"
 #include "config/scenario/scenario.hpp"
 #include "config/settings.hpp"
-#include "config/team.hpp"
-#include "config/team_bus.hpp"
-#include "config/team_files.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team.hpp"
+#include "config/team/team_bus.hpp"
+#include "config/team/team_files.hpp"
+#include "config/team/team_settings.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
 namespace trivela::config {

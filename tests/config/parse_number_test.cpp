@@ -1,4 +1,4 @@
-#include "config/parse_number.hpp"
+#include "config/text/parse_number.hpp"
 
 #include <gtest/gtest.h>
 

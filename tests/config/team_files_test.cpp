@@ -1,4 +1,4 @@
-#include "config/team_files.hpp"
+#include "config/team/team_files.hpp"
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
@@ -8,10 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "config/error.hpp"
-#include "config/team.hpp"
-#include "config/team_bus.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team.hpp"
+#include "config/team/team_bus.hpp"
+#include "config/team/team_settings.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::config {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "config/team.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team.hpp"
+#include "config/team/team_settings.hpp"
 
 namespace trivela::config {
 namespace {

@@ -12,13 +12,13 @@
 #include <optional>
 #include <random>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/node.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "config/settings.hpp"
-#include "evaluator/log/reader.hpp"
 #include "idl/messages.hpp"
+#include "log/read/reader.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 
@@ -93,7 +93,7 @@ class Driven : public BehindABridge {
   /// Plays and drives ahead until it is so; false: it does not become so.
   template <class Condition>
   bool drives_until(const Condition& met) {
-    const auto deadline = Clock::now() + kPatience;
+    const auto deadline = Clock::now() + kTimeout;
     while (!met() && Clock::now() < deadline) {
       msg::Referee word{};
       msg::DriveCommand command{};
@@ -168,7 +168,7 @@ TEST_F(Driven, ItMovesKicksOnceAtTheInstantAndIsNotedAsAProgram) {
   EXPECT_GE(t_ns, receipts_.back().fired_t_ns);
 
   for (const char* const name : {"kicker_driver", "odometry", "bridge", "recorder"}) stop(name);
-  const evaluator::log::Reader log{folder_ / "match.db"};
+  const log::Reader log{folder_ / "match.db"};
   ASSERT_THAT(log.sessions(), SizeIs(1));
   EXPECT_TRUE(log.sessions()[0].simulated) << "the bridge says that it is a program";
   EXPECT_FALSE(log.sessions()[0].seed) << "and no world is behind it";
@@ -179,7 +179,7 @@ class Charged : public BehindABridge {
  protected:
   /// Says that the switch is closed, the game on and the capacitor half full, and where there is one, what the decision
   /// node says; until it is told `word`. False: it is not, for so long.
-  bool says_until_told(msg::ChargeWord word, std::chrono::nanoseconds at_most = kPatience) {
+  bool says_until_told(msg::ChargeWord word, std::chrono::nanoseconds at_most = kTimeout) {
     const auto deadline = Clock::now() + at_most;
     for (std::optional<msg::ChargeWord> told; told != word;) {
       if (Clock::now() > deadline) return false;
@@ -257,7 +257,7 @@ TEST_F(BehindABridge, VisionAndGoalCameraAreHeard) {
   start_example("vision");
   msg::VisionFrame seen{};
   msg::FlightFrame ball{};
-  const auto deadline = Clock::now() + kPatience;
+  const auto deadline = Clock::now() + kTimeout;
   while ((seen.seq == 0 || ball.seq == 0) && Clock::now() < deadline) {
     vision.wait(std::chrono::milliseconds{20});
     vision.take([&](const msg::VisionFrame& frame) { seen = frame; });

@@ -82,22 +82,22 @@ TEST_F(CalibrateInField, ADriveIsPlayedByTheNodesOfTheRobotOverItsBridge) {
   std::random_device random;
   std::ofstream{folder_ / "robot.toml"} << fmt::format(
       "[run]\nlockstep = false\nscenario = \"{}/config/scenarios/calibration.toml\"\n\n[domain]\ndomain_id = {}\n"
-      "tag = \"evening-{}-{:08x}\"\n\n[simulator]\nreferee = false\n\n[policy.test_drive]\npowers = [25.0, 35.0]\n",
+      "tag = \"calibration-{}-{:08x}\"\n\n[simulator]\nreferee = false\n\n[policy.test_drive]\npowers = [25.0, 35.0]\n",
       TRIVELA_SOURCE_DIR, 1 + random() % 100, getpid(), random());
   Program bridge{"trivela-simulator", {"--config", "robot.toml"}, folder_.path()};
-  Program evening{"trivela",
-                  {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer", "--out-dir",
-                   "drives", "--kicks", "2", "--lobs", "2"},
-                  folder_.path(),
-                  [this] { person_.become_input(); }};
-  answer(evening, "Standing kicks: ball to goal line, m [6.000]: ", "12");
-  answer(evening, "m [4.000]: ", "");
-  answer(evening, "m [0.050]: ", "");
-  answer(evening, "leave for today: ", "", "1_standing\n");
-  answer(evening, "leave for today: ", "q", "1_standing_2\n");
-  EXPECT_EQ(evening.wait(), 1);
-  EXPECT_THAT(evening.output(), HasSubstr("kick 4 of 4, set-point 35.00"));
-  EXPECT_THAT(evening.output(), Not(HasSubstr("A REHEARSAL")));
+  Program calibration{"trivela",
+                      {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer",
+                       "--out-dir", "drives", "--kicks", "2", "--lobs", "2"},
+                      folder_.path(),
+                      [this] { person_.become_input(); }};
+  answer(calibration, "Standing kicks: ball to goal line, m [6.000]: ", "12");
+  answer(calibration, "m [4.000]: ", "");
+  answer(calibration, "m [0.050]: ", "");
+  answer(calibration, "leave for today: ", "", "1_standing\n");
+  answer(calibration, "leave for today: ", "q", "1_standing_2\n");
+  EXPECT_EQ(calibration.wait(), 1);
+  EXPECT_THAT(calibration.output(), HasSubstr("kick 4 of 4, set-point 35.00"));
+  EXPECT_THAT(calibration.output(), Not(HasSubstr("A REHEARSAL")));
   bridge.signal(SIGTERM);
   EXPECT_EQ(bridge.wait(), 0) << bridge.errors();
   EXPECT_TRUE(exists("1_standing.scans.db")) << "the scanner's record";
@@ -111,17 +111,17 @@ TEST_F(CalibrateInField, ADriveThatNobodyMeasuresDoesNotBeginAndSaysWhatLacks) {
   std::random_device random;
   std::ofstream{folder_ / "robot.toml"} << fmt::format("[domain]\ndomain_id = {}\ntag = \"alone-{}-{:08x}\"\n",
                                                        1 + random() % 100, getpid(), random());
-  Program evening{"trivela",
-                  {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer", "--out-dir",
-                   "drives", "--kicks", "2", "--lobs", "2"},
-                  folder_.path(),
-                  [this] { person_.become_input(); }};
-  answer(evening, "Standing kicks: ball to goal line, m [6.000]: ", "");
-  answer(evening, "m [4.000]: ", "");
-  answer(evening, "m [0.050]: ", "");
-  answer(evening, "leave for today: ", "", "1_standing\n");
-  EXPECT_EQ(evening.wait(), 1);
-  EXPECT_THAT(evening.errors(),
+  Program calibration{"trivela",
+                      {"calibrate", "run", "--in", "field", "--config", "robot.toml", "--robot", "newcomer",
+                       "--out-dir", "drives", "--kicks", "2", "--lobs", "2"},
+                      folder_.path(),
+                      [this] { person_.become_input(); }};
+  answer(calibration, "Standing kicks: ball to goal line, m [6.000]: ", "");
+  answer(calibration, "m [4.000]: ", "");
+  answer(calibration, "m [0.050]: ", "");
+  answer(calibration, "leave for today: ", "", "1_standing\n");
+  EXPECT_EQ(calibration.wait(), 1);
+  EXPECT_THAT(calibration.errors(),
               testing::AllOf(HasSubstr("1_standing cannot be played: nobody writes vision: start your vision"),
                              HasSubstr("nobody writes flight_camera"), HasSubstr("nobody writes device/wheels"),
                              HasSubstr("nobody writes device/kicker"), HasSubstr("set scan_recorder.device")));

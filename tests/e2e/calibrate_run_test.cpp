@@ -90,7 +90,7 @@ TEST_F(CalibrateRun, ItsRobotHitsWhatItAimsAtFromThreeToEightMetres) {
     sideways_m.push_back(std::abs(*kick.truth->x_cross_m));
   }
   log.query("SELECT min(distance_m), max(distance_m) FROM kick_decisions WHERE fire = 1",
-            [&](std::span<const evaluator::log::Value> row) {
+            [&](std::span<const log::Value> row) {
               nearest_m = std::get<double>(row[0]);
               farthest_m = std::get<double>(row[1]);
             });

@@ -39,7 +39,7 @@ struct Pulse {
   std::int64_t t_ns = 0;
   double length_ms = 0.0;
 };
-struct BoxWord {
+struct SidedCommand {
   std::int64_t t_ns = 0;
   std::string word;
 };
@@ -123,8 +123,8 @@ class EmulatedMatch : public testing::TestWithParam<Devices> {
     return all;
   }
   /// What the box has said.
-  static std::vector<BoxWord> words() {
-    std::vector<BoxWord> all;
+  static std::vector<SidedCommand> words() {
+    std::vector<SidedCommand> all;
     for (const auto& line : matches_of(said(), "([A-Z_]+) said by the box at ([0-9]+) ns"))
       all.push_back({std::stoll(line[2]), line[1]});
     return all;
@@ -184,13 +184,13 @@ TEST_P(EmulatedMatch, EachPulseOfTheBoardHasOneAcceptedReceiptAndEachReceiptOneP
 TEST_P(EmulatedMatch, NothingIsKickedWhileTheBoxHasStoppedTheGame) {
   constexpr std::int64_t kOrderAge_ns = 100'000'000;
   const auto all = words();
-  const auto count = [&](const std::string& word) { return std::ranges::count(all, word, &BoxWord::word); };
+  const auto count = [&](const std::string& word) { return std::ranges::count(all, word, &SidedCommand::word); };
   EXPECT_EQ(count("START"), 2 * kPossessions);
   EXPECT_EQ(count("STOP"), 2 * kPossessions + 1) << "and one at the end";
   EXPECT_EQ(count("SECOND_HALF"), 1);
   for (const Pulse& pulse : pulses()) {
     bool playing = false;
-    for (const BoxWord& word : all) {
+    for (const SidedCommand& word : all) {
       if (word.word == "START" && word.t_ns <= pulse.t_ns) playing = true;
       if (word.word == "STOP" && word.t_ns + kOrderAge_ns <= pulse.t_ns) playing = false;
     }

@@ -11,7 +11,7 @@
 #include <memory>
 #include <thread>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "emulators/cia402/emulated_drives.hpp"
@@ -204,7 +204,7 @@ TEST_F(Hardware, ACableThatWasLooseForAWhileIsNamedAndFails) {
 }
 
 TEST_F(Hardware, AnEmulatedBoardOfAProcessOfItsOwnSaysAPulseOnce) {
-  Program board{"trivela", {"emulate", "ioboard"}, folder_.path()};
+  Program board{"trivela-emulate", {"ioboard"}, folder_.path()};
   const auto count = [&] {
     std::size_t n = 0;
     for (auto at = board.output().find("pulse of"); at != std::string::npos;
@@ -227,7 +227,7 @@ TEST_F(Hardware, AnEmulatedBoardOfAProcessOfItsOwnSaysAPulseOnce) {
 /// Drives of a process of their own, as a team that has none yet tries --spin.
 class SpunDrives : public Hardware {
  protected:
-  SpunDrives() : drives_("trivela", {"emulate", "cia402", "--drives", "3"}, folder_.path()) {
+  SpunDrives() : drives_("trivela-emulate", {"cia402", "--drives", "3"}, folder_.path()) {
     EXPECT_TRUE(wait_for_change(folder_.path(), drives_.watch(), [this] {
       return drives_.output().find('\n') != std::string::npos;
     })) << drives_.errors();

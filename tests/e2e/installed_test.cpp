@@ -8,8 +8,8 @@
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "evaluator/log/reader.hpp"
 #include "idl/messages.hpp"
+#include "log/read/reader.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 
@@ -72,7 +72,7 @@ TEST_F(Installed, NoProgramNamesTheSources) {
 
 TEST_F(Installed, AMatchIsPlayedInAnotherFolder) {
   output_of(program("trivela"), {"match", "--half", "moving", "--minutes", "0.2", "--seed", "1", "--out", "match.db"});
-  const evaluator::log::Reader log{folder_ / "match.db"};
+  const log::Reader log{folder_ / "match.db"};
   ASSERT_EQ(log.sessions().size(), 1u);
   EXPECT_TRUE(log.sessions()[0].closed_t_ns);
 }
@@ -117,7 +117,7 @@ TEST_F(Installed, AnotherProjectFindsAndUsesIt) {
   const std::string tag = "consumer-test-" + std::to_string(getpid());
   bus::Writer<msg::KickDecision> writer{bus::Participant{bus::loopback(19, tag)}};
   Program listener{folder_ / "consumer/examples/listen_to_decisions", {"19", tag}, folder_.path()};
-  EXPECT_TRUE(writer.wait_for_readers(1, kPatience)) << listener.errors();
+  EXPECT_TRUE(writer.wait_for_readers(1, kTimeout)) << listener.errors();
 
   const auto at_home = [&] {
     setenv("CYCLONEDDS_URI", ("file://" + config() + "/cyclonedds/loopback.xml").c_str(), 1);
@@ -127,8 +127,8 @@ TEST_F(Installed, AnotherProjectFindsAndUsesIt) {
   bus::Reader<msg::FlightFrame> camera{bus::Participant{bus::loopback(19, tag)}};
   Program bridge{folder_ / "consumer/examples/bridge/bridge", {"19"}, folder_.path(), at_home};
   Program vision{folder_ / "consumer/examples/vision/vision", {"19"}, folder_.path(), at_home};
-  EXPECT_TRUE(wheels.wait(kPatience)) << bridge.errors();
-  EXPECT_TRUE(camera.wait(kPatience)) << vision.errors();
+  EXPECT_TRUE(wheels.wait(kTimeout)) << bridge.errors();
+  EXPECT_TRUE(camera.wait(kTimeout)) << vision.errors();
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::e2e {
 
-using evaluator::log::Reader;
-using evaluator::log::Value;
+using log::Reader;
+using log::Value;
 using Row = std::vector<Value>;
 
 /// All rows of a query.

@@ -91,7 +91,7 @@ Program::~Program() {
 
 int Program::wait() {
   if (!status_) {
-    if (!watch_->ended(kPatience)) {
+    if (!watch_->ended(kTimeout)) {
       throw std::runtime_error{fmt::format("process {} did not end: {}{}", id(), output(), errors())};
     }
     int status = 0;
@@ -137,7 +137,7 @@ std::string program_of(pid_t id) {
 }
 
 bool wait_for_change(const fs::path& folder, const ProcessWatch& process, const std::function<bool()>& condition) {
-  const auto deadline = Clock::now() + kPatience;
+  const auto deadline = Clock::now() + kTimeout;
   const int changes = inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
   inotify_add_watch(changes, folder.c_str(), IN_CREATE | IN_MODIFY | IN_MOVED_TO | IN_DELETE);
   bool met = condition();

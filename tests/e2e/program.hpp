@@ -13,7 +13,7 @@
 namespace trivela::e2e {
 
 /// How long anything may take before a test gives up.
-inline constexpr std::chrono::seconds kPatience{240};
+inline constexpr std::chrono::seconds kTimeout{240};
 
 /// Something that becomes readable when a process ends. It may be anybody's child.
 class ProcessWatch {
@@ -55,7 +55,7 @@ class Program {
   void signal(int number) const { kill(id(), number); }
 
   /// Its exit code, or 128 + the signal that ended it, once it has ended. Throws std::runtime_error with what it said
-  /// when that takes longer than kPatience.
+  /// when that takes longer than kTimeout.
   int wait();
 
   std::string output() const;
@@ -81,7 +81,7 @@ std::vector<std::string> command_of(pid_t id);
 std::string program_of(pid_t id);
 
 /// Waits until `condition` holds, asking again whenever a file in `folder` changes. False: `process` ended first, or
-/// kPatience was over.
+/// kTimeout was over.
 bool wait_for_change(const std::filesystem::path& folder, const ProcessWatch& process,
                      const std::function<bool()>& condition);
 

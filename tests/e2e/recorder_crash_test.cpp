@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
@@ -32,7 +32,7 @@ class Witness {
   /// Listens until `met`; false if that does not happen.
   template <class Condition>
   bool hears_until(const Condition& met) {
-    const auto deadline = Clock::now() + kPatience;
+    const auto deadline = Clock::now() + kTimeout;
     while (!met() && Clock::now() < deadline) {
       reader_.wait(std::chrono::milliseconds{20});
       take();

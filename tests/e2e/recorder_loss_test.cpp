@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "config/settings.hpp"
@@ -50,7 +50,7 @@ class Wire {
         reader_(witness_, {.keep_all = true}) {}
 
   /// The recorder listens and the witness does.
-  bool complete() { return writer_.wait_for_readers(2, kPatience) && reader_.wait_for_writers(1, kPatience); }
+  bool complete() { return writer_.wait_for_readers(2, kTimeout) && reader_.wait_for_writers(1, kTimeout); }
 
   void play_until(Clock::time_point end) {
     for (auto before = Clock::now(); before < end;) {

@@ -3,14 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "evaluator/log/scan_log.hpp"
+#include "log/write/scan_log.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 
 namespace trivela::e2e {
 namespace {
 
-using evaluator::log::ScanReader;
+using log::ScanReader;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -86,7 +86,7 @@ TEST_F(Scan, AnEmulatedScannerIsRecordedUntilCtrlC) {
     const std::string out = port + ".db";
     Program recorder("trivela", {"scan", "--record", out, "--device", device}, folder_.path());
     const auto some = [&] {
-      return std::filesystem::exists(folder_ / out) && evaluator::log::is_scan_log(folder_ / out) &&
+      return std::filesystem::exists(folder_ / out) && log::is_scan_log(folder_ / out) &&
              ScanReader(folder_ / out).size() >= 20;
     };
     ASSERT_TRUE(wait_for_change(folder_.path(), recorder.watch(), some)) << recorder.errors();

@@ -34,10 +34,10 @@ std::string refusal(const Folder& folder, const std::vector<std::string>& argume
 
 TEST(Shards, MergeToTheRowsOfOneRun) {
   const Folder folder;
-  const std::vector<std::string> evenings{"simulate",      "--arms", "moving,stopped@old", "--matches", "7",
-                                          "--possessions", "20",     "--calibrations",     "2"};
+  const std::vector<std::string> calibrations{"simulate",      "--arms", "moving,stopped@old", "--matches", "7",
+                                              "--possessions", "20",     "--calibrations",     "2"};
   const auto play = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), evenings.begin(), evenings.end());
+    more.insert(more.begin(), calibrations.begin(), calibrations.end());
     run(folder, more);
   };
   play({"--out", "whole.db"});

@@ -15,7 +15,7 @@
 #include <set>
 #include <utility>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
@@ -58,7 +58,7 @@ class Witness {
   /// Listens until `met`; false if that does not happen.
   template <class Condition>
   bool hears_until(const Condition& met) {
-    const auto deadline = Clock::now() + kPatience;
+    const auto deadline = Clock::now() + kTimeout;
     while (!met() && Clock::now() < deadline) {
       referee_.wait(std::chrono::milliseconds{20});
       odometry_.take([&](const msg::Odometry& sample) { odometry_t_ns.push_back(sample.t_ns); });

@@ -16,11 +16,11 @@ using testing::HasSubstr;
 
 using Words = std::vector<std::string>;
 
-const Words kFactorial{"factorial", "--matches", "7", "--possessions", "4", "--opponent-median",
-                       "1,2",       "--jobs",    "2", "--eye-bias",    "0"};
+const Words kFactorial{"study",  "factorial", "--matches",  "7", "--possessions", "4", "--opponent-median", "1,2",
+                       "--jobs", "2",         "--eye-bias", "0"};
 const Words kTune{
-    "tune", "stopped",        "--matches", "8",         "--possessions",   "4",         "--rounds",
-    "2",    "--calibrations", "0",         "--setting", "policy.settle_s", "--setting", "policy.dribble_mps"};
+    "study",          "tune", "stopped",   "--matches",       "8",         "--possessions",     "4", "--rounds", "2",
+    "--calibrations", "0",    "--setting", "policy.settle_s", "--setting", "policy.dribble_mps"};
 
 struct Ran {
   int exit_code = 0;
@@ -36,8 +36,8 @@ Ran ran(const Folder& folder, Words words, const Words& more) {
   return result;
 }
 
-/// Every row of every table of a book, as text.
-std::vector<std::string> book(const Folder& folder, const std::string& file) {
+/// Every row of every table of a results file, as text.
+std::vector<std::string> rows_of(const Folder& folder, const std::string& file) {
   SQLite::Database database((folder / file).string());
   std::vector<std::string> lines;
   for (const std::string table : {"studies", "arms", "tallies"}) {
@@ -57,161 +57,152 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// The three shards of a study, merged in another order, have the rows of one run, and its report.
+/// The three shards of a study, put together in another order, have the rows of one run, and its report.
 void expect_the_rows_of_one_run(const Words& study) {
   const Folder folder;
-  const Ran whole = ran(folder, study, {"--tallies", "whole.db", "--csv", "whole.csv"});
+  const Ran whole = ran(folder, study, {"--results", "whole.db", "--csv", "whole.csv"});
   ASSERT_EQ(whole.exit_code, 0) << whole.errors;
   for (int shard = 1; shard <= 3; ++shard) {
     const Ran part =
-        ran(folder, study, {"--shard", fmt::format("{}/3", shard), "--tallies", fmt::format("{}.db", shard)});
+        ran(folder, study, {"--shard", fmt::format("{}/3", shard), "--results", fmt::format("{}.db", shard)});
     ASSERT_EQ(part.exit_code, 0) << part.errors;
   }
-  ASSERT_EQ(ran(folder, {"merge", "merged.db", "2.db", "3.db", "1.db"}, {}).exit_code, 0);
-  EXPECT_EQ(book(folder, "merged.db"), book(folder, "whole.db"));
-  const Ran merged = ran(folder, study, {"--tallies", "merged.db", "--csv", "merged.csv"});
-  EXPECT_EQ(merged.output, whole.output);
-  EXPECT_EQ(text_of(folder / "merged.csv"), text_of(folder / "whole.csv"));
-  EXPECT_EQ(ran(folder, study, {}).output, whole.output) << "without a book";
+  const Ran all = ran(folder, study, {"--results", "all.db", "--csv", "all.csv", "--with", "2.db", "3.db", "1.db"});
+  EXPECT_EQ(all.output, whole.output) << all.errors;
+  EXPECT_EQ(rows_of(folder, "all.db"), rows_of(folder, "whole.db"));
+  EXPECT_EQ(text_of(folder / "all.csv"), text_of(folder / "whole.csv"));
+  EXPECT_EQ(ran(folder, study, {}).output, whole.output) << "without a file of results";
+  const Ran missing = ran(folder, study, {"--with", "3.db"});
+  EXPECT_EQ(missing.output, whole.output) << "what no shard has is played";
 }
 
-TEST(StudyShards, OfAFactorialMergeToTheRowsOfOneRun) { expect_the_rows_of_one_run(kFactorial); }
+TEST(StudyShards, OfAFactorialHaveTheRowsOfOneRun) { expect_the_rows_of_one_run(kFactorial); }
 
-TEST(StudyShards, OfAFrontierWithEveningsMergeToTheRowsOfOneRun) {
-  expect_the_rows_of_one_run({"frontier", "--matches", "5", "--possessions", "3", "--threshold", "0.2,0.6",
+TEST(StudyShards, OfAFrontierWithCalibrationsHaveTheRowsOfOneRun) {
+  expect_the_rows_of_one_run({"study", "frontier", "--matches", "5", "--possessions", "3", "--threshold", "0.2,0.6",
                               "--calibrations", "1", "--beside", "moving"});
 }
 
-TEST(StudyShards, OfASensitivityMergeToTheRowsOfOneRun) {
-  expect_the_rows_of_one_run({"sensitivity", "--matches", "4", "--possessions", "3", "--arms", "stopped,moving",
-                              "--input", "kicker.delay_s,policy.settle_s"});
+TEST(StudyShards, OfASensitivityHaveTheRowsOfOneRun) {
+  expect_the_rows_of_one_run({"study", "sensitivity", "--matches", "4", "--possessions", "3", "--arms",
+                              "stopped,moving", "--input", "kicker.delay_s,policy.settle_s"});
+}
+
+TEST(StudyShards, OfArmsHaveTheRowsOfOneRun) {
+  expect_the_rows_of_one_run({"study", "arms", "--arms", "stopped,moving", "--matches", "5", "--possessions", "6"});
 }
 
 TEST(StudyShards, OfATuneTakeTheSearchStepByStep) {
   const Folder folder;
-  Words after;
+  Words with;
   int steps = 0;
   for (int exit_code = 3; exit_code == 3 && steps < 20; ++steps) {
+    Words files{"--with"};
     for (int shard = 1; shard <= 2; ++shard) {
-      Words more{"--shard", fmt::format("{}/2", shard), "--tallies", fmt::format("{}.db", shard)};
-      more.insert(more.end(), after.begin(), after.end());
+      files.push_back(fmt::format("{}_{}.db", steps, shard));
+      Words more{"--shard", fmt::format("{}/2", shard), "--results", files.back()};
+      more.insert(more.end(), with.begin(), with.end());
       const Ran part = ran(folder, kTune, more);
       exit_code = part.exit_code;
       ASSERT_TRUE(exit_code == 0 || exit_code == 3) << part.errors;
     }
-    if (exit_code == 0) break;
-    after = {"--after", fmt::format("merged_{}.db", steps)};
-    ASSERT_EQ(ran(folder, {"merge", after[1], "1.db", "2.db"}, {}).exit_code, 0);
+    with = files;
   }
-  ASSERT_GT(steps, 2);
-  ASSERT_EQ(ran(folder, kTune, {"--tallies", after.at(1), "--out", "best.toml"}).exit_code, 0);
-  const Ran whole = ran(folder, kTune, {"--tallies", "whole.db", "--out", "whole.toml"});
+  ASSERT_GT(steps, 3);
+  with.insert(with.end(), {"--results", "all.db", "--out", "best.toml"});
+  ASSERT_EQ(ran(folder, kTune, with).exit_code, 0);
+  const Ran whole = ran(folder, kTune, {"--results", "whole.db", "--out", "whole.toml"});
   ASSERT_EQ(whole.exit_code, 0) << whole.errors;
-  EXPECT_EQ(book(folder, after[1]), book(folder, "whole.db"));
+  EXPECT_EQ(rows_of(folder, "all.db"), rows_of(folder, "whole.db"));
   EXPECT_EQ(text_of(folder / "best.toml"), text_of(folder / "whole.toml"));
 }
 
-TEST(StudyShards, ThatLackAreTwiceOrForeignAreNamed) {
+TEST(StudyShards, ThatAreForeignOrSaySomethingElseAreNamed) {
   const Folder folder;
-  const auto play = [&](const std::string& file, const std::string& shard, const std::string& seed) {
-    ASSERT_EQ(ran(folder, kFactorial, {"--no-sweep", "--seed", seed, "--shard", shard, "--tallies", file}).exit_code,
-              0);
+  const Words study{"study", "arms", "--arms", "stopped", "--matches", "4", "--possessions", "3"};
+  for (int shard = 1; shard <= 2; ++shard)
+    ran(folder, study, {"--shard", fmt::format("{}/2", shard), "--results", fmt::format("{}.db", shard)});
+  ran(folder, study, {"--seed", "2", "--results", "foreign.db"});
+  const auto refusal = [&](const std::string& file) {
+    const Ran all = ran(folder, study, {"--with", "1.db", file});
+    EXPECT_EQ(all.exit_code, 1) << file;
+    EXPECT_EQ(all.output, "") << file;
+    return all.errors;
   };
-  for (int shard = 1; shard <= 3; ++shard) play(fmt::format("{}.db", shard), fmt::format("{}/3", shard), "1");
-  play("foreign.db", "2/3", "2");
-  const auto refusal = [&](const Words& files) {
-    Words words{"merge", "out.db"};
-    words.insert(words.end(), files.begin(), files.end());
-    const Ran merged = ran(folder, words, {});
-    EXPECT_EQ(merged.exit_code, 1);
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.db"));
-    return merged.errors;
-  };
-  EXPECT_THAT(refusal({"1.db", "3.db"}), HasSubstr("missing: 2/3"));
-  std::filesystem::copy_file(folder / "2.db", folder / "again.db");
-  EXPECT_THAT(refusal({"1.db", "2.db", "3.db", "again.db"}), AllOf(HasSubstr("again.db"), HasSubstr("2.db")));
-  EXPECT_THAT(refusal({"1.db", "foreign.db", "3.db"}), AllOf(HasSubstr("foreign.db"), HasSubstr("another experiment")));
-  EXPECT_THAT(refusal({"1.db", "2.db", "nothing.db"}), HasSubstr("nothing.db"));
-  {
-    SQLite::Database behind((folder / "2.db").string(), SQLite::OPEN_READWRITE);
-    behind.exec("DELETE FROM tallies WHERE (arm_id, match_id) IN (SELECT arm_id, match_id FROM tallies LIMIT 1)");
-  }
-  EXPECT_THAT(refusal({"1.db", "2.db", "3.db"}), AllOf(HasSubstr("2.db"), HasSubstr("goes on from there")));
-  play("2.db", "2/3", "1");
-  EXPECT_EQ(ran(folder, {"merge", "out.db", "1.db", "2.db", "3.db"}, {}).exit_code, 0);
+  EXPECT_THAT(refusal("foreign.db"), HasSubstr("foreign.db: has results of another study"));
+  EXPECT_THAT(refusal("nothing.db"), HasSubstr("nothing.db"));
+  std::filesystem::copy_file(folder / "1.db", folder / "changed.db");
+  SQLite::Database{(folder / "changed.db").string(), SQLite::OPEN_READWRITE}.exec(
+      "UPDATE tallies SET kicks = 77 WHERE match_id = 1");
+  EXPECT_THAT(refusal("changed.db"), HasSubstr("changed.db: says something else of match 1"));
+  EXPECT_EQ(ran(folder, study, {"--with", "1.db", "2.db", "1.db"}).exit_code, 0)
+      << "one that is there twice says nothing new";
 }
 
-/// Stops a study of many matches when its book has some of them, by a signal.
-Ran stopped(const Folder& folder, const Words& study, const std::string& book_file) {
+/// Stops a study of many matches when its file has some of them, by a signal.
+Ran stopped(const Folder& folder, const Words& study, const std::string& file) {
   Words words = study;
-  words.insert(words.end(), {"--tallies", book_file});
+  words.insert(words.end(), {"--results", file});
   Program program{"trivela", words, folder.path()};
   EXPECT_TRUE(wait_for_change(folder.path(), program.watch(), [&] {
     std::error_code missing;  // of some 110 kB it has no match, of 220 kB all
-    return std::filesystem::file_size(folder / book_file, missing) > 130'000 && !missing;
+    return std::filesystem::file_size(folder / file, missing) > 130'000 && !missing;
   }));
   program.signal(SIGINT);
   Ran result{.exit_code = program.wait(), .output = {}, .errors = program.errors()};
   return result;
 }
 
-/// The counts of a match log's arms that a book of tallies keeps.
-TEST(StudyShards, SummariesOfASimulationHaveTheCountsOfItsLog) {
+TEST(StudyShards, OfArmsHaveTheCountsOfALogOfTheSameMatches) {
   const Folder folder;
-  const Words simulation{"simulate", "--arms", "stopped,moving@old", "--matches", "6", "--possessions", "8"};
-  ASSERT_EQ(ran(folder, simulation, {"--out", "log.db"}).exit_code, 0);
-  ASSERT_EQ(ran(folder, simulation, {"--out", "book.db", "--summaries"}).exit_code, 0);
-  SQLite::Database log((folder / "log.db").string()), kept((folder / "book.db").string());
+  const Words arms{"--arms", "stopped,moving@old", "--matches", "6", "--possessions", "8"};
+  Words simulation{"simulate", "--out", "log.db"}, study{"study", "arms", "--results", "results.db"};
+  simulation.insert(simulation.end(), arms.begin(), arms.end());
+  study.insert(study.end(), arms.begin(), arms.end());
+  ASSERT_EQ(ran(folder, simulation, {}).exit_code, 0);
+  const Ran report = ran(folder, study, {});
+  ASSERT_EQ(report.exit_code, 0) << report.errors;
+  EXPECT_THAT(report.output, AllOf(HasSubstr("minus stopped"), HasSubstr("moving@old"), HasSubstr("SIMULATED")));
+  SQLite::Database log((folder / "log.db").string()), kept((folder / "results.db").string());
   const auto in_log = [&](const std::string& arm, const std::string& rows) {
     return log.execAndGet("SELECT count(*) FROM sessions JOIN " + rows + " AND arm = '" + arm + "'").getInt64();
   };
   for (const std::string arm : {"stopped", "moving@old"}) {
-    const auto in_book = [&](const std::string& column) {
+    const auto in_results = [&](const std::string& column) {
       return kept
-          .execAndGet("SELECT sum(" + column + ") FROM tallies JOIN arms USING (arm_id) WHERE name = '" + arm + "'")
+          .execAndGet("SELECT sum(" + column + ") FROM tallies JOIN arms USING (arm_id) WHERE name LIKE '%: " + arm +
+                      "'")
           .getInt64();
     };
-    EXPECT_EQ(in_book("opportunities"), in_log(arm, "possession_truths USING (session_id) WHERE 1"));
-    EXPECT_EQ(in_book("kicks"), in_log(arm, "kick_receipts USING (session_id) WHERE accepted = 1"));
-    EXPECT_EQ(in_book("on_target"), in_log(arm, "kick_outcomes USING (session_id) WHERE on_target = 1"));
-    EXPECT_GT(in_book("kicks"), 0);
+    EXPECT_EQ(in_results("opportunities"), in_log(arm, "possession_truths USING (session_id) WHERE 1"));
+    EXPECT_EQ(in_results("kicks"), in_log(arm, "kick_receipts USING (session_id) WHERE accepted = 1"));
+    EXPECT_EQ(in_results("on_target"), in_log(arm, "kick_outcomes USING (session_id) WHERE on_target = 1"));
+    EXPECT_GT(in_results("kicks"), 0);
   }
-  const Ran report = ran(folder, {"report", "book.db"}, {});
-  EXPECT_EQ(report.exit_code, 0);
-  EXPECT_THAT(report.output, AllOf(HasSubstr("moving@old"), HasSubstr("SIMULATED"), HasSubstr("Not there")));
-  const Ran compared = ran(folder, {"compare", "book.db", "--baseline", "moving@old"}, {});
-  EXPECT_THAT(compared.output, HasSubstr("minus moving@old"));
-  const Ran by_distance = ran(folder, {"compare", "book.db", "--stratify", "distance"}, {});
-  EXPECT_EQ(by_distance.exit_code, 2);
-  EXPECT_THAT(by_distance.errors, HasSubstr("sums of each arm's matches alone"));
-  EXPECT_EQ(ran(folder, simulation, {"--out", "no.db", "--summaries", "--shadows"}).exit_code, 2);
-}
-
-TEST(StudyShards, OfSummariesMergeToTheRowsOfOneRun) {
-  const Folder folder;
-  const Words simulation{"simulate", "--arms", "stopped,moving", "--matches", "5", "--possessions", "6", "--summaries"};
-  ASSERT_EQ(ran(folder, simulation, {"--out", "whole.db"}).exit_code, 0);
-  for (const std::string shard : {"1", "2"})
-    ASSERT_EQ(ran(folder, simulation, {"--out", shard + ".db", "--shard", shard + "/2"}).exit_code, 0);
-  ASSERT_EQ(ran(folder, {"merge", "merged.db", "1.db", "2.db"}, {}).exit_code, 0);
-  EXPECT_EQ(book(folder, "merged.db"), book(folder, "whole.db"));
+  for (const std::string verb : {"report", "compare", "merge"}) {
+    Words words{verb};
+    if (verb == "merge") words.push_back("out.db");
+    const Ran refused = ran(folder, words, {"results.db"});
+    EXPECT_EQ(refused.exit_code, 1) << verb;
+    EXPECT_THAT(refused.errors, HasSubstr("results.db")) << verb;
+  }
 }
 
 TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
   const Folder folder;
-  const Words study{"factorial", "--matches", "300", "--possessions", "6", "--no-sweep", "--jobs", "1"};
-  const Ran first = stopped(folder, study, "book.db");
+  const Words study{"study", "factorial", "--matches", "300", "--possessions", "6", "--no-sweep", "--jobs", "1"};
+  const Ran first = stopped(folder, study, "results.db");
   EXPECT_EQ(first.exit_code, 1);
-  EXPECT_THAT(first.errors, HasSubstr("matches are in book.db: the same command goes on from there"));
-  const auto kept = book(folder, "book.db");
-  const Ran again = ran(folder, study, {"--tallies", "book.db"});
+  EXPECT_THAT(first.errors, HasSubstr("matches are in results.db: the same command goes on from there"));
+  const auto kept = rows_of(folder, "results.db");
+  const Ran again = ran(folder, study, {"--results", "results.db"});
   EXPECT_EQ(again.exit_code, 0);
-  EXPECT_THAT(again.errors, HasSubstr("matches are in book.db already"));
-  ASSERT_EQ(ran(folder, study, {"--tallies", "whole.db"}).exit_code, 0);
-  const auto whole = book(folder, "whole.db");
+  EXPECT_THAT(again.errors, HasSubstr("matches are known already"));
+  ASSERT_EQ(ran(folder, study, {"--results", "whole.db"}).exit_code, 0);
+  const auto whole = rows_of(folder, "whole.db");
   EXPECT_LT(kept.size(), whole.size());
-  EXPECT_EQ(book(folder, "book.db"), whole);
-  const Ran other = ran(folder, study, {"--tallies", "book.db", "--seed", "2"});
+  EXPECT_EQ(rows_of(folder, "results.db"), whole);
+  const Ran other = ran(folder, study, {"--results", "results.db", "--seed", "2"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("was begun with other arguments"));
 }
@@ -220,16 +211,16 @@ TEST(StudyShards, SayWhatIsMissingBeforeTheyPlay) {
   const Folder folder;
   const Ran without = ran(folder, kFactorial, {"--shard", "1/2"});
   EXPECT_EQ(without.exit_code, 2);
-  EXPECT_THAT(without.errors, HasSubstr("--tallies"));
-  EXPECT_EQ(ran(folder, kFactorial, {"--shard", "1/2", "--tallies", "a.db", "--csv", "a.csv"}).exit_code, 2);
-  EXPECT_EQ(ran(folder, kFactorial, {"--shard", "1/9", "--tallies", "a.db"}).exit_code, 2);
+  EXPECT_THAT(without.errors, HasSubstr("--results"));
+  EXPECT_EQ(ran(folder, kFactorial, {"--shard", "1/2", "--results", "a.db", "--csv", "a.csv"}).exit_code, 2);
+  EXPECT_EQ(ran(folder, kFactorial, {"--shard", "1/9", "--results", "a.db"}).exit_code, 2);
   EXPECT_EQ(ran(folder, kTune, {}).exit_code, 2);
-  EXPECT_EQ(ran(folder, kFactorial, {"--tallies", "none/a.db"}).exit_code, 1);
-  std::ofstream{folder / "other.db"} << "no book";
-  const Ran other = ran(folder, kFactorial, {"--tallies", "other.db"});
+  EXPECT_EQ(ran(folder, kFactorial, {"--results", "none/a.db"}).exit_code, 1);
+  std::ofstream{folder / "other.db"} << "no results";
+  const Ran other = ran(folder, kFactorial, {"--results", "other.db"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("other.db"));
-  EXPECT_EQ(text_of(folder / "other.db"), "no book");
+  EXPECT_EQ(text_of(folder / "other.db"), "no results");
 }
 
 }  // namespace

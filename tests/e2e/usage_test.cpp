@@ -128,12 +128,12 @@ TEST(Usage, NumbersThatAreNoneAreRefusedWithFlagAndValue) {
   for (const auto& [arguments, says] : std::vector<BadNumber>{
            {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "nan"}, "--smallest-effect: nan is not"},
            {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "inf"}, "--smallest-effect: inf is not"},
-           {{"factorial", "--opponent-median", "1,nan"}, "--opponent-median: nan is not"},
-           {{"frontier", "--threshold", "nan"}, "--threshold: nan is not"},
-           {{"factorial", "--seed", "-1"}, "--seed: Value -1 not in range"},
-           {{"frontier", "--seed", "-1"}, "--seed: Value -1 not in range"},
-           {{"sensitivity", "--input", "kicker.delay_s,kicker.delay_s"}, "\"kicker.delay_s\" stands twice"},
-           {{"sensitivity", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"study", "factorial", "--opponent-median", "1,nan"}, "--opponent-median: nan is not"},
+           {{"study", "frontier", "--threshold", "nan"}, "--threshold: nan is not"},
+           {{"study", "factorial", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"study", "frontier", "--seed", "-1"}, "--seed: Value -1 not in range"},
+           {{"study", "sensitivity", "--input", "kicker.delay_s,kicker.delay_s"}, "\"kicker.delay_s\" stands twice"},
+           {{"study", "sensitivity", "--seed", "-1"}, "--seed: Value -1 not in range"},
            {{"simulate", "--arms", "moving", "--seed", "-1"}, "--seed: Value -1 not in range"},
            {{"scan", "--synthesize", "x.db", "--seed", "-1"}, "--seed: Value -1 not in range"},
            {{"scan", "--record", "x.db", "--seconds", "-1"}, "--seconds: -1 is not above 0"},
@@ -254,16 +254,16 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
   const Folder folder;
   std::ofstream{folder / "match.db"} << "nothing that anybody could learn from";
   for (const auto& [arguments, says] : std::vector<BadNumber>{
-           {{"factorial", "--matches", "1000000", "--csv", "no/f.csv"},
+           {{"study", "factorial", "--matches", "1000000", "--csv", "no/f.csv"},
             "cannot write --csv no/f.csv: there is no folder"},
-           {{"factorial", "--matches", "1000000", "--svg", "."}, "cannot write --svg .: it is a folder"},
-           {{"frontier", "--matches", "1000000", "--svg", "no/f.svg"},
+           {{"study", "factorial", "--matches", "1000000", "--svg", "."}, "cannot write --svg .: it is a folder"},
+           {{"study", "frontier", "--matches", "1000000", "--svg", "no/f.svg"},
             "cannot write --svg no/f.svg: there is no folder"},
-           {{"sensitivity", "--matches", "1000000", "--csv", "no/s.csv"},
+           {{"study", "sensitivity", "--matches", "1000000", "--csv", "no/s.csv"},
             "cannot write --csv no/s.csv: there is no folder"},
            {{"solve", "--theta-deg", "36.78", "--d-m", "5.73", "--h-rel-m", "0.59", "--svg", "no/k.svg"},
             "cannot write --svg no/k.svg: there is no folder"},
-           {{"learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: there is no folder"},
+           {{"study", "learn", "match.db", "--out", "no/l.toml"}, "cannot write --out no/l.toml: there is no folder"},
            {{"scan", "--synthesize", "s.db", "--truth", "no/t.csv"},
             "cannot write --truth no/t.csv: there is no folder"},
            {{"simulate", "--arms", "moving", "--matches", "1000000", "--out", "no/ab.db"}, "no/ab.db"},
@@ -273,7 +273,7 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
     EXPECT_THAT(trivela.errors(), HasSubstr(says));
     EXPECT_EQ(trivela.output(), "");
   }
-  Program twice{"trivela", {"frontier", "--matches", "1000000", "--csv", "f", "--svg", "f"}, folder.path()};
+  Program twice{"trivela", {"study", "frontier", "--matches", "1000000", "--csv", "f", "--svg", "f"}, folder.path()};
   EXPECT_EQ(twice.wait(), 2);
   EXPECT_THAT(twice.errors(), HasSubstr("--csv and --svg are the same file: f"));
   EXPECT_FALSE(exists(folder / "s.db"));
@@ -359,7 +359,7 @@ TEST(Usage, AFullDiskIsSaid) {
   const auto tests = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string program = (tests.parent_path() / "trivela").string();
   for (const std::string verb : {"compare --csv kicks.csv", "compare --csv kicks.csv --json", "--help",
-                                 "frontier --matches 2 --possessions 1 --threshold 0.5", "solve --help"}) {
+                                 "study frontier --matches 2 --possessions 1 --threshold 0.5", "solve --help"}) {
     const std::string command = "cd " + folder.path().string() + " && " + program + " " + verb;
     const int status = std::system((command + " > /dev/full 2> said").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 1) << verb;

@@ -1,10 +1,10 @@
-#include "evaluator/log/clock_alignment.hpp"
+#include "log/merge/clock_alignment.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace trivela::evaluator::log {
+namespace trivela::log {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
@@ -104,4 +104,4 @@ TEST(ClockAlignment, TheReferenceIsWhoJoinsMost) {
 }
 
 }  // namespace
-}  // namespace trivela::evaluator::log
+}  // namespace trivela::log

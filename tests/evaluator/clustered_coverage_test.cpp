@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "evaluator/stats/clustered.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "evaluator/stats/poisson.hpp"
 #include "tests/evaluator/coverage.hpp"
 
@@ -92,7 +92,7 @@ TEST(Coverage, DifferenceFromFewUnequalAndPartlySharedMatches) {
   }
 }
 
-// Matches crossed with evenings of calibration, each of which shifts the newer policy's kicks.
+// Matches crossed with calibrations, each of which shifts the newer policy's kicks.
 TEST(Coverage, DifferenceFromMatchesCrossedWithCalibrations) {
   for (const auto& [matches, calibrations] : {std::pair{25U, 20U}, {30U, 6U}}) {
     int conditional = 0;
@@ -101,9 +101,9 @@ TEST(Coverage, DifferenceFromMatchesCrossedWithCalibrations) {
       std::vector<double> day(matches);
       for (double& shift : day) shift = of_the_day(random, 0.0);
       for (std::uint32_t k = 0; k < calibrations; ++k) {
-        const double evening = 0.08 * (random.uniform() + random.uniform() - 1.0);
+        const double calibration = 0.08 * (random.uniform() + random.uniform() - 1.0);
         for (std::uint32_t m = 0; m < matches; ++m)
-          cells.push_back({m, 0, random.kicks(8, 0.5 + day[m]), random.kicks(8, 0.7 + day[m] + evening), k});
+          cells.push_back({m, 0, random.kicks(8, 0.5 + day[m]), random.kicks(8, 0.7 + day[m] + calibration), k});
       }
       const Interval ci = clustered_difference(cells)->ci;
       for (MatchCounts& cell : cells) cell.calibration = 0;
@@ -112,7 +112,7 @@ TEST(Coverage, DifferenceFromMatchesCrossedWithCalibrations) {
       return ci;
     });
     EXPECT_GE(share, kLow);
-    EXPECT_LT(conditional, 900) << "taking the evenings for granted is too sure";
+    EXPECT_LT(conditional, 900) << "taking the calibrations for granted is too sure";
   }
 }
 

@@ -1,12 +1,12 @@
 // How long the log's rows wait for company, on a clock that the tests turn.
-#include "evaluator/log/commit_pace.hpp"
+#include "log/write/commit_pace.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <deque>
 
-namespace trivela::evaluator::log {
+namespace trivela::log {
 namespace {
 
 using namespace std::chrono_literals;
@@ -85,4 +85,4 @@ TEST(CommitPace, LatenessIsSaidWithItsFigureAndSeldom) {
 }
 
 }  // namespace
-}  // namespace trivela::evaluator::log
+}  // namespace trivela::log

@@ -1,9 +1,9 @@
 // What a comparison calls the same opportunity, and whom it calls its cause.
 #include <gmock/gmock.h>
 
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/policy_comparison.hpp"
-#include "evaluator/report/session_setup.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
+#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/sessions/session_setup.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -48,7 +48,7 @@ class ComparedAlike : public LogTest {
     std::vector<std::filesystem::path> logs;
     for (const std::string& file : files) logs.push_back(path(file));
     std::string by;
-    KickBook book = read_log_kicks(logs, options, by);
+    KickDataset book = read_log_kicks(logs, options, by);
     return compare_policies(std::move(book), by);
   }
 
@@ -149,8 +149,8 @@ TEST_F(ComparedAlike, DrawsWithOtherProbabilitiesArePooledByNobody) {
   EXPECT_TRUE(within.pairs[0].headline->adjusted);
 }
 
-TEST(SetupBook, TellsWorldsAndSettingsApartButNotWhoPlays) {
-  SetupBook book;
+TEST(SetupIndex, TellsWorldsAndSettingsApartButNotWhoPlays) {
+  SetupIndex book;
   const auto of = [&](const std::string& charge, const std::string& gain, const std::string& world) {
     return book.of("### settings\n" + charge + gain + "\n### scenario\n" + world);
   };

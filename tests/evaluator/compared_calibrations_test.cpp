@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/policy_comparison.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
+#include "evaluator/counting/log_kicks.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -14,23 +14,24 @@ class ComparedCalibrationsTest : public LogTest {
  protected:
   PolicyComparison compared() const {
     std::string by;
-    KickBook book = read_log_kicks({path()}, {}, by);
+    KickDataset book = read_log_kicks({path()}, {}, by);
     return compare_policies(std::move(book), by);
   }
 
-  // Matches on several evenings of calibration; what the newer arm hits depends on the evening most.
-  void write(std::uint32_t matches, std::int64_t evenings) {
+  // Matches on several calibrations; what the newer arm hits depends on the calibration most.
+  void write(std::uint32_t matches, std::int64_t calibrations) {
     TestExperiment experiment(path(), matches);
     for (std::uint32_t match = 0; match < matches; ++match) {
       experiment.begin();
-      for (std::int64_t evening = 1; evening <= evenings; ++evening) {
-        experiment.calibration = evening;
+      for (std::int64_t calibration = 1; calibration <= calibrations; ++calibration) {
+        experiment.calibration = calibration;
         for (const std::uint32_t arm : {0U, 1U}) {
-          experiment.session(match, 2 * static_cast<std::uint32_t>(evening) + arm, arm == 0 ? "slow" : "quick",
+          experiment.session(match, 2 * static_cast<std::uint32_t>(calibration) + arm, arm == 0 ? "slow" : "quick",
                              {{1, "moving"}});
           experiment.played(1, 10.0);
           for (std::int64_t i = 1; i <= 10; ++i)
-            experiment.possession(1, i, "moving", 1.0, i <= (arm == 0 ? 4 : 3 + evening % 4 + match % 2) ? kIn : kOut);
+            experiment.possession(1, i, "moving", 1.0,
+                                  i <= (arm == 0 ? 4 : 3 + calibration % 4 + match % 2) ? kIn : kOut);
         }
       }
       experiment.commit();
@@ -49,7 +50,7 @@ TEST_F(ComparedCalibrationsTest, CrossedWithTheMatchesTheyWidenTheInterval) {
   ASSERT_TRUE(pair.per_opportunity->clustered);
   EXPECT_EQ(pair.per_opportunity->clustered->calibrations, 6U);
   EXPECT_TRUE(pair.per_opportunity->clustered->by_calibration);
-  EXPECT_LT(pair.per_opportunity->clustered->df, 9.0) << "six evenings decide";
+  EXPECT_LT(pair.per_opportunity->clustered->df, 9.0) << "six calibrations decide";
   EXPECT_EQ(pair.headline->method, "paired, clustered by match and calibration");
   EXPECT_THAT(to_text(result), HasSubstr("clustered by match and calibration: 8 and 8 matches, 6 calibrations"));
 }

@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/counts/counts.hpp"
 
 namespace trivela::evaluator::stats {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "evaluator/stats/bayes.hpp"
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
+#include "evaluator/stats/counts/strata.hpp"
 #include "evaluator/stats/off_policy.hpp"
 #include "evaluator/stats/paired.hpp"
-#include "evaluator/stats/strata.hpp"
 #include "tests/evaluator/coverage.hpp"
 
 namespace trivela::evaluator::stats {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/digest.hpp"
-#include "evaluator/log/experiment_log.hpp"
+#include "log/schema/digest.hpp"
+#include "log/write/experiment_log.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -55,7 +55,7 @@ class TestExperiment {
   std::string table = "new";         ///< of the next sessions
   std::string config = "a = 1\n";    ///< of the next sessions
   std::string run = "test";          ///< sessions of another run have other keys
-  std::optional<Int> calibration{};  ///< evening of the next sessions
+  std::optional<Int> calibration{};  ///< calibration of the next sessions
   bool paired_halves = false;        ///< of the next sessions
   Int robot_id = 1;                  ///< of the next rows
 

@@ -10,9 +10,9 @@
 #include <set>
 
 #include "evaluator/export/export_files.hpp"
-#include "evaluator/log/schema.hpp"
 #include "evaluator/mcap/cdr.hpp"
 #include "evaluator/mcap/row_message.hpp"
+#include "log/schema/schema.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

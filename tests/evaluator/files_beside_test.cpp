@@ -1,5 +1,5 @@
 // What lies beside a log as its -wal: its own, another recording's or an older copy; and what reading leaves behind.
-#include "evaluator/log/files_beside.hpp"
+#include "log/file/files_beside.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,10 +15,10 @@
 #include <set>
 #include <string_view>
 
-#include "evaluator/log/additions.hpp"
-#include "evaluator/log/merge.hpp"
-#include "evaluator/log/reader.hpp"
-#include "evaluator/report/log_findings.hpp"
+#include "evaluator/sessions/log_findings.hpp"
+#include "log/merge/merge.hpp"
+#include "log/read/reader.hpp"
+#include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

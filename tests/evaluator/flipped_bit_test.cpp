@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <functional>
 
-#include "evaluator/log/experiment_log.hpp"
-#include "evaluator/log/log_check.hpp"
-#include "evaluator/log/schema_check.hpp"
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/table2/table2.hpp"
+#include "log/file/log_check.hpp"
+#include "log/schema/schema_check.hpp"
+#include "log/write/experiment_log.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

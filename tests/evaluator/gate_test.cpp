@@ -1,11 +1,11 @@
-#include "evaluator/report/gate.hpp"
+#include "evaluator/render/gate.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
 
 namespace trivela::evaluator {
 namespace {

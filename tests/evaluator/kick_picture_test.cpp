@@ -1,4 +1,4 @@
-#include "evaluator/report/kick_picture.hpp"
+#include "evaluator/story/kick_picture.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "evaluator/report/label_quality.hpp"
+#include "evaluator/sessions/label_quality.hpp"
 
 #include <gmock/gmock.h>
 
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/policy_comparison.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
+#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -5,14 +5,14 @@
 
 #include <fstream>
 
+#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/counting/named_kicks.hpp"
 #include "evaluator/learning/predicted_kicks.hpp"
-#include "evaluator/log/additions.hpp"
-#include "evaluator/log/merge.hpp"
-#include "evaluator/report/hand_labels.hpp"
-#include "evaluator/report/log_kicks.hpp"
-#include "evaluator/report/named_kicks.hpp"
-#include "evaluator/report/session_notes.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/sessions/hand_labels.hpp"
+#include "evaluator/sessions/session_notes.hpp"
+#include "evaluator/table2/table2.hpp"
+#include "log/merge/merge.hpp"
+#include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -1,4 +1,4 @@
-#include "evaluator/report/lob_json.hpp"
+#include "evaluator/render/lob_json.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What `trivela doctor` says of logs, each with one thing wrong.
-#include "evaluator/report/log_findings.hpp"
+#include "evaluator/sessions/log_findings.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "evaluator/log/merge.hpp"
-#include "evaluator/log/row_digest.hpp"
+#include "log/merge/merge.hpp"
+#include "log/schema/row_digest.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/reader.hpp"
-#include "evaluator/log/writer.hpp"
+#include "log/read/reader.hpp"
+#include "log/write/writer.hpp"
 #include "tests/evaluator/referee_row.hpp"
 
 namespace trivela::evaluator {

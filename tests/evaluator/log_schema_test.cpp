@@ -3,9 +3,9 @@
 #include <regex>
 #include <sstream>
 
-#include "evaluator/log/digest.hpp"
-#include "evaluator/log/schema.hpp"
 #include "kicking/policy/policy.hpp"
+#include "log/schema/digest.hpp"
+#include "log/schema/schema.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -13,7 +13,7 @@ namespace {
 
 // CREATE TABLE statements of the schema's source with their comments.
 std::vector<std::string> tables_in_source() {
-  std::ifstream file(TRIVELA_SOURCE_DIR "/evaluator/log/schema.sql");
+  std::ifstream file(TRIVELA_SOURCE_DIR "/log/schema/schema.sql");
   std::vector<std::string> tables;
   std::string line;
   bool inside = false;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <thread>
 
-#include "evaluator/log/digest.hpp"
+#include "log/schema/digest.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -1,5 +1,5 @@
 // Logs of several robots as one.
-#include "evaluator/log/merge.hpp"
+#include "log/merge/merge.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,11 +7,11 @@
 #include <iterator>
 #include <map>
 
-#include "evaluator/log/additions.hpp"
-#include "evaluator/log/row_digest.hpp"
-#include "evaluator/log/stoppable.hpp"
-#include "evaluator/report/merge_report.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/sessions/merge_report.hpp"
+#include "evaluator/table2/table2.hpp"
+#include "log/file/stoppable.hpp"
+#include "log/schema/row_digest.hpp"
+#include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

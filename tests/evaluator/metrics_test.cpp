@@ -1,4 +1,4 @@
-#include "evaluator/metrics/metrics.hpp"
+#include "evaluator/counting/metrics.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "evaluator/log/additions.hpp"
 #include "kicking/policy/policy.hpp"
+#include "log/write/additions.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -257,7 +257,7 @@ TEST_F(Question, ThatIsNoneOrTwoOrWrongIsRefusedWithTheReason) {
 }
 
 TEST_F(Question, LeavesTheReaderAsItWas) {
-  const log::Reader reader(path());
+  log::Reader reader(path());
   EXPECT_THROW(answer(reader, "DELETE FROM referee"), log::BadQuestion);
   EXPECT_NO_THROW(reader.leave_out({1}, {})) << "which writes into a table of the connection";
   EXPECT_EQ(reader.kicks().size(), 12u);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/report/page/html.hpp"
-#include "evaluator/report/page/report_page.hpp"
+#include "evaluator/page/html.hpp"
+#include "evaluator/page/report_page.hpp"
 #include "evaluator/stats/poisson.hpp"
 
 namespace trivela::evaluator::page {
@@ -21,8 +21,9 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
-KickStory kick(const std::string& policy, const std::string& outcome, double x_m, double z_m, double distance_m = 5.0) {
-  KickStory story;
+KickTimeline kick(const std::string& policy, const std::string& outcome, double x_m, double z_m,
+                  double distance_m = 5.0) {
+  KickTimeline story;
   story.robot_id = 1;
   story.number = 7;
   story.half = 1;
@@ -30,8 +31,8 @@ KickStory kick(const std::string& policy, const std::string& outcome, double x_m
   story.distance_m = distance_m;
   story.power = 20.0;
   story.robot = {1.0, 4.0, 0.0};
-  story.predicted = StoryEnd{"", x_m, z_m - 0.1, std::nullopt, std::nullopt};
-  story.observed = StoryEnd{outcome, x_m, z_m, 0.05, 0.6};
+  story.predicted = TimelineEnd{"", x_m, z_m - 0.1, std::nullopt, std::nullopt};
+  story.observed = TimelineEnd{outcome, x_m, z_m, 0.05, 0.6};
   return story;
 }
 
@@ -303,7 +304,7 @@ TEST(PageHeld, AddsUpWhatTheShadowsPredictedAndCallsItAnEstimate) {
 }
 
 TEST(PageKickList, TellsTheInstantByUtcAndByTheMatch) {
-  KickStory story = kick("moving", "on_target", 0.0, 0.5);
+  KickTimeline story = kick("moving", "on_target", 0.0, 0.5);
   story.half = 2;
   story.half_time_s = 184.52;
   story.utc_ns = 1'795'510'033'120'000'000;

@@ -1,10 +1,10 @@
-#include "evaluator/report/policy_comparison.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
-#include "evaluator/report/log_kicks.hpp"
+#include "evaluator/counting/log_kicks.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 #include "tests/evaluator/random_numbers.hpp"
@@ -21,7 +21,7 @@ class PolicyComparisonTest : public LogTest {
     std::vector<std::filesystem::path> logs;
     for (const std::string& file : files) logs.push_back(path(file));
     std::string by;
-    KickBook book = read_log_kicks(logs, options, by);
+    KickDataset book = read_log_kicks(logs, options, by);
     return compare_policies(std::move(book), by);
   }
 
@@ -304,7 +304,7 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
 // The interval of the pair alone is clear of 0; of as many comparisons one like it comes by chance.
 TEST_F(PolicyComparisonTest, AmongSeveralGroupsTheVerdictIsHolms) {
   const auto book_of = [](const std::vector<int>& inside_of_40) {
-    KickBook book;
+    KickDataset book;
     for (std::uint32_t group = 0; group < inside_of_40.size(); ++group) {
       book.groups.push_back(std::string(1, static_cast<char>('a' + group)));
       for (int i = 0; i < 40; ++i)

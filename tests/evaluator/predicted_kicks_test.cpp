@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "evaluator/log/row_digest.hpp"
+#include "log/schema/row_digest.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 
 namespace trivela::evaluator {

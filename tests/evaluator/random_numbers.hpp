@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "evaluator/stats/counts.hpp"
+#include "evaluator/stats/counts/counts.hpp"
 
 namespace trivela::evaluator {
 

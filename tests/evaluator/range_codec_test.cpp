@@ -1,11 +1,11 @@
-#include "evaluator/log/scan_log.hpp"
+#include "log/write/scan_log.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
 
-namespace trivela::evaluator::log {
+namespace trivela::log {
 namespace {
 
 using Ranges = std::vector<std::uint32_t>;
@@ -51,4 +51,4 @@ TEST(RangeCodec, RefusesBytesThatAreNoRanges) {
 }
 
 }  // namespace
-}  // namespace trivela::evaluator::log
+}  // namespace trivela::log

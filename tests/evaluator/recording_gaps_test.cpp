@@ -1,10 +1,10 @@
-#include "evaluator/report/recording_gaps.hpp"
+#include "evaluator/sessions/recording_gaps.hpp"
 
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

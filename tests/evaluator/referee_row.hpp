@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/row.hpp"
+#include "log/schema/row.hpp"
 
 namespace trivela::evaluator {
 

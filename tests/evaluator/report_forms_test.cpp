@@ -6,9 +6,9 @@
 #include <regex>
 #include <sstream>
 
-#include "evaluator/report/escaped_text.hpp"
-#include "evaluator/report/gate.hpp"
-#include "evaluator/report/report_parts.hpp"
+#include "evaluator/render/escaped_text.hpp"
+#include "evaluator/render/gate.hpp"
+#include "evaluator/table2/report_parts.hpp"
 #include "kicking/text/printable.hpp"
 
 namespace trivela::evaluator {

@@ -1,5 +1,5 @@
 // The page of real logs: whatever stream is missing, the rest of it is there.
-#include "evaluator/report/page/report_page.hpp"
+#include "evaluator/page/report_page.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
@@ -29,8 +29,7 @@ class ReportPageOfALog : public LogTest {
   std::string page_of(const std::vector<std::string>& names = {"match.db"}) const {
     std::vector<std::filesystem::path> paths;
     for (const std::string& name : names) paths.push_back(path(name));
-    const log::Reader reader(paths.front());
-    return report_page(make_report(reader), paths);
+    return report_page(make_report(log::Reader(paths.front())), paths);
   }
 
   void change(const std::string& sql) const {

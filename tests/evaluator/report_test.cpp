@@ -1,4 +1,4 @@
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
 
 #include <gmock/gmock.h>
 
@@ -224,9 +224,8 @@ TEST_F(ReportOfALog, BlockedKicksStandApartWhereAsked) {
   match.kicks(2, "blocked", 3);
   match.kicks(2, "over", 2);
   match.close();
-  const log::Reader reader(path());
-  EXPECT_EQ(row_of(make_report(reader), "moving").outside(), 5);
-  const Report apart = make_report(reader, true);
+  EXPECT_EQ(row_of(make_report(log::Reader(path())), "moving").outside(), 5);
+  const Report apart = make_report(log::Reader(path()), true);
   const PolicyRow row = row_of(apart, "moving");
   EXPECT_EQ(row.outside(), 2);
   EXPECT_EQ(row.kicks(), 11);
@@ -378,11 +377,10 @@ TEST_F(ReportOfALog, TheTruthIsComparedWhereBothAreKnown) {
   match.truth(match.kick(1, "unknown"), "over");
   match.kick(1, "over");
   match.close();
-  const log::Reader reader(path());
-  const Report report = make_report(reader);
+  const Report report = make_report(log::Reader(path()));
   EXPECT_EQ(report.compared_with_truth, 2);
   EXPECT_EQ(report.alike_with_truth, 1);
-  const auto kicks = reader.kicks();
+  const auto kicks = log::Reader(path()).kicks();
   ASSERT_THAT(kicks, SizeIs(4));
   EXPECT_EQ(kicks[1].observed->outcome, "post");
   EXPECT_EQ(kicks[1].truth->outcome, "on_target");

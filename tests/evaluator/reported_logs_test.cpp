@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "evaluator/report/policy_order.hpp"
-#include "evaluator/report/report_sentences.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/counting/policy_order.hpp"
+#include "evaluator/table2/report_sentences.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 

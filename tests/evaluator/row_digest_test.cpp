@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <set>
 
-#include "evaluator/log/row_digest.hpp"
-#include "evaluator/log/schema.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
+#include "log/schema/row_digest.hpp"
+#include "log/schema/schema.hpp"
 #include "tests/evaluator/experiment_fixture.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 

@@ -1,10 +1,10 @@
 // When the thread that writes is given its rows.
-#include "evaluator/log/row_queue.hpp"
+#include "log/write/row_queue.hpp"
 
 #include <gtest/gtest.h>
 #include <poll.h>
 
-namespace trivela::evaluator::log {
+namespace trivela::log {
 namespace {
 
 using namespace std::chrono_literals;
@@ -55,4 +55,4 @@ TEST(RowQueue, AClosedQueueGivesTheRestAtOnceAndThenNothing) {
 }
 
 }  // namespace
-}  // namespace trivela::evaluator::log
+}  // namespace trivela::log

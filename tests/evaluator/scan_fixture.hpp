@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluator/log/scan_log.hpp"
+#include "log/write/scan_log.hpp"
 #include "tests/evaluator/log_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -5,10 +5,10 @@
 
 #include <filesystem>
 
-#include "evaluator/log/merge.hpp"
-#include "evaluator/log/row_digest.hpp"
-#include "evaluator/log/session_tallies.hpp"
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
+#include "log/file/session_tallies.hpp"
+#include "log/merge/merge.hpp"
+#include "log/schema/row_digest.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {

@@ -78,8 +78,8 @@ TEST(ClusterVariance, OfMatchesThatHaveACalibrationEachIsThatOfTheCalibrations) 
   std::vector<Influence> cells;
   RandomNumbers random(4);
   for (std::uint32_t k = 0; k < 8; ++k) {
-    const double evening = random.normal();
-    for (std::uint32_t m = 0; m < 50; ++m) cells.push_back({50 * k + m, k, evening + random.normal()});
+    const double calibration = random.normal();
+    for (std::uint32_t m = 0; m < 50; ++m) cells.push_back({50 * k + m, k, calibration + random.normal()});
   }
   cells = of_their_mean(cells);
   std::vector<double> sums(8);

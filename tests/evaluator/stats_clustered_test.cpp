@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/interval.hpp"
+#include "evaluator/stats/counts/strata.hpp"
 #include "evaluator/stats/off_policy.hpp"
 #include "evaluator/stats/poisson.hpp"
-#include "evaluator/stats/strata.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

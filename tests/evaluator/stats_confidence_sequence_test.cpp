@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "tests/evaluator/random_numbers.hpp"
 
 namespace trivela::evaluator::stats {

@@ -1,4 +1,4 @@
-#include "evaluator/stats/exact.hpp"
+#include "evaluator/stats/counts/exact.hpp"
 
 #include <gtest/gtest.h>
 

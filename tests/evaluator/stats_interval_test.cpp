@@ -1,4 +1,4 @@
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "evaluator/stats/bayes.hpp"
-#include "evaluator/stats/interval.hpp"
-#include "evaluator/stats/label_doubt.hpp"
+#include "evaluator/stats/counts/interval.hpp"
+#include "evaluator/stats/counts/label_doubt.hpp"
+#include "evaluator/stats/counts/robustness.hpp"
+#include "evaluator/stats/counts/verdict.hpp"
 #include "evaluator/stats/poisson.hpp"
-#include "evaluator/stats/robustness.hpp"
 #include "evaluator/stats/test_plan.hpp"
-#include "evaluator/stats/verdict.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

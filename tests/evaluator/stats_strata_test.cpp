@@ -1,11 +1,11 @@
-#include "evaluator/stats/strata.hpp"
+#include "evaluator/stats/counts/strata.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 
 namespace trivela::evaluator::stats {
 namespace {

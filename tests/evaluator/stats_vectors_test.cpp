@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "evaluator/stats/exact.hpp"
-#include "evaluator/stats/interval.hpp"
+#include "evaluator/stats/counts/exact.hpp"
+#include "evaluator/stats/counts/interval.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::evaluator::stats {

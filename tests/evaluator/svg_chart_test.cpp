@@ -1,4 +1,4 @@
-#include "evaluator/report/svg_chart.hpp"
+#include "evaluator/render/svg_chart.hpp"
 
 #include <gmock/gmock.h>
 

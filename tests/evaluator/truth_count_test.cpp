@@ -1,4 +1,4 @@
-#include "evaluator/report/truth_count.hpp"
+#include "evaluator/counting/truth_count.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "evaluator/report/log_opportunities.hpp"
+#include "evaluator/counting/log_opportunities.hpp"
 #include "tests/evaluator/match_fixture.hpp"
 
 namespace trivela::evaluator {
@@ -47,7 +47,7 @@ TEST_F(TwoCounts, MeetInTheFirstDecisionInPlay) {
   counted(1, 3, "stopped", 20);
   counted(1, 4, "moving", 31);
   match_.close();
-  const log::Reader reader(path());
+  log::Reader reader(path());
   const TruthCount truths(reader);
   const Int session_id = reader.sessions().front().session_id;
   EXPECT_TRUE(truths.has(session_id));
@@ -69,7 +69,7 @@ TEST_F(TwoCounts, OfATeamEachRobotsFirstIsAnother) {
   counted(2, 1, "stopped", 20);
   counted(1, 2, "stopped", 30);
   match_.close();
-  const log::Reader reader(path());
+  log::Reader reader(path());
   const LoggedOpportunities logged = read_opportunities(reader, "match.db", false);
   ASSERT_EQ(logged.rows.size(), 3u);
   EXPECT_EQ(row_of(logged, 2).robot_id, 2);
@@ -82,7 +82,7 @@ TEST_F(TwoCounts, WithoutASimulatorTheRobotsOwnHolds) {
   counted(1, 1, "moving", 10);
   counted(1, 2, "stopped", 20);
   match_.close();
-  const log::Reader reader(path());
+  log::Reader reader(path());
   EXPECT_FALSE(TruthCount(reader).has(reader.sessions().front().session_id));
   const LoggedOpportunities logged = read_opportunities(reader, "match.db", false);
   ASSERT_EQ(logged.rows.size(), 2u);
@@ -94,7 +94,8 @@ TEST_F(TwoCounts, AreOneWhereTheLogHasNoInstants) {
   counted(1, 1, "moving", std::nullopt);
   counted(1, 2, "stopped", std::nullopt);
   match_.close();
-  const LoggedOpportunities logged = read_opportunities(log::Reader(path()), "match.db", false);
+  log::Reader reader(path());
+  const LoggedOpportunities logged = read_opportunities(reader, "match.db", false);
   ASSERT_EQ(logged.rows.size(), 2u);
   EXPECT_EQ(row_of(logged, 1).policy, "moving");
   EXPECT_EQ(row_of(logged, 2).policy, "stopped");

@@ -1,4 +1,4 @@
-#include "evaluator/report/write_file.hpp"
+#include "evaluator/render/write_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "config/scenario/scenario.hpp"
-#include "experiment/factorial/play.hpp"
-#include "experiment/factorial/report.hpp"
+#include "experiment/study/arms_report.hpp"
+#include "experiment/study/factorial_report.hpp"
+#include "play_arms.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -90,12 +91,12 @@ TEST(Factorial, CalibrationsThatDifferWidenTheInterval) {
   const Term terms[] = {{&newer, 1.0}, {&older, -1.0}};
   const Effect effect = contrast(terms, Measure::kPerOpportunity);
   EXPECT_NEAR(effect.value, 4.5 / 40.0, 1e-12);
-  // By hand: means of the evenings 2 to 7 of 40, sd sqrt(3.5) / 40, Student's t of some 5 degrees of freedom.
+  // By hand: means of the calibrations 2 to 7 of 40, sd sqrt(3.5) / 40, Student's t of some 5 degrees of freedom.
   EXPECT_NEAR(effect.ci.hi - effect.value, 2.5706 * std::sqrt(3.5 / 6.0) / 40.0, 0.002);
   for (ArmTally* arm : {&older, &newer}) {
     for (MatchTally& match : *arm) match.calibration = 0;
   }
-  EXPECT_LT(contrast(terms, Measure::kPerOpportunity).ci.hi, effect.ci.hi) << "sixty matches of one evening";
+  EXPECT_LT(contrast(terms, Measure::kPerOpportunity).ci.hi, effect.ci.hi) << "sixty matches of one calibration";
 }
 
 TEST(Factorial, SweepSaysWhereThePapersRatioIsMet) {
@@ -113,14 +114,14 @@ TEST(Factorial, SweepSaysWhereThePapersRatioIsMet) {
 }
 
 TEST(Factorial, ReportSaysWhatItClaimsAndWhatNot) {
-  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = played()};
+  FactorialReport report{.robots = {"calibrated_1"}, .cells = played()};
   EXPECT_THAT(to_text(report), HasSubstr("It says nothing about why the paper's tournaments differed"));
-  EXPECT_EQ(to_json(report)["cells"].size(), 14u);
-  EXPECT_THAT(to_csv(report), HasSubstr("cell,new,predictive,,"));
+  EXPECT_EQ(to_json(report)["rows"].size(), 14u);
+  EXPECT_THAT(csv_of(rows_of(report), report.played), HasSubstr("cell,new,predictive,,"));
   EXPECT_THAT(to_text(report), testing::StartsWith("SIMULATED: "));
   EXPECT_EQ(to_json(report)["simulated"], true);
-  EXPECT_THAT(to_csv(report), HasSubstr(",simulated\n"));
-  EXPECT_THAT(to_csv(report), testing::EndsWith(",1\n"));
+  EXPECT_THAT(csv_of(rows_of(report), report.played), HasSubstr(",simulated\n"));
+  EXPECT_THAT(csv_of(rows_of(report), report.played), testing::EndsWith(",1\n"));
   EXPECT_THAT(to_svg(report), testing::AllOf(HasSubstr("simulated: "), HasSubstr(">old<"), HasSubstr(">new<")));
   EXPECT_THAT(to_svg(report), testing::Not(HasSubstr(">-0.2<")));
   EXPECT_THAT(to_svg(report), HasSubstr("<svg"));
@@ -135,9 +136,9 @@ TEST(Factorial, BlockedKicksStandApartWhereAsked) {
   EXPECT_NEAR(motion(Measure::kEfficiency), 0.225, 1e-12);
   // Of 15, not 20 kicks: by hand (12 + 15) / 2 / 15 - (8 + 10) / 2 / 20.
   EXPECT_NEAR(motion(Measure::kUnblocked), 0.9 - 0.45, 1e-12);
-  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = cells};
+  FactorialReport report{.robots = {"calibrated_1"}, .cells = cells};
   EXPECT_THAT(to_text(report), HasSubstr("blocked ones included"));
-  report.efficiency = Measure::kUnblocked;
+  report.played.efficiency = Measure::kUnblocked;
   EXPECT_THAT(to_text(report), HasSubstr("of the kicks that nobody blocked"));
   EXPECT_EQ(to_json(report)["blocked"], "apart");
 }
@@ -145,11 +146,12 @@ TEST(Factorial, BlockedKicksStandApartWhereAsked) {
 TEST(Factorial, SaysWhichAssumptionsReachThePapersPair) {
   ArmTally older = matches_of(10), newer = matches_of(13);
   for (MatchTally& match : newer) match.blocked = 3;
-  const std::string text = pair_text({{0.1, older, newer}}, Law::kReleased);
+  FactorialReport report{.cells = played(), .biases = {{0.1, older, newer}}};
+  const std::string text = to_text(report);
   EXPECT_THAT(text, HasSubstr("outside  50.0"));
   EXPECT_THAT(text, HasSubstr("65.0"));
   EXPECT_THAT(text, HasSubstr("76.5"));
-  const auto json = pair_json({{0.1, older, newer}});
+  const auto json = to_json(report)["pair"];
   ASSERT_EQ(json.size(), 2u);
   EXPECT_FALSE(json[0]["both_within_papers"]) << "65 % is below 68";
   EXPECT_TRUE(json[1]["both_within_papers"]);
@@ -163,13 +165,26 @@ TEST(Factorial, CountsWhatBouncedInAndWhatPassedTheKeeper) {
       match.goals = 4;
     }
   }
-  FactorialReport report{.scenario = "keeper.toml", .robots = {"calibrated_1"}, .cells = cells};
+  FactorialReport report{.robots = {"calibrated_1"}, .cells = cells};
   EXPECT_THAT(to_text(report), Not(HasSubstr("goals/opp.")));
-  report.keeper = true;
+  report.played.keeper = true;
   EXPECT_THAT(to_text(report), HasSubstr("goals/opp. [%]"));
   EXPECT_THAT(to_text(report), HasSubstr("10.0 (10.0 to 10.0)"));
   EXPECT_NEAR(share_of(cells[0].matches, Measure::kBounced).value, 0.4375, 0.07);
-  EXPECT_EQ(to_json(report)["cells"][0]["goals"], 80);
+  EXPECT_EQ(to_json(report)["rows"][0]["goals"], 80);
+}
+
+TEST(StudyOfArms, ComparesEachArmWithTheFirst) {
+  ArmsReport report{.played = {.scenario = "default.toml", .matches = 20, .possessions = 40},
+                    .arms = {{"stopped", matches_of(8)}, {"moving, twice", matches_of(10)}}};
+  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played);
+  EXPECT_THAT(text, HasSubstr("minus stopped"));
+  EXPECT_THAT(text, HasSubstr("+10.0 (+10.0 to +10.0)"));
+  EXPECT_THAT(csv, HasSubstr("\n\"moving, twice\",800,400,200,0,0,0,"));
+  EXPECT_NEAR(to_json(report)["rows"][1]["minus_first"]["efficiency"]["value"].get<double>(), 0.1, 1e-12);
+  for (MatchTally& match : report.arms[1].matches) match.true_on_target = match.on_target;
+  EXPECT_THAT(to_text(report), Not(HasSubstr("moving, twice: the observer")));
+  EXPECT_THAT(to_text(report), HasSubstr("stopped: the observer's labels are wrong"));
 }
 
 TEST(Factorial, AShareStaysWithinItsBounds) {
@@ -201,10 +216,11 @@ TEST(Factorial, OneMatchWithKicksGivesNoInterval) {
 
 TEST(Factorial, WithoutKicksItSaysSoAndPrintsNoNan) {
   const ArmTally none(2, MatchTally{1, 0, 0});
-  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}};
+  FactorialReport report{.robots = {"calibrated_1"}};
   for (const Cell& cell : factorial_cells()) report.cells.push_back({cell, none});
   report.sweep = {{2.0, none, none}};
-  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report), json = to_json(report).dump();
+  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played), svg = to_svg(report),
+                    json = to_json(report).dump();
   for (const std::string* output : {&text, &csv, &svg, &json}) {
     EXPECT_EQ(output->find("nan"), std::string::npos) << *output;
     EXPECT_EQ(output->find("inf"), std::string::npos) << *output;
@@ -213,13 +229,13 @@ TEST(Factorial, WithoutKicksItSaysSoAndPrintsNoNan) {
   EXPECT_THAT(text, HasSubstr("shots on target per opportunity cannot be told, there are too few kicks"));
   EXPECT_THAT(text, HasSubstr("too few kicks for a kick ratio"));
   EXPECT_THAT(text, HasSubstr("too few kicks to say where its pair of efficiencies is nearest"));
-  EXPECT_THAT(csv, HasSubstr("cell,old,stopped,paper,0,2,0,0,,,,0.000000,0.000000,"));
-  EXPECT_TRUE(to_json(report)["cells"][0]["efficiency"].is_null());
+  EXPECT_THAT(csv, HasSubstr("cell,old,stopped,paper,0,,2,0,0,0,0,0,,,,0.000000,0.000000,"));
+  EXPECT_TRUE(to_json(report)["rows"][0]["efficiency"].is_null());
   EXPECT_TRUE(to_json(report)["sweep"]["nearest_m"].is_null());
 }
 
 TEST(Factorial, ASweepOfOnePointIsAtThatPoint) {
-  FactorialReport report{.scenario = "default.toml", .robots = {"calibrated_1"}, .cells = played()};
+  FactorialReport report{.robots = {"calibrated_1"}, .cells = played()};
   report.sweep = {{2.0, matches_of(5, 10), matches_of(6, 10)}};
   EXPECT_THAT(to_text(report), HasSubstr("ratio of 2.03 is not met at 2 m."));
 }
@@ -228,7 +244,7 @@ TEST(Factorial, PlayIsTheSameForAnyNumberOfJobs) {
   const std::vector<Arm> arms{arm_of({"old", PolicyName::kStopped, Law::kExact}, {}, {config::Robot{}}),
                               arm_of({"new", PolicyName::kMoving, Law::kExact}, {}, {config::Robot{}})};
   const auto play = [&](unsigned jobs) {
-    return play_arms({}, arms, {.seed = 3, .matches = 3, .possessions = 4, .jobs = jobs}, [](auto, auto) {});
+    return play_arms({}, arms, {.seed = 3, .matches = 3, .possessions = 4, .jobs = jobs});
   };
   const auto one = play(1), two = play(2);
   for (std::size_t arm = 0; arm < arms.size(); ++arm) {
@@ -252,8 +268,7 @@ TEST(Factorial, TheShippedWorldsArePlayed) {
     sim::Scenario scenario = config::load_scenario(config + "scenarios/" + world + ".toml");
     if (!change.empty()) config::override_scenario(scenario, change);
     std::vector<MatchTally> totals;
-    for (const ArmTally& arm : play_arms(scenario, arms, plan, [](std::size_t, std::size_t) {}))
-      totals.push_back(total_of(arm));
+    for (const ArmTally& arm : play_arms(scenario, arms, plan)) totals.push_back(total_of(arm));
     return totals;
   };
   const auto open = played("default"), kept = played("keeper"), blind = played("keeper", "keeper.sight_sd_mps = 3.0"),

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "emulators/sim/sim_messages.hpp"
+#include "experiment/play/in_process_robot.hpp"
 #include "experiment/play/play_match.hpp"
-#include "experiment/play/robot_chain.hpp"
 #include "sim/match.hpp"
 
 namespace {
@@ -38,7 +38,7 @@ TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
     config::Settings settings;
     settings.kick_decision.policy_by_half = {policy};
     const config::Robot robot;
-    RobotChain chain{settings, robot, 1, 1, std::nullopt};
+    InProcessRobot chain{settings, robot, 1, 1, std::nullopt};
     sim::Match match{{}, 1, 1, 1e6, 10};
     std::size_t inside = 0;
     int orders = 0;

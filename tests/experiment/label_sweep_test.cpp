@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "evaluator/stats/exact.hpp"
+#include "evaluator/stats/counts/exact.hpp"
 
 namespace trivela::experiment {
 namespace {

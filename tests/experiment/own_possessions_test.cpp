@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "config/installation.hpp"
 #include "config/scenario/scenario.hpp"
+#include "config/text/installation.hpp"
 #include "experiment/play/play_match.hpp"
 
 namespace trivela::experiment {

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "config/installation.hpp"
 #include "config/scenario/scenario.hpp"
+#include "config/text/installation.hpp"
 
 namespace trivela::experiment {
 namespace {

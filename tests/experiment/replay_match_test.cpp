@@ -5,8 +5,8 @@
 #include <map>
 #include <random>
 
-#include "evaluator/log/writer.hpp"
 #include "experiment/replay/replay_match.hpp"
+#include "log/write/writer.hpp"
 #include "robot/recording/message_row.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -62,7 +62,7 @@ class Generator {
 
   std::filesystem::path write(const nodes::TemporaryFolder& folder) const {
     const auto path = folder / "match.db";
-    evaluator::log::Writer log{path, session()};
+    log::Writer log{path, session()};
     write(log, odometry_);
     write(log, frames_.recorded);
     write(log, referee_.recorded);
@@ -79,8 +79,8 @@ class Generator {
   std::int64_t fires() const { return std::ranges::count_if(decisions_, &msg::KickDecision::fire); }
 
  private:
-  static evaluator::log::Session session() {
-    evaluator::log::Session session;
+  static log::Session session() {
+    log::Session session;
     session.robot_id = 1;
     session.started_t_ns = kStart_ns;
     session.software_version = "a test";
@@ -90,7 +90,7 @@ class Generator {
   }
 
   template <class T>
-  static void write(evaluator::log::Writer& log, const std::vector<T>& rows) {
+  static void write(log::Writer& log, const std::vector<T>& rows) {
     const auto table = log.table(robot::table_of<T>(), robot::columns_of<T>());
     for (const T& row : rows) log.push(table, robot::row_of(row));
   }
@@ -179,11 +179,11 @@ class Generator {
 
 RobotReplay decide_again(const Generator& made, const nodes::TemporaryFolder& folder,
                          const std::optional<RobotSetup>& anew = {}) {
-  const evaluator::log::Reader reader{made.write(folder)};
-  evaluator::log::Session session = reader.sessions().front();
+  const log::Reader reader{made.write(folder)};
+  log::Session session = reader.sessions().front();
   session.replays_uuid = std::exchange(session.uuid, "");
   session.config_toml = "### settings\n";
-  evaluator::log::Writer log{folder / "again.db", session};
+  log::Writer log{folder / "again.db", session};
   const auto replay = replay_robot({reader, reader.sessions().front().session_id, 1}, made.setup(), anew, log, 65536);
   log.finalise();
   return replay;
@@ -229,8 +229,8 @@ TEST(ReplayRobot, AnotherPolicyOrdersElsewhereAndTheCheckStaysThatOfTheLog) {
   const RobotReplay replay = decide_again(made, folder, moving);
   EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions);
   std::int64_t of_moving = 0;
-  evaluator::log::Reader{folder / "again.db"}.query("SELECT count(*) FROM kick_decisions WHERE policy = 'moving'",
-                                                    [&](std::int64_t count) { of_moving = count; });
+  log::Reader{folder / "again.db"}.query("SELECT count(*) FROM kick_decisions WHERE policy = 'moving'",
+                                         [&](std::int64_t count) { of_moving = count; });
   EXPECT_EQ(of_moving, replay.decisions);
   EXPECT_GT(of_moving, 0);
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <set>
 
-#include "experiment/frontier/report.hpp"
-#include "experiment/sensitivity/analysis.hpp"
-#include "experiment/tune/space.hpp"
+#include "config/text/error.hpp"
+#include "experiment/study/frontier.hpp"
+#include "experiment/study/sensitivity.hpp"
+#include "experiment/study/tune/tune_space.hpp"
 #include "sim/scenario_fields.hpp"
 
 namespace trivela::experiment {
@@ -28,6 +30,12 @@ ArmTally random_arm(std::mt19937& random, std::size_t matches, double kick, doub
   return arm;
 }
 
+/// As it is shipped.
+const std::vector<UncertainInput>& uncertain_inputs() {
+  static const auto inputs = load_inputs(std::string{TRIVELA_SOURCE_DIR} + "/config/studies/sensitivity.csv");
+  return inputs;
+}
+
 double default_of(const std::string& key) {
   return is_setting(key) ? value_of(kicking::PolicyConfig{}, key) : value_of(sim::Scenario{}, key);
 }
@@ -41,7 +49,7 @@ TEST(UncertainInputs, AreNumbersWithPlayableEndsOnBothSidesOrAtTheValue) {
     EXPECT_LT(input.low, input.high);
     EXPECT_LE(input.low, value);
     EXPECT_GE(input.high, value);
-    EXPECT_GT(std::string{input.why}.size(), 4U);
+    EXPECT_GT(input.why.size(), 4U);
     for (const double end : {input.low, input.high}) {
       const double read = is_setting(input.key) ? value_of(with(kicking::PolicyConfig{}, input.key, end), input.key)
                                                 : value_of(with(sim::Scenario{}, input.key, end), input.key);
@@ -83,7 +91,7 @@ TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
   const sim::Scenario changed = with(sim::Scenario{}, "kicker.direction_sd_deg", 3.0);
   EXPECT_NEAR(changed.kicker.direction_sd_rad, 3.0 * M_PI / 180.0, 1e-15);
   for (const UncertainInput& input : uncertain_inputs()) {
-    if (std::string{input.key} != "kicker.direction_sd_deg" && !is_setting(input.key)) {
+    if (input.key != "kicker.direction_sd_deg" && !is_setting(input.key)) {
       EXPECT_EQ(value_of(changed, input.key), default_of(input.key)) << input.key;
     }
   }
@@ -92,7 +100,7 @@ TEST(UncertainInputs, ChangeOneNumberAndNothingElse) {
 TEST(UncertainInputs, OfAKeeperOrDefendersPlayWhereThereAreSome) {
   const auto in_force_now = [](const sim::Scenario& scenario, const std::string& part) {
     return std::ranges::count_if(uncertain_inputs(), [&](const UncertainInput& input) {
-      return std::string{input.key}.starts_with(part) && in_force(scenario, input);
+      return input.key.starts_with(part) && in_force(scenario, input);
     });
   };
   sim::Scenario scenario;
@@ -120,6 +128,23 @@ TEST(Sensitivity, ComparesGoalsWhereAsked) {
   EXPECT_NE(to_text(report).find("Goals past the keeper"), std::string::npos);
 }
 
+TEST(UncertainInputs, OfATableThatIsWrongAreRefusedWithTheLine) {
+  const std::string path = ::testing::TempDir() + "inputs.csv";
+  for (const auto& [row, said] : {std::pair{"kicker.delay,0.05,0.08,x", "inputs.csv:2: \"kicker.delay\""},
+                                  {"kicker.delay_s,0.08,0.05,x", "inputs.csv:2: low is not below high"},
+                                  {"kicker.delay_s,soon,0.05,x", "inputs.csv:2: column low"},
+                                  {"policy.height_law,0,7,x", "inputs.csv:2: policy.height_law = 7"},
+                                  {"", "inputs.csv: names no input"}}) {
+    std::ofstream{path} << "key,low,high,why\n" << row << '\n';
+    try {
+      load_inputs(path);
+      ADD_FAILURE() << row;
+    } catch (const config::Error& error) {
+      EXPECT_NE(std::string{error.what()}.find(said), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
   EXPECT_THROW(value_of(sim::Scenario{}, "kicker.delay"), std::invalid_argument);
   EXPECT_THROW(value_of(sim::Scenario{}, "delay_s"), std::invalid_argument);
@@ -128,8 +153,9 @@ TEST(UncertainInputs, RefuseKeysAndValuesThatAreNone) {
 }
 
 SensitivityReport hand_case() {
-  SensitivityReport report{
-      "hand.toml", 1, 10, 100, {"stopped", "moving"}, {alike(10, 100, 50, 20), alike(10, 100, 80, 50)}, {}};
+  SensitivityReport report{.played = {.scenario = "hand.toml", .matches = 10, .possessions = 100},
+                           .arms = {"stopped", "moving"},
+                           .base = {alike(10, 100, 50, 20), alike(10, 100, 80, 50)}};
   const UncertainInput small{"kicker.delay_s", 0.05, 0.08, "said"}, large{"vision.latency_s", 0.03, 0.1, "said"};
   report.inputs.push_back({small, 0.06, {{0.05, {alike(10, 100, 50, 21), alike(10, 100, 80, 50)}}}});
   report.inputs.push_back({large, 0.06, {{0.1, {alike(10, 100, 50, 20), alike(10, 100, 80, 35)}}}});
@@ -142,7 +168,7 @@ TEST(Sensitivity, AChangeIsTheDifferenceOfDifferences) {
   EXPECT_NEAR(change(report, report.inputs[0].ends[0], 0).value, -0.01, 1e-12);
   EXPECT_NEAR(change(report, report.inputs[1].ends[0], 0).value, -0.15, 1e-12);
   sort_by_change(report);
-  EXPECT_STREQ(report.inputs[0].input.key, "vision.latency_s");
+  EXPECT_EQ(report.inputs[0].input.key, "vision.latency_s");
   EXPECT_NEAR(largest_change(report, report.inputs[0]), 0.15, 1e-12);
 }
 
@@ -162,32 +188,32 @@ TEST(Sensitivity, PairingTakesOutWhatAMatchDoesToAll) {
 TEST(Sensitivity, TablesAndChartNameEveryInput) {
   SensitivityReport report = hand_case();
   sort_by_change(report);
-  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report);
+  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played), svg = to_svg(report);
   EXPECT_LT(text.find("vision.latency_s"), text.find("kicker.delay_s"));
   EXPECT_NE(text.find("-15.0 (-15.0 to -15.0)"), std::string::npos) << text;
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 2 + 4);
-  EXPECT_NE(csv.find("vision.latency_s,0.1,moving,1000,800,350,-0.150000,-0.150000,-0.150000,1\n"), std::string::npos);
+  EXPECT_NE(
+      csv.find("vision.latency_s,0.1,moving,1000,800,350,0,0,0,0.437500,0.437500,0.437500,0.350000,0.350000,0.350000,"
+               "-0.150000,-0.150000,-0.150000,1\n"),
+      std::string::npos);
   for (const char* key : {"vision.latency_s", "kicker.delay_s"}) EXPECT_NE(svg.find(key), std::string::npos);
   EXPECT_EQ(to_json(report)["inputs"].size(), 2U);
 }
 
 TEST(Sensitivity, WithoutShotsOnTargetItHasNoIntervals) {
   const ArmTally none = alike(2, 1, 0, 0);
-  SensitivityReport report{"hand.toml", 1, 2, 1, {"stopped", "moving"}, {none, none}, {}};
+  SensitivityReport report{.arms = {"stopped", "moving"}, .base = {none, none}};
   report.inputs.push_back({{"kicker.delay_s", 0.05, 0.08, "said"}, 0.06, {{0.05, {none, none}}}});
-  const std::string outputs = to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump();
+  const std::string outputs =
+      to_text(report) + csv_of(rows_of(report), report.played) + to_svg(report) + to_json(report).dump();
   EXPECT_EQ(outputs.find("nan"), std::string::npos) << outputs;
   EXPECT_NE(to_text(report).find("moving - stopped: +0.0 (-)"), std::string::npos) << to_text(report);
-  EXPECT_NE(to_csv(report).find("kicker.delay_s,0.05,moving,2,0,0,0.000000,,,1\n"), std::string::npos)
-      << to_csv(report);
+  EXPECT_NE(csv_of(rows_of(report), report.played).find("kicker.delay_s,0.05,moving,2,0,0,"), std::string::npos);
 }
 
 FrontierReport frontier_case() {
   return {"predictive",
-          "hand.toml",
-          1,
-          20,
-          100,
+          {.scenario = "hand.toml", .matches = 20, .possessions = 100},
           {{0.2, alike(20, 100, 80, 56)}, {0.5, alike(20, 100, 60, 48)}, {0.8, alike(20, 100, 0, 0)}},
           {{"moving", alike(20, 100, 70, 42)}, {"stopped", alike(20, 100, 20, 15)}},
           FixedPoint{"oracle", alike(20, 100, 80, 70)}};
@@ -219,9 +245,10 @@ TEST(Frontier, BeyondItsEndsIsComparedWithTheEnd) {
 
 TEST(Frontier, WithoutKicksItSaysSoAndPrintsNoNan) {
   const ArmTally none = alike(2, 1, 0, 0), one{{1, 1, 1}, {1, 0, 0}};
-  FrontierReport report{
-      "predictive", "hand.toml", 1, 2, 1, {{0.2, none}}, {{"moving", none}}, FixedPoint{"oracle", none}};
-  const auto outputs = [&] { return to_text(report) + to_csv(report) + to_svg(report) + to_json(report).dump(); };
+  FrontierReport report{"predictive", {}, {{0.2, none}}, {{"moving", none}}, FixedPoint{"oracle", none}};
+  const auto outputs = [&] {
+    return to_text(report) + csv_of(rows_of(report), report.played) + to_svg(report) + to_json(report).dump();
+  };
   const auto expect_no_nan = [&] {
     EXPECT_EQ(outputs().find("nan"), std::string::npos) << outputs();
     EXPECT_EQ(outputs().find("inf"), std::string::npos) << outputs();
@@ -258,7 +285,7 @@ TEST(Frontier, ItsIntervalCoversTheTruthAsOftenAsItSays) {
   int covered = 0;
   constexpr int kTimes = 400;
   for (int i = 0; i < kTimes; ++i) {
-    FrontierReport report{"predictive", "", 1, 50, 40, {}, {}, {}};
+    FrontierReport report{.policy = "predictive"};
     report.points = {{0.2, random_arm(random, 50, 0.8, 0.7)}, {0.5, random_arm(random, 50, 0.6, 0.8)}};
     report.fixed = {{"moving", random_arm(random, 50, 0.7, 0.6)}};
     const auto standing = standing_of(report, report.fixed[0]);
@@ -269,7 +296,7 @@ TEST(Frontier, ItsIntervalCoversTheTruthAsOftenAsItSays) {
 
 TEST(Frontier, TablesAndChartSayWhereAPolicyStands) {
   const FrontierReport report = frontier_case();
-  const std::string text = to_text(report), csv = to_csv(report), svg = to_svg(report);
+  const std::string text = to_text(report), csv = csv_of(rows_of(report), report.played), svg = to_svg(report);
   EXPECT_NE(
       text.find("moving lies below the frontier: with as many kicks (thresholds 0.2 and 0.5 mixed) predictive has "
                 "+14.3 points more"),
@@ -277,9 +304,9 @@ TEST(Frontier, TablesAndChartSayWhereAPolicyStands) {
       << text;
   EXPECT_NE(text.find("80.0 (80.0 to 80.0) % of the oracle's"), std::string::npos) << text;
   EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 + 3);
-  EXPECT_NE(csv.find("predictive,0.8,2000,0,0,0.000000,,,,0.000000"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("predictive,0.8,2000,0,0,0,0,0,,,,0.000000"), std::string::npos) << csv;
   for (const char* name : {"predictive", "moving", "stopped", "oracle"}) EXPECT_NE(svg.find(name), std::string::npos);
-  EXPECT_TRUE(to_json(report)["points"][3]["threshold"].is_null());
+  EXPECT_TRUE(to_json(report)["rows"][3]["threshold"].is_null());
   EXPECT_EQ(to_json(report)["standings"].size(), 2U);
 }
 

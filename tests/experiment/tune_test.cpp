@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include "config/error.hpp"
-#include "experiment/tune/report.hpp"
+#include "config/text/error.hpp"
+#include "experiment/study/tune/tune_report.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -18,7 +18,7 @@ Coordinate numbers(const std::string& key, const std::vector<double>& values) {
   return made;
 }
 
-/// 40 matches of 100 opportunities on 5 evenings; shots on target fall with the distance from the best settings.
+/// 40 matches of 100 opportunities on 5 calibrations; shots on target fall with the distance from the best settings.
 ArmTally played(double distance, std::uint32_t seed) {
   std::mt19937 random{seed};
   ArmTally arm;
@@ -134,10 +134,9 @@ TuneReport found() {
 TEST(TunedSettings, AreAFileThatSaysWhereItComesFromAndReadsBack) {
   const TuneReport report = found();
   const std::string text = to_settings_file(report, "/nowhere/out/tuned.toml");
-  for (const char* said : {"#   trivela tune stopped\n", "seed 1001",
-                           "held out, 40 matches of 100, 5 evenings of "
-                           "calibration, seed 1002",
-                           "settle_s = 0.1\n", "dribble_mps = 0.7\n", "[policy]\n"}) {
+  for (const char* said :
+       {"#   trivela tune stopped\n", "seed 1001", "held out, 40 matches of 100, 5 calibrations, seed 1002",
+        "settle_s = 0.1\n", "dribble_mps = 0.7\n", "[policy]\n"}) {
     EXPECT_NE(text.find(said), std::string::npos) << said << text;
   }
   EXPECT_EQ(text.find("aim_tolerance"), std::string::npos) << "neither searched nor changed";

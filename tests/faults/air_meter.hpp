@@ -18,7 +18,7 @@ enum class AirKind : std::uint8_t {
 };
 inline constexpr std::size_t kAirKinds = 5;
 
-/// Frames that hosts sent, each once however many took it, with the headers of IP and UDP, as config/team_bus.hpp
+/// Frames that hosts sent, each once however many took it, with the headers of IP and UDP, as config/team/team_bus.hpp
 /// counts.
 struct AirMeter {
   struct Count {

@@ -15,7 +15,7 @@
 namespace trivela::faults {
 
 /// How long anything on the air may take before a test gives up.
-inline constexpr std::chrono::seconds kAirPatience{120};
+inline constexpr std::chrono::seconds kAirTimeout{120};
 
 /// A number from the environment, for longer and larger runs by hand.
 inline double by_hand(const char* variable, double otherwise) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/team.hpp"
+#include "config/team/team.hpp"
 #include "tests/faults/air_test.hpp"
 #include "tests/faults/impostor.hpp"
 #include "tests/security/key_fixture.hpp"
@@ -33,7 +33,7 @@ class Attackers : public AirTest {
     }
     team = std::make_unique<TeamOnAir>(plan);
     team->start();
-    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, 0) > 100; }))
+    ASSERT_TRUE(team->wait_for(kAirTimeout, [&] { return cycles(team->logs(1), true, 0) > 100; }))
         << team->casualties() << team->said(1, "trivela-simulator");
   }
 
@@ -48,7 +48,7 @@ class Attackers : public AirTest {
     plan.settings = std::move(settings);
     team = std::make_unique<TeamOnAir>(plan);
     team->start();
-    ASSERT_TRUE(team->wait_for(kAirPatience, [&] { return rows("referee WHERE playing = 1") > 50; }))
+    ASSERT_TRUE(team->wait_for(kAirTimeout, [&] { return rows("referee WHERE playing = 1") > 50; }))
         << team->casualties() << team->said(1, "team_link") << team->said(0, "team_link");
   }
 
@@ -63,7 +63,7 @@ class Attackers : public AirTest {
   /// It plays on: cycles after now.
   bool plays_on() {
     const std::int64_t now = last_instant(team->logs(1));
-    return team->wait_for(kAirPatience, [&] { return cycles(team->logs(1), true, now) > 50; });
+    return team->wait_for(kAirTimeout, [&] { return cycles(team->logs(1), true, now) > 50; });
   }
 
   void send(const NetworkHost& host, const std::string& address, const Packets& packets) {

@@ -8,9 +8,9 @@
 #include <functional>
 #include <map>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/writer.hpp"
-#include "config/team.hpp"
+#include "config/team/team.hpp"
 #include "idl/messages.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/faults/air_flood.hpp"
@@ -175,7 +175,7 @@ class LaunchedLinks {
   milliseconds back_after_crash(std::size_t machine) {
     const auto began = Clock::now();
     kill(links_[machine], SIGSEGV);
-    if (!team_.wait_for(kAirPatience, [&] {
+    if (!team_.wait_for(kAirTimeout, [&] {
           const int now = team_.link(machine);
           return now != 0 && now != links_[machine];
         }))
@@ -215,7 +215,7 @@ TEST_F(Attackers, AFloodFromAnotherMachineChangesNoWordOfASecuredTeamAndALinkTha
   EXPECT_TRUE(longest.stays(longest.bytes.size() * milliseconds{200}));
   EXPECT_LT(links.back_after_crash(1), seconds{2});
   const std::int64_t after = number_in(team->logs(1), "SELECT max(t_ns) FROM referee");
-  EXPECT_TRUE(team->wait_for(kAirPatience, [&] {
+  EXPECT_TRUE(team->wait_for(kAirTimeout, [&] {
     links.look(nullptr);
     return words(fmt::format("playing = 1 AND t_ns > {}", after + 2 * kS)) > 10;
   })) << team->said(1, "team_link");
@@ -248,7 +248,7 @@ TEST_F(Attackers, StrangersWhoWantToBeRememberedForEverGetNoMoreOfTheMemoryThanA
     if (long_one) {
       during_flood(*team, look);
     } else {
-      EXPECT_TRUE(team->wait_for(kAirPatience, [&] {
+      EXPECT_TRUE(team->wait_for(kAirTimeout, [&] {
         look();
         return links.ended > 0;
       })) << "nothing grew";
@@ -266,7 +266,7 @@ TEST_F(Attackers, StrangersWhoWantToBeRememberedForEverGetNoMoreOfTheMemoryThanA
     const std::int64_t after = number_in(team->logs(robot), "SELECT max(t_ns) FROM referee");
     const std::string words =
         fmt::format("SELECT count(*) FROM referee WHERE playing = 1 AND t_ns > {}", after + 2 * kS);
-    EXPECT_TRUE(team->wait_for(kAirPatience, [&] { return number_in(team->logs(robot), words) > 10; }))
+    EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return number_in(team->logs(robot), words) > 10; }))
         << robot << ": " << said;
   }
   EXPECT_EQ(team->casualties(), "");

@@ -21,7 +21,7 @@ class Capture : public AirTest {
     plan.keys = keys;
     TeamOnAir team{plan};
     team.start();
-    EXPECT_TRUE(team.wait_for(kAirPatience, [&] {
+    EXPECT_TRUE(team.wait_for(kAirTimeout, [&] {
       return number_in(team.logs(1), "SELECT count(*) FROM referee WHERE playing = 1") > 50;
     })) << team.casualties();
     const auto capture = team.hub().overheard();

@@ -11,8 +11,8 @@
 #include <random>
 #include <string>
 
+#include "bus/domain/options.hpp"
 #include "bus/node.hpp"
-#include "bus/options.hpp"
 #include "config/settings.hpp"
 
 /// What the campaigns at devices and links have in common: how long each is, and the bus that each has for itself.

@@ -29,20 +29,21 @@ std::optional<Spread> spread_of(const Fault& fault) {
 }
 
 /// A reader hands on what was said first first: no word to stop comes after a later one to play.
-void say_in_order(std::vector<WordSeen>& heard, const WordSeen& next) {
+void say_in_order(std::vector<CommandSeen>& heard, const CommandSeen& next) {
   while (next.playing && !heard.empty() && heard.back().arrival_ns > next.arrival_ns) heard.pop_back();
 }
 
 /// In the order in which they were said, that of the wire.
-std::vector<WordSeen> heard_late(const Testimony& wire, const Trial& trial, std::int64_t to_ns, const Spread& spread) {
-  std::vector<WordSeen> heard;
-  for (const WordSeen& word : wire.words) {
+std::vector<CommandSeen> heard_late(const Testimony& wire, const Trial& trial, std::int64_t to_ns,
+                                    const Spread& spread) {
+  std::vector<CommandSeen> heard;
+  for (const CommandSeen& word : wire.words) {
     if (word.arrival_ns < trial.began_ns || word.arrival_ns > to_ns) continue;
     const bool late = word.arrival_ns <= trial.ended_ns;
     const std::int64_t arrival_ns = word.arrival_ns + (!word.playing ? spread.most_ns
                                                        : late        ? spread.least_ns
                                                                      : std::min<std::int64_t>(0, spread.least_ns));
-    const WordSeen seen{arrival_ns, word.playing};
+    const CommandSeen seen{arrival_ns, word.playing};
     say_in_order(heard, seen);
     heard.push_back(seen);
   }
@@ -61,20 +62,20 @@ Testimony with_drivers_words(Testimony device, const Testimony& wire, const std:
     if (const auto spread = spread_of(trial.fault)) {
       // What is on its way when the fault ends.
       const std::int64_t to_ns = trial.ended_ns + Nanoseconds{trial.fault.way.delay + trial.fault.way.jitter}.count();
-      std::erase_if(device.words, [&](const WordSeen& word) {
+      std::erase_if(device.words, [&](const CommandSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= to_ns;
       });
-      std::vector<WordSeen> heard = heard_late(wire, trial, to_ns, *spread);
-      for (const WordSeen& word : device.words)
+      std::vector<CommandSeen> heard = heard_late(wire, trial, to_ns, *spread);
+      for (const CommandSeen& word : device.words)
         if (word.arrival_ns > to_ns) say_in_order(heard, word);
       std::ranges::copy(heard, std::back_inserter(device.words));
     } else if (garbles_driver(trial.fault)) {
-      std::ranges::copy_if(wire.words, std::back_inserter(device.words), [&](const WordSeen& word) {
+      std::ranges::copy_if(wire.words, std::back_inserter(device.words), [&](const CommandSeen& word) {
         return word.arrival_ns >= trial.began_ns && word.arrival_ns <= trial.whole_ns;
       });
     }
   }
-  std::ranges::stable_sort(device.words, {}, &WordSeen::arrival_ns);
+  std::ranges::stable_sort(device.words, {}, &CommandSeen::arrival_ns);
   return device;
 }
 

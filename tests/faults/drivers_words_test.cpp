@@ -35,7 +35,7 @@ Testimony said() {
 /// said.
 std::vector<Finding> found(std::int64_t fired_ms, std::int64_t late_ms, const std::vector<Trial>& trials) {
   Testimony device, wire = said();
-  for (const WordSeen& word : wire.words) device.words.push_back({word.arrival_ns + late_ms * kMs, word.playing});
+  for (const CommandSeen& word : wire.words) device.words.push_back({word.arrival_ns + late_ms * kMs, word.playing});
   device.fires.push_back({fired_ms * kMs, fired_ms * kMs, 1});
   device.orders.push_back({(fired_ms - 10) * kMs, (fired_ms - 10) * kMs, 1, fired_ms * kMs, (fired_ms + 50) * kMs});
   return judge(with_drivers_words(device, wire, trials), wire, {});

@@ -44,9 +44,11 @@ std::optional<Finding> judge_order(const FireSeen& fire, const OrdersById& order
   return Finding{Offence::kStale, fire, why};
 }
 
-std::optional<Finding> judge_referee(const FireSeen& fire, const std::vector<WordSeen>& words, const FireRules& rules) {
-  const auto after = std::upper_bound(words.begin(), words.end(), fire.arrival_ns,
-                                      [](std::int64_t t_ns, const WordSeen& word) { return t_ns < word.arrival_ns; });
+std::optional<Finding> judge_referee(const FireSeen& fire, const std::vector<CommandSeen>& words,
+                                     const FireRules& rules) {
+  const auto after =
+      std::upper_bound(words.begin(), words.end(), fire.arrival_ns,
+                       [](std::int64_t t_ns, const CommandSeen& word) { return t_ns < word.arrival_ns; });
   if (after == words.begin()) return Finding{Offence::kSilent, fire, "the referee had not said anything"};
   auto last = after - 1;
   const std::int64_t silent_ns = fire.arrival_ns - last->arrival_ns;

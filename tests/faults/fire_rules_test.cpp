@@ -20,8 +20,8 @@ OrderSeen order(std::int64_t kick_id, std::int64_t t_ms, std::int64_t valid_ms =
 FireSeen fire(std::int64_t kick_id, std::int64_t t_ms) { return {t_ms * kMs, t_ms * kMs, kick_id, false}; }
 
 /// The referee lets play from 0 on and speaks each 20 ms, until `last_ms`.
-std::vector<WordSeen> playing_until(std::int64_t last_ms) {
-  std::vector<WordSeen> words;
+std::vector<CommandSeen> playing_until(std::int64_t last_ms) {
+  std::vector<CommandSeen> words;
   for (std::int64_t t_ms = 0; t_ms <= last_ms; t_ms += 20) words.push_back({t_ms * kMs, true});
   return words;
 }

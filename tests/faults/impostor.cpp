@@ -10,7 +10,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::int64_t kBeside_ns = 100'000'000;
 bool earlier(const AcceptedSoFar& a, const AcceptedSoFar& b) { return a.t_ns < b.t_ns; }
 
 void read_log(const std::filesystem::path& path, KickRows& rows) {
-  const evaluator::log::Reader log{path};
+  const log::Reader log{path};
   log.query("SELECT kick_id, accepted FROM kick_receipts ORDER BY t_ns, seq",
             [&](std::int64_t kick_id, bool accepted) { rows.accepted[kick_id] = accepted; });
   log.query("SELECT t_ns, orders_handled - orders_refused FROM kicker_status",

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "config/team.hpp"
+#include "config/team/team.hpp"
 
 namespace trivela::faults {
 namespace {

@@ -12,7 +12,7 @@
 #include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/faults/device_rounds.hpp"
-#include "tests/faults/kicker_story.hpp"
+#include "tests/faults/kicker_timeline.hpp"
 
 namespace trivela::faults {
 
@@ -50,7 +50,7 @@ class KickerRig {
   std::string driver_errors() const { return driver_->errors(); }
 
   /// All that happened, with the pulses so far.
-  const KickerStory& story() {
+  const KickerTimeline& story() {
     story_.pulses = board_->pulses();
     return story_;
   }
@@ -73,7 +73,7 @@ class KickerRig {
   bus::Writer<msg::KickOrder> decision_;
   std::optional<e2e::Program> recorder_, driver_;
   std::mt19937_64 random_ = device_draws();
-  KickerStory story_;
+  KickerTimeline story_;
   std::uint64_t ids_ = 0, words_ = 0;
   bool playing_ = true;
 };

@@ -112,8 +112,12 @@ void LaunchedTeam::start() {
     launchers_.push_back(std::make_unique<NodeProcess>(
         on_machine(machine, "launch", {own("bin/trivela-launch"), own("etc/robot.env")})));
     const std::vector<std::string> world =
-        machine == 0 ? std::vector<std::string>{own("bin/trivela"), "refbox",   "--emulate",   "--port",
-                                                kBoxPort,           "--script", own("box.txt")}
+        machine == 0 ? std::vector<std::string>{own("bin/trivela-emulate"),
+                                                "refbox",
+                                                "--port",
+                                                kBoxPort,
+                                                "--script",
+                                                own("box.txt")}
                      : std::vector<std::string>{own("bin/trivela-simulator"), "--config", own("etc/settings.toml"),
                                                 "--set", fmt::format("simulator.seed={}", machine)};
     worlds_.push_back(std::make_unique<NodeProcess>(on_machine(machine, "world", world)));

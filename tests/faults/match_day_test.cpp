@@ -24,7 +24,7 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr seconds kPatience{120};
+constexpr seconds kTimeout{120};
 constexpr int kWithLoss = 3;
 
 double by_hand(const char* variable, double otherwise) {
@@ -54,7 +54,7 @@ class MatchDay : public testing::Test {
     std::vector<std::int64_t> from;
     for (std::size_t robot = 1; robot <= robots; ++robot)
       from.push_back(number_in(team.logs(robot), "SELECT max(t_ns) FROM world_states"));
-    return team.wait_for(kPatience, [&] {
+    return team.wait_for(kTimeout, [&] {
       for (std::size_t robot = 1; robot <= robots; ++robot)
         if (number_in(team.logs(robot),
                       fmt::format("SELECT count(*) FROM world_states WHERE playing = {} AND t_ns > {}", playing ? 1 : 0,

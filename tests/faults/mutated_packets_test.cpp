@@ -10,7 +10,7 @@
 #include <map>
 #include <sstream>
 
-#include "bus/library_log.hpp"
+#include "bus/domain/library_log.hpp"
 #include "bus/renewal.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
@@ -81,9 +81,9 @@ std::vector<std::string> implausible_counters(const RealTimeStack& stack, double
 
 TEST(MutatedPackets, EveryStreamIsHeardAgainSoonAfterwards) {
   const double flood_s = std::stod(from_environment("TRIVELA_FLOOD_S", "5"));
-  const double patience_s = std::stod(from_environment("TRIVELA_FLOOD_PATIENCE_S", "10"));
+  const double timeout_s = std::stod(from_environment("TRIVELA_FLOOD_PATIENCE_S", "10"));
   const bus::LibraryLog unheard{[](bool, std::string_view) {}};
-  RealTimeStack stack{(flood_s + patience_s) / 60.0 + 2.0};
+  RealTimeStack stack{(flood_s + timeout_s) / 60.0 + 2.0};
   {
     PacketMutator mutator{wished()};
     StreamWitness{stack.settings()}.deaf_within(std::chrono::milliseconds{static_cast<int>(flood_s * 1e3)});
@@ -99,7 +99,7 @@ TEST(MutatedPackets, EveryStreamIsHeardAgainSoonAfterwards) {
     deaf = fmt::format("{}", fmt::join(witness.deaf_within(std::chrono::seconds{2}), ", "));
     deaf += deaf_recorder(before, rows(stack));
     fmt::print("{:.1f} s afterwards deaf: {}\n", passed_s(), deaf.empty() ? "nobody" : deaf);
-  } while (!deaf.empty() && passed_s() < patience_s);
+  } while (!deaf.empty() && passed_s() < timeout_s);
   EXPECT_EQ(deaf, "");
   EXPECT_EQ(stack.casualties(), "");
   EXPECT_THAT(implausible_counters(stack, flood_s + passed_s() + 10.0), testing::IsEmpty());

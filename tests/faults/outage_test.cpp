@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "evaluator/report/table2.hpp"
+#include "evaluator/table2/table2.hpp"
 #include "tests/e2e/folder.hpp"
 #include "tests/faults/stack.hpp"
 
@@ -56,8 +56,7 @@ TEST(Outage, OfFourteenSecondsIsInTheReportWithItsKicks) {
   stack.stop_all();
 
   ASSERT_EQ(stack.logs().size(), 1u) << "the recorder goes on with its log";
-  const evaluator::log::Reader reader(stack.logs().front());
-  const evaluator::Report report = evaluator::make_report(reader);
+  const evaluator::Report report = evaluator::make_report(log::Reader(stack.logs().front()));
   SCOPED_TRACE(evaluator::to_text(report));
   const auto cycles = static_cast<std::int64_t>(kOutage_s / 0.02);
   for (const char* const stream : {"odometry", "world_states", "kicker_status", "vision_frames"}) {

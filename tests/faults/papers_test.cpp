@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "security/certificates.hpp"
@@ -134,7 +134,7 @@ TEST_F(Papers, ARobotThatSaysARefereeFromAnotherMachineIsHeardByNobodyAndTheBase
   on_host(team->stranger(), [&] {
     const bus::Participant without_right{lenient(on_team(keys.robot(3) / "team"))};
     say_state(without_right, 3);
-    EXPECT_TRUE(team->wait_for(kAirPatience, [&] { return rows("clock_offsets WHERE other_robot_id = 3") > 0; }))
+    EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return rows("clock_offsets WHERE other_robot_id = 3") > 0; }))
         << "it is known, and heard in what it may say";
     say_referee(without_right, kForgedWord);
   });
@@ -143,7 +143,7 @@ TEST_F(Papers, ARobotThatSaysARefereeFromAnotherMachineIsHeardByNobodyAndTheBase
     const bus::Participant base{lenient(on_team(keys.robot(0) / "team"))};
     EXPECT_EQ(say_referee(base, kForgedWord + 1), 2u) << "with the base's papers both robots listen";
   });
-  EXPECT_TRUE(team->wait_for(kAirPatience, [&] { return words(kForgedWord + 1) > 0; }))
+  EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return words(kForgedWord + 1) > 0; }))
       << "and take it for the base's word";
   EXPECT_EQ(words(kForgedWord), 0);
   EXPECT_EQ(team->casualties(), "");
@@ -170,7 +170,7 @@ TEST_F(Papers, ACameraThatOrdersOnTheRobotsLoopbackIsHeardByNobodyAndItsDecision
     const bus::Participant decision{lenient(on_robot(keys.robot(1), "kick_decision"))};
     EXPECT_GT(say_orders(decision), 0u) << "with the decision's papers they listen";
   });
-  EXPECT_TRUE(team->wait_for(kAirPatience, [&] { return heard() > 0; })) << "and take them for orders";
+  EXPECT_TRUE(team->wait_for(kAirTimeout, [&] { return heard() > 0; })) << "and take them for orders";
   EXPECT_EQ(team->casualties(), "");
   team->stop();
 }

@@ -36,7 +36,7 @@ class RealTimeStack {
   std::filesystem::path log() const { return folder_ / "match.db"; }
 
   /// Waits until `condition` holds, asking again whenever something is written in the folder. False: it took longer
-  /// than e2e::kPatience, or the recorder ended.
+  /// than e2e::kTimeout, or the recorder ended.
   [[nodiscard]] bool wait_for(const std::function<bool()>& condition) const;
 
   /// Sends a program a signal.

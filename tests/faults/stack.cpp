@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kDomain = 77;
-constexpr std::chrono::milliseconds kGlance{20};
+constexpr std::chrono::milliseconds kPollInterval{20};
 constexpr std::chrono::seconds kGrace{10};
 
 constexpr const char* kHostsXml = R"(<CycloneDDS xmlns="https://cdds.io/config"><Domain Id="any">
@@ -219,7 +219,7 @@ bool Stack::listen(std::chrono::nanoseconds timeout, const std::function<bool()>
                                   pollfd{wire_.words->file_descriptor(), POLLIN, 0},
                                   pollfd{referee_words_ ? referee_words_->file_descriptor() : -1, POLLIN, 0}};
     if (referee_words_ && !running(node_index("referee"))) sources[2].fd = -1;  // it would be readable for ever
-    const auto wait = std::min<std::chrono::nanoseconds>(left, kGlance);
+    const auto wait = std::min<std::chrono::nanoseconds>(left, kPollInterval);
     poll(sources.data(), sources.size(), static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(wait).count()));
   }
 }

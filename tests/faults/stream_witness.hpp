@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/participant.hpp"
+#include "bus/domain/participant.hpp"
 #include "config/settings.hpp"
 
 namespace trivela::faults {

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "config/team_files.hpp"
-#include "config/team_settings.hpp"
+#include "config/team/team_files.hpp"
+#include "config/team/team_settings.hpp"
 #include "tests/e2e/program.hpp"
 
 namespace trivela::faults {
@@ -81,7 +81,7 @@ std::int64_t number_in(const std::vector<fs::path>& logs, const std::string& sql
   if (logs.empty()) return 0;
   std::int64_t number = 0;
   try {
-    const evaluator::log::Reader reader{logs.back()};
+    const log::Reader reader{logs.back()};
     reader.query(sql, [&](std::optional<std::int64_t> cell) { number = cell.value_or(0); });
   } catch (const std::exception&) {
     return 0;  // it is being made
@@ -155,8 +155,8 @@ void TeamOnAir::start() {
     start_process(machine, "trivela-team_link", of_link);
     start_process(machine, "trivela-recorder", flags);
     if (machine == 0 && !plan_.script.empty()) {
-      start_process(0, "trivela",
-                    {"refbox", "--emulate", "--port", "28097", "--script", (folder_of(0) / "box.txt").string()});
+      start_process(0, "trivela-emulate",
+                    {"refbox", "--port", "28097", "--script", (folder_of(0) / "box.txt").string()});
       start_process(0, "trivela-refbox", flags);
     }
     if (plays == Plays::kNothing) continue;

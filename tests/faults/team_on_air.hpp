@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "config/settings.hpp"
-#include "config/team.hpp"
-#include "evaluator/log/reader.hpp"
+#include "config/team/team.hpp"
+#include "log/read/reader.hpp"
 #include "tests/faults/hub.hpp"
 #include "tests/faults/network_host.hpp"
 #include "tests/faults/node_process.hpp"

@@ -33,7 +33,7 @@ using testing::Le;
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kS = 1'000'000'000;
 const Way kAir{.delay = milliseconds{1}, .jitter = milliseconds{20}, .drop = 0.1};
-constexpr seconds kPatience = kAirPatience;
+constexpr seconds kTimeout = kAirTimeout;
 
 /// `trivela` with these arguments, in the folder; what it said goes to `said`.
 int trivela(const fs::path& folder, std::vector<std::string> arguments, std::string& said) {
@@ -85,12 +85,12 @@ TEST_F(TeamOnAirTest, ARobotWhoseRefereeCrossesTheNetworkStandsInItsSilenceAndPl
     witnesses.push_back(std::make_unique<KickWitness>(team.host(robot), robot, team.tag(robot)));
   team.start();
   const auto one = [&] { return team.logs(1); };
-  ASSERT_TRUE(team.wait_for(kPatience, [&] { return cycles(one(), true, 0) > 100; }))
+  ASSERT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), true, 0) > 100; }))
       << "never played: " << team.casualties() << team.said(1, "trivela-team_link") << team.said(0, "trivela-team_link")
       << team.said(0, "trivela-refbox");
   for (const std::size_t machine : {0u, 1u, 2u})
     ASSERT_TRUE(team.wait_for(
-        kPatience, [&] { return number_in(team.logs(machine), "SELECT count(*) FROM clock_offsets") >= 10; }));
+        kTimeout, [&] { return number_in(team.logs(machine), "SELECT count(*) FROM clock_offsets") >= 10; }));
 
   // Something is gone for so long: the robot stands; it comes back: the robot plays on.
   const auto without = [&](const char* what, double length_s, const std::function<void()>& lose,
@@ -98,10 +98,10 @@ TEST_F(TeamOnAirTest, ARobotWhoseRefereeCrossesTheNetworkStandsInItsSilenceAndPl
     const std::int64_t before = last_instant(one());
     lose();
     team.pass(milliseconds{static_cast<std::int64_t>(length_s * 1e3)});
-    EXPECT_TRUE(team.wait_for(kPatience, [&] { return cycles(one(), false, before) > 20; })) << what << ": it went on";
+    EXPECT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), false, before) > 20; })) << what << ": it went on";
     const std::int64_t stood = last_instant(one());
     give();
-    EXPECT_TRUE(team.wait_for(kPatience, [&] { return cycles(one(), true, stood) > 50; })) << what << " is back";
+    EXPECT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), true, stood) > 50; })) << what << " is back";
     EXPECT_EQ(team.casualties(), "") << what;
   };
   const auto sound_again = [&] { team.air(kAir); };
@@ -120,14 +120,14 @@ TEST_F(TeamOnAirTest, ARobotWhoseRefereeCrossesTheNetworkStandsInItsSilenceAndPl
   const std::int64_t as_before = last_instant(one());
   for (const std::string& node : kChain) team.process(1, node).signal(SIGKILL);
   for (const std::string& node : kChain) team.restart(1, node);
-  EXPECT_TRUE(team.wait_for(kPatience, [&] { return cycles(one(), true, as_before) > 50; })) << "started anew";
+  EXPECT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), true, as_before) > 50; })) << "started anew";
 
   // Another is started anew, its recorder late.
   for (const char* const node : {"trivela-team_link", "trivela-recorder"}) team.process(2, node).signal(SIGKILL);
   team.restart(2, "trivela-team_link");
   team.pass(milliseconds{500});
   team.restart(2, "trivela-recorder");
-  ASSERT_TRUE(team.wait_for(kPatience, [&] {
+  ASSERT_TRUE(team.wait_for(kTimeout, [&] {
     return team.logs(2).size() == 2 && number_in(team.logs(2), "SELECT count(*) FROM clock_offsets") >= 10;
   })) << team.said(2, "trivela-team_link");
   EXPECT_EQ(team.casualties(), "");
@@ -206,7 +206,7 @@ Traffic traffic_of(TeamPlan plan) {
   team.start();
   for (std::size_t machine = 0; machine <= 5; ++machine)
     EXPECT_TRUE(team.wait_for(
-        kPatience,
+        kTimeout,
         [&] { return number_in(team.logs(machine), "SELECT count(DISTINCT other_robot_id) FROM clock_offsets") == 5; }))
         << "machine " << machine << ": " << team.said(machine, "trivela-team_link");
   const AirMeter before = team.hub().meter();

@@ -27,7 +27,7 @@ struct FireSeen {
 };
 
 /// A word of the referee.
-struct WordSeen {
+struct CommandSeen {
   std::int64_t arrival_ns = 0;
   bool playing = false;
 };
@@ -44,7 +44,7 @@ struct Testimony {
   std::vector<OrderSeen> orders;
   std::vector<OrderSeen> decided;  ///< the orders that kick_decision says it has given
   std::vector<FireSeen> fires;
-  std::vector<WordSeen> words;
+  std::vector<CommandSeen> words;
   std::vector<TruthSeen> truths;
   std::map<std::int64_t, std::int64_t> outcome_arrival_ns;          ///< by kick_id, the first one
   std::map<std::string, std::int64_t, std::less<>> last_sample_ns;  ///< by topic, of those heard for their rhythm

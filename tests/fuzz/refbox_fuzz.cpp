@@ -17,7 +17,7 @@ using namespace trivela::hal::refbox;
 using trivela::tests::require;
 
 std::vector<Word> words_of(const TeamMarks& team, std::string_view bytes, std::size_t piece) {
-  WordStream stream(team);
+  CommandStream stream(team);
   std::vector<Word> words;
   while (!bytes.empty()) {
     for (Word& word : stream.add(bytes.substr(0, piece))) words.push_back(std::move(word));

@@ -19,7 +19,7 @@
 namespace trivela::tests {
 
 /// For anything to happen at all.
-inline constexpr std::chrono::seconds kPatience{20};
+inline constexpr std::chrono::seconds kTimeout{20};
 
 inline std::int64_t steady_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -33,7 +33,7 @@ inline std::unique_ptr<hal::Kicker> kicker_on(std::unique_ptr<hal::KickerBoard> 
 
 /// Reads until `done` of a sample; false: it did not come.
 inline bool read_until(hal::Kicker& kicker, const std::function<bool(const hal::KickerSample&)>& done) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   while (std::chrono::steady_clock::now() < end) {
     if (const auto sample = kicker.read(std::chrono::milliseconds(100)); sample && done(*sample)) return true;
   }
@@ -52,10 +52,10 @@ inline bool until_status_says(hal::Kicker& kicker, const std::string& text) {
 /// Waits until the board was asked `n` more times after `t_ns`: what was to be sent by then was sent before that.
 template <class Emulator>
 void wait_for_looks(Emulator& emulator, std::uint64_t n, std::int64_t t_ns = 0) {
-  EXPECT_TRUE(emulator.wait(kPatience, [=](const auto& board) { return board.last_look_ns() > t_ns; }));
+  EXPECT_TRUE(emulator.wait(kTimeout, [=](const auto& board) { return board.last_look_ns() > t_ns; }));
   std::uint64_t before = 0;
   emulator.with_board([&](const auto& board) { before = board.looks(); });
-  EXPECT_TRUE(emulator.wait(kPatience, [=](const auto& board) { return board.looks() >= before + n; }));
+  EXPECT_TRUE(emulator.wait(kTimeout, [=](const auto& board) { return board.looks() >= before + n; }));
 }
 
 /// An emulated ioBoard and what a contract asks of it. Two of the pulse's units for a set-point of 1, so that 22.5 is

@@ -19,7 +19,7 @@ class DrivesOnALine {
  public:
   static constexpr double kGear = 12.0;
 
-  DrivesOnALine() { EXPECT_TRUE(device->connected(kPatience)) << device->status(); }
+  DrivesOnALine() { EXPECT_TRUE(device->connected(kTimeout)) << device->status(); }
 
   static std::unique_ptr<hal::Wheels> open(const std::string& port, double heartbeat_s = 10.0) {
     const config::Cia402Device settings{.port = port, .gear = kGear, .ramp = 1'000'000, .heartbeat_s = heartbeat_s};
@@ -31,7 +31,7 @@ class DrivesOnALine {
     std::uint64_t before = 0;
     const auto answers = [](const hal::cia402::EmulatedDrives& drives) { return drives.drives().back().answers(); };
     emulator.with_board([&](const auto& drives) { before = answers(drives); });
-    EXPECT_TRUE(emulator.wait(kPatience, [&](const auto& drives) { return answers(drives) >= before + n; }));
+    EXPECT_TRUE(emulator.wait(kTimeout, [&](const auto& drives) { return answers(drives) >= before + n; }));
   }
 
   /// The motion that the motors are told, to 1/64: they are told whole rpm.

@@ -23,7 +23,7 @@ Progress agree(StartUp& start_up) {
 TEST(Cia402StartUp, ResetsThenAsksObjectByObjectUntilTheDriveCanBeStarted) {
   StartUp start_up{kNode, kSettings, StartUp::Reset::kYes};
   EXPECT_EQ(start_up.request(), can::standard_frame(0x000, {0x81, 0x03}));
-  EXPECT_EQ(start_up.patience_ns(), 3'000'000'000);
+  EXPECT_EQ(start_up.timeout_ns(), 3'000'000'000);
   std::vector<std::uint16_t> asked;
   Progress progress = Progress::kNext;
   while (progress == Progress::kNext && asked.size() < 100) {

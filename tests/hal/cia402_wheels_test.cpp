@@ -13,7 +13,7 @@ namespace trivela::hal::cia402 {
 namespace {
 
 using std::chrono::milliseconds;
-using tests::kPatience;
+using tests::kTimeout;
 
 bool turn(const EmulatedDrives& drives) {
   return std::ranges::all_of(drives.drives(), [](const EmulatedDrive& drive) { return drive.target_rpm() != 0; });
@@ -24,7 +24,7 @@ bool stand(const EmulatedDrives& drives) {
 }
 
 bool until_status_says(Wheels& wheels, const std::string& text) {
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   while (wheels.status().find(text) == std::string::npos) {
     if (std::chrono::steady_clock::now() > end) return false;
     wheels.read(milliseconds(20));
@@ -68,7 +68,7 @@ class DrivingProcess {
     Cia402Wheels wheels{can::can_line(settings.port), settings, kicking::WheelBase{}};
     for (;;) {
       wheels.drive({0.0, 0.0, 2.0}, tests::steady_ns());
-      wheels.read(kPatience);
+      wheels.read(kTimeout);
     }
   }
 
@@ -81,10 +81,9 @@ TEST(Cia402Process, ThatIsKilledLeavesWheelsThatStandWithinTheHeartbeatsTime) {
   Emulator emulator{std::uint8_t{3}};
   process.connect_to(emulator.address());
   const auto whirl = [](const EmulatedDrive& drive) { return drive.rpm(tests::steady_ns()) > 1000.0; };
-  ASSERT_TRUE(
-      emulator.wait(kPatience, [&](const auto& drives) { return std::ranges::all_of(drives.drives(), whirl); }));
+  ASSERT_TRUE(emulator.wait(kTimeout, [&](const auto& drives) { return std::ranges::all_of(drives.drives(), whirl); }));
   process.kill();
-  ASSERT_TRUE(emulator.wait(kPatience, stand));
+  ASSERT_TRUE(emulator.wait(kTimeout, stand));
   emulator.with_board([](const EmulatedDrives& drives) {
     for (const EmulatedDrive& drive : drives.drives()) {
       // 200 ms without our heartbeat, then the ramp of the quick stop: 1008 rpm by 10000 rpm/s.
@@ -105,7 +104,7 @@ class Cia402WheelsTest : public testing::Test {
 TEST_F(Cia402WheelsTest, SamplesAreNewAndOfInstantsThatPassed) {
   std::int64_t last_ns = 0;
   for (int i = 0; i < 10; ++i) {
-    const auto sample = wheels_.read(kPatience);
+    const auto sample = wheels_.read(kTimeout);
     ASSERT_TRUE(sample);
     EXPECT_GT(sample->t_ns, last_ns);
     EXPECT_LE(sample->t_ns, tests::steady_ns());
@@ -115,13 +114,13 @@ TEST_F(Cia402WheelsTest, SamplesAreNewAndOfInstantsThatPassed) {
 
 TEST_F(Cia402WheelsTest, APulledCableIsSaidAndTheWheelsStand) {
   wheels_.drive({0.0, 0.0, 2.0}, 1);
-  ASSERT_TRUE(line_.emulator.wait(kPatience, turn));
+  ASSERT_TRUE(line_.emulator.wait(kTimeout, turn));
   line_.emulator.line().pull();
   EXPECT_TRUE(until_status_says(wheels_, "no bus " + line_.emulator.address()));
   wheels_.drive({}, 2);
   line_.emulator.line().plug();
   EXPECT_TRUE(until_status_says(wheels_, line_.emulator.address() + ": "));
-  EXPECT_TRUE(line_.emulator.wait(kPatience, stand));
+  EXPECT_TRUE(line_.emulator.wait(kTimeout, stand));
 }
 
 TEST_F(Cia402WheelsTest, AFaultIsSaidWithItsCause) {
@@ -135,15 +134,15 @@ TEST_F(Cia402WheelsTest, TheNextProgramResetsTheFault) {
   ASSERT_TRUE(until_status_says(wheels_, "undervoltage"));
   line_.device.reset();
   line_.device = tests::DrivesOnALine::open(line_.emulator.address());
-  EXPECT_TRUE(line_.device->connected(kPatience)) << line_.device->status();
+  EXPECT_TRUE(line_.device->connected(kTimeout)) << line_.device->status();
 }
 
 TEST_F(Cia402WheelsTest, ACableThatWasOutUntilTheDrivesMissedUsIsPluggedInAndTheyObeyAgain) {
   line_.device.reset();
   line_.device = tests::DrivesOnALine::open(line_.emulator.address(), 0.5);
-  ASSERT_TRUE(line_.device->connected(kPatience));
+  ASSERT_TRUE(line_.device->connected(kTimeout));
   line_.emulator.line().pull();
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   for (bool missed = false; !missed; std::this_thread::yield()) {
     ASSERT_LT(std::chrono::steady_clock::now(), end);
     line_.emulator.with_board([&](EmulatedDrives& drives) {
@@ -153,8 +152,8 @@ TEST_F(Cia402WheelsTest, ACableThatWasOutUntilTheDrivesMissedUsIsPluggedInAndThe
     });
   }
   line_.emulator.line().plug();
-  ASSERT_TRUE(line_.device->connected(kPatience)) << line_.device->status();
-  EXPECT_TRUE(line_.emulator.wait(kPatience, [this](const EmulatedDrives& drives) {
+  ASSERT_TRUE(line_.device->connected(kTimeout)) << line_.device->status();
+  EXPECT_TRUE(line_.emulator.wait(kTimeout, [this](const EmulatedDrives& drives) {
     line_.device->drive({0.0, 0.0, 2.0}, tests::steady_ns());
     return turn(drives);
   }));

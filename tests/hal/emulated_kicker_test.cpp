@@ -8,7 +8,7 @@
 namespace trivela::hal {
 namespace {
 
-using tests::kPatience;
+using tests::kTimeout;
 using tests::read_until;
 using tests::steady_ns;
 using tests::until_armed;
@@ -41,9 +41,9 @@ class EmulatedKickerTest : public testing::Test {
  protected:
   std::vector<CoilPulse> pulses(std::size_t n) {
     std::vector<CoilPulse> all;
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kTimeout;
     while (all.size() < n && std::chrono::steady_clock::now() < end) {
-      EXPECT_TRUE(kicker->read(kPatience));  // the board is asked again, after what it was told before
+      EXPECT_TRUE(kicker->read(kTimeout));  // the board is asked again, after what it was told before
       for (const CoilPulse& pulse : world->take_pulses()) all.push_back(pulse);
     }
     return all;
@@ -58,7 +58,7 @@ TYPED_TEST_SUITE(EmulatedKickerTest, Hosts);
 
 TYPED_TEST(EmulatedKickerTest, AHostThatHasTheSettingFindsItAndAsksHowItStands) {
   EXPECT_THAT(this->world->setting(), testing::MatchesRegex("hal\\.(ioboard|rekick)\\.port=\"/.+\""));
-  EXPECT_TRUE(this->world->wait_for_host(kPatience));
+  EXPECT_TRUE(this->world->wait_for_host(kTimeout));
 }
 
 TYPED_TEST(EmulatedKickerTest, TheWorldsArmSwitchIsTheBoards) {

@@ -13,7 +13,7 @@ namespace trivela::hal {
 namespace {
 
 using std::chrono::nanoseconds;
-using tests::kPatience;
+using tests::kTimeout;
 
 /// Wheels that say what the test does, at the instant that it names.
 class ToldBase final : public Wheels {
@@ -68,11 +68,11 @@ TEST(GyroWheels, DriveAndSpeakAsTheWheelsDo) {
 class MtiOnALine : public testing::Test {
  protected:
   bool until(const std::function<bool()>& done) {
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kTimeout;
     for (std::uint64_t said = 0; !done(); ++said) {
       if (std::chrono::steady_clock::now() > end) return false;
       emulator_.with_board([&](const auto& mti) { said = mti.said(); });
-      if (!emulator_.wait(kPatience, [=](const auto& mti) { return mti.said() > said; })) return false;
+      if (!emulator_.wait(kTimeout, [=](const auto& mti) { return mti.said() > said; })) return false;
     }
     return true;
   }
@@ -104,7 +104,7 @@ TEST_F(MtiOnALine, ALostOneIsSaidAndHeardAgain) {
   emulator_.with_board([](mti::EmulatedMti& mti) { mti.faults.silent = false; });
   EXPECT_TRUE(until([&] { return gyro_.status().ends_with(": MTi"); })) << gyro_.status();
   emulator_.line().pull();
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   while (gyro_.status().find("no gyro at") == std::string::npos && std::chrono::steady_clock::now() < end)
     std::this_thread::yield();
   EXPECT_NE(gyro_.status().find("no gyro at"), std::string::npos) << gyro_.status();
@@ -123,7 +123,7 @@ TEST(EmulatedGyro, TheTurnRateOfTheWorldIsWhatItsHostReadsWhicheverWayUpItIs) {
     WheelSample said{.wheel_count = 3, .wheel_radps = {1, 2, 3}, .gyro_radps = {}};
     GyroWheels wheels{std::make_unique<ToldBase>(said), std::make_unique<mti::MtiGyro>(serial_line(host.port), host)};
     world->show(-1.75);
-    const auto end = std::chrono::steady_clock::now() + kPatience;
+    const auto end = std::chrono::steady_clock::now() + kTimeout;
     std::optional<double> read;
     while (read != -1.75 && std::chrono::steady_clock::now() < end) {
       said.t_ns = tests::steady_ns();

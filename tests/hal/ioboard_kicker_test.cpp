@@ -7,7 +7,7 @@ namespace trivela::hal::ioboard {
 namespace {
 
 using std::chrono::milliseconds;
-using tests::kPatience;
+using tests::kTimeout;
 using tests::steady_ns;
 using tests::until_armed;
 using tests::until_link_fault;
@@ -21,7 +21,7 @@ class IoBoardKickerTest : public testing::Test {
     return tests::kicker_on(std::make_unique<IoBoard>(serial_line(settings.port), settings));
   }
   bool wait_for_pulses(std::size_t n) {
-    return emulator_.wait(kPatience, [=](const EmulatedBoard& board) { return board.pulses().size() >= n; });
+    return emulator_.wait(kTimeout, [=](const EmulatedBoard& board) { return board.pulses().size() >= n; });
   }
   void wait_for_looks(std::uint64_t n) { tests::wait_for_looks(emulator_, n); }
   EmulatedBoard board() {
@@ -35,7 +35,7 @@ class IoBoardKickerTest : public testing::Test {
 
 TEST_F(IoBoardKickerTest, FiresOnceAtItsInstantAndNotBefore) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience)) << kicker->status();
+  ASSERT_TRUE(kicker->connected(kTimeout)) << kicker->status();
   const std::int64_t t_ns = steady_ns() + 60 * kMs;
   kicker->fire({1, 100.0, t_ns});
   ASSERT_TRUE(wait_for_pulses(1));
@@ -51,7 +51,7 @@ TEST_F(IoBoardKickerTest, SamplesAreOfTheBoardsInstants) {
   ASSERT_TRUE(until_armed(*kicker));
   std::int64_t last_ns = 0;
   for (int i = 0; i < 10; ++i) {
-    const auto sample = kicker->read(kPatience);
+    const auto sample = kicker->read(kTimeout);
     ASSERT_TRUE(sample);
     EXPECT_GT(sample->t_ns, last_ns);
     EXPECT_LE(sample->t_ns, board().last_look_ns());
@@ -74,7 +74,7 @@ TEST_F(IoBoardKickerTest, SwitchesDisarm) {
 
 TEST_F(IoBoardKickerTest, AShotWhoseAnswerIsLostGarbledOrWrongIsNotSentAgain) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   constexpr int EmulatedFaults::*kFaults[] = {&EmulatedFaults::lost_every, &EmulatedFaults::garbled_every,
                                               &EmulatedFaults::wrong_sums_every};
   std::size_t shots = 0;
@@ -94,7 +94,7 @@ TEST_F(IoBoardKickerTest, SomeLostAnswersCostSamplesAndNotTheLine) {
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.with_board([](EmulatedBoard& board) { board.faults.lost_every = 3; });
   for (int i = 0; i < 20; ++i) {
-    const auto sample = kicker->read(kPatience);
+    const auto sample = kicker->read(kTimeout);
     ASSERT_TRUE(sample);
     EXPECT_EQ(sample->fault, KickerFault::kNone);
   }
@@ -102,7 +102,7 @@ TEST_F(IoBoardKickerTest, SomeLostAnswersCostSamplesAndNotTheLine) {
 
 TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   kicker->fire({1, 100.0, steady_ns() + 30 * kMs});
   kicker->make_safe();
   kicker->fire({2, 100.0, steady_ns()});
@@ -113,11 +113,11 @@ TEST_F(IoBoardKickerTest, NothingLeavesAfterItIsSafe) {
 
 TEST_F(IoBoardKickerTest, DestructionFiresNothing) {
   auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   kicker->fire({1, 100.0, steady_ns() + 500 * kMs});
   kicker.reset();
   kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   wait_for_looks(30);
   EXPECT_EQ(board().shots_told(), 0u);
 }
@@ -162,12 +162,12 @@ TEST_F(IoBoardKickerTest, ABoardThatIsNotThereYetIsWaitedFor) {
   EXPECT_TRUE(until_link_fault(*kicker));
   EXPECT_EQ(kicker->status(), "no device " + emulator_.address() + ": no such file or directory");
   emulator_.line().plug();
-  EXPECT_TRUE(kicker->connected(kPatience));
+  EXPECT_TRUE(kicker->connected(kTimeout));
 }
 
 TEST_F(IoBoardKickerTest, ASetPointOutsideOfThePulseIsNotFiredAndSaid) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   kicker->fire({7, 300.0, steady_ns()});
   EXPECT_TRUE(tests::until_status_says(*kicker, "kick 7"));
   EXPECT_EQ(board().shots_told(), 0u);
@@ -175,7 +175,7 @@ TEST_F(IoBoardKickerTest, ASetPointOutsideOfThePulseIsNotFiredAndSaid) {
 
 TEST_F(IoBoardKickerTest, AShotWhoseDeadlineIsOverIsNotFiredAndSaid) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   const std::int64_t now_ns = steady_ns();
   kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = now_ns - 2'000 * kMs, .until_ns = now_ns - 1});
   wait_for_looks(board().looks() + 3);
@@ -190,7 +190,7 @@ TEST_F(IoBoardKickerTest, AShotWhoseDeadlineIsOverIsNotFiredAndSaid) {
 
 TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheStopIsNotFired) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   const std::int64_t judged_ns = steady_ns();
   kicker->hold_when([stopped_ns = judged_ns](std::int64_t judged) { return judged <= stopped_ns; });
   // The order of a thread that stood still between the judgement and this call.
@@ -204,7 +204,7 @@ TEST_F(IoBoardKickerTest, AShotThatWasJudgedBeforeTheStopIsNotFired) {
 
 TEST_F(IoBoardKickerTest, SaysThatAShotWasWrittenAndNothingOfOneThatWasDropped) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   std::atomic<int> written = 0;
   kicker->call_when_written([&] { ++written; });
   kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = steady_ns(), .until_ns = 1});

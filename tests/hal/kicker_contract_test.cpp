@@ -285,25 +285,25 @@ TEST(BusKicker, HasChargedWhatCanBeToldToAndEmptiesItInTheEnd) {
     words.take([&](const msg::DeviceCharge& word) { last = word; });
     return last;
   };
-  rig.device->charge(ChargeWord::kUp);  // nobody knows yet whether it can
+  rig.device->charge(ChargeCommand::kCharge);  // nobody knows yet whether it can
   msg::DeviceKicker sample{};
   sample.robot_id = kRobot;
   sample.t_ns = 20'000'000;
   sample.charge_control = sample.discharge = true;
   rig.world.samples.write(sample);
   ASSERT_TRUE(rig.device->read(kPlenty));
-  rig.device->charge(ChargeWord::kUp);
+  rig.device->charge(ChargeCommand::kCharge);
   const msg::DeviceCharge up = heard();
   EXPECT_EQ(up.word, msg::CHARGE_UP);
   EXPECT_EQ(up.robot_id, kRobot);
   EXPECT_EQ(up.seq, 1u);
   EXPECT_LE(up.t_ns, tests::steady_ns());
   EXPECT_GT(up.t_ns, tests::steady_ns() - 60'000'000'000);
-  rig.device->charge(ChargeWord::kHold);
+  rig.device->charge(ChargeCommand::kHold);
   EXPECT_EQ(heard().word, msg::CHARGE_HOLD);
   rig.device->make_safe();
   EXPECT_EQ(heard().word, msg::CHARGE_EMPTY);
-  rig.device->charge(ChargeWord::kUp);
+  rig.device->charge(ChargeCommand::kCharge);
   rig.device.reset();  // safe once more
   const msg::DeviceCharge last = heard();
   EXPECT_EQ(last.word, msg::CHARGE_EMPTY);

@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 using tests::BoxLink;
-using tests::kBoxPatience;
+using tests::kBoxTimeout;
 using tests::kWorldstate;
 using Clock = std::chrono::steady_clock;
 
@@ -61,7 +61,7 @@ TEST(RefboxClient, WhatNobodyKnowsIsAWordForTheLogAndTheNextCommandIsHeard) {
   for (const BoxFault fault : {BoxFault::kUnknown, BoxFault::kBroken, BoxFault::kStatus, BoxFault::kOverlong}) {
     link.box.act(fault);
     link.say(CommandKind::kStop);
-    const auto word = link.client->next(kBoxPatience);
+    const auto word = link.client->next(kBoxTimeout);
     ASSERT_TRUE(word && std::holds_alternative<NoCommand>(*word)) << static_cast<int>(fault);
     EXPECT_FALSE(std::get<NoCommand>(*word).why.empty());
     EXPECT_EQ(link.command(), CommandKind::kStop);
@@ -90,11 +90,11 @@ TEST(RefboxClient, ABoxThatAcknowledgesNothingMoreIsLost) {
   BoxLink link;
   link.meet();
   link.client->send(object);
-  ASSERT_TRUE(link.box.wait_for_objects(0, 1, kBoxPatience));
+  ASSERT_TRUE(link.box.wait_for_objects(0, 1, kBoxTimeout));
   link.box.act(BoxFault::kDeaf);
   const auto deaf = Clock::now();
   std::optional<Lost> lost;
-  const auto end = Clock::now() + kBoxPatience;
+  const auto end = Clock::now() + kBoxTimeout;
   while (!lost && Clock::now() < end) {
     link.client->send(object);
     if (const auto event = link.client->next(std::chrono::milliseconds{20})) {
@@ -111,11 +111,11 @@ TEST(RefboxClient, TheBoxsOwnSilenceIsNoFault) {
   BoxLink link;
   link.meet();
   link.box.act(BoxFault::kSilent);
-  const auto end = Clock::now() + 3 * tests::kAckPatience;
+  const auto end = Clock::now() + 3 * tests::kAckTimeout;
   for (std::uint64_t sent = 1; Clock::now() < end; ++sent) {
     link.client->send(kWorldstate);
     EXPECT_FALSE(link.client->next(std::chrono::milliseconds{20}));
-    ASSERT_TRUE(link.box.wait_for_objects(0, sent, kBoxPatience));
+    ASSERT_TRUE(link.box.wait_for_objects(0, sent, kBoxTimeout));
   }
   EXPECT_TRUE(link.client->connected());
   link.box.act(BoxFault::kHeal);
@@ -126,28 +126,28 @@ TEST(RefboxClient, TheBoxsOwnSilenceIsNoFault) {
 TEST(RefboxClient, ABoxThatIsNotThereIsSaidOnceAndConnectedToWhenItComes) {
   std::uint16_t port = 0;
   { port = EmulatedBox{BoxConfig{}}.port(); }
-  const auto client = refbox_client("127.0.0.1", port, {}, tests::kAckPatience);
-  const auto said = client->next(kBoxPatience);
+  const auto client = refbox_client("127.0.0.1", port, {}, tests::kAckTimeout);
+  const auto said = client->next(kBoxTimeout);
   ASSERT_TRUE(said && std::holds_alternative<Unreachable>(*said));
   EXPECT_EQ(std::get<Unreachable>(*said).why, "connection refused");
   EXPECT_FALSE(client->next(3 * RefboxClient::kRetry)) << "it was said";
   const EmulatedBox box{{.port = port}};
-  const auto met = client->next(kBoxPatience);
+  const auto met = client->next(kBoxTimeout);
   EXPECT_TRUE(met && std::holds_alternative<Connected>(*met));
 }
 
 TEST(RefboxClient, ASecondConnectionOfATeamIsTurnedAwayAndAsksAgainLater) {
   BoxLink link;
   link.meet();
-  const auto other = refbox_client("127.0.0.1", link.box.port(), {}, tests::kAckPatience);
-  EXPECT_TRUE(std::holds_alternative<Connected>(other->next(kBoxPatience).value()));
-  ASSERT_TRUE(link.box.wait_for_teams(2, kBoxPatience));
-  const auto third = refbox_client("127.0.0.1", link.box.port(), {}, tests::kAckPatience);
-  EXPECT_TRUE(std::holds_alternative<Connected>(third->next(kBoxPatience).value()));
-  const auto reset = third->next(kBoxPatience);
+  const auto other = refbox_client("127.0.0.1", link.box.port(), {}, tests::kAckTimeout);
+  EXPECT_TRUE(std::holds_alternative<Connected>(other->next(kBoxTimeout).value()));
+  ASSERT_TRUE(link.box.wait_for_teams(2, kBoxTimeout));
+  const auto third = refbox_client("127.0.0.1", link.box.port(), {}, tests::kAckTimeout);
+  EXPECT_TRUE(std::holds_alternative<Connected>(third->next(kBoxTimeout).value()));
+  const auto reset = third->next(kBoxTimeout);
   ASSERT_TRUE(reset && std::holds_alternative<Command>(*reset));
   EXPECT_EQ(std::get<Command>(*reset).kind, CommandKind::kReset);
-  EXPECT_TRUE(std::holds_alternative<Lost>(third->next(kBoxPatience).value()));
+  EXPECT_TRUE(std::holds_alternative<Lost>(third->next(kBoxTimeout).value()));
   EXPECT_FALSE(third->next(RefboxClient::kRetryTurnedAway / 2)) << "each attempt may be heard by every team";
 }
 
@@ -155,7 +155,7 @@ TEST(EmulatedBox, KnowsTeamsByTheirAddress) {
   using namespace std::string_literals;
   const EmulatedBox box{BoxConfig{}};
   const auto right = tests::connect_from("127.0.63.1", box.port());
-  ASSERT_TRUE(box.wait_for_teams(1, kBoxPatience));
+  ASSERT_TRUE(box.wait_for_teams(1, kBoxTimeout));
   EXPECT_FALSE(box.report(0).connected);
   EXPECT_TRUE(box.report(1).connected);
   EXPECT_EQ(tests::read_all(right, 1), R"({"command":"WELCOME","emulated":true,"targetTeam":"224.16.32.63"})"s + '\0');
@@ -170,7 +170,7 @@ TEST(EmulatedBox, ReportsWhatATeamSends) {
   for (int i = 0; i < 5; ++i) link.client->send(kWorldstate);
   link.client->send(R"({"type":"worldstate"})");
   link.client->send(kWorldstate);
-  ASSERT_TRUE(link.box.wait_for_objects(0, 6, kBoxPatience));
+  ASSERT_TRUE(link.box.wait_for_objects(0, 6, kBoxTimeout));
   const TeamReport report = link.box.report(0);
   EXPECT_EQ(report.objects, 6U);
   EXPECT_EQ(report.problems, 1U);

@@ -17,8 +17,8 @@
 namespace trivela::tests {
 
 /// For anything to happen at all.
-inline constexpr std::chrono::seconds kBoxPatience{20};
-inline constexpr std::chrono::milliseconds kAckPatience{400};
+inline constexpr std::chrono::seconds kBoxTimeout{20};
+inline constexpr std::chrono::milliseconds kAckTimeout{400};
 inline constexpr const char* kWorldstate =
     R"({"type":"worldstate","teamName":"t","intention":"i","ageMs":0,"robots":[],"balls":[],"obstacles":[]})";
 
@@ -30,12 +30,12 @@ class BoxLink {
   explicit BoxLink(const hal::refbox::BoxConfig& config = {})
       : box(config),
         client(hal::refbox::refbox_client("127.0.0.1", box.port(), {config.protocol, config.groups[0], {}},
-                                          kAckPatience)) {}
+                                          kAckTimeout)) {}
 
   /// The next event of this kind; words of the log in between are left out, anything else is a failure.
   template <class T>
   std::optional<T> next() {
-    const auto end = Clock::now() + kBoxPatience;
+    const auto end = Clock::now() + kBoxTimeout;
     while (Clock::now() < end) {
       const auto event = client->next(std::chrono::milliseconds{50});
       if (!event) continue;
@@ -87,7 +87,7 @@ inline std::string read_all(const hal::Descriptor& socket, std::size_t most_byte
   std::string all, why;
   std::array<char, 4096> bytes;
   while (all.size() < most_bytes) {
-    const auto count = socket.read(bytes, BoxLink::Clock::now() + kBoxPatience, why);
+    const auto count = socket.read(bytes, BoxLink::Clock::now() + kBoxTimeout, why);
     if (!count || *count == 0) return all;
     all.append(bytes.data(), *count);
   }

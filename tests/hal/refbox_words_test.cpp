@@ -149,7 +149,7 @@ TEST(RefboxLetters, OfBothTeamsMeanOneThingEach) {
 }
 
 TEST(RefboxWordStream, ReadsObjectsAcrossReads) {
-  WordStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
+  CommandStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
   EXPECT_TRUE(objects.add(R"({"command":"KICK)").empty());
   const auto words =
       objects.add(R"(OFF","targetTeam":"224.16.32.39"})"s + '\0' + R"({"command":"START","targetTeam":""})" + '\0');
@@ -162,7 +162,7 @@ TEST(RefboxWordStream, ReadsObjectsAcrossReads) {
 }
 
 TEST(RefboxWordStream, WhoHearsLettersObeysNoneOfAnObject) {
-  WordStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
+  CommandStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
   EXPECT_EQ(letters.add("S").size(), 1U);
   EXPECT_FALSE(letters.wrong_protocol());
   EXPECT_EQ(letters.add(R"(S{"command":"SUBSTITUTION","targetTeam":"","s)").size(), 1U);
@@ -171,7 +171,7 @@ TEST(RefboxWordStream, WhoHearsLettersObeysNoneOfAnObject) {
 }
 
 TEST(RefboxWordStream, WhoHearsObjectsSaysOnceThatItBeganWithNone) {
-  WordStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
+  CommandStream objects{{Protocol::kJson, kGroup, Colour::kCyan}};
   EXPECT_TRUE(objects.add("\0\n"s).empty());
   const auto words = objects.add("W");
   ASSERT_EQ(words.size(), 1U);
@@ -180,7 +180,7 @@ TEST(RefboxWordStream, WhoHearsObjectsSaysOnceThatItBeganWithNone) {
 }
 
 TEST(RefboxWordStream, ReadsLettersAcrossReads) {
-  WordStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
+  CommandStream letters{{Protocol::kLetters, "", Colour::kMagenta}};
   const auto told = letters.add("k\r\n\0s"s);
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(command_of(told[0]), (Command{CommandKind::kKickOff, Side::kOurs, {}}));

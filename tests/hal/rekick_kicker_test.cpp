@@ -6,7 +6,7 @@
 namespace trivela::hal::rekick {
 namespace {
 
-using tests::kPatience;
+using tests::kTimeout;
 using tests::steady_ns;
 using tests::until_armed;
 using tests::until_link_fault;
@@ -20,7 +20,7 @@ class ReKickKickerTest : public testing::Test {
     return tests::kicker_on(std::make_unique<ReKick>(can::can_line(settings.port), settings));
   }
   bool wait_for_pulses(std::size_t n) {
-    return emulator_.wait(kPatience, [=](const EmulatedBoard& board) { return board.pulses().size() >= n; });
+    return emulator_.wait(kTimeout, [=](const EmulatedBoard& board) { return board.pulses().size() >= n; });
   }
   std::uint64_t kicks_told() {
     std::uint64_t told = 0;
@@ -33,7 +33,7 @@ class ReKickKickerTest : public testing::Test {
 
 TEST_F(ReKickKickerTest, FiresOnceAtItsInstantAndNotBefore) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience)) << kicker->status();
+  ASSERT_TRUE(kicker->connected(kTimeout)) << kicker->status();
   const std::int64_t t_ns = steady_ns() + 60 * kMs;
   kicker->fire({1, 30.0, t_ns});
   ASSERT_TRUE(wait_for_pulses(1));
@@ -78,7 +78,7 @@ TEST_F(ReKickKickerTest, ItsErrorFlagIsAFaultForAsLongAsItStands) {
 
 TEST_F(ReKickKickerTest, NothingLeavesAfterItIsSafe) {
   const auto kicker = open();
-  ASSERT_TRUE(kicker->connected(kPatience));
+  ASSERT_TRUE(kicker->connected(kTimeout));
   kicker->fire({1, 30.0, steady_ns() + 30 * kMs});
   kicker->make_safe();
   kicker->fire({2, 30.0, steady_ns()});
@@ -116,7 +116,7 @@ TEST_F(ReKickKickerTest, TellsTheVoltageAgainToABoardThatWasReset) {
   const auto kicker = open();
   ASSERT_TRUE(until_armed(*kicker));
   emulator_.with_board([](EmulatedBoard& board) { board.say(from_board({0xF4, 3})); });
-  EXPECT_TRUE(emulator_.wait(kPatience, [](const EmulatedBoard& board) { return board.voltages_told() == 2; }));
+  EXPECT_TRUE(emulator_.wait(kTimeout, [](const EmulatedBoard& board) { return board.voltages_told() == 2; }));
   EXPECT_TRUE(tests::until_status_says(*kicker, "the board was reset: watchdog"));
 }
 

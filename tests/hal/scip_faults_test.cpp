@@ -158,7 +158,7 @@ TEST(ScipFaults, AnotherScannerOnTheSameLineIsRefused) {
       emulated, [geometry = emulated.geometry] { return tests::numbered_scan(0, geometry); });
   auto finder = open_range_finder(emulator->address());
   const auto read_until = [&](auto done) {
-    for (const auto end = Clock::now() + tests::kPatience; Clock::now() < end && !done();)
+    for (const auto end = Clock::now() + tests::kTimeout; Clock::now() < end && !done();)
       finder->read(milliseconds(50));
     return done();
   };

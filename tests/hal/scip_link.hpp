@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 /// No call of a range finder may take longer; a loaded machine may wake it late.
 inline constexpr milliseconds kLongestCall{1200};
 /// For anything to happen at all.
-inline constexpr std::chrono::seconds kPatience{20};
+inline constexpr std::chrono::seconds kTimeout{20};
 
 /// Ranges that tell the scans apart: beam i of scan n is 1000 + n + i millimetres; beam 0 an error code, n mod 20.
 inline kicking::lob::Scan numbered_scan(std::uint32_t n, const kicking::lob::ScanGeometry& geometry) {
@@ -80,7 +80,7 @@ class ScipLink {
   /// Reads until `done`; false: it did not happen.
   template <class Condition>
   bool until(Condition done) {
-    for (const auto end = Clock::now() + kPatience; Clock::now() < end;) {
+    for (const auto end = Clock::now() + kTimeout; Clock::now() < end;) {
       if (done()) return true;
     }
     return false;

@@ -9,9 +9,9 @@
 namespace trivela::sim {
 namespace {
 
-TEST(RefereeWord, CountsEachStartAndStopOfPlayOnce) {
+TEST(RefereeState, CountsEachStartAndStopOfPlayOnce) {
   const Record record = play({}, 3, 2, 0.2, idle);
-  RefereeWord before = record.sensors.front().referee;
+  RefereeState before = record.sensors.front().referee;
   EXPECT_EQ(before.commands, 1U) << "the stop that a match begins with";
   int changes = 0;
   for (const Sensors& now : record.sensors) {
@@ -25,7 +25,7 @@ TEST(RefereeWord, CountsEachStartAndStopOfPlayOnce) {
   EXPECT_GT(changes, 10);
 }
 
-TEST(RefereeWord, TheClockOfAHalfRunsFromItsFirstStartThroughStops) {
+TEST(RefereeState, TheClockOfAHalfRunsFromItsFirstStartThroughStops) {
   const Record record = play({}, 3, 2, 0.2, idle);
   std::int64_t began_ns = -1;
   int half = 0, stops = 0;
@@ -45,7 +45,7 @@ TEST(RefereeWord, TheClockOfAHalfRunsFromItsFirstStartThroughStops) {
   EXPECT_GT(stops, 0);
 }
 
-TEST(RefereeWord, AGoalIsABallOnTargetThatNobodySaved) {
+TEST(RefereeState, AGoalIsABallOnTargetThatNobodySaved) {
   Scenario scenario = alone();
   scenario.possession.goal_distance_max_m = 5.0;
   scenario.possession.aim_error_sd_rad = 0.05;
@@ -63,7 +63,7 @@ TEST(RefereeWord, AGoalIsABallOnTargetThatNobodySaved) {
 }
 
 TEST(RefereeMessage, AnnouncesASetPieceOfOursAsAKickOffAndThenAsFreeKicks) {
-  RefereeWord word{.half = 2, .possession_id = 1, .half_s = {}, .set_piece = true};
+  RefereeState word{.half = 2, .possession_id = 1, .half_s = {}, .set_piece = true};
   EXPECT_EQ(hal::referee_message(7, word).restart, msg::RESTART_KICKOFF);
   EXPECT_TRUE(hal::referee_message(7, word).ours);
   word.possession_id = 2;
@@ -71,7 +71,7 @@ TEST(RefereeMessage, AnnouncesASetPieceOfOursAsAKickOffAndThenAsFreeKicks) {
 }
 
 TEST(RefereeMessage, SaysTheStageOfTheHalfAndAnnouncesNothing) {
-  const RefereeWord word{.half = 2, .playing = true, .possession_id = 9, .goals = 3, .commands = 4, .half_s = 1.5};
+  const RefereeState word{.half = 2, .playing = true, .possession_id = 9, .goals = 3, .commands = 4, .half_s = 1.5};
   const msg::Referee message = hal::referee_message(7, word);
   EXPECT_EQ(message.t_ns, 7);
   EXPECT_EQ(message.half, 2);
@@ -84,7 +84,7 @@ TEST(RefereeMessage, SaysTheStageOfTheHalfAndAnnouncesNothing) {
   EXPECT_EQ(message.goals_other, 0);
   EXPECT_EQ(message.command_counter, 4U);
   EXPECT_EQ(message.half_time_s, 1.5);
-  RefereeWord other;
+  RefereeState other;
   EXPECT_TRUE(std::isnan(hal::referee_message(0, other).half_time_s));
   other.half = 5;
   EXPECT_EQ(hal::referee_message(0, other).stage, msg::STAGE_UNKNOWN) << "an experiment's fifth half has no name";

@@ -9,8 +9,8 @@
 #include "kicking/ballistics/drag.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
-#include "kicking/lob/effective_fit.hpp"
-#include "kicking/lob/true_fit.hpp"
+#include "kicking/lob/fit/effective_fit.hpp"
+#include "kicking/lob/fit/true_fit.hpp"
 #include "kicking/random/draws.hpp"
 #include "tests/kicking/reference_laws.hpp"
 

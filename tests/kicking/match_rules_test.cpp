@@ -17,16 +17,16 @@ using tests::ready_at;
 
 constexpr double kBrake_mps2 = 2.5;
 
-CarryReach reach_of_three_metres(const Eigen::Vector2d& taken_m = {0, 0}) {
+DribbleLimit reach_of_three_metres(const Eigen::Vector2d& taken_m = {0, 0}) {
   return {3.0 - 0.3 - 0.27, kBrake_mps2, taken_m};
 }
 
-TEST(CarryReach, LeavesACommandAloneWhereNothingIsForbidden) {
+TEST(DribbleLimit, LeavesACommandAloneWhereNothingIsForbidden) {
   const Twist command{0.3, 2.0, 1.0};
-  EXPECT_EQ(CarryReach{}.keep(command, {50, 50}, {0, 1}).vy_mps, 2.0);
+  EXPECT_EQ(DribbleLimit{}.keep(command, {50, 50}, {0, 1}).vy_mps, 2.0);
 }
 
-TEST(CarryReach, LetsARobotGoAsFastAsItCanStillBrake) {
+TEST(DribbleLimit, LetsARobotGoAsFastAsItCanStillBrake) {
   // 3 m less the margin and the ball's distance from the centre are 2.43 m, of which 0.43 m are left.
   const Twist kept = reach_of_three_metres().keep({0, 2.0, 0.5}, {0, 2.0}, {0, 1});
   EXPECT_NEAR(kept.vy_mps, std::sqrt(2 * kBrake_mps2 * 0.43), 1e-12);
@@ -34,8 +34,8 @@ TEST(CarryReach, LetsARobotGoAsFastAsItCanStillBrake) {
   EXPECT_EQ(kept.omega_radps, 0.5);
 }
 
-TEST(CarryReach, ForbidsOnlyWhatLeadsAway) {
-  const CarryReach reach = reach_of_three_metres();
+TEST(DribbleLimit, ForbidsOnlyWhatLeadsAway) {
+  const DribbleLimit reach = reach_of_three_metres();
   // At the edge, facing along it, then facing back.
   const Twist along = reach.keep({0, 1.5, 0}, {2.43, 0}, {0, 1});
   EXPECT_NEAR(along.vy_mps, 1.5, 1e-12);
@@ -45,8 +45,8 @@ TEST(CarryReach, ForbidsOnlyWhatLeadsAway) {
   EXPECT_NEAR(out.vy_mps, 0.0, 1e-12);
 }
 
-TEST(CarryReach, NeverLeavesAVelocityThatCannotBeBrakedInTime) {
-  const CarryReach reach = reach_of_three_metres({0.4, -0.2});
+TEST(DribbleLimit, NeverLeavesAVelocityThatCannotBeBrakedInTime) {
+  const DribbleLimit reach = reach_of_three_metres({0.4, -0.2});
   for (double place_rad = 0.0; place_rad < 6.3; place_rad += 0.7)
     for (double heading_rad = 0.0; heading_rad < 6.3; heading_rad += 0.9)
       for (double carried_m : {0.01, 0.8, 1.9, 2.4, 2.43, 3.2}) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kicking/policy/predictive/outlook.hpp"
+#include "kicking/policy/predictive/lookahead_search.hpp"
 #include "tests/kicking/play.hpp"
 
 namespace trivela::kicking {

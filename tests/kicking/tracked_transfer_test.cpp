@@ -39,16 +39,16 @@ TEST(TrackedTransfer, FindsTheConstantsInTheSpeedsOfTheDragFreeLaw) {
   EXPECT_NEAR(fit.forward->rms, 0.0, 1e-9);
 }
 
-// 400 evenings of 24 kicks: unbiased although the robot's belief of its speed has an error of 0.1 m/s, and the standard
-// error covers.
+// 400 calibrations of 24 kicks: unbiased although the robot's belief of its speed has an error of 0.1 m/s, and the
+// standard error covers.
 TEST(TrackedTransfer, CoversWithErrorsInWhatTheRobotBelieves) {
   std::mt19937_64 random{7};
   std::normal_distribution<double> normal;
   const double effective = kV0_mps * std::cos(kTheta) / (kC * 5.0);
   int covered = 0;
   double sum = 0.0;
-  constexpr int kEvenings = 400;
-  for (int i = 0; i < kEvenings; ++i) {
+  constexpr int kCalibrations = 400;
+  for (int i = 0; i < kCalibrations; ++i) {
     std::vector<TransferRow> rows;
     for (const double v : {0.0, 0.0, 0.5, 1.0}) {
       for (int kick = 0; kick < 12; ++kick) {
@@ -61,9 +61,9 @@ TEST(TrackedTransfer, CoversWithErrorsInWhatTheRobotBelieves) {
     sum += fit.forward->exact.value;
     covered += std::abs(fit.forward->exact.value - effective) < 1.96 * fit.forward->exact.se ? 1 : 0;
   }
-  EXPECT_NEAR(sum / kEvenings, effective, 0.004) << "three standard errors of the mean";
-  EXPECT_GE(covered, 0.92 * kEvenings);
-  EXPECT_LE(covered, 0.99 * kEvenings);
+  EXPECT_NEAR(sum / kCalibrations, effective, 0.004) << "three standard errors of the mean";
+  EXPECT_GE(covered, 0.92 * kCalibrations);
+  EXPECT_LE(covered, 0.99 * kCalibrations);
 }
 
 TEST(TrackedTransfer, NeedsKicksAtRest) {

@@ -28,13 +28,13 @@ class Board : public testing::Test {
     census.readers = {
         {"kick_order", "", 0, false, base}, {"kick_order", "", 0, false, base}, {"kick_order", "", 0, true, standby}};
   }
-  BusBoard board(std::optional<std::uint8_t> only = {}) const {
-    BusBoard made{"robot", only};
+  BusSnapshot board(std::optional<std::uint8_t> only = {}) const {
+    BusSnapshot made{"robot", only};
     made.add("kick_order", "order", 0.0);
     made.add("referee", "state", 0.1);
     return made;
   }
-  BusPicture look(BusBoard& at, std::int64_t now_ns = kSecond) const {
+  BusPicture look(BusSnapshot& at, std::int64_t now_ns = kSecond) const {
     return at.look(census, now_ns, [this](std::int64_t pid) -> std::optional<ProcessReading> {
       if (ended.contains(pid)) return std::nullopt;
       return ProcessReading{pid * 4096, 1.0};
@@ -54,7 +54,7 @@ class Board : public testing::Test {
 };
 
 TEST_F(Board, HasEveryTopicOfTheListInItsOrder) {
-  BusBoard empty = board();
+  BusSnapshot empty = board();
   const BusPicture picture = empty.look({}, 0, [](std::int64_t) { return std::nullopt; });
   EXPECT_THAT(picture.topics,
               ElementsAre(Field(&TopicPicture::topic, "kick_order"), Field(&TopicPicture::topic, "referee")));
@@ -62,7 +62,7 @@ TEST_F(Board, HasEveryTopicOfTheListInItsOrder) {
 }
 
 TEST_F(Board, NamesWritersWithStrengthAndReadersOnceWithoutThoseThatLookOn) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   const BusPicture picture = look(full);
   EXPECT_THAT(picture.topics[0].writers,
               ElementsAre(WriterPicture{"kick_decision/1", "robot", 11, 5, WriterState::kThere},
@@ -72,12 +72,12 @@ TEST_F(Board, NamesWritersWithStrengthAndReadersOnceWithoutThoseThatLookOn) {
 
 TEST_F(Board, NamesAWriterWithoutOwnerByItsProgram) {
   census.writers = {writer("referee", "", base)};
-  BusBoard full = board();
+  BusSnapshot full = board();
   EXPECT_EQ(look(full).topics[1].writers[0].owner, "refbox");
 }
 
 TEST_F(Board, SeesThatAWriterWasKilledBeforeTheDomainForgetsIt) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   look(full);
   ended = {11};
   const BusPicture picture = look(full);
@@ -86,7 +86,7 @@ TEST_F(Board, SeesThatAWriterWasKilledBeforeTheDomainForgetsIt) {
 }
 
 TEST_F(Board, StillNamesAWriterThatLeftAndOneThatCameInItsPlace) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   look(full);
   census.writers = {writer("kick_order", "kick_decision/1", {"robot", "trivela-kick_decision", 13, ""}, 5)};
   const BusPicture picture = look(full);
@@ -95,7 +95,7 @@ TEST_F(Board, StillNamesAWriterThatLeftAndOneThatCameInItsPlace) {
 }
 
 TEST_F(Board, KeepsFewOfManyThatLeft) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   for (std::int64_t pid = 100; pid < 200; ++pid) {
     census.writers = {writer("referee", "refbox", {"base", "trivela-refbox", pid, ""})};
     look(full);
@@ -104,7 +104,7 @@ TEST_F(Board, KeepsFewOfManyThatLeft) {
 }
 
 TEST_F(Board, ShowsOneRobotOfATeam) {
-  BusBoard second = board(2);
+  BusSnapshot second = board(2);
   second.hear("kick_order", 1, {1, 1, 0, 0, kSecond, kSecond});
   second.hear("kick_order", 2, {2, 1, 0, 0, kSecond, kSecond});
   const BusPicture picture = look(second);
@@ -115,7 +115,7 @@ TEST_F(Board, ShowsOneRobotOfATeam) {
 }
 
 TEST_F(Board, DoesNotGrowWithStrangersNumbersAndTopics) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   for (int robot = 0; robot < 256; ++robot)
     full.hear("referee", static_cast<std::uint8_t>(robot), {1, 1, 0, 0, kSecond, kSecond});
   full.hear("no_such_topic", 1, {1, 1, 0, 0, kSecond, kSecond});
@@ -123,7 +123,7 @@ TEST_F(Board, DoesNotGrowWithStrangersNumbersAndTopics) {
 }
 
 TEST_F(Board, HasTheMemoryOfThisMachinesProcessesAlone) {
-  BusBoard full = board();
+  BusSnapshot full = board();
   const BusPicture picture = look(full);
   ASSERT_THAT(picture.processes, SizeIs(3));
   EXPECT_EQ(picture.processes[0].load->memory_bytes, 11 * 4096);

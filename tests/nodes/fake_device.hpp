@@ -95,7 +95,7 @@ struct KickerFarSide : FarSide<hal::KickerSample, Fired> {
   std::atomic<bool> safe = false;
   std::atomic<std::int64_t> withdrawn = 0;  ///< kick_id that was called off last
   std::atomic<hal::KickerCapabilities> can{};
-  std::atomic<hal::ChargeWord> told = hal::ChargeWord::kHold;  ///< the capacitor, last
+  std::atomic<hal::ChargeCommand> told = hal::ChargeCommand::kHold;  ///< the capacitor, last
 
   std::atomic<double> most_power = 1e9;
 
@@ -177,7 +177,7 @@ class FakeKicker : public hal::Kicker {
     return power > far_side_->most_power ? "it has no such pulse" : std::string{};
   }
   void make_safe() noexcept override { far_side_->safe = true; }
-  void charge(hal::ChargeWord word) override { far_side_->told = word; }
+  void charge(hal::ChargeCommand word) override { far_side_->told = word; }
   hal::KickerCapabilities capabilities() const override { return far_side_->can; }
   std::string status() const override { return far_side_->link(); }
 

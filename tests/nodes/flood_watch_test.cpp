@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 
-constexpr milliseconds kGlance{2}, kGrace{20};
+constexpr milliseconds kPollInterval{2}, kGrace{20};
 constexpr std::uint32_t kNoLimit_mb = 100'000;
 
 void tell(const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); }
@@ -25,7 +25,7 @@ void tell(const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); }
 TEST(FloodWatch, EndsAProcessThatDoesNotStopWhenToldTo) {
   const auto grow = [] {
     bus::Stop stop;
-    const FloodWatch watch{1, stop, tell, kGlance, kGrace};
+    const FloodWatch watch{1, stop, tell, kPollInterval, kGrace};
     for (;;) pause();
   };
   EXPECT_EXIT(grow(), testing::ExitedWithCode(1), "takes .* MB of memory, more than run.memory_limit_mb = 1: ends");
@@ -35,7 +35,7 @@ TEST(FloodWatch, RequestsTheStopBeyondItsLimitAndSaysWhatTheProcessTook) {
   bus::Stop stop;
   std::string told;
   {
-    const FloodWatch watch{1, stop, [&told](const std::string& why) { told = why; }, kGlance};
+    const FloodWatch watch{1, stop, [&told](const std::string& why) { told = why; }, kPollInterval};
     stop.wait();
     EXPECT_TRUE(watch.ended());
   }
@@ -44,8 +44,8 @@ TEST(FloodWatch, RequestsTheStopBeyondItsLimitAndSaysWhatTheProcessTook) {
 
 TEST(FloodWatch, LeavesAProcessBelowItsLimitAlone) {
   bus::Stop stop;
-  const FloodWatch watch{kNoLimit_mb, stop, tell, kGlance, kGrace};
-  EXPECT_FALSE(stop.wait_until(std::chrono::steady_clock::now() + 50 * kGlance));
+  const FloodWatch watch{kNoLimit_mb, stop, tell, kPollInterval, kGrace};
+  EXPECT_FALSE(stop.wait_until(std::chrono::steady_clock::now() + 50 * kPollInterval));
   EXPECT_FALSE(watch.ended());
 }
 
@@ -61,7 +61,7 @@ std::jthread handshakes(Turn turn) {
 TEST(FloodWatch, EndsAProcessWhoseHandshakesDoNotComeRound) {
   const auto turn = [] {
     bus::Stop stop;
-    const FloodWatch watch{kNoLimit_mb, stop, tell, kGlance, kGrace};
+    const FloodWatch watch{kNoLimit_mb, stop, tell, kPollInterval, kGrace};
     const std::jthread stuck = handshakes([] {});
     for (;;) pause();
   };
@@ -70,14 +70,14 @@ TEST(FloodWatch, EndsAProcessWhoseHandshakesDoNotComeRound) {
 
 TEST(FloodWatch, LeavesHandshakesThatWaitNowAndThenAlone) {
   bus::Stop stop;
-  const FloodWatch watch{kNoLimit_mb, stop, tell, kGlance, kGrace};
+  const FloodWatch watch{kNoLimit_mb, stop, tell, kPollInterval, kGrace};
   const std::jthread busy = handshakes([&stop] {
     const auto now = std::chrono::steady_clock::now();
-    while (std::chrono::steady_clock::now() < now + 3 * kGlance) {
+    while (std::chrono::steady_clock::now() < now + 3 * kPollInterval) {
     }
-    stop.wait_until(std::chrono::steady_clock::now() + kGlance);
+    stop.wait_until(std::chrono::steady_clock::now() + kPollInterval);
   });
-  EXPECT_FALSE(stop.wait_until(std::chrono::steady_clock::now() + 100 * kGlance));
+  EXPECT_FALSE(stop.wait_until(std::chrono::steady_clock::now() + 100 * kPollInterval));
   EXPECT_FALSE(watch.ended());
 }
 
@@ -86,7 +86,7 @@ TEST(FloodWatch, LeavesHandshakesThatWaitNowAndThenAlone) {
 TEST(FloodWatch, GivesBackWhatAFloodLeftInPieces) {
   constexpr std::int64_t kMb = 1 << 20;
   bus::Stop stop;
-  const FloodWatch watch{kNoLimit_mb, stop, tell, kGlance, kGrace};
+  const FloodWatch watch{kNoLimit_mb, stop, tell, kPollInterval, kGrace};
   const std::int64_t before = resident_bytes();
   std::vector<std::vector<char>> strangers;
   for (int i = 0; i < 100'000; ++i) strangers.emplace_back(1000, 'x');
@@ -94,7 +94,7 @@ TEST(FloodWatch, GivesBackWhatAFloodLeftInPieces) {
   for (std::size_t i = 0; i + 1 < strangers.size(); ++i)
     std::vector<char>().swap(strangers[i]);  // the last keeps all below it
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{30};
-  while (resident_bytes() > before + 40 * kMb && !stop.wait_until(std::chrono::steady_clock::now() + kGlance))
+  while (resident_bytes() > before + 40 * kMb && !stop.wait_until(std::chrono::steady_clock::now() + kPollInterval))
     ASSERT_LT(std::chrono::steady_clock::now(), end) << (resident_bytes() - before) / kMb << " MB stayed";
 }
 #endif

@@ -9,7 +9,7 @@ namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-using hal::ChargeWord;
+using hal::ChargeCommand;
 
 /// The driver of a kicker that can be told what its capacitor shall do.
 class KickerCharge : public NodeTest {
@@ -54,11 +54,11 @@ class KickerCharge : public NodeTest {
 TEST_F(KickerCharge, IsToldWithEachSampleAndToEmptyWhenTheProgramEnds) {
   start();
   ASSERT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_CHARGING; }, 0.2, 100.0));
-  EXPECT_EQ(kicker->told, ChargeWord::kUp);
+  EXPECT_EQ(kicker->told, ChargeCommand::kCharge);
   EXPECT_EQ(sample(1.0, 300.0).state, msg::STATE_READY);
   running.reset();
   node.reset();
-  EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
+  EXPECT_EQ(kicker->told, ChargeCommand::kDischarge);
   EXPECT_TRUE(kicker->safe);
 }
 
@@ -75,7 +75,7 @@ TEST_F(KickerCharge, IsEmptiedWhenTheDecisionNodeHasGone) {
   };
   ASSERT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0));
   EXPECT_TRUE(goes_on_until(drives(stranger, msg::STATE_OFF), 1.0, 300.0)) << "somebody else is no comfort";
-  EXPECT_EQ(kicker->told, ChargeWord::kEmpty);
+  EXPECT_EQ(kicker->told, ChargeCommand::kDischarge);
   EXPECT_TRUE(log_lines->wait_for("the decision node is gone"));
   EXPECT_TRUE(goes_on_until(drives(decision, msg::STATE_READY), 1.0, 300.0)) << "it is back";
 }
@@ -85,10 +85,10 @@ TEST_F(KickerCharge, IsNotToldToChargeBeforeADecisionNodeWasHeard) {
   start();
   ASSERT_TRUE(goes_on_until([](const auto& s) { return s.armed; }, 0.2, 100.0));
   EXPECT_EQ(sample(1.0, 300.0).state, msg::STATE_OFF);
-  EXPECT_EQ(kicker->told, ChargeWord::kHold);
+  EXPECT_EQ(kicker->told, ChargeCommand::kHold);
   decides = true;
   EXPECT_TRUE(goes_on_until([](const auto& s) { return s.state == msg::STATE_READY; }, 1.0, 300.0));
-  EXPECT_EQ(kicker->told, ChargeWord::kUp);
+  EXPECT_EQ(kicker->told, ChargeCommand::kCharge);
 }
 
 TEST_F(KickerCharge, EndsWhereTheVoltageDoesNotRise) {
@@ -98,7 +98,7 @@ TEST_F(KickerCharge, EndsWhereTheVoltageDoesNotRise) {
   const msg::KickerStatus said = sample(0.2, 100.0);
   EXPECT_EQ(said.fault, msg::FAULT_CHARGER);
   EXPECT_EQ(said.voltage_v, 100.0);
-  EXPECT_EQ(kicker->told, ChargeWord::kHold);
+  EXPECT_EQ(kicker->told, ChargeCommand::kHold);
 }
 
 TEST_F(KickerCharge, ADemandedCapabilityThatIsLackingIsRefused) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "evaluator/report/log_drift.hpp"
+#include "evaluator/drift_report/log_drift.hpp"
 #include "experiment/run/experiment.hpp"
 #include "nodes/kicker_drift/kicker_drift_node.hpp"
 #include "tests/nodes/node_fixture.hpp"

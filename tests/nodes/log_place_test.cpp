@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "nodes/runtime/node_context.hpp"
 #include "robot/recording/predecessor.hpp"
@@ -15,9 +15,9 @@
 namespace trivela::nodes {
 namespace {
 
-using evaluator::log::Reader;
-using evaluator::log::Session;
-using evaluator::log::Writer;
+using log::Reader;
+using log::Session;
+using log::Writer;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;

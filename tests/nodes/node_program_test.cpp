@@ -9,11 +9,11 @@
 #include <fstream>
 #include <limits>
 
-#include "bus/process.hpp"
+#include "bus/domain/process.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "evaluator/log/reader.hpp"
 #include "idl/messages.hpp"
+#include "log/read/reader.hpp"
 #include "tests/bus/test_domain.hpp"
 #include "tests/nodes/notify_socket.hpp"
 #include "tests/nodes/spawned.hpp"
@@ -108,7 +108,7 @@ TEST_F(NodeProgramTest, SigtermEndsTheRecorderWithAFinalisedLog) {
   node.send(SIGTERM);
   EXPECT_EQ(node.exit_code(), 0) << node.said();
   EXPECT_THAT(node.said(), HasSubstr("recorded 0 rows"));
-  const evaluator::log::Reader log{folder / "out.db"};
+  const log::Reader log{folder / "out.db"};
   ASSERT_EQ(log.sessions().size(), 1u);
   EXPECT_TRUE(log.sessions()[0].closed_t_ns);
 }
@@ -120,7 +120,7 @@ TEST_F(NodeProgramTest, OneThatTakesMoreMemoryThanItMayEndsByItself) {
     EXPECT_EQ(node.exit_code(), 1);
     EXPECT_THAT(node.said(), HasSubstr("more than run.memory_limit_mb = 8: ends, to be started again"));
   }
-  const evaluator::log::Reader log{folder / "out.db"};
+  const log::Reader log{folder / "out.db"};
   ASSERT_EQ(log.sessions().size(), 1u);
   EXPECT_TRUE(log.sessions()[0].closed_t_ns) << "it ends as it does when told to";
 }

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "config/settings.hpp"
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/temporary_folder.hpp"
 
@@ -16,43 +16,43 @@ namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-using evaluator::log::Loss;
-using evaluator::log::Value;
+using log::Loss;
+using log::Value;
 using ::testing::HasSubstr;
 
 class RecorderNodeTest : public NodeTest {
  protected:
-  static evaluator::log::WriterOptions quick() {
-    evaluator::log::WriterOptions options;
+  static log::WriterOptions quick() {
+    log::WriterOptions options;
     options.group_commit_s = 0.01;
     options.warn = [](const std::string&) {};
     return options;
   }
   void start(Executor::Kind kind = Executor::kListener) {
-    log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+    log.emplace(folder / "match.db", log::Session{}, quick());
     node.emplace(context, *log);
     running.emplace(kind, stop, std::vector<bus::Node*>{&node->node()});
   }
   /// Stops the recorder and opens its log.
-  evaluator::log::Reader read() {
+  log::Reader read() {
     running.reset();
     log->finalise();
-    return evaluator::log::Reader{folder / "match.db"};
+    return log::Reader{folder / "match.db"};
   }
-  static std::int64_t count(const evaluator::log::Reader& reader, const std::string& what) {
+  static std::int64_t count(const log::Reader& reader, const std::string& what) {
     std::int64_t n = 0;
     reader.query("SELECT count(*) FROM " + what,
                  [&](std::span<const Value> row) { n = std::get<std::int64_t>(row[0]); });
     return n;
   }
-  static Loss loss(const evaluator::log::Reader& reader, const std::string& stream) {
+  static Loss loss(const log::Reader& reader, const std::string& stream) {
     for (const auto& each : reader.losses())
       if (each.stream == stream) return each;
     return {};
   }
 
   TemporaryFolder folder;
-  std::optional<evaluator::log::Writer> log;
+  std::optional<log::Writer> log;
   std::optional<RecorderNode> node;
   std::optional<Running> running;
 };
@@ -296,7 +296,7 @@ msg::Odometry odometry_of(std::int64_t t_ns) {
 }
 
 /// The rows of silences, as "stream robot from to".
-std::vector<std::string> silences(const evaluator::log::Reader& reader) {
+std::vector<std::string> silences(const log::Reader& reader) {
   std::vector<std::string> rows;
   reader.query(
       "SELECT stream, robot_id, from_t_ns, to_t_ns FROM losses WHERE robot_id > 0 ORDER BY from_t_ns",
@@ -315,7 +315,7 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
   odometry(odometry_of(1020 * kMs));
   EXPECT_TRUE(log_lines->wait_for("no odometry of robot 3 for"));
   log->flush();  // as a killed recorder leaves it
-  EXPECT_THAT(silences(evaluator::log::Reader{folder / "match.db"}), testing::ElementsAre("odometry 3 1020000000 -"));
+  EXPECT_THAT(silences(log::Reader{folder / "match.db"}), testing::ElementsAre("odometry 3 1020000000 -"));
   odometry(odometry_of(2260 * kMs));
   EXPECT_TRUE(log_lines->wait_for("odometry of robot 3 back after 1.24 s"));
   EXPECT_THAT(silences(read()), testing::Contains("odometry 3 1020000000 2260000000"));
@@ -324,7 +324,7 @@ TEST_F(RecorderNodeTest, ASilenceIsARowWhileItLastsAndHasItsEndThen) {
 TEST_F(RecorderNodeTest, AWordToACoilThatNoDriverAnswersForIsNoted) {
   std::atomic<std::int64_t> now_ns{1'000'000'000};
   context.steady_ns = [&now_ns] { return now_ns.load(); };
-  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  log.emplace(folder / "match.db", log::Session{}, quick());
   auto state = std::make_shared<RecordingState>();
   state->log = folder / "match.db";
   node.emplace(context, *log, state);
@@ -343,12 +343,11 @@ TEST_F(RecorderNodeTest, AWordToACoilThatNoDriverAnswersForIsNoted) {
   receipt.kick_id = 1;
   receipt.accepted = true;
   driver(receipt);
-  while (log->flush(), count(evaluator::log::Reader{folder / "match.db"}, "kick_receipts") == 0)
-    std::this_thread::yield();
+  while (log->flush(), count(log::Reader{folder / "match.db"}, "kick_receipts") == 0) std::this_thread::yield();
   coil(fire(1));
   coil(fire(2));
   while (log_lines->count("told the coil (device/fire) to kick 2 with power 20") == 0) {
-    now_ns += robot::FireWatch::kPatience_ns;
+    now_ns += robot::FireWatch::kTimeout_ns;
     std::this_thread::yield();
   }
   const auto reader = read();
@@ -374,7 +373,7 @@ TEST(FireWatch, AFloodOfWordsIsToldEachTenSecondsAndFillsNoMemory) {
 }
 
 TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
-  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  log.emplace(folder / "match.db", log::Session{}, quick());
   const auto state = std::make_shared<RecordingState>();
   Says<msg::Odometry> odometry{participant};
   {
@@ -392,7 +391,7 @@ TEST_F(RecorderNodeTest, ANodeThatJoinsTheBusAnewKnowsWhatWasSilent) {
 }
 
 TEST_F(RecorderNodeTest, RowsGoOnWhereANodeJoinsTheBusAnewAfterAWriterWasStartedAnew) {
-  log.emplace(folder / "match.db", evaluator::log::Session{}, quick());
+  log.emplace(folder / "match.db", log::Session{}, quick());
   const auto state = std::make_shared<RecordingState>();
   std::optional<Says<msg::Odometry>> odometry{std::in_place, participant};
   const auto recorded = [&](std::size_t rows) {
@@ -400,7 +399,7 @@ TEST_F(RecorderNodeTest, RowsGoOnWhereANodeJoinsTheBusAnewAfterAWriterWasStarted
     std::int64_t n = 0;
     while (n < static_cast<std::int64_t>(rows) && std::chrono::steady_clock::now() < deadline) {
       log->flush();
-      n = count(evaluator::log::Reader{folder / "match.db"}, "odometry");
+      n = count(log::Reader{folder / "match.db"}, "odometry");
     }
     return n;
   };

@@ -10,7 +10,7 @@ namespace trivela::nodes {
 namespace {
 
 using bus::Executor;
-using evaluator::log::ScanReader;
+using log::ScanReader;
 
 /// The recorder of a simulated laser, whose scans the test says.
 class ScanRecorderNodeTest : public NodeTest {

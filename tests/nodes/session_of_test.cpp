@@ -1,9 +1,9 @@
 // What the recorder writes down of a match before it begins.
 #include <gmock/gmock.h>
 
-#include "config/error.hpp"
 #include "config/settings.hpp"
-#include "evaluator/log/reader.hpp"
+#include "config/text/error.hpp"
+#include "log/read/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "tests/evaluator/referee_row.hpp"
 #include "tests/nodes/node_fixture.hpp"

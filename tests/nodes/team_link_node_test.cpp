@@ -1,7 +1,7 @@
 // A robot's and the base's team_link, each between a machine's own bus and the team's, over sockets.
 #include "nodes/team_link/team_link_node.hpp"
 
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 #include "nodes/recorder/recorder_node.hpp"
 #include "tests/nodes/node_fixture.hpp"
 

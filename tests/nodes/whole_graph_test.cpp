@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "bus/graph.hpp"
-#include "evaluator/log/reader.hpp"
+#include "log/read/reader.hpp"
 #include "nodes/kick_decision/kick_decision_node.hpp"
 #include "nodes/kicker_drift/kicker_drift_node.hpp"
 #include "nodes/kicker_driver/kicker_driver_node.hpp"
@@ -37,9 +37,9 @@ class WholeGraphTest : public NodeTest {
   std::vector<bus::Node*> whole() {
     auto nodes = chain();
     shot_observer.emplace(context);
-    evaluator::log::WriterOptions options;
+    log::WriterOptions options;
     options.warn = [](const std::string&) {};
-    log.emplace(folder / "match.db", evaluator::log::Session{}, options);
+    log.emplace(folder / "match.db", log::Session{}, options);
     recorder.emplace(context, *log);
     nodes.push_back(&shot_observer->node());
     nodes.push_back(&recorder->node());
@@ -47,7 +47,7 @@ class WholeGraphTest : public NodeTest {
   }
 
   TemporaryFolder folder;
-  std::optional<evaluator::log::Writer> log;
+  std::optional<log::Writer> log;
   std::optional<OdometryNode> odometry;
   std::optional<WorldStateNode> world_state;
   std::optional<KickDecisionNode> kick_decision;
@@ -169,10 +169,10 @@ TEST_F(WholeGraphTest, RunsToCompletionWithEveryNode) {
     }
   }
   log->finalise();
-  const evaluator::log::Reader reader{folder / "match.db"};
+  const log::Reader reader{folder / "match.db"};
   for (const std::string table : {"odometry", "world_states", "drive_commands"}) {
     std::int64_t rows = 0;
-    reader.for_each_row(table, {"seq"}, [&](std::span<const evaluator::log::Value>) { ++rows; });
+    reader.for_each_row(table, {"seq"}, [&](std::span<const log::Value>) { ++rows; });
     EXPECT_EQ(rows, 50) << table;
   }
 }

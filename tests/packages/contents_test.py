@@ -47,7 +47,7 @@ class Contents(unittest.TestCase):
         self.assertEqual(set(self.files["robot"]), nodes | shipped | units | {
             "/usr/bin/trivela-launch", "/etc/trivela/robot.env", "/usr/share/man/man8/trivela-nodes.8.gz"})
         self.assertEqual(set(self.files["base"]), {
-            "/usr/bin/trivela", "/usr/share/man/man1/trivela.1.gz", "/usr/share/bash-completion/completions/trivela",
+            "/usr/bin/trivela", "/usr/bin/trivela-emulate", "/usr/share/man/man1/trivela.1.gz", "/usr/share/bash-completion/completions/trivela",
             "/usr/lib/systemd/system/trivela-monitor.service",
             "/usr/share/zsh/vendor-completions/_trivela", "/usr/share/fish/vendor_completions.d/trivela.fish"})
         dev = self.files["dev"]

@@ -95,8 +95,8 @@ TEST(KickLedger, AnOutcomeThatDoesNotComeIsUnknownAfterTenSecondsOfTheRobotAndCo
   KickLedger ledger;
   ledger.hear(decision(1, 7, msg::POLICY_MOVING), kNow);
   const auto robot_at = [](std::int64_t t_ns) { return LedgerNow{.heard_ns = kNow, .robots_t_ns = {{1, t_ns}}}; };
-  EXPECT_EQ(moving(ledger, robot_at(kSecond_ns + kOutcomePatience_ns)).under_way, 1);
-  const LedgerNow late = robot_at(kSecond_ns + kOutcomePatience_ns + 1);
+  EXPECT_EQ(moving(ledger, robot_at(kSecond_ns + kOutcomeTimeout_ns)).under_way, 1);
+  const LedgerNow late = robot_at(kSecond_ns + kOutcomeTimeout_ns + 1);
   EXPECT_EQ(moving(ledger, late).unknown, 1);
   ledger.hear(outcome(1, 7, msg::OUTCOME_ON_TARGET), kNow);
   EXPECT_EQ(moving(ledger, late).unknown, 0);
@@ -106,8 +106,8 @@ TEST(KickLedger, AnOutcomeThatDoesNotComeIsUnknownAfterTenSecondsOfTheRobotAndCo
 TEST(KickLedger, OfASilentRobotAnOutcomeIsWaitedForAMinuteAndAfterTheMatchNotAtAll) {
   KickLedger ledger;
   ledger.hear(decision(1, 7, msg::POLICY_MOVING), kNow);
-  EXPECT_EQ(moving(ledger, {.heard_ns = kNow + kSilencePatience_ns}).under_way, 1);
-  EXPECT_EQ(moving(ledger, {.heard_ns = kNow + kSilencePatience_ns + 1}).unknown, 1);
+  EXPECT_EQ(moving(ledger, {.heard_ns = kNow + kSilenceTimeout_ns}).under_way, 1);
+  EXPECT_EQ(moving(ledger, {.heard_ns = kNow + kSilenceTimeout_ns + 1}).unknown, 1);
   EXPECT_EQ(moving(ledger, {.heard_ns = kNow, .over = true}).unknown, 1);
 }
 

@@ -52,9 +52,9 @@ class LabelPage : public evaluator::LogTest {
     return {answer->status, answer->body};
   }
 
-  std::int64_t labels() const { return rows_of(evaluator::log::Reader(path()), "labels"); }
+  std::int64_t labels() const { return rows_of(log::Reader(path()), "labels"); }
 
-  std::optional<LabelDesk> desk_;
+  std::optional<LabelStore> desk_;
   std::optional<LabelServer> server_;
   std::string host_;
 };

@@ -71,7 +71,7 @@ TEST_F(LivePage, FollowsThePlanAndRecordsAllThatItShows) {
   EXPECT_EQ(state()["status"]["power"], 17.5);
   scene_.finish();
 
-  const evaluator::log::ScanReader recorded(record_.path("live.db"));
+  const log::ScanReader recorded(record_.path("live.db"));
   ASSERT_GT(recorded.size(), all["lobs"][2]["end"].get<std::size_t>());
   EXPECT_EQ(recorded.scan(7).range_mm, record_.scans()[7].range_mm);
   std::vector<double> powers;
@@ -103,7 +103,7 @@ TEST_F(LivePageAtThePlansEnd, WhatIsKickedAfterwardsIsNoTrialOfTheLastPower) {
   EXPECT_EQ(state()["status"]["power"], 15.0) << "the plan lacks a kick again";
   scene_.finish();
 
-  const auto lobs = calibration::lobs_of_scans(evaluator::log::ScanReader(record_.path("live.db")));
+  const auto lobs = calibration::lobs_of_scans(log::ScanReader(record_.path("live.db")));
   ASSERT_EQ(lobs.size(), 3u);
   EXPECT_EQ(lobs[1].power, 15.0);
   EXPECT_EQ(lobs[2].power, std::nullopt) << "the record says so, too";
@@ -174,7 +174,7 @@ TEST_F(LivePage, ARecordThatCannotBeMadeIsAnError) {
   options.device = emulator.address();
   options.record = record_.path("no/folder.db");
   LiveScene scene(hal::open_range_finder(options.device), options, broadcast);
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kTimeout;
   try {
     while (std::chrono::steady_clock::now() < deadline) scene.check();
     FAIL() << "no error came";

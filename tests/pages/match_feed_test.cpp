@@ -72,7 +72,7 @@ TEST(LivePageOfAMatch, HasNoWriterAndNoReaderThatAnybodyWaitsFor) {
   bus::CensusTaker taker(outside);
   const Served page(wire.b);
   bus::Census census = taker.take();
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kTimeout;
   const auto listens_to_all = [&] {
     std::size_t topics = 0;
     bus::for_each_message([&]<class T>() { topics += MatchScene::listens_to<T>() ? 1 : 0; });

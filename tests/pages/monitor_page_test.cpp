@@ -88,8 +88,7 @@ TEST_F(MonitorPage, TheFortyNinthViewerIsToldThatTheRestAreHereAlready) {
   EXPECT_EQ(status_of("/"), 200) << "the page itself still comes";
   viewers.pop_back();
   bool here = false;
-  for (const auto end = std::chrono::steady_clock::now() + kPatience;
-       !here && std::chrono::steady_clock::now() < end;) {
+  for (const auto end = std::chrono::steady_clock::now() + kTimeout; !here && std::chrono::steady_clock::now() < end;) {
     Viewer next(server_.port());
     ASSERT_TRUE(next.wait([&] { return next.ended || next.events["match"] > 0; }));
     next.wait([&] { return (here = next.events["match"] > 0) || true; });

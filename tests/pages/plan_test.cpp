@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluator/log/scan_log.hpp"
 #include "kicking/geometry/angle.hpp"
 #include "kicking/model/power_table.hpp"
+#include "log/write/scan_log.hpp"
 #include "sim/laser/record.hpp"
 
 namespace trivela::pages {
@@ -33,7 +33,7 @@ class RecordedLobs {
     session_.mount = made_.mount;
     session_.simulated = true;
     session_.source = "synthetic, seed 1";
-    evaluator::log::ScanWriter writer(path(), session_);
+    log::ScanWriter writer(path(), session_);
     for (const sim::KickedTruth& truth : made_.truth) {
       writer.set_point({.t_ns = truth.launch_t_ns - 300'000'000, .power = *truth.kick.power, .kick_id = 0});
     }
@@ -46,12 +46,12 @@ class RecordedLobs {
 
   std::filesystem::path path(const std::string& name = "lobs.db") const { return folder_ / name; }
   const std::vector<kicking::lob::Scan>& scans() const { return made_.scans; }
-  const evaluator::log::ScanSession& session() const { return session_; }
+  const log::ScanSession& session() const { return session_; }
 
  private:
   std::filesystem::path folder_;
   sim::SyntheticRecord made_;
-  evaluator::log::ScanSession session_;
+  log::ScanSession session_;
 };
 
 }  // namespace trivela::pages

@@ -183,7 +183,7 @@ TEST(ReplayPageServer, StalledViewersHoldUpNeitherOthersNorTheEnd) {
 
 TEST(ReplayPageServer, ARecordWithoutScansIsNamed) {
   const RecordedLobs empty({});
-  evaluator::log::ScanWriter(empty.path("none.db"), empty.session()).finalise();
+  log::ScanWriter(empty.path("none.db"), empty.session()).finalise();
   Broadcast broadcast{lob_channels()};
   try {
     const ReplayScene scene(empty.path("none.db"), {}, {}, broadcast);

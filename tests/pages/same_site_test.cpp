@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::pages {
 namespace {

@@ -15,7 +15,7 @@
 
 namespace trivela::pages {
 
-inline constexpr std::chrono::seconds kPatience{30};
+inline constexpr std::chrono::seconds kTimeout{30};
 
 /// A browser that follows the events: the indices of the frames it got, and the newest of every other event.
 class Viewer {
@@ -31,11 +31,11 @@ class Viewer {
     thread_.join();
   }
 
-  /// False: `condition` did not come true for kPatience.
+  /// False: `condition` did not come true for kTimeout.
   template <typename Condition>
   bool wait(const Condition& condition) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, kPatience, condition);
+    return changed_.wait_for(lock, kTimeout, condition);
   }
 
   /// Its newest event of a name; null: there was none.
@@ -56,7 +56,7 @@ class Viewer {
 
  private:
   void follow() {
-    client_.set_read_timeout(kPatience);
+    client_.set_read_timeout(kTimeout);
     const auto answer = client_.Get("/api/events", headers_, [this](const char* data, std::size_t size) {
       text_.append(data, size);
       for (auto end = text_.find("\n\n"); end != std::string::npos; end = text_.find("\n\n")) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "config/error.hpp"
+#include "config/text/error.hpp"
 
 namespace trivela::robot {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "robot/team/team_book.hpp"
+#include "robot/team/peer_table.hpp"
 #include "tests/instants.hpp"
 
 namespace trivela::robot {
@@ -77,7 +77,7 @@ TEST(ClockExchange, WhatIsNoInstantIsPassedOver) {
 struct Participant {
   double rate;
   std::int64_t ahead_ns;
-  TeamBook book;
+  PeerTable book;
   std::int64_t reads(std::int64_t true_ns) const {
     return static_cast<std::int64_t>(std::llround(rate * static_cast<double>(true_ns))) + ahead_ns;
   }
@@ -134,7 +134,7 @@ TEST(ClockExchange, SixClocksFiftyMillisecondsApartAreWithinFiveAtTwentyMillisec
     std::uniform_real_distribution<double> drift{-20e-6, 20e-6};
     std::vector<Participant> participants;
     for (std::uint8_t number = 0; number < 6; ++number) {
-      Participant one{1.0 + drift(random), 100 * kS + skew(random), TeamBook{number, 0}};
+      Participant one{1.0 + drift(random), 100 * kS + skew(random), PeerTable{number, 0}};
       participants.push_back(std::move(one));
     }
     EXPECT_LT(worst_offset(participants, 0.1, 20 * kMs, 30 * kS, random), 5 * kMs) << "seed " << seed;
@@ -143,7 +143,7 @@ TEST(ClockExchange, SixClocksFiftyMillisecondsApartAreWithinFiveAtTwentyMillisec
 
 TEST(ClockExchange, AClockHoursAheadIsAsGood) {
   std::mt19937_64 random{7};
-  std::vector<Participant> participants{{1.0, kS, TeamBook{0, 0}}, {1.0, 20'000 * kS, TeamBook{1, 0}}};
+  std::vector<Participant> participants{{1.0, kS, PeerTable{0, 0}}, {1.0, 20'000 * kS, PeerTable{1, 0}}};
   EXPECT_LT(worst_offset(participants, 0.0, 20 * kMs, 20 * kS, random), 5 * kMs);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "sim/flight.hpp"
+#include "sim/kicker/flight.hpp"
 
 namespace trivela::robot {
 namespace {

@@ -8,14 +8,14 @@
 #include <regex>
 #include <string>
 
-#include "robot/driver/order_desk.hpp"
+#include "robot/driver/kicker_controller.hpp"
 #include "tests/instants.hpp"
 
 namespace trivela::robot {
 namespace {
 
 using enum KickerEvent;
-using hal::ChargeWord;
+using hal::ChargeCommand;
 
 constexpr std::array kStates{msg::STATE_OFF,    msg::STATE_CHARGING, msg::STATE_READY,
                              msg::STATE_FIRING, msg::STATE_COOLING,  msg::STATE_FAULT};
@@ -52,19 +52,19 @@ const char* name(KickerEvent event) {
   return "";
 }
 
-const char* name(ChargeWord word) {
-  return word == ChargeWord::kUp ? "charge" : word == ChargeWord::kEmpty ? "empty" : "hold";
+const char* name(ChargeCommand word) {
+  return word == ChargeCommand::kCharge ? "charge" : word == ChargeCommand::kDischarge ? "empty" : "hold";
 }
 
 /// A cell of docs/kicker.md: "charging, charge"; "-": nothing changes.
-std::string cell(KickerStand from, KickerStand to) {
+std::string cell(KickerMachineState from, KickerMachineState to) {
   return from == to ? "-" : std::string(bus::label(to.state)) + ", " + name(to.word);
 }
 
 /// The stand in which a state is at first.
-KickerStand first(msg::KickerState state) {
+KickerMachineState first(msg::KickerState state) {
   const bool up = state != msg::STATE_OFF && state != msg::STATE_FAULT;
-  return {state, up ? ChargeWord::kUp : ChargeWord::kHold};
+  return {state, up ? ChargeCommand::kCharge : ChargeCommand::kHold};
 }
 
 std::vector<std::string> cells_of(const std::string& line) {
@@ -98,7 +98,7 @@ TEST_P(KickerMachine, DoesWhatTheTableOfItsPageSays) {
   const auto rows = table();
   const auto row = rows.find(name(GetParam().event));
   ASSERT_NE(row, rows.end()) << "no row of " << name(GetParam().event);
-  const KickerStand from = first(kStates[GetParam().state]);
+  const KickerMachineState from = first(kStates[GetParam().state]);
   EXPECT_EQ(row->second[GetParam().state], cell(from, next(from, GetParam().event)));
 }
 
@@ -117,16 +117,16 @@ INSTANTIATE_TEST_SUITE_P(Every, KickerMachine, testing::ValuesIn(every_case()), 
 
 TEST(KickerMachineOverTime, ChargesInNoStateButThoseThatAreArmed) {
   std::mt19937 random(3);
-  KickerStand stand;
+  KickerMachineState stand;
   for (int i = 0; i < 100'000; ++i) {
     const KickerEvent event = kKickerEvents[random() % kKickerEvents.size()];
-    const KickerStand before = stand;
+    const KickerMachineState before = stand;
     stand = next(stand, event);
     const bool armed = stand.state != msg::STATE_OFF && stand.state != msg::STATE_FAULT;
-    ASSERT_EQ(stand.word == ChargeWord::kUp, armed);
+    ASSERT_EQ(stand.word == ChargeCommand::kCharge, armed);
     const bool fires = stand.state == msg::STATE_FIRING && before.state != msg::STATE_FIRING;
     ASSERT_TRUE(!fires || (before.state == msg::STATE_READY && event == kAccepted));
-    const bool no_more_emptied = before.word == ChargeWord::kEmpty && stand.word != ChargeWord::kEmpty;
+    const bool no_more_emptied = before.word == ChargeCommand::kDischarge && stand.word != ChargeCommand::kDischarge;
     ASSERT_TRUE(!no_more_emptied || event == kArmed || event == kFault);
   }
 }
@@ -179,15 +179,15 @@ class DeskOfSomeCapabilities : public testing::TestWithParam<int> {
     return desk.answer(wish, now_ns, OrderBy::kOwnDecision).refusal;
   }
 
-  OrderDesk desk{{}, 0.02, {}, 1, DecisionNode::kThere};
+  KickerController desk{{}, 0.02, {}, 1, DecisionNode::kThere};
   std::int64_t now_ns = 0;
 };
 
 TEST_P(DeskOfSomeCapabilities, GoesThroughAKick) {
   EXPECT_EQ(at(1000, 0.2, 100.0, RefereeSays::kStop).state, msg::STATE_OFF);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kHold);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kHold);
   EXPECT_EQ(at(1020, 0.2, 100.0).state, msg::STATE_CHARGING);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
   EXPECT_EQ(order(1), msg::REFUSAL_CHARGING);
   EXPECT_EQ(at(1040, 1.0, 300.0).state, msg::STATE_READY);
   EXPECT_EQ(order(2), msg::REFUSAL_NONE);
@@ -210,23 +210,23 @@ TEST_P(DeskOfSomeCapabilities, IsNotReadyBeforeItHasRestedThoughAStopLedPastCool
 
 TEST_P(DeskOfSomeCapabilities, EmptiesWhereTheDecisionNodeIsGoneOrTheProgramEnds) {
   at(1000, 1.0, 300.0);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
   desk.decision_node(DecisionNode::kLost, now_ns);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kEmpty);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kDischarge);
   EXPECT_EQ(at(1020, 0.9, 290.0).state, msg::STATE_OFF);
   desk.decision_node(DecisionNode::kThere, now_ns);
   EXPECT_EQ(at(1040, 1.0, 300.0).state, msg::STATE_READY);
-  EXPECT_EQ(desk.end(), ChargeWord::kEmpty);
+  EXPECT_EQ(desk.end(), ChargeCommand::kDischarge);
 }
 
 TEST_P(DeskOfSomeCapabilities, IsNotChargedBeforeADecisionNodeWasHeard) {
-  desk = OrderDesk{{}, 0.02, {}, 1};
+  desk = KickerController{{}, 0.02, {}, 1};
   EXPECT_EQ(at(1000, 1.0, 300.0).state, msg::STATE_OFF);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kHold);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kHold);
   desk.decision_node(DecisionNode::kUnheard, now_ns);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kHold) << "what never came is not missed";
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kHold) << "what never came is not missed";
   desk.decision_node(DecisionNode::kThere, now_ns);
-  EXPECT_EQ(desk.charge_word(), ChargeWord::kUp);
+  EXPECT_EQ(desk.charge_command(), ChargeCommand::kCharge);
 }
 
 TEST_P(DeskOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
@@ -234,7 +234,7 @@ TEST_P(DeskOfSomeCapabilities, DoubtsAVoltageWhereItIsMeasured) {
   const msg::KickerStatus said = at(1120, 0.2, 100.0);
   EXPECT_EQ(said.state, can().voltage ? msg::STATE_FAULT : msg::STATE_CHARGING);
   EXPECT_EQ(said.fault, can().voltage ? msg::FAULT_CHARGER : msg::FAULT_NONE);
-  EXPECT_EQ(desk.charge_word(), can().voltage ? ChargeWord::kHold : ChargeWord::kUp);
+  EXPECT_EQ(desk.charge_command(), can().voltage ? ChargeCommand::kHold : ChargeCommand::kCharge);
   EXPECT_EQ(said.charge_modelled, !can().voltage);
 }
 
@@ -242,7 +242,7 @@ TEST_P(DeskOfSomeCapabilities, EmptiesAtOverVoltage) {
   at(1000, 1.0, 300.0);
   const msg::KickerStatus said = at(1020, 1.2, 340.0);
   EXPECT_EQ(said.state, can().voltage ? msg::STATE_FAULT : msg::STATE_CHARGING);
-  EXPECT_EQ(desk.charge_word(), can().voltage ? ChargeWord::kEmpty : ChargeWord::kUp);
+  EXPECT_EQ(desk.charge_command(), can().voltage ? ChargeCommand::kDischarge : ChargeCommand::kCharge);
   EXPECT_EQ(order(1), can().voltage ? msg::REFUSAL_FAULT : msg::REFUSAL_CHARGING);
   EXPECT_EQ(at(1040, 1.0, 300.0).state, can().voltage ? msg::STATE_FAULT : msg::STATE_READY)
       << "a charger that runs away";
@@ -263,11 +263,11 @@ TEST_P(DeskOfSomeCapabilities, IsRefusedWhereOneThatItLacksIsDemanded) {
 
 INSTANTIATE_TEST_SUITE_P(Each, DeskOfSomeCapabilities, testing::Range(0, 16));
 
-TEST(OrderDesk, AcceptsNoOrderButInReady) {
+TEST(KickerController, AcceptsNoOrderButInReady) {
   std::mt19937 random(5);
   config::KickerDriver settings;
   settings.min_interval_s = 0.02;
-  OrderDesk desk{settings, 0.02, {}, 1, DecisionNode::kThere};
+  KickerController desk{settings, 0.02, {}, 1, DecisionNode::kThere};
   std::int64_t now_ns = 0;
   int accepted = 0;
   for (std::int64_t id = 1; id < 20'000; ++id) {

@@ -13,7 +13,7 @@
 namespace trivela::robot {
 namespace {
 
-using evaluator::log::Value;
+using log::Value;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Not;
@@ -31,7 +31,7 @@ const std::set<std::string> kNotRecorded{"DeviceWheels", "DeviceGyro",   "Device
 template <class F>
 void for_each_recorded(F&& f) {
   bus::for_each_message([&]<class T>() {
-    if (const auto table = evaluator::log::table_of_message(bus::meta<T>::name)) f.template operator()<T>(*table);
+    if (const auto table = log::table_of_message(bus::meta<T>::name)) f.template operator()<T>(*table);
   });
   f.template operator()<msg::ShadowDecision>(table_of<msg::ShadowDecision>());
 }
@@ -39,7 +39,7 @@ void for_each_recorded(F&& f) {
 TEST_F(MessageRowTest, EveryTopicHasATableOrIsNamedAsNotRecorded) {
   std::set<std::string> without;
   bus::for_each_message([&]<class T>() {
-    if (!evaluator::log::table_of_message(bus::meta<T>::name)) without.emplace(bus::meta<T>::name);
+    if (!log::table_of_message(bus::meta<T>::name)) without.emplace(bus::meta<T>::name);
   });
   EXPECT_EQ(without, kNotRecorded);
   EXPECT_EQ(table_of<msg::VisionFrame>(), "vision_frames");
@@ -48,9 +48,9 @@ TEST_F(MessageRowTest, EveryTopicHasATableOrIsNamedAsNotRecorded) {
 }
 
 TEST_F(MessageRowTest, ColumnsAreTheFieldsOfTheMessages) {
-  evaluator::log::Writer log{path(), session(), options()};
+  log::Writer log{path(), session(), options()};
   log.finalise();
-  const evaluator::log::Reader reader{path()};
+  const log::Reader reader{path()};
   for_each_recorded([&]<class T>(const std::string& table) {
     std::set<std::string> columns, fields;
     reader.query("SELECT name FROM pragma_table_info('" + table + "')",
@@ -64,7 +64,7 @@ TEST_F(MessageRowTest, ColumnsAreTheFieldsOfTheMessages) {
 }
 
 /// The labels that the schema allows in a column.
-std::vector<std::string> labels_in_schema(const evaluator::log::Reader& reader, const std::string& table,
+std::vector<std::string> labels_in_schema(const log::Reader& reader, const std::string& table,
                                           const std::string& column) {
   std::string sql;
   reader.query("SELECT sql FROM main.sqlite_schema WHERE name = '" + table + "'",
@@ -87,9 +87,9 @@ std::vector<std::string> labels_of() {
 }
 
 TEST_F(MessageRowTest, TheSchemaAllowsTheLabelsOfTheMessages) {
-  evaluator::log::Writer log{path(), session(), options()};
+  log::Writer log{path(), session(), options()};
   log.finalise();
-  const evaluator::log::Reader reader{path()};
+  const log::Reader reader{path()};
   int enums = 0;
   for_each_recorded([&]<class T>(const std::string& table) {
     bus::visit_columns(T{}, [&](std::string_view name, const auto& field) {
@@ -117,7 +117,7 @@ TEST_F(MessageRowTest, SilencesLookAtEveryStreamWithAPeriod) {
 }
 
 TEST_F(MessageRowTest, ATableOfOtherColumnsIsRefused) {
-  evaluator::log::Writer log{path(), session(), options()};
+  log::Writer log{path(), session(), options()};
   EXPECT_ANY_THROW(log.table("odometry", columns_of<msg::DriveCommand>()));
 }
 
@@ -160,7 +160,7 @@ TEST_F(MessageRowTest, ShadowsAreNoCellsOfTheDecision) {
 }
 
 TEST_F(MessageRowTest, NaNBecomesNoValueWhereThatIsAllowedAndIsCountedElsewhere) {
-  evaluator::log::Writer log{path(), session(), options()};
+  log::Writer log{path(), session(), options()};
   const auto table = log.table("odometry", columns_of<msg::Odometry>());
   msg::Odometry sample{};
   sample.robot_id = 1;
@@ -172,7 +172,7 @@ TEST_F(MessageRowTest, NaNBecomesNoValueWhereThatIsAllowedAndIsCountedElsewhere)
   sample.vx_mps = kNaN;
   log.push(table, row_of(sample));
   log.finalise();
-  const evaluator::log::Reader reader{path()};
+  const log::Reader reader{path()};
   EXPECT_EQ(rows_of(reader, "odometry"), 1);
   EXPECT_EQ(rows_of(reader, "odometry WHERE wheel_3_radps IS NULL"), 1);
   EXPECT_EQ(loss_of(reader, "odometry").nan_refused, 1);
@@ -180,7 +180,7 @@ TEST_F(MessageRowTest, NaNBecomesNoValueWhereThatIsAllowedAndIsCountedElsewhere)
 
 // Every message as a whole, written and read back.
 TEST_F(MessageRowTest, ADecisionComesBackAsItWasWritten) {
-  evaluator::log::Writer log{path(), session(), options()};
+  log::Writer log{path(), session(), options()};
   const auto table = log.table("kick_decisions", columns_of<msg::KickDecision>());
   msg::KickDecision decision{};
   double next = 0.25;
@@ -196,7 +196,7 @@ TEST_F(MessageRowTest, ADecisionComesBackAsItWasWritten) {
   const auto written = row_of(decision);
   log.push(table, written);
   log.finalise();
-  const evaluator::log::Reader reader{path()};
+  const log::Reader reader{path()};
   int rows = 0;
   reader.for_each_row("kick_decisions", columns_of<msg::KickDecision>(), [&](std::span<const Value> row) {
     ++rows;

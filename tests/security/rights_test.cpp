@@ -32,7 +32,7 @@ std::set<std::string> names(const std::string& cell) {
                                                           {"the team's own program", "team"},
                                                           {"hal/bus wheels", "odometry"},
                                                           {"hal/bus kicker", "kicker_driver"},
-                                                          {"hal/sim range finder", "scan_recorder"}};
+                                                          {"emulators/sim range finder", "scan_recorder"}};
   std::set<std::string> found;
   std::stringstream list(cell);
   for (std::string name; std::getline(list, name, ',');) {

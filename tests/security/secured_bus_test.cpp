@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "bus/cyclone.hpp"
+#include "bus/domain/cyclone.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"

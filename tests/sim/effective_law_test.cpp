@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kicking/outcome/crossing_spread.hpp"
-#include "sim/flight.hpp"
-#include "sim/kicker.hpp"
+#include "sim/kicker/flight.hpp"
+#include "sim/kicker/kicker.hpp"
 
 namespace trivela::sim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/flight.hpp"
+#include "sim/kicker/flight.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "sim/hand_table.hpp"
+#include "sim/kicker/hand_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "kicking/ballistics/drag.hpp"
-#include "sim/flight.hpp"
-#include "sim/kicker.hpp"
+#include "sim/kicker/flight.hpp"
+#include "sim/kicker/kicker.hpp"
 
 namespace trivela::sim {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/kicker.hpp"
-#include "sim/kicker_device.hpp"
+#include "sim/kicker/kicker.hpp"
+#include "sim/kicker/kicker_device.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::sim {

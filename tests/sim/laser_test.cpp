@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kicking/geometry/time.hpp"
-#include "sim/flight.hpp"
+#include "sim/kicker/flight.hpp"
 #include "sim/laser/record.hpp"
 #include "sim/laser/scan_builder.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "sim/kicker.hpp"
+#include "sim/kicker/kicker.hpp"
 #include "sim/opportunity.hpp"
 #include "tests/sim/played_match.hpp"
 

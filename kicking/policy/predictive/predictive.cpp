@@ -5,7 +5,7 @@
 
 #include "kicking/ballistics/crossing.hpp"
 #include "kicking/policy/judgement.hpp"
-#include "kicking/policy/predictive/outlook.hpp"
+#include "kicking/policy/predictive/lookahead_search.hpp"
 
 namespace trivela::kicking {
 namespace {

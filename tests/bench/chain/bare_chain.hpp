@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "tests/bench/chain/contender.hpp"
 
 namespace trivela::bench {

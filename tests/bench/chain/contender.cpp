@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-#include "bus/process.hpp"
+#include "bus/domain/process.hpp"
 
 namespace trivela::bench {
 
@@ -45,10 +45,10 @@ Contender::~Contender() {
 }
 
 void Contender::warm_up() {
-  constexpr std::int64_t kSamples = 20, kPeriodNs = 1'000'000, kPatienceNs = 120'000'000'000;
+  constexpr std::int64_t kSamples = 20, kPeriodNs = 1'000'000, kTimeoutNs = 120'000'000'000;
   const std::int64_t start_ns = now_ns();
   while (track_.run_batch(kSamples, kPeriodNs).size() < kSamples)
-    if (now_ns() - start_ns > kPatienceNs) throw std::runtime_error(name_ + ": the chain never came together");
+    if (now_ns() - start_ns > kTimeoutNs) throw std::runtime_error(name_ + ": the chain never came together");
 }
 
 }  // namespace trivela::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 #include "bus/executor.hpp"
 #include "tests/bench/chain/contender.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include "bus/domain.hpp"
+#include "bus/domain/domain.hpp"
 
 namespace trivela::bench {
 

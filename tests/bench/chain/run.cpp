@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "bus/process.hpp"
+#include "bus/domain/process.hpp"
 #include "tests/bench/chain/bare_chain.hpp"
 #include "tests/bench/chain/contender.hpp"
 #include "tests/bench/chain/dds_chain.hpp"

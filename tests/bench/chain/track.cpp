@@ -41,7 +41,7 @@ Track::Track() {
 Track::~Track() { munmap(shared_, sizeof(Shared)); }
 
 std::vector<std::int64_t> Track::run_batch(std::int64_t count, std::int64_t period_ns) {
-  constexpr std::chrono::milliseconds kPatience{500};
+  constexpr std::chrono::milliseconds kTimeout{500};
   while (wait(shared_->seen, std::chrono::nanoseconds(0))) continue;  // stragglers of the last batch
   std::fill_n(shared_->latency_ns, count, -1);
   shared_->batch = {next_seq_, count, period_ns};
@@ -49,7 +49,7 @@ std::vector<std::int64_t> Track::run_batch(std::int64_t count, std::int64_t peri
   sem_post(&shared_->ordered);
   std::vector<std::int64_t> latencies;
   if (!wait(shared_->sent, std::chrono::nanoseconds(count * period_ns) + std::chrono::seconds(5))) return latencies;
-  for (std::int64_t n = 0; n < count && wait(shared_->seen, kPatience); ++n) continue;
+  for (std::int64_t n = 0; n < count && wait(shared_->seen, kTimeout); ++n) continue;
   std::copy_if(shared_->latency_ns, shared_->latency_ns + count, std::back_inserter(latencies),
                [](std::int64_t latency_ns) { return latency_ns >= 0; });
   return latencies;

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bus/process.hpp"
+#include "bus/domain/process.hpp"
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "tests/bench/chain/domains.hpp"

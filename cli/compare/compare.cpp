@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <span>
+
+#include "cli/compare/compare_input.hpp"
+#include "cli/options/gate_option.hpp"
+#include "cli/options/open_file.hpp"
+#include "cli/options/output.hpp"
+#include "cli/verbs.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
+#include "evaluator/counting/log_kicks.hpp"
+#include "evaluator/render/gate.hpp"
+#include "evaluator/render/json_values.hpp"
+
+namespace trivela::cli {
+namespace {
+
+struct CompareArguments {
+  std::vector<std::string> logs;
+  std::string csv;
+  std::vector<std::string> counts;
+  std::string by;
+  std::string stratify;
+  std::string baseline;
+  std::string design;
+  std::string outcome = "observed";
+  std::string blocked = "outside";
+  double smallest_effect_points = 100.0 * evaluator::stats::kSmallestEffect;
+  bool json = false;
+  bool all = false;
+  std::string out;
+  std::vector<std::string> gates;
+};
+
+std::string csv_name(const CompareArguments& arguments) {
+  return arguments.csv == "-" ? "standard input" : arguments.csv;
+}
+
+evaluator::KickDataset read_csv(const CompareArguments& arguments) {
+  const CsvComparison options{arguments.by.empty() ? "policy" : arguments.by, arguments.stratify,
+                              arguments.design == "paired"};
+  if (arguments.csv == "-") return read_kicks(std::cin, csv_name(arguments), options);
+  std::ifstream file = open_file(arguments.csv);
+  return read_kicks(file, csv_name(arguments), options);
+}
+
+void check(const CompareArguments& arguments) {
+  const int sources =
+      (arguments.logs.empty() ? 0 : 1) + (arguments.csv.empty() ? 0 : 1) + (arguments.counts.empty() ? 0 : 1);
+  if (sources == 0) throw UsageError("compare needs match logs, --csv KICKS.csv or --counts");
+  if (sources > 1) throw UsageError("compare takes match logs, --csv or --counts, one of the three");
+  if (!(arguments.smallest_effect_points > 0.0 && arguments.smallest_effect_points < 100.0)) {
+    throw UsageError(fmt::format("--smallest-effect {}: write percentage points between 0 and 100",
+                                 arguments.smallest_effect_points));
+  }
+  if (arguments.blocked == "apart" && arguments.logs.empty())
+    throw UsageError("--blocked apart needs match logs: counts and tables do not say which kicks were blocked");
+  if (arguments.counts.empty()) return;
+  for (const auto& [flag, given] :
+       {std::pair{"--by", &arguments.by}, std::pair{"--stratify", &arguments.stratify},
+        std::pair{"--baseline", &arguments.baseline}, std::pair{"--design", &arguments.design}}) {
+    if (!given->empty()) throw UsageError(fmt::format("--counts has no rows, so {} says nothing", flag));
+  }
+}
+
+evaluator::LogKicks options_of(const CompareArguments& arguments) {
+  return {.by = arguments.by,
+          .stratify = arguments.stratify,
+          .truth = arguments.outcome == "truth",
+          .blocked_apart = arguments.blocked == "apart"};
+}
+
+evaluator::KickDataset book_of(const evaluator::LoggedOpportunities& logged, const CompareArguments& arguments,
+                               std::string& by) try {
+  return evaluator::kick_dataset_of(logged, options_of(arguments), by);
+} catch (const evaluator::BadOption& error) {
+  throw std::runtime_error(fmt::format("--{}", error.what()));
+}
+
+/// With its baseline and its design as they were asked for.
+evaluator::PolicyComparison compared(evaluator::KickDataset book, const std::string& by,
+                                     const CompareArguments& arguments) {
+  if (arguments.stratify == by) {
+    throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
+  }
+  if (!arguments.baseline.empty() && !evaluator::put_first(book, arguments.baseline)) {
+    throw UsageError(
+        fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by, fmt::join(book.groups, ", ")));
+  }
+  if (!arguments.design.empty()) {
+    book.design = *evaluator::design_of(arguments.design);
+    book.design_reason = "as --design says";
+  }
+  return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+}
+
+evaluator::PolicyComparison compared_csv(const CompareArguments& arguments) {
+  evaluator::KickDataset book = read_csv(arguments);
+  try {
+    return compared(std::move(book), arguments.by.empty() ? "policy" : arguments.by, arguments);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
+  }
+}
+
+evaluator::PolicyComparison compared_logs(const CompareArguments& arguments) {
+  const std::vector<std::filesystem::path> logs(arguments.logs.begin(), arguments.logs.end());
+  const auto options = options_of(arguments);
+  const auto logged = evaluator::read_opportunities(logs, options.truth);
+  std::string by;
+  auto comparison = compared(book_of(logged, arguments, by), by, arguments);
+  comparison.logs = arguments.logs;
+  if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
+  if (logs.size() != 2 || (by != "policy" && by != "arm")) return comparison;
+  std::vector<std::string> groups;
+  for (const evaluator::GroupResult& group : comparison.groups) groups.push_back(group.name);
+  comparison.between = evaluator::between_logs(logged, groups, by, options, comparison.smallest_effect);
+  return comparison;
+}
+
+void write_out(const std::string& out, const std::string& text) { out.empty() ? say(text) : write_file(out, text); }
+
+// Writes it, then says whether its gates are met.
+bool write_comparison(const CompareArguments& arguments, auto comparison, std::span<const evaluator::Gate> gates) {
+  comparison.gates = evaluator::judge_gates(comparison, gates);
+  const std::string text = arguments.json  ? evaluator::to_json(comparison)
+                           : arguments.all ? evaluator::to_text(comparison)
+                                           : evaluator::to_short_text(comparison);
+  write_out(arguments.out, text);
+  return warn_of_gates(comparison.gates);
+}
+
+bool run_comparison(const CompareArguments& arguments) {
+  check(arguments);
+  const auto gates = parse_gates(arguments.gates, evaluator::comparison_gate_metrics());
+  require_writable("--out", arguments.out);
+  if (arguments.counts.empty())
+    return write_comparison(arguments, arguments.logs.empty() ? compared_csv(arguments) : compared_logs(arguments),
+                            gates);
+  const auto [older, newer] = parse_two_counts(arguments.counts);
+  return write_comparison(arguments, evaluator::compare(older, newer, 0.01 * arguments.smallest_effect_points), gates);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code) {
+  auto* const verb =
+      app.add_subcommand("compare", "Compare policies, height tables, robots, arms or logs: how much, how sure, why");
+  const auto arguments = std::make_shared<CompareArguments>();
+  verb->add_option("logs", arguments->logs, "Match logs, such as out/match.db; their sessions are taken together")
+      ->type_name("DB");
+  verb->add_option("--csv", arguments->csv,
+                   "A table of kicks instead: columns policy, on_target (1, 0, empty: unknown), and if known match, "
+                   "minutes, distance_m, kicked, opportunity and any others")
+      ->type_name("FILE|-");
+  verb->add_option("--counts", arguments->counts, "NAME=INSIDE/KICKS twice, the older first: old=34/65 new=100/132");
+  verb->add_option("--by", arguments->by,
+                   "What is compared: policy, table, robot, arm or log; of a CSV any column (arm where a log has "
+                   "several, else policy, "
+                   "or log where there is one policy)");
+  verb->add_option(
+      "--stratify", arguments->stratify,
+      "Compare within situations: distance, or start_distance, robot, half, scenario, table, policy, arm, log of "
+      "a log, any column of a CSV");
+  verb->add_option("--baseline", arguments->baseline, "The group that the others are compared with (the first)");
+  verb->add_option("--design", arguments->design, "How the groups came about, where the data do not say it")
+      ->check(CLI::IsMember({"before_after", "alternating", "randomised", "paired"}));
+  verb->add_option("--outcome", arguments->outcome, "observed: as the robots saw it; truth: the simulator's (observed)")
+      ->check(CLI::IsMember({"observed", "truth"}));
+  verb->add_option("--blocked", arguments->blocked,
+                   "Blocked kicks: outside, as in Table 2, or apart: efficiency is of the others (outside)")
+      ->check(CLI::IsMember({"outside", "apart"}));
+  verb->add_option("--smallest-effect", arguments->smallest_effect_points,
+                   "Smallest difference of interest, in percentage points (5)");
+  verb->add_flag("--json", arguments->json, "JSON instead of text");
+  verb->add_flag("--all", arguments->all,
+                 "Every table, test and reservation, after the one line; JSON has them anyway");
+  verb->add_option("--out", arguments->out, "Write to this file, not to standard output")->type_name("FILE");
+  add_gates(*verb, arguments->gates, "'difference_lo(moving)>=0', 'kicks>=50'");
+  verb->footer(
+      "Examples: trivela compare ab.db --outcome truth\n"
+      "          trivela compare --csv kicks.csv --stratify distance\n"
+      "          trivela compare --counts old=34/65 new=100/132    (the paper's Table 2)");
+  verb->callback([arguments, &exit_code] { exit_code = run_comparison(*arguments) ? kDone : kDoneWithLoss; });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,281 @@
+#include <fmt/core.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/emulate/devices.hpp"
+#include "cli/launch/signal_inbox.hpp"
+#include "cli/options/output.hpp"
+#include "emulators/cia402/emulated_drives.hpp"
+#include "emulators/ioboard/emulated_board.hpp"
+#include "emulators/mti/emulated_mti.hpp"
+#include "emulators/rekick/emulated_board.hpp"
+
+namespace trivela::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using hal::EmulatedLine;
+
+/// What an emulated board does wrong, and how its switches stand.
+struct EmulateBoardFlags {
+  std::vector<std::string> faults;
+  bool disarmed = false;
+};
+
+/// The number of a fault "NAME=N"; none: it is another fault. Throws UsageError where it is no number above zero.
+std::optional<int> number_of(const std::string& fault, const std::string& name) {
+  if (!fault.starts_with(name + "=")) return std::nullopt;
+  const char* const first = fault.data() + name.size() + 1;
+  const char* const last = fault.data() + fault.size();
+  int number = 0;
+  const auto [end, error] = std::from_chars(first, last, number);
+  if (error != std::errc{} || end != last || number <= 0)
+    throw UsageError{fmt::format("--faults {}: expected a whole number above 0 after {}=", fault, name)};
+  return number;
+}
+
+/// Something that is wrong for a second, every `every_s` seconds; 0: never.
+class IntermittentFault {
+ public:
+  explicit IntermittentFault(int every_s) : every_s_(every_s) {}
+
+  /// True: it begins, false: it ends, now.
+  std::optional<bool> changes() {
+    if (every_s_ == 0 || Clock::now() < next_) return std::nullopt;
+    on_ = !on_;
+    next_ = Clock::now() + std::chrono::seconds(on_ ? 1 : every_s_);
+    return on_;
+  }
+
+ private:
+  int every_s_;
+  bool on_ = false;
+  Clock::time_point next_ = Clock::now() + std::chrono::seconds(every_s_);
+};
+
+/// A cable that is out for such spells.
+class CableFault {
+ public:
+  CableFault(EmulatedLine& line, int every_s) : line_(line), spell_(every_s) {}
+
+  void move() {
+    if (const auto out = spell_.changes()) *out ? line_.pull() : line_.plug();
+  }
+
+ private:
+  EmulatedLine& line_;
+  IntermittentFault spell_;
+};
+
+/// Prints the address, then lets `look` see the device ten times a second, until Ctrl-C.
+template <class Emulator, class Look>
+int watch_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, Look look) {
+  say(emulator.address() + "\n");
+  CableFault cable{emulator.line(), unplug_s};
+  pollfd inbox{signals.file_descriptor(), POLLIN, 0};
+  for (; !signals.stop_requested(); poll(&inbox, 1, 100)) {
+    cable.move();
+    emulator.with_board(std::ref(look));  // a copy would forget what it has said
+    std::fflush(stdout);
+  }
+  return kDone;
+}
+
+/// The same, with each pulse of the coil. `length_us` is that of a pulse.
+template <class Emulator, class Length>
+int run_until_stopped(SignalInbox& signals, Emulator& emulator, int unplug_s, Length length_us) {
+  return watch_until_stopped(signals, emulator, unplug_s, [&, said = std::size_t{0}](const auto& board) mutable {
+    for (; said < board.pulses().size(); ++said)
+      say(fmt::format("pulse of {:.3f} ms\n", length_us(board.pulses()[said]) / 1000.0));
+  });
+}
+
+/// A fault's name and the number that it sets.
+using FaultNumbers = std::vector<std::pair<std::string, int*>>;
+
+/// Sets the numbers of the faults that are named. Throws UsageError for one that is none.
+void take_faults(const std::vector<std::string>& faults, const FaultNumbers& numbers) {
+  for (const std::string& fault : faults) {
+    const auto set = [&](const auto& number) {
+      const auto value = number_of(fault, number.first);
+      if (value) *number.second = *value;
+      return value.has_value();
+    };
+    if (std::ranges::any_of(numbers, set)) continue;
+    std::string names;
+    for (const auto& [name, number] : numbers) names += (names.empty() ? "" : ", ") + name + "=N";
+    throw UsageError{fmt::format("--faults {}: expected one of: {}", fault, names)};
+  }
+}
+
+int emulate_ioboard(const EmulateBoardFlags& flags) {
+  hal::ioboard::EmulatedFaults faults;
+  int unplug_s = 0;
+  take_faults(flags.faults, {{"lost", &faults.lost_every},
+                             {"garbled", &faults.garbled_every},
+                             {"wrong_sums", &faults.wrong_sums_every},
+                             {"unplug", &unplug_s}});
+  SignalInbox signals;  // before the emulator's thread, which must not take them
+  hal::ioboard::Emulator emulator;
+  emulator.with_board([&](hal::ioboard::EmulatedBoard& board) {
+    board.in_play = !flags.disarmed;
+    board.faults = faults;
+  });
+  return run_until_stopped(signals, emulator, unplug_s, [](const hal::ioboard::EmulatedBoard::Pulse& pulse) {
+    return pulse.units * hal::ioboard::kPulseUnit_us;
+  });
+}
+
+int emulate_rekick(const EmulateBoardFlags& flags) {
+  hal::rekick::EmulatedFaults faults;
+  int unplug_s = 0;
+  take_faults(flags.faults,
+              {{"lost", &faults.lost_every}, {"strangers", &faults.strangers_every}, {"unplug", &unplug_s}});
+  SignalInbox signals;
+  hal::rekick::Emulator emulator;
+  emulator.with_board([&](hal::rekick::EmulatedBoard& board) {
+    board.supply_on = !flags.disarmed;
+    board.faults = faults;
+  });
+  return run_until_stopped(signals, emulator, unplug_s, [](const hal::rekick::EmulatedBoard::Pulse& pulse) {
+    return static_cast<double>(pulse.pulse_us);
+  });
+}
+
+/// What an emulated base does wrong: spells of so many seconds, 0: none; a drive's node, 0: none.
+struct DriveFaults {
+  int bus_off_s = 0;
+  int overcurrent_s = 0;
+  int silent_s = 0;
+  int unplug_s = 0;
+  int refuses_heartbeat = 0;
+};
+
+/// Tells the drives what goes wrong now, and says what they do.
+class DrivesShow {
+ public:
+  explicit DrivesShow(const DriveFaults& faults)
+      : bus_off_(faults.bus_off_s), overcurrent_(faults.overcurrent_s), silent_(faults.silent_s) {}
+
+  void look(hal::cia402::EmulatedDrives& drives) {
+    constexpr std::uint16_t kOvercurrent = 0x2310;
+    const std::int64_t now_ns = std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
+    if (bus_off_.changes() == true) drives.say(hal::can::bus_off_frame());
+    if (overcurrent_.changes() == true) drives.fail(1, kOvercurrent, now_ns);
+    if (const auto silent = silent_.changes()) drives.drive(1).faults.silent = *silent;
+    states_.resize(drives.drives().size(), hal::cia402::DriveState::kSwitchOnDisabled);
+    bool turns = false;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const auto& drive = drives.drives()[i];
+      turns = turns || std::abs(drive.rpm(now_ns)) >= 1.0;
+      if (std::exchange(states_[i], drive.state()) == drive.state()) continue;
+      say(fmt::format("drive {}: {}\n", drive.node(), hal::cia402::name(drive.state())));
+    }
+    if (std::exchange(turns_, turns) != turns) say(turns ? "the wheels turn\n" : "the wheels stand\n");
+  }
+
+ private:
+  IntermittentFault bus_off_, overcurrent_, silent_;
+  std::vector<hal::cia402::DriveState> states_;
+  bool turns_ = false;
+};
+
+int emulate_cia402(const std::vector<std::string>& named, int count) {
+  DriveFaults faults;
+  take_faults(named, {{"bus_off", &faults.bus_off_s},
+                      {"overcurrent", &faults.overcurrent_s},
+                      {"silent", &faults.silent_s},
+                      {"refuses_1016", &faults.refuses_heartbeat},
+                      {"unplug", &faults.unplug_s}});
+  if (faults.refuses_heartbeat > count)
+    throw UsageError{fmt::format("--faults refuses_1016={}: there are {} drives", faults.refuses_heartbeat, count)};
+  SignalInbox signals;
+  hal::cia402::Emulator emulator{static_cast<std::uint8_t>(count)};
+  emulator.with_board([&](hal::cia402::EmulatedDrives& drives) {
+    if (const int node = faults.refuses_heartbeat; node > 0)
+      drives.drive(static_cast<std::uint8_t>(node)).faults.refuses_heartbeat = true;
+  });
+  DrivesShow show{faults};
+  return watch_until_stopped(signals, emulator, faults.unplug_s,
+                             [&](hal::cia402::EmulatedDrives& drives) { show.look(drives); });
+}
+
+int emulate_mti(const std::vector<std::string>& named, double rate_radps) {
+  hal::mti::EmulatedFaults faults;
+  int unplug_s = 0;
+  take_faults(named,
+              {{"garbled", &faults.garbled_every}, {"wrong_sums", &faults.wrong_sums_every}, {"unplug", &unplug_s}});
+  SignalInbox signals;
+  hal::mti::Emulator emulator;
+  emulator.with_board([&](hal::mti::EmulatedMti& mti) {
+    mti.faults = faults;
+    mti.rate_radps = rate_radps;
+  });
+  return watch_until_stopped(signals, emulator, unplug_s, [](const hal::mti::EmulatedMti&) {});
+}
+
+void add_board(CLI::App& app, int& exit_code, const std::string& name, const std::string& help,
+               const std::string& faults, int (*emulate)(const EmulateBoardFlags&)) {
+  auto* device = app.add_subcommand(name, help);
+  auto flags = std::make_shared<EmulateBoardFlags>();
+  device->add_option("--faults", flags->faults, faults + "; unplug=N: for a second, every N seconds")->delimiter(',');
+  device->add_flag("--disarmed", flags->disarmed, "a switch is open: it says that it may not be fired");
+  device->callback([flags, emulate, &exit_code] { exit_code = emulate(*flags); });
+}
+
+}  // namespace
+
+void add_ioboard(CLI::App& app, int& exit_code) {
+  add_board(app, exit_code, "ioboard", "The Falcons' ioBoard, on a pseudo-terminal",
+            "lost=N, garbled=N, wrong_sums=N: so is each N-th answer", emulate_ioboard);
+}
+
+void add_rekick(CLI::App& app, int& exit_code) {
+  add_board(app, exit_code, "rekick", "A ReKick board, behind a SOCK_SEQPACKET socket in place of a CAN bus",
+            "lost=N: so is each N-th answer; strangers=N: before it another device speaks", emulate_rekick);
+}
+
+void add_cia402(CLI::App& app, int& exit_code) {
+  struct Flags {
+    std::vector<std::string> faults;
+    int drives = 3;
+  };
+  auto* device = app.add_subcommand("cia402", "Drives of a base, behind a SOCK_SEQPACKET socket in place of a CAN bus");
+  auto flags = std::make_shared<Flags>();
+  device->add_option("--drives", flags->drives, "how many, nodes 1 and on")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  device
+      ->add_option("--faults", flags->faults,
+                   "bus_off=N, overcurrent=N, silent=N (drive 1), unplug=N: for a second, every N seconds; "
+                   "refuses_1016=N: drive N has no such object")
+      ->delimiter(',');
+  device->callback([flags, &exit_code] { exit_code = emulate_cia402(flags->faults, flags->drives); });
+}
+
+void add_mti(CLI::App& app, int& exit_code) {
+  struct Flags {
+    std::vector<std::string> faults;
+    double rate_radps = 0.0;
+  };
+  auto* device = app.add_subcommand("mti", "An Xsens MTi, on a pseudo-terminal");
+  auto flags = std::make_shared<Flags>();
+  device->add_option("--rate-radps", flags->rate_radps, "that it says, about its z axis")
+      ->check(CLI::Range(-50.0, 50.0));
+  device
+      ->add_option("--faults", flags->faults,
+                   "garbled=N, wrong_sums=N: so is each N-th message; unplug=N: for a second, every N seconds")
+      ->delimiter(',');
+  device->callback([flags, &exit_code] { exit_code = emulate_mti(flags->faults, flags->rate_radps); });
+}
+
+}  // namespace trivela::cli

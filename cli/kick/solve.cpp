@@ -1,0 +1,135 @@
+#include <memory>
+
+#include "cli/kick/row_verbs.hpp"
+#include "config/robot.hpp"
+#include "evaluator/story/kick_picture.hpp"
+#include "kicking/ballistics/crossing.hpp"
+#include "kicking/ballistics/drag.hpp"
+#include "kicking/ballistics/moving_kick.hpp"
+
+namespace trivela::cli {
+namespace {
+
+const char* name(kicking::PowerRange range) {
+  switch (range) {
+    case kicking::PowerRange::kBelow:
+      return "below";
+    case kicking::PowerRange::kIn:
+      return "in";
+    case kicking::PowerRange::kAbove:
+      break;
+  }
+  return "above";
+}
+
+Value drag_speed(const Row& row, const kicking::FlightPoint& point, double angle_rad,
+                 const FlightConstants& constants) {
+  if (!row.word("Cd")) return {};
+  kicking::Air air = constants.air;
+  air.drag_coefficient = row.number_in("Cd", 0.0, 10.0);
+  return value_or_none(kicking::crossing_speed_with_drag(point, angle_rad, kicking::drag_per_m(constants.ball, air),
+                                                         constants.gravity_mps2));
+}
+
+/// What a row asks for.
+struct Wanted {
+  double angle_rad;
+  kicking::FlightPoint point;
+  double v_front_mps, transfer;
+  double gravity_mps2;
+
+  double u_mps() const { return v_front_mps * transfer; }
+  std::optional<double> vk_exact_mps() const {
+    return kicking::moving_kick_exact(point, angle_rad, u_mps(), gravity_mps2);
+  }
+};
+
+Wanted wanted(const Row& row, const FlightConstants& constants) {
+  return {row.acute_angle_rad("theta_deg"),
+          {row.positive("d_m"), row.number("h_rel_m")},
+          row.number_if_any("v_front_mps").value_or(0.0),
+          row.word("k_transfer") ? row.number_in("k_transfer", 0.0, 10.0) : 1.0,
+          constants.gravity_mps2};
+}
+
+/// The robot faces the goal's middle; the ball leaves at once.
+std::string draw(const Row& row, const FlightConstants& constants) {
+  const Wanted want = wanted(row, constants);
+  const auto vk = want.vk_exact_mps();
+  if (!vk) throw std::runtime_error("--svg: no speed solves this kick, there is nothing to draw");
+  evaluator::KickPicture picture{.twist = {0.0, want.v_front_mps, 0.0},
+                                 .kick = {.v_kick_mps = *vk,
+                                          .exit_angle = want.angle_rad,
+                                          .transfer = {want.transfer, want.transfer, want.transfer}},
+                                 .ball = constants.ball,
+                                 .gravity_mps2 = constants.gravity_mps2};
+  picture.robot.y_m = picture.goal.y_m - want.point.distance_m - picture.kick.ball_offset_m;
+  return evaluator::to_svg(picture);
+}
+
+struct SolveArguments {
+  RowArguments rows;
+  FlightConstants constants;
+  std::string robot_file;
+};
+
+}  // namespace
+
+RowVerb solve_verb(const FlightConstants& constants, const std::optional<kicking::EffectiveTable>& table) {
+  RowVerb verb;
+  verb.inputs = {{"theta_deg", "Exit angle over the floor [deg]"},
+                 {"d_m", "Ball centre to goal line, horizontal [m]"},
+                 {"h_rel_m", "Wanted height over the launch, of the ball's centre [m]"},
+                 {"v_front_mps", "Forward speed of the robot [m/s], default 0", false},
+                 {"k_transfer", "Share of it that the ball takes over, default 1", false},
+                 {"Cd", "Drag coefficient; adds v0_drag_mps", false, "--cd"}};
+  verb.results = [with_power = table.has_value()](const auto& has) {
+    std::vector<std::string> columns{"v0_mps", "vk_exact_mps", "vk_paper_mps", "feasible", "descending"};
+    if (has("Cd")) columns.emplace_back("v0_drag_mps");
+    if (with_power) columns.insert(columns.end(), {"power", "power_range"});
+    return columns;
+  };
+  verb.compute = [constants, table](const Row& row) {
+    const Wanted want = wanted(row, constants);
+    const auto v0 = kicking::crossing_speed(want.point, want.angle_rad, constants.gravity_mps2);
+    const auto vk_exact = want.vk_exact_mps();
+    std::vector<Value> values(3);
+    if (v0) values = {*v0, value_or_none(vk_exact), kicking::moving_kick_paper(*v0, want.u_mps(), want.angle_rad)};
+    values.emplace_back(v0.has_value());
+    values.push_back(v0 ? Value(kicking::descends_through(want.point, want.angle_rad)) : Value());
+    if (row.has("Cd")) values.push_back(drag_speed(row, want.point, want.angle_rad, constants));
+    if (table) {
+      const auto reading = vk_exact ? std::optional(table->power_for(*vk_exact)) : std::nullopt;
+      values.push_back(reading ? Value(reading->power) : Value());
+      values.push_back(reading ? Value(name(reading->range)) : Value());
+    }
+    return values;
+  };
+  verb.draw = [constants](const Row& row) { return draw(row, constants); };
+  return verb;
+}
+
+void add_solve(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<SolveArguments>();
+  CLI::App* verb = app.add_subcommand("solve", "Exit speed and power for a height at a distance");
+  verb->footer(
+      "Appends v0_mps (robot at rest), vk_exact_mps and vk_paper_mps (moving robot), feasible, descending; with Cd\n"
+      "v0_drag_mps; with --robot power and power_range (below, in or above the table) for vk_exact_mps.\n"
+      "Results of a row that no speed solves are empty. --svg draws vk_exact_mps, towards the middle of the goal.");
+  add_row_flags(*verb, solve_verb({}, {}), arguments->rows);
+  add_flight_flags(*verb, arguments->constants);
+  verb->add_option("--ball-mass-kg", arguments->constants.ball.mass_kg, "Mass of the ball")
+      ->check(above_zero())
+      ->capture_default_str();
+  verb->add_option("--air-density-kgpm3", arguments->constants.air.density_kgpm3, "Density of the air")
+      ->check(above_zero())
+      ->capture_default_str();
+  verb->add_option("--robot", arguments->robot_file, "Robot file whose table gives the power")->type_name("FILE");
+  verb->callback([arguments, &exit_code] {
+    std::optional<kicking::EffectiveTable> table;
+    if (!arguments->robot_file.empty()) table = config::load_robot(arguments->robot_file).model.table;
+    exit_code = run_row_verb(solve_verb(arguments->constants, table), arguments->rows);
+  });
+}
+
+}  // namespace trivela::cli

@@ -1,0 +1,25 @@
+#include "cli/options/world.hpp"
+
+#include "cli/options/open_file.hpp"
+#include "config/scenario/scenario.hpp"
+
+namespace trivela::cli {
+
+sim::Scenario World::load() const {
+  sim::Scenario scenario = config::load_scenario(file);
+  for (const std::string& line : changes) config::override_scenario(scenario, line, "--world");
+  return scenario;
+}
+
+std::string World::named(const std::string& base) const {
+  std::string name = base;
+  for (const std::string& line : changes) name += ", " + line;
+  return name;
+}
+
+void add_world_options(CLI::App& verb, World& world) {
+  verb.add_option("--scenario", world.file, "The world")->check(readable_file())->capture_default_str();
+  verb.add_option("--world", world.changes, "One value of it on top, e.g. --world keeper.reaction_s=0.15");
+}
+
+}  // namespace trivela::cli

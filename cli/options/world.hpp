@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+#include "config/text/installation.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::cli {
+
+/// A scenario file and values on top of it.
+struct World {
+  std::string file = config::shipped("scenarios/default.toml").string();
+  std::vector<std::string> changes;  ///< lines of TOML, e.g. "keeper.reaction_s = 0.15"
+
+  /// Throws config::Error naming file or line, key and value.
+  sim::Scenario load() const;
+
+  /// `base`, which is the file's name with or without its ending, and the changes.
+  std::string named(const std::string& base) const;
+};
+
+/// --scenario, --world.
+void add_world_options(CLI::App& verb, World& world);
+
+}  // namespace trivela::cli

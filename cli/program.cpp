@@ -1,0 +1,136 @@
+#include "cli/program.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/launch/progress_bar.hpp"
+#include "cli/manual/manual.hpp"
+#include "cli/options/finite_numbers.hpp"
+#include "cli/options/output.hpp"
+#include "config/text/error.hpp"
+#include "config/text/installation.hpp"
+#include "kicking/text/nearest_word.hpp"
+#include "log/file/log_check.hpp"
+#include "log/file/new_file.hpp"
+#include "nodes/runtime/standard_streams.hpp"
+
+namespace trivela::cli {
+namespace {
+
+void add_verbs(CLI::App& app, const std::vector<VerbGroup>& groups, int& exit_code) {
+  for (const VerbGroup& group : groups) {
+    for (const auto add : group.verbs) {
+      add(app, exit_code);
+      app.get_subcommands([](const CLI::App*) { return true; }).back()->group(group.wish);
+    }
+  }
+}
+
+/// What is wrong with the first word where a verb of `app` must stand and none does; none: what is wrong is something
+/// else.
+std::optional<std::string> unknown_verb(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* at = &app;
+  std::string before;
+  for (int i = 1; i < argc; ++i) {
+    std::vector<std::string> names;
+    for (const CLI::App* verb : at->get_subcommands([](const CLI::App* part) { return !part->get_name().empty(); }))
+      names.push_back(verb->get_name());
+    if (std::ranges::find(names, argv[i]) == names.end()) {
+      if (names.empty() || argv[i][0] == '-') return std::nullopt;
+      const auto meant = kicking::nearest_word(argv[i], names);
+      return fmt::format("there is no verb \"{}\"; {}{} --help names them all", argv[i],
+                         meant ? fmt::format("did you mean {}{}? ", before, *meant) : "", app.get_name());
+    }
+    at = at->get_subcommand(argv[i]);
+    before += at->get_name() + ' ';
+  }
+  return std::nullopt;
+}
+
+/// The option that was probably meant by the first word that looks like one and that the verb does not have.
+std::optional<std::string> meant_option(const CLI::App& app) {
+  const CLI::App* verb = &app;
+  while (!verb->get_subcommands().empty()) verb = verb->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const ManualFlag& flag : verb_tree(*verb).flags) names.insert(names.end(), flag.names.begin(), flag.names.end());
+  for (const std::string& word : app.remaining(true))
+    if (word.starts_with("--")) return kicking::nearest_word(word.substr(0, word.find('=')), names);
+  return std::nullopt;
+}
+
+int run(const ProgramInfo& program, int argc, char** argv) {
+  CLI::App app{program.what};
+  app.name(program.name);
+  app.require_subcommand(1);
+  if (program.has_manual) add_manual_flags(app);
+  app.set_version_flag("--version", config::version_lines(program.name));
+  app.footer(program.footer);
+  int exit_code = kDone;
+  add_verbs(app, program.verbs, exit_code);
+  require_finite_numbers(app);
+  if (const auto wrong = unknown_verb(app, argc, argv)) throw UsageError{*wrong};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ExtrasError& error) {
+    app.exit(error);
+    if (const auto meant = meant_option(app)) warn(fmt::format("did you mean {}?", *meant));
+    return kBadUsage;
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return kBadUsage;
+  }
+  return exit_code;
+}
+
+int failed(const std::exception& error, ExitCode code) {
+  warn(error.what());
+  return code;
+}
+
+int run_or_say_why_not(const ProgramInfo& program, int argc, char** argv) try {
+  return run(program, argc, argv);
+} catch (const config::BadArgument& error) {
+  return failed(error, kBadUsage);
+} catch (const log::FileTaken& error) {
+  return failed(error, kBadUsage);
+} catch (const std::system_error& error) {
+  if (!std::ferror(stdout)) return failed(error, kFailed);
+  errno = error.code().value();  // for is_written(), which says it
+  return kFailed;
+} catch (const std::exception& error) {
+  return failed(error, kFailed);
+}
+
+/// Standard output is buffered: that the disk is full may show only at the end. Where a write failed before the end,
+/// that was the last thing to set errno, since verbs print last.
+bool is_written() {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return true;
+  std::fprintf(stderr, "trivela: cannot write the output: %s\n", std::strerror(errno));
+  return false;
+}
+
+}  // namespace
+
+int run_program(const ProgramInfo& program, int argc, char** argv) {
+  nodes::secure_standard_streams();
+  ProgressBar bar;
+  log::watch_verification([&](const std::string& file, std::int64_t rows, std::int64_t all) {
+    bar.show(static_cast<double>(rows), static_cast<double>(all), "rows", "verified of " + file);
+    if (rows >= all) bar.end();
+  });
+  const int exit_code = run_or_say_why_not(program, argc, argv);
+  return is_written() ? exit_code : kFailed;
+}
+
+}  // namespace trivela::cli

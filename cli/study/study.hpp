@@ -1,0 +1,96 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/options/output.hpp"
+#include "cli/options/world.hpp"
+#include "evaluator/render/json_values.hpp"
+#include "experiment/run/arms.hpp"
+#include "experiment/run/calibrations.hpp"
+#include "experiment/study/play.hpp"
+#include "experiment/study/report.hpp"
+#include "log/shards/shard.hpp"
+
+namespace trivela::cli {
+
+/// The flags that all studies have.
+struct Study {
+  experiment::PlayPlan plan{.jobs = std::max(1u, std::thread::hardware_concurrency())};
+  World world;
+  std::uint32_t calibrations = 0;  ///< 0: the robot files as they are
+  std::string blocked = "outside";
+  std::string csv, svg;
+  std::string results;            ///< file that keeps what was played; empty: none
+  std::vector<std::string> with;  ///< results of other runs of this study, or of its shards
+  std::optional<log::Shard> shard;
+  bool json = false;
+
+  /// Name of the scenario's file and what was changed of it, for the report.
+  std::string scenario_name() const;
+
+  /// Plays the calibrations of the plan's seed into the plan, before its matches.
+  void draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base);
+
+  experiment::StudyPlayed played(const sim::Scenario& scenario) const;
+};
+
+/// The teams of the calibrations, played with a progress bar on a terminal, for an experiment of so many
+/// matches. Throws UsageError where `base` names robot files, too, and where there are more calibrations than matches.
+std::vector<experiment::Team> draw_calibrations(const sim::Scenario& scenario, const experiment::ArmBase& base,
+                                                const experiment::RepeatedCalibration& plan, std::uint32_t matches);
+
+/// A warning where an arm has fewer robot files than the scenario's team has robots.
+void warn_of_shared_robots(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
+
+/// --matches, --possessions, --seed, --jobs, --scenario, --world, --calibrations, --results, --with, --shard.
+void add_play_options(CLI::App& verb, Study& study);
+
+void add_calibrations_option(CLI::App& verb, std::uint32_t& calibrations);
+
+/// Those of add_play_options(), and --blocked, --csv, --json.
+void add_study_options(CLI::App& verb, Study& study);
+
+void add_svg_option(CLI::App& verb, Study& study);
+
+/// --robot, --config, --set.
+void add_arm_options(CLI::App& verb, experiment::ArmBase& base);
+
+/// Throws, before anything is played, where an output cannot be written or two are the same file, or a shard has no
+/// place for what it plays or is asked for a report.
+void require_writable(const Study& study);
+
+/// What the rows depend on besides the flags of play.
+std::string arguments_of(const sim::Scenario& scenario, const std::vector<experiment::Arm>& arms);
+
+/// Each value once, rising.
+std::vector<double> sorted(std::vector<double> values);
+
+/// Prints the report as text or JSON, and writes its files that are asked for: last, so that a full disk takes no more
+/// than the file.
+template <typename Report>
+void give(const Study& study, const Report& report) {
+  study.json ? fmt::print("{}", evaluator::json_text(to_json(report))) : say(to_text(report));
+  std::fflush(stdout);
+  if (!study.csv.empty()) write_file(study.csv, csv_of(rows_of(report), report.played));
+  if constexpr (requires { to_svg(report); }) {
+    if (!study.svg.empty()) write_file(study.svg, to_svg(report));
+  }
+}
+
+void add_study_arms(CLI::App& study, int& exit_code);
+void add_study_factorial(CLI::App& study, int& exit_code);
+void add_study_frontier(CLI::App& study, int& exit_code);
+void add_study_sensitivity(CLI::App& study, int& exit_code);
+void add_study_tune(CLI::App& study, int& exit_code);
+void add_evaluate_policy(CLI::App& study, int& exit_code);
+void add_learn(CLI::App& study, int& exit_code);
+
+}  // namespace trivela::cli

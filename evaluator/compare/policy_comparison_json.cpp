@@ -1,0 +1,188 @@
+#include <cmath>
+
+#include "evaluator/compare/comparison_lines.hpp"
+#include "evaluator/compare/policy_comparison.hpp"
+#include "evaluator/render/json_values.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+Json inside_of_n(stats::Counts counts) { return {{"inside", counts.inside}, {"n", counts.n}}; }
+
+// Infinity, which JSON does not have, as null.
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+Json group_json(const GroupResult& g, bool keeper, bool blocked_apart) {
+  const auto per = [](std::int64_t n, std::optional<double> minutes) {
+    return minutes && *minutes > 0.0 ? Json(static_cast<double>(n) / *minutes) : Json();
+  };
+  return {{"name", g.name},
+          {"opportunities", g.opportunities > 0 ? Json(g.opportunities) : Json()},
+          {"kicks", g.kicks()},
+          {"inside", g.inside},
+          {"outside", g.outside},
+          {"unknown", g.unknown},
+          {"expected_wrong", {{"inside", g.doubt.inside}, {"outside", g.doubt.outside}}},
+          {"blocked", blocked_apart ? Json(g.blocked) : Json()},
+          {"bounced", bounces_json(g.bounces)},
+          {"goals", keeper ? Json(g.goals) : Json()},
+          {"goals_per_opportunity", keeper ? json_of(stats::efficiency({g.goals, g.opportunities})) : Json()},
+          {"goals_per_opportunity_ci95", keeper && g.opportunities > 0 ? json_of(g.goals_ci) : Json()},
+          {"matches", g.matches > 0 ? Json(g.matches) : Json()},
+          {"efficiency", json_of(stats::efficiency(g.efficiency()))},
+          {"efficiency_ci95", json_of(g.efficiency_ci)},
+          {"efficiency_bounds", g.efficiency_bounds ? json_of(*g.efficiency_bounds) : Json()},
+          {"ci_by_match", g.by_match},
+          {"kicks_per_opportunity",
+           g.opportunities > 0 ? Json(static_cast<double>(g.kicks()) / static_cast<double>(g.opportunities)) : Json()},
+          {"on_target_per_opportunity", json_of(stats::efficiency(g.per_opportunity()))},
+          {"on_target_per_opportunity_ci95", g.opportunities > 0 ? json_of(g.per_opportunity_ci) : Json()},
+          {"minutes", json_of(g.minutes)},
+          {"kicks_per_min", per(g.kicks(), g.minutes)},
+          {"on_target_per_min", per(g.inside, g.minutes)}};
+}
+
+Json clustered_json(const std::optional<stats::Clustered>& c) {
+  if (!c) return {};
+  return {{"difference", c->value},
+          {"ci95", json_of(c->ci)},
+          {"standard_error", c->standard_error},
+          {"df", c->df},
+          {"design_effect", c->design_effect},
+          {"old_matches", c->older_matches},
+          {"new_matches", c->newer_matches},
+          {"calibrations", c->calibrations},
+          {"by_calibration", c->by_calibration}};
+}
+
+Json effect_json(const std::optional<Effect>& e) {
+  if (!e) return {};
+  return {{"old", inside_of_n(e->older)},
+          {"new", inside_of_n(e->newer)},
+          {"difference", e->difference},
+          {"independent_ci95", json_of(e->independent)},
+          {"clustered", clustered_json(e->clustered)}};
+}
+
+Json test_json(const std::optional<stats::ChiSquare>& test) {
+  if (!test) return {};
+  return {{"chi_square", test->statistic}, {"df", test->df}, {"p", test->p}};
+}
+
+Json stratified_json(const std::optional<Stratified>& s) {
+  if (!s) return {};
+  Json json = {
+      {"column", s->column}, {"unit", s->of_opportunities ? "opportunity" : "kick"}, {"strata", Json::array()}};
+  for (const StratumResult& row : s->strata) {
+    json["strata"].push_back({{"name", row.name},
+                              {"old", inside_of_n(row.counts.older)},
+                              {"new", inside_of_n(row.counts.newer)},
+                              {"reversed", row.reversed}});
+  }
+  json["left_out"] = s->left_out;
+  json["mh_odds_ratio"] = s->odds_ratio ? Json(s->odds_ratio->value) : Json();
+  json["mh_odds_ratio_ci95"] = s->odds_ratio ? json_of(s->odds_ratio->ci) : Json();
+  json["cmh"] = test_json(s->cmh);
+  json["cmh_corrected"] = test_json(s->cmh_corrected);
+  json["mh_risk_difference"] = s->risk_difference ? Json(s->risk_difference->value) : Json();
+  json["mh_risk_difference_ci95"] = s->risk_difference ? json_of(s->risk_difference->ci) : Json();
+  json["standardised"] = s->standardised ? Json{{"weights", "pooled share of each stratum that both have"},
+                                                {"old", s->standardised->older},
+                                                {"new", s->standardised->newer},
+                                                {"difference", s->standardised->difference.value},
+                                                {"ci95", json_of(s->standardised->difference.ci)},
+                                                {"clustered", clustered_json(s->clustered)}}
+                                         : Json();
+  json["breslow_day"] = test_json(s->homogeneity);
+  json["simpson"] = s->simpson;
+  return json;
+}
+
+Json rate_json(const std::optional<stats::RateRatio>& ratio) {
+  if (!ratio) return {};
+  return {{"ratio", finite(ratio->value)},
+          {"ci95", Json::array({finite(ratio->ci.lo), finite(ratio->ci.hi)})},
+          {"p", ratio->p},
+          {"method", ratio->by_match ? "clustered by match" : "Poisson, exact"}};
+}
+
+Json headline_json(const PairResult& pair) {
+  if (!pair.headline) return {};
+  const Headline& h = *pair.headline;
+  return {{"measure", h.of_opportunities ? "on_target_per_opportunity" : "efficiency"},
+          {"adjusted", h.adjusted},
+          {"by_match", h.by_match},
+          {"difference", h.difference},
+          {"ci95", json_of(h.ci)},
+          {"method", h.method},
+          {"p", h.p},
+          {"p_method", h.p_method},
+          {"p_holm", h.p_holm},
+          {"verdict", label(h.verdict)},
+          {"needed_of_each_for_smallest", h.needed_for_smallest},
+          {"needed_of_each_for_seen", json_of(h.needed_for_seen)}};
+}
+
+Json pair_json(const PairResult& pair, const PolicyComparison& c) {
+  Json json = {{"old", pair.older},
+               {"new", pair.newer},
+               {"design", label(pair.design)},
+               {"verdict", verdict_sentence(pair, c)},
+               {"more_needed", needed_sentence(pair, c)},
+               {"headline", headline_json(pair)},
+               {"on_target_per_opportunity", effect_json(pair.per_opportunity)},
+               {"goals_per_opportunity", effect_json(pair.goals)},
+               {"efficiency", effect_json(pair.efficiency)}};
+  json["pairs"] = pair.pairs ? Json{{"both", pair.pairs->both},           {"new_only", pair.pairs->newer_only},
+                                    {"old_only", pair.pairs->older_only}, {"neither", pair.pairs->neither},
+                                    {"without_partner", pair.unpaired},   {"mcnemar_p", pair.mcnemar_p}}
+                             : Json();
+  json["stratified"] = stratified_json(pair.stratified);
+  json["on_target_per_min"] = rate_json(pair.on_target_rate);
+  json["kicks_per_min"] = rate_json(pair.kick_rate);
+  json["unknown"] = pair.unknown;
+  json["expected_wrong"] = pair.expected_wrong;
+  json["difference_bounds"] = json_of(pair.bounds);
+  json["independent_kicks"] = pair.kicks ? counts_json(*pair.kicks) : Json();
+  return json;
+}
+
+Json between_json(const std::vector<BetweenLogs>& between) {
+  Json json = Json::array();
+  for (const BetweenLogs& group : between) {
+    Json row = {{"group", group.group},
+                {"why_none", group.comparison ? Json() : Json(group.why_none)},
+                {"comparisons", Json::array()}};
+    if (group.comparison) {
+      for (const PairResult& pair : group.comparison->pairs)
+        row["comparisons"].push_back(pair_json(pair, *group.comparison));
+    }
+    json.push_back(std::move(row));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const PolicyComparison& c) {
+  Json json = {{"by", c.by},
+               {"simulated", c.book.simulated},
+               {"outcome", c.book.outcome},
+               {"design", label(c.book.design)},
+               {"design_reason", c.book.design_reason},
+               {"smallest_effect", c.smallest_effect},
+               {"sample_ratio_p", json_of(c.sample_ratio_p)},
+               {"groups", Json::array()},
+               {"comparisons", Json::array()},
+               {"remarks", c.book.remarks},
+               {"logs", c.logs},
+               {"differences", differences_json(c.differences, c.logs)}};
+  if (!c.between.empty()) json["between_logs"] = between_json(c.between);
+  for (const GroupResult& group : c.groups)
+    json["groups"].push_back(group_json(group, c.book.keeper, c.book.blocked_apart));
+  for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
+  if (!c.gates.empty()) json["gates"] = gates_json(c.gates);
+  return json_text(json);
+}
+
+}  // namespace trivela::evaluator

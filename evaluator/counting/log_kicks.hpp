@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "evaluator/counting/kick_dataset.hpp"
+#include "evaluator/counting/log_opportunities.hpp"
+
+namespace trivela::evaluator {
+
+struct BetweenLogs;
+
+/// What was asked for by one of the options below makes no sense with these logs; the message begins with the option.
+struct BadOption : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// How to read logs for a comparison.
+struct LogKicks {
+  std::string by{};  ///< "policy", "table", "robot", "arm" or "log"; empty: arm where there are several, else policy,
+                     ///< or log where there is one policy
+  std::string stratify{};      ///< "distance", "start_distance", "robot", "half", "scenario", "table", "policy", "arm",
+                               ///< "log" or none
+  bool truth = false;          ///< outcomes by the simulator's truth; otherwise as observed
+  bool blocked_apart = false;  ///< blocked kicks stand apart; otherwise they are outside
+};
+
+/// All sessions of the logs together. `by` becomes what is compared. Throws std::runtime_error with file and value
+/// where a log cannot be read, BadOption where the logs have not what is asked for.
+KickDataset read_log_kicks(const std::vector<std::filesystem::path>& logs, const LogKicks& options, std::string& by);
+
+/// The same of what was read of them, with the outcomes that it was read for: `options.truth` says which.
+KickDataset kick_dataset_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by);
+
+/// Each of `groups`, policies or arms as `by` says, in the later logs against the first: yesterday against today. Their
+/// p are adjusted together. `options` are those of the comparison of the groups.
+std::vector<BetweenLogs> between_logs(const LoggedOpportunities& logged, std::span<const std::string> groups,
+                                      const std::string& by, LogKicks options, double smallest_effect);
+
+}  // namespace trivela::evaluator

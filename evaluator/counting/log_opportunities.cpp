@@ -1,0 +1,314 @@
+#include "evaluator/counting/log_opportunities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "evaluator/counting/log_minutes.hpp"
+#include "evaluator/counting/possession_places.hpp"
+#include "evaluator/counting/truth_count.hpp"
+#include "evaluator/metrics/assigned_possessions.sql.hpp"
+#include "evaluator/metrics/compared_kicks.sql.hpp"
+#include "evaluator/metrics/first_decisions.sql.hpp"
+#include "evaluator/metrics/opportunities.sql.hpp"
+#include "evaluator/sessions/log_sessions.hpp"
+#include "evaluator/sessions/no_goal.hpp"
+#include "evaluator/sessions/played_length.hpp"
+#include "log/read/reader.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+Ending ending_of(const std::string& outcome) {
+  if (outcome.empty() || outcome == "unknown") return Ending::kUnknown;
+  return outcome == "on_target" ? Ending::kInside : Ending::kOutside;
+}
+
+// A row of compared_kicks.sql.
+struct SeenKick {
+  std::uint32_t session = 0;
+  int robot_id = 0;
+  int half = 0;
+  std::int64_t possession_id = 0;
+  std::string policy;
+  std::string outcome;
+  std::optional<double> distance_m;
+  std::int64_t kick_id = 0;
+  std::optional<double> p_inside;  // of the observed label; none where the truth is asked for
+  std::optional<bool> bounced;
+  std::optional<bool> truth_bounced;
+  bool saved = false;
+  bool goal = false;
+};
+
+// What the logs say, of every session; what counts is known when all are read.
+struct SeenRows {
+  std::vector<LoggedOpportunity> opportunities;
+  std::vector<SeenKick> kicks;
+  HeardPlay play;
+};
+
+// Who was in charge of the simulator's possessions, and possessions that the robots alone counted.
+void see_assigned(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+                  PossessionPlaces& places, std::vector<LoggedOpportunity>& opportunities) {
+  reader.query(kAssignedPossessionsSql,
+               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id,
+                   std::optional<std::int64_t> /*t_ns*/, const std::string& policy, double probability) {
+                 const auto session = sessions.find(session_id);
+                 if (session == sessions.end()) return;
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
+                 const PossessionKey key{session->second, robot_id, half, id};
+                 const bool alone = id != 0 && !truths.has(session_id);
+                 if (alone && places.try_emplace(key, opportunities.size()).second) {
+                   LoggedOpportunity& o = opportunities.emplace_back();
+                   std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+                 }
+                 const auto place = places.find(key);
+                 if (place == places.end()) return;
+                 LoggedOpportunity& o = opportunities[place->second];
+                 if (o.probability) return;  // the robot took one possession for two: chance decided with the first
+                 o.policy = policy;
+                 o.probability = probability;
+               });
+}
+
+void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
+                       SeenRows& seen) {
+  // The goal's middle is the same all over a log; a log without a kick needs no distance.
+  std::optional<double> goal_y_m;
+  reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
+               [&](std::optional<double> y_m) { goal_y_m = y_m; });
+  PossessionPlaces places;  // with the session in the play's place
+  reader.query(kOpportunitiesSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
+                                      std::optional<std::string> policy, double x_m, double y_m) {
+    const auto session = sessions.find(session_id);
+    if (session == sessions.end()) return;
+    const PossessionKey key{session->second, robot_id, half, possession_id};
+    LoggedOpportunity o;
+    std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+    o.policy = std::move(policy).value_or("");
+    o.start_x_m = x_m;
+    if (goal_y_m) o.start_distance_m = std::hypot(x_m, *goal_y_m - y_m);
+    places[key] = seen.opportunities.size();
+    seen.opportunities.push_back(std::move(o));
+  });
+  see_assigned(reader, sessions, truths, places, seen.opportunities);
+  reader.query(kFirstDecisionsSql,
+               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::int64_t /*seq*/,
+                   double distance_m, double x_m, std::optional<double> opponent_distance_m) {
+                 const auto session = sessions.find(session_id);
+                 if (session == sessions.end()) return;
+                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
+                 const auto place = places.find({session->second, robot_id, half, id});
+                 if (place == places.end() || seen.opportunities[place->second].first) return;
+                 seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
+               });
+}
+
+void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, bool truth,
+               SeenRows& seen) {
+  reader.query(
+      kComparedKicksSql,
+      [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::optional<std::int64_t> true_id,
+          const std::string& policy, std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
+          std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
+          std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
+        const auto session = sessions.find(session_id);
+        if (session == sessions.end()) return;
+        const bool saved = truth_saved.value_or(false);
+        const bool goal = truth_outcome == "on_target" && !saved;
+        seen.kicks.push_back({.session = session->second,
+                              .robot_id = robot_id,
+                              .half = half,
+                              .possession_id = true_id ? *true_id : truths.number(session_id, robot_id, half, own_id),
+                              .policy = policy,
+                              .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
+                              .distance_m = distance_m,
+                              .kick_id = kick_id,
+                              .p_inside = truth ? std::nullopt : p_inside,
+                              .bounced = bounced,
+                              .truth_bounced = truth_bounced,
+                              .saved = saved,
+                              .goal = goal});
+      });
+}
+
+// What a recording lacks another one of the play may have.
+void complete(LoggedOpportunity& o, LoggedOpportunity&& other) {
+  if (o.policy.empty()) o.policy = std::move(other.policy);
+  if (!o.probability) o.probability = other.probability;
+  if (!o.start_x_m) o.start_x_m = other.start_x_m;
+  if (!o.start_distance_m) o.start_distance_m = other.start_distance_m;
+  if (!o.first) o.first = other.first;
+}
+
+PossessionPlaces add_opportunities(std::vector<LoggedOpportunity>&& opportunities, LoggedOpportunities& logged) {
+  PossessionPlaces places;
+  for (LoggedOpportunity& o : opportunities) {
+    const ComparedSession& session = logged.sessions[o.session];
+    if (!session.counts || session.halves_left_out.contains(o.half)) continue;
+    const auto [place, added] =
+        places.try_emplace({session.play, o.robot_id, o.half, o.possession_id}, logged.rows.size());
+    if (added) {
+      logged.rows.push_back(std::move(o));
+    } else {
+      complete(logged.rows[place->second], std::move(o));
+    }
+  }
+  return places;
+}
+
+void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& book, const PossessionPlaces& places, bool truth,
+               LoggedOpportunities& logged) {
+  std::int64_t alone = 0;
+  std::array<std::int64_t, kNoGoals.size()> no_goals{};
+  for (const SeenKick& kick : kicks) {
+    if (!book.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
+    const ComparedSession& session = logged.sessions[kick.session];
+    const auto place = places.find({session.play, kick.robot_id, kick.half, kick.possession_id});
+    if (place == places.end()) {
+      LoggedOpportunity& o = logged.rows.emplace_back();
+      std::tie(o.session, o.robot_id, o.half, o.possession_id) =
+          std::tie(kick.session, kick.robot_id, kick.half, kick.possession_id);
+      o.has_possession = false;
+      ++alone;
+    }
+    LoggedOpportunity& o = place == places.end() ? logged.rows.back() : logged.rows[place->second];
+    o.policy = kick.policy;  // of two kicks of a possession the later one
+    // The simulator settles every ball that left; without its word there was none in front of the kicker.
+    const bool no_ball = truth && kick.outcome.empty() && session.simulated;
+    o.ending = no_ball ? Ending::kNoKick : ending_of(kick.outcome);
+    o.distance_m = kick.distance_m;
+    for (std::size_t i = 0; i < kNoGoals.size(); ++i) no_goals[i] += kick.outcome == kNoGoals[i].label ? 1 : 0;
+    o.doubt = !kick.p_inside || is_no_goal(kick.outcome) ? 0.0
+              : o.ending == Ending::kInside              ? 1.0 - *kick.p_inside
+              : o.ending == Ending::kOutside             ? *kick.p_inside
+                                                         : 0.0;
+    o.blocked = kick.outcome == "blocked";
+    o.bounced = kick.bounced;
+    o.truth_bounced = kick.truth_bounced;
+    o.saved = kick.saved;
+    o.goal = kick.goal;
+  }
+  for (std::size_t i = 0; i < kNoGoals.size(); ++i) {
+    if (no_goals[i] == 0) continue;
+    const bool one = no_goals[i] == 1;
+    logged.not_counted.push_back(
+        fmt::format("{} {} on target {} {} outside: the rules of the session count no such goal", no_goals[i],
+                    one ? "kick" : "kicks", kNoGoals[i].where, one ? "is" : "are"));
+    logged.remarks.push_back(logged.not_counted.back());
+  }
+  if (alone > 0 && !places.empty()) {
+    logged.remarks.push_back(
+        fmt::format("{} {} to no possession that the log knows", alone, alone == 1 ? "kick belongs" : "kicks belong"));
+  }
+}
+
+// One log after the other, and then everything together.
+class OpportunityReading {
+ public:
+  explicit OpportunityReading(bool truth) : truth_(truth) {}
+
+  SessionPlaces add(const log::Reader& reader, const std::string& name) {
+    SessionPlaces fresh = book_.add(reader, name);
+    logged_.logs.push_back(name);
+    const TruthCount truths(reader);
+    see_opportunities(reader, fresh, truths, seen_);
+    see_kicks(reader, fresh, truths, truth_, seen_);
+    hear_play(reader, fresh, truths, seen_.play);
+    reader.query("SELECT count(*) FROM assignments WHERE possession_id = 0 AND probability < 1.0",
+                 [&](std::int64_t draws) { logged_.draws_of_halves += draws; });
+    std::int64_t missing = 0;
+    for (const log::Loss& loss : reader.losses()) missing += loss.missing();
+    if (missing > 0)
+      losses_.push_back(fmt::format("{}: {} rows are missing (trivela report says which)", name, missing));
+    note_lengths(reader, name, fresh);
+    return fresh;
+  }
+
+  const SessionIndex& book() const { return book_; }
+
+  void settle() { book_.settle(); }
+
+  LoggedOpportunities finish() && {
+    logged_.sessions = book_.sessions();
+    logged_.matches = book_.matches();
+    logged_.not_counted = book_.not_counted();
+    logged_.remarks = book_.remarks();
+    logged_.remarks.insert(logged_.remarks.end(), logged_.not_counted.begin(), logged_.not_counted.end());
+    const PossessionPlaces places = add_opportunities(std::move(seen_.opportunities), logged_);
+    add_kicks(seen_.kicks, book_, places, truth_, logged_);
+    logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
+    remark_lengths();
+    logged_.spans = played_spans(seen_.play, logged_);
+    return std::move(logged_);
+  }
+
+ private:
+  // Each recording by itself: which ones are of one play is known when all are read.
+  void note_lengths(const log::Reader& reader, const std::string& name, const SessionPlaces& fresh) {
+    std::vector<ComparedSession> alone;
+    for (const ComparedSession& session : book_.sessions()) {
+      alone.push_back(session);
+      alone.back().play = static_cast<std::uint32_t>(alone.size());
+    }
+    const log::Reader* const log = &reader;
+    for (const PlayedLength& length : played_lengths(std::span(&log, 1), alone)) {
+      const auto session = fresh.find(length.session_id);
+      if (session == fresh.end()) continue;
+      for (const std::string& line : cut_short_lines({length}))
+        cut_short_.emplace_back(session->second, fmt::format("{}: {}", name, line));
+    }
+  }
+
+  // Of a play with several recordings one may have what another lacks.
+  void remark_lengths() {
+    for (const auto& [place, line] : cut_short_) {
+      const ComparedSession& session = logged_.sessions[place];
+      if (session.counts && std::ranges::count(logged_.sessions, session.play, &ComparedSession::play) == 1)
+        logged_.remarks.push_back(line);
+    }
+  }
+
+  bool truth_;
+  SessionIndex book_;
+  SeenRows seen_;
+  LoggedOpportunities logged_;
+  std::vector<std::string> losses_;
+  std::vector<std::pair<std::uint32_t, std::string>> cut_short_;  // by place of the session
+};
+
+}  // namespace
+
+LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth) {
+  OpportunityReading reading(truth);
+  for (const std::filesystem::path& path : logs) reading.add(log::Reader(path), path.string());
+  reading.book().refuse_replays_alone();
+  reading.settle();
+  return std::move(reading).finish();
+}
+
+LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth) {
+  OpportunityReading reading(truth);
+  std::vector<SessionPlaces> places;
+  for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
+  reading.settle();
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    std::vector<std::int64_t> left_out = reading.book().sessions_left_out(places[i]);
+    logs[i].reader->query("SELECT session_id FROM sessions", [&](std::int64_t session_id) {
+      if (!places[i].contains(session_id)) left_out.push_back(session_id);
+    });
+    logs[i].reader->leave_out(left_out, reading.book().kicks_left_out(places[i]));
+  }
+  return std::move(reading).finish();
+}
+
+LoggedOpportunities read_opportunities(log::Reader& reader, const std::string& name, bool truth) {
+  const OpenLog log{&reader, name};
+  return read_opportunities(std::span(&log, 1), truth);
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,129 @@
+#include "evaluator/drift_report/log_drift.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "evaluator/sessions/log_sessions.hpp"
+#include "kicking/geometry/time.hpp"
+#include "kicking/policy/policy.hpp"
+#include "log/read/reader.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+constexpr const char* kWatchedKicksSql = R"(
+SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns, k.release_t_ns,
+  k.outcome, k.bounced, k.policy, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
+  d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
+FROM counted_kicks AS k
+CROSS JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq  -- this order
+JOIN sessions AS s ON s.session_id = k.session_id
+JOIN utc_offsets AS u ON u.session_id = k.session_id
+WHERE k.accepted = 1)";
+
+/// A kick with where it stands.
+struct Row {
+  std::uint32_t session = 0;
+  int robot_id = 0;
+  bool simulated = false;
+  DriftKick at;
+  WatchedKick kick;
+};
+
+std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const SessionPlaces& fresh) {
+  std::vector<Row> rows;
+  reader.query(
+      kWatchedKicksSql,
+      [&](std::int64_t session_id, const std::string& uuid, bool simulated, int robot_id, std::int64_t kick_id,
+          std::int64_t t_ns, std::int64_t utc_ns, std::optional<std::int64_t> release_t_ns,
+          const std::optional<std::string>& outcome, std::optional<bool> bounced, const std::string& policy,
+          std::optional<double> z_cross_m, std::optional<double> exit_speed_mps, double x_m, double y_m,
+          double heading_rad, double vx_mps, double vy_mps, double omega_radps, double target_y_m,
+          std::optional<double> predicted_x_m, std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
+        const auto session = fresh.find(session_id);
+        if (session == fresh.end()) return;
+        Row& row =
+            rows.emplace_back(Row{session->second, robot_id, simulated, {log, session_id, uuid, kick_id, utc_ns}, {}});
+        row.kick = {.kick_id = kick_id,
+                    .t_ns = t_ns,
+                    .robot = {x_m, y_m, heading_rad},
+                    .twist = {vx_mps, vy_mps, omega_radps},
+                    .policy = kicking::row_of(policy).value_or(-1),
+                    .goal_y_m = target_y_m};
+        if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
+        row.kick.x_m = *predicted_x_m;
+        row.kick.z_m = *predicted_z_m;
+        row.kick.t_flight_s = *t_flight_s;
+        row.kick.lead_s = release_t_ns ? kicking::seconds(*release_t_ns - t_ns) : 0.0;
+        row.kick.seen_to_the_line = outcome && *outcome != "blocked" && *outcome != "unknown";
+        row.kick.bounced = bounced.value_or(false);
+        row.kick.z_cross_m = z_cross_m;
+        row.kick.exit_speed_mps = exit_speed_mps;
+      });
+  return rows;
+}
+
+/// The kicks of all logs, each once, and what became of their kickers.
+class DriftKicks {
+ public:
+  void add(const log::Reader& reader, const std::string& name) {
+    for (Row& row : watched_rows(reader, logs_++, book_.add(reader, name))) rows_.push_back(std::move(row));
+  }
+
+  DriftReport tell() {
+    book_.settle();
+    DriftReport report{.robots = {}, .remarks = book_.remarks()};
+    report.remarks.insert(report.remarks.end(), book_.not_counted().begin(), book_.not_counted().end());
+    std::erase_if(rows_, [&](const Row& row) { return !book_.counts(row.session, row.robot_id, row.at.kick_id); });
+    std::ranges::stable_sort(rows_, {}, [](const Row& row) { return std::pair(row.at.utc_ns, row.at.kick_id); });
+    using Series = std::pair<int, std::string>;  // robot; session where it is one by itself
+    std::map<Series, std::vector<const Row*>> series;
+    for (const Row& row : rows_) series[{row.robot_id, row.simulated ? row.at.session : ""}].push_back(&row);
+    for (const auto& [of, kicks] : series) report.robots.push_back(timeline_of(of.first, kicks));
+    std::ranges::stable_sort(report.robots, {}, [](const RobotDrift& robot) {
+      return std::pair(robot.robot_id, robot.kicks.front().utc_ns);
+    });
+    return report;
+  }
+
+ private:
+  static RobotDrift timeline_of(int robot_id, const std::vector<const Row*>& kicks) {
+    RobotDrift robot;
+    robot.robot_id = robot_id;
+    robot.simulated = kicks.front()->simulated;
+    std::vector<KickResidual> residuals;
+    for (const Row* const row : kicks) {
+      if (robot.kicks.empty() || robot.kicks.back().session != row->at.session) ++robot.sessions;
+      robot.kicks.push_back(row->at);
+      residuals.push_back(residual_of(row->kick));
+    }
+    robot.story = drifts_of(residuals);
+    return robot;
+  }
+
+  std::size_t logs_ = 0;
+  std::vector<Row> rows_;
+  SessionIndex book_;
+};
+
+}  // namespace
+
+bool DriftReport::found() const {
+  return std::ranges::any_of(robots, [](const RobotDrift& robot) { return !robot.story.drifts.empty(); });
+}
+
+DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
+  DriftKicks book;
+  for (const std::filesystem::path& path : logs) book.add(log::Reader{path}, path.string());
+  return book.tell();
+}
+
+DriftReport drift_in(std::span<const OpenLog> logs) {
+  DriftKicks book;
+  for (const OpenLog& log : logs) book.add(*log.reader, log.name);
+  return book.tell();
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,95 @@
+#include "evaluator/page/figures/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "evaluator/page/html.hpp"
+#include "evaluator/render/simulated.hpp"
+#include "evaluator/render/svg_chart.hpp"
+#include "kicking/text/printable.hpp"
+
+namespace trivela::evaluator::page {
+namespace {
+
+constexpr double kNoteHeight = 22.0;
+constexpr std::size_t kPageColours = 8;
+
+}  // namespace
+
+std::string figure(const FigureHead& head, const std::string& marks, const std::string& note) {
+  const double height = head.height + (head.simulated ? kNoteHeight : 0.0);
+  const std::string said =
+      head.simulated ? svg_text(0.5 * kFigureWidth, height - 6.0, "middle", kSimulatedFigure, " class=\"simulated\"")
+                     : std::string();
+  return fmt::format(
+      "<figure id=\"{}\">\n<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n{}{}</svg>\n"
+      "<figcaption>{}</figcaption>\n</figure>\n",
+      head.id, kFigureWidth, height, html(head.says + (head.simulated ? " (simulated)" : "")), marks, said, html(note));
+}
+
+std::string titled(const std::string& words, const std::string& mark, const std::string& attributes) {
+  return fmt::format("<g{}><title>{}</title>{}</g>\n", attributes, html(words), mark);
+}
+
+std::string tick_text(double value) { return fmt::format("{:.6g}", std::abs(value) < 1e-9 ? 0.0 : value); }
+
+Axis axis(double low, double high, double from_px, double to_px, const std::string& label) {
+  const auto ticks = round_ticks(low, high);
+  return {{ticks.front(), ticks.back(), from_px, to_px}, ticks, label};
+}
+
+std::string axes(const Axis& x, const Axis& y) {
+  std::string svg;
+  const double bottom = y.scale.from_px, top = y.scale.to_px, left = x.scale.from_px, right = x.scale.to_px;
+  const std::size_t every = x.ticks.size() > 8 ? 2 : 1;
+  for (std::size_t i = 0; i < x.ticks.size(); ++i) {
+    const double px = x.scale.px(x.ticks[i]);
+    svg += svg_line("grid", px, bottom, px, top);
+    if (i % every == 0) svg += svg_text(px, bottom + 22.0, "middle", tick_text(x.ticks[i]));
+  }
+  for (const double tick : y.ticks) {
+    svg += svg_line("grid", left, y.scale.px(tick), right, y.scale.px(tick));
+    svg += svg_text(left - 7.0, y.scale.px(tick) + 5.0, "end", tick_text(tick));
+  }
+  svg += svg_line("axis", left, bottom, right, bottom) + svg_line("axis", left, bottom, left, top);
+  const double middle = 0.5 * (bottom + top);
+  svg += svg_text(0.5 * (left + right), bottom + 41.0, "middle", x.label);
+  svg += svg_text(14.0, middle, "middle", y.label, fmt::format(" transform=\"rotate(-90 14 {:.1f})\"", middle));
+  return svg;
+}
+
+std::string colour(std::size_t number) { return fmt::format("c{}", number % kPageColours); }
+
+std::string interval_plot(IntervalPlot plot) {
+  constexpr double kLeft = 190.0, kRight = 372.0, kRow = 24.0, kTop = 8.0;
+  const double bottom = kTop + kRow * static_cast<double>(plot.rows.size());
+  const Axis x = axis(plot.from / plot.unit, plot.to / plot.unit, kLeft, kRight, plot.axis_label);
+  std::string svg;
+  const std::size_t every = x.ticks.size() > 6 ? 2 : 1;
+  for (std::size_t i = 0; i < x.ticks.size(); ++i) {
+    const double px = x.scale.px(x.ticks[i]);
+    svg += svg_line("grid", px, kTop, px, bottom);
+    if (i % every == 0) svg += svg_text(px, bottom + 18.0, "middle", tick_text(x.ticks[i]));
+  }
+  svg += svg_line("axis", kLeft, bottom, kRight, bottom);
+  svg += svg_text(0.5 * (kLeft + kRight), bottom + 38.0, "middle", plot.axis_label);
+  const auto px_of = [&](double value) { return std::clamp(x.scale.px(value / plot.unit), kLeft, kRight); };
+  double y = kTop + 0.5 * kRow;
+  for (const IntervalRow& row : plot.rows) {
+    const std::string label = kicking::printable(row.label);
+    svg += svg_text(row.heading ? 4.0 : 16.0, y + 5.0, "start", label, row.heading ? " class=\"heading\"" : "");
+    if (!row.heading && row.known) {
+      svg += titled(fmt::format("{}: {}", row.label, row.numbers),
+                    svg_line(colour(row.colour) + " interval", px_of(row.lo), y, px_of(row.hi), y) +
+                        svg_circle(colour(row.colour), {px_of(row.value), y}, 5.0));
+    }
+    if (!row.heading) svg += svg_text(kRight + 9.0, y + 5.0, "start", row.numbers);
+    y += kRow;
+  }
+  plot.head.height = bottom + 48.0;
+  return figure(plot.head, svg, plot.note);
+}
+
+}  // namespace trivela::evaluator::page

@@ -1,0 +1,60 @@
+#include "evaluator/page/figures/outcome_kind.hpp"
+
+#include <fmt/format.h>
+
+#include "evaluator/page/figures/figure.hpp"
+#include "evaluator/render/text_table.hpp"
+
+namespace trivela::evaluator::page {
+
+OutcomeKind kind_of(const KickTimeline& story) {
+  const std::string label = story.observed ? story.observed->outcome : "unknown";
+  if (label == "on_target") return OutcomeKind::kInside;
+  if (label == "post" || label == "bar") return OutcomeKind::kFrame;
+  if (label == "blocked") return OutcomeKind::kBlocked;
+  if (label == "unknown" || label.empty()) return OutcomeKind::kUnknown;
+  return OutcomeKind::kBeside;
+}
+
+std::string outcome_mark(OutcomeKind kind, const ChartPoint& at, double size) {
+  const std::string name = kOutcomeNames[static_cast<std::size_t>(kind)].key;
+  switch (kind) {
+    case OutcomeKind::kInside:
+    case OutcomeKind::kUnknown:
+      return svg_circle("mark " + name, at, size);
+    case OutcomeKind::kFrame:
+      return svg_rect("mark " + name, {at.x - 0.9 * size, at.y - 0.9 * size}, 1.8 * size, 1.8 * size);
+    case OutcomeKind::kBeside:
+      return fmt::format(
+          "<path class=\"mark {0}\" d=\"M{1:.1f} {2:.1f}l{3:.1f} {3:.1f}l-{3:.1f} {3:.1f}l-{3:.1f} -{3:.1f}z\"/>\n",
+          name, at.x, at.y - 1.2 * size, 1.2 * size);
+    case OutcomeKind::kBlocked:
+      return fmt::format(
+          "<path class=\"mark {0}\" d=\"M{1:.1f} {2:.1f}l{3:.1f} {3:.1f}m0 -{3:.1f}l-{3:.1f} {3:.1f}\"/>\n", name,
+          at.x - size, at.y - size, 2.0 * size);
+  }
+  return "";
+}
+
+std::string outcome_legend(const std::array<std::size_t, 5>& counts, double y) {
+  constexpr double kSlot = 172.0;
+  std::string svg;
+  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+    const std::size_t row = i / 3, column = i % 3;
+    const double x = 14.0 + kSlot * static_cast<double>(column), baseline = y + 22.0 * static_cast<double>(row);
+    svg += outcome_mark(static_cast<OutcomeKind>(i), {x, baseline - 5.0}, 5.0);
+    svg += svg_text(x + 12.0, baseline, "start", fmt::format("{}: {}", kOutcomeNames[i].words, counts[i]));
+  }
+  return svg;
+}
+
+std::string outcome_words(const KickTimeline& story) {
+  return story.observed && !story.observed->outcome.empty() ? words(story.observed->outcome) : "no outcome";
+}
+
+std::string kick_words(const KickTimeline& story) {
+  return fmt::format("kick {}:{}, {}, {:.1f} m, {}", story.robot_id, story.number, story.policy, story.distance_m,
+                     outcome_words(story));
+}
+
+}  // namespace trivela::evaluator::page

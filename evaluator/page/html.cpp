@@ -1,0 +1,107 @@
+#include "evaluator/page/html.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "kicking/text/printable.hpp"
+#include "log/schema/digest.hpp"
+
+namespace trivela::evaluator::page {
+
+std::string html(std::string_view text) {
+  std::string out;
+  for (const char c : kicking::printable(text)) {
+    switch (c) {
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '&':
+        out += "&amp;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string script_json(const Json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& body) {
+  return fmt::format(
+      "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}</h2>\n{2}</section>\n", id,
+      html(title), body);
+}
+
+std::string paragraphs(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += "<p>" + html(sentence) + "</p>\n";
+  return text;
+}
+
+std::string list_of(const std::vector<std::string>& sentences) {
+  if (sentences.empty()) return "";
+  std::string text = "<ul>\n";
+  for (const std::string& sentence : sentences) text += "<li>" + html(sentence) + "</li>\n";
+  return text + "</ul>\n";
+}
+
+std::string table(const std::string& caption, const std::vector<std::vector<std::string>>& rows) {
+  std::string text = fmt::format(
+      "<div class=\"scrolls\" role=\"group\" aria-label=\"{0}\" tabindex=\"0\">\n<table>\n<caption>{0}</caption>\n",
+      html(caption));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += i == 0 ? "<thead><tr>" : "<tr>";
+    for (std::size_t j = 0; j < rows[i].size(); ++j) {
+      const bool head = i == 0 || j == 0;
+      text += head ? fmt::format("<th scope=\"{}\">", i == 0 ? "col" : "row") : "<td>";
+      text += html(rows[i][j]) + (head ? "</th>" : "</td>");
+    }
+    text += i == 0 ? "</tr></thead>\n<tbody>\n" : "</tr>\n";
+  }
+  return text + (rows.empty() ? "" : "</tbody>\n") + "</table>\n</div>\n";
+}
+
+std::string details(const std::string& summary, const std::string& body) {
+  return fmt::format("<details>\n<summary>{}</summary>\n{}</details>\n", html(summary), body);
+}
+
+std::string counted(std::int64_t n, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string csp_hash(const std::string& text) {
+  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::string hex = log::sha256(text);
+  std::array<unsigned, 33> bytes{};  // 32 and one of 0 for the last group
+  for (std::size_t i = 0; i < 32; ++i) bytes[i] = static_cast<unsigned>(std::stoul(hex.substr(2 * i, 2), nullptr, 16));
+  std::string base64;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const unsigned group = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
+    for (const unsigned shift : {18U, 12U, 6U, 0U}) base64 += kDigits[group >> shift & 63U];
+  }
+  base64.back() = '=';
+  return "'sha256-" + base64 + "'";
+}
+
+}  // namespace trivela::evaluator::page

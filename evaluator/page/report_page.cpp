@@ -1,0 +1,112 @@
+#include "evaluator/page/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "evaluator/page/html.hpp"
+#include "evaluator/page/page.css.hpp"
+#include "evaluator/page/page.js.hpp"
+#include "evaluator/render/simulated.hpp"
+#include "evaluator/story/replay.hpp"
+
+namespace trivela::evaluator::page {
+namespace {
+
+struct PagePart {
+  const char* id;
+  const char* title;
+  std::string (*make)(const PageView&);
+  bool (*is_there)(const PageData&) = [](const PageData&) { return true; };
+};
+constexpr std::array<PagePart, 13> kParts{
+    {{"verdict", "Verdict", verdict_section},
+     {"table2", "Table 2", table2_section},
+     {"forest", "How often on target", forest_section},
+     {"mouth", "The goal mouth", goal_mouth_section},
+     {"pitch", "Where from", pitch_section},
+     {"rates", "How often a minute", rates_section},
+     {"predictions", "Predicted and observed", prediction_section},
+     {"drift", "Is a kicker drifting?", drift_section},
+     {"again", "Decided again", decided_again_section, [](const PageData& data) { return !data.again.empty(); }},
+     {"changes", "What changed since the log before", changes_section,
+      [](const PageData& data) { return data.logs.size() > 1; }},
+     {"held", "Why held", held_section},
+     {"list", "Kicks", kick_list_section},
+     {"quality", "Data quality", quality_section}}};
+
+/// What goes wrong in a section costs that section alone.
+std::string guarded(const PagePart& part, const PageView& view) {
+  try {
+    return part.make(view);
+  } catch (const std::exception& error) {
+    return section(part.id, part.title, paragraphs({fmt::format("This section could not be made: {}", error.what())}));
+  }
+}
+
+std::string title_of(const PageData& data) {
+  if (data.logs.size() == 1) return "Match report: " + data.logs.front().name;
+  return fmt::format("Match report: {} logs", data.logs.size());
+}
+
+/// Match, opponent, venue and notes.
+std::string said(const Report& report) {
+  std::vector<std::string> lines;
+  for (const SessionNote& note : report.notes) lines.push_back(line_of(note));
+  return list_of(lines);
+}
+
+std::string simulated_banner(const Report& report) {
+  if (report.simulated_sessions() == 0) return "";
+  std::string words = kSimulated;
+  if (report.simulated_sessions() < std::ssize(report.sessions))
+    words += fmt::format(" Only {} of {} sessions are simulated; they are pooled all the same.",
+                         report.simulated_sessions(), report.sessions.size());
+  return "<p class=\"banner\">" + html(words.substr(0, words.find('\n'))) + html(words.substr(words.find('\n') + 1)) +
+         "</p>\n";
+}
+
+std::string contents(const PageData& data) {
+  std::string text = "<nav aria-label=\"Sections\"><ul>\n";
+  for (const PagePart& part : kParts)
+    if (part.is_there(data)) text += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", part.id, part.title);
+  return text + "</ul></nav>\n";
+}
+
+/// The stories, by their place in the list.
+std::string stories(const PageData& data) {
+  if (data.kicks.size() > kMostReplays) return "[]";
+  std::string text = "[";
+  for (const PageKick& kick : data.kicks) text += (text.size() > 1 ? ",\n" : "\n") + script_json(json_of(kick.story));
+  return text + "\n]";
+}
+
+}  // namespace
+
+std::string to_html(const Report& report, const PageData& data) {
+  const PageView view{report, data, report.simulated_sessions() > 0};
+  const std::string style = std::string(kPageCss) + std::string(replay_style());
+  const std::string script = std::string(replay_script()) + std::string(kPageJs);
+  const std::string title = html(title_of(data));
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src {}; "
+      "img-src data:; base-uri 'none'; form-action 'none'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
+      csp_hash(script), csp_hash(style), title, style);
+  page += "<header>\n<h1>" + title + "</h1>\n" + simulated_banner(report) + said(report) + contents(data) +
+          "</header>\n<main>\n";
+  for (const PagePart& part : kParts)
+    if (part.is_there(data)) page += guarded(part, view);
+  page += "</main>\n<script type=\"application/json\" id=\"stories\">" + stories(data) + "</script>\n";
+  return page + "<script>" + script + "</script>\n</body>\n</html>\n";
+}
+
+std::string report_page(const Report& report, const std::vector<std::filesystem::path>& logs,
+                        const PageProgress& progress) {
+  return to_html(report, read_page_data(logs, progress));
+}
+
+}  // namespace trivela::evaluator::page

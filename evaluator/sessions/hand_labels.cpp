@@ -1,0 +1,47 @@
+#include "evaluator/sessions/hand_labels.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "evaluator/metrics/labels_by_hand.sql.hpp"
+
+namespace trivela::evaluator {
+
+bool disagree(const std::string& by_hand, const std::string& observed) {
+  return by_hand == "outside" ? observed == "on_target" : by_hand != observed;
+}
+
+HandLabels hand_labels_of(const log::Reader& reader, const std::set<std::int64_t>& sessions) {
+  HandLabels labels;
+  reader.query(kLabelsByHandSql,
+               [&](std::int64_t session_id, int /*robot_id*/, std::int64_t /*kick_id*/, std::int64_t /*number*/,
+                   std::int64_t /*t_ns*/, const std::string& /*policy*/, const std::string& outcome,
+                   std::optional<std::string> observed, const std::string& /*who*/, std::int64_t /*labelled_utc_ns*/,
+                   const std::string& /*note*/) {
+                 if (!sessions.contains(session_id)) return;
+                 ++labels.kicks;
+                 if (!observed || *observed == "unknown") {
+                   ++labels.observer_knew_not;
+                 } else if (outcome != "unknown") {
+                   ++labels.compared;
+                   labels.disagreed += disagree(outcome, *observed) ? 1 : 0;
+                 }
+               });
+  return labels;
+}
+
+void HandLabels::add(const HandLabels& other) {
+  kicks += other.kicks;
+  compared += other.compared;
+  disagreed += other.disagreed;
+  observer_knew_not += other.observer_knew_not;
+}
+
+std::string HandLabels::line() const {
+  if (kicks == 0) return "";
+  return fmt::format("hand labels: {} kick{}; they disagreed with the observer in {} of {}, who did not know {}", kicks,
+                     kicks == 1 ? "" : "s", disagreed, compared, observer_knew_not);
+}
+
+}  // namespace trivela::evaluator

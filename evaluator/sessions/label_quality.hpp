@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "evaluator/stats/counts/label_doubt.hpp"
+#include "log/read/reader.hpp"
+
+namespace trivela::evaluator {
+
+/// Kicks that were judged by about as many sightings.
+struct SightingsRow {
+  std::string sightings;
+  std::int64_t kicks = 0;
+  std::int64_t unknown = 0;
+  double expected_wrong = 0.0;  ///< sum of 1 - p of the labels given
+};
+
+/// Where balls came back from.
+struct TurnCluster {
+  double y_m = 0.0;        ///< middle, in F
+  std::int64_t turns = 0;  ///< within kTurnReach_m of it
+};
+inline constexpr double kTurnReach_m = 0.12;
+
+/// Doubt of the labels of a robot's kicks.
+struct KickerDoubt {
+  std::int64_t session_id = 0;
+  int robot_id = 0;
+  std::string policy;
+  stats::LabelDoubt doubt;
+};
+
+/// How far the observed outcomes can be trusted.
+struct LabelQuality {
+  std::vector<SightingsRow> rows;   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
+  std::vector<KickerDoubt> doubts;  ///< by session, robot and policy
+  bool has_probabilities = false;   ///< false: the labels came without them, and count as certain
+  std::int64_t stopped_free = 0;    ///< kicks seen flying freely until the game was stopped, before the goal line
+  std::int64_t kicks = 0;
+  std::optional<double> goal_y_m;        ///< of the robots' settings; none: no kick says it
+  std::int64_t turns_at_goal = 0;        ///< balls that came back within 0.3 m of it
+  std::optional<TurnCluster> elsewhere;  ///< where most of the others did, if they were four or more
+
+  /// Adds the labels of another log; where each has its goal, their own goal_warnings() say.
+  void add(const LabelQuality& other);
+
+  double expected_wrong() const;
+  /// Sentences on tracks that contradict the goal's place; none: they do not.
+  std::vector<std::string> goal_warnings() const;
+};
+
+/// Where most of `turns_y_m` lie within kTurnReach_m; none: fewer than four.
+std::optional<TurnCluster> densest(std::vector<double> turns_y_m);
+
+LabelQuality label_quality_of(const log::Reader& reader);
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "evaluator/render/escaped_text.hpp"
+#include "evaluator/sessions/no_goal.hpp"
+#include "evaluator/table2/table2.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+using CsvCells = std::vector<std::string>;
+
+const CsvCells kCsvHead = {"row",
+                           "arm",
+                           "policy",
+                           "robot_id",
+                           "inside",
+                           "outside",
+                           "unknown",
+                           "efficiency",
+                           "wilson95_lo",
+                           "wilson95_hi",
+                           "efficiency_unknown_out",
+                           "efficiency_unknown_in",
+                           "played_min",
+                           "kicks_per_min"};
+const CsvCells kCsvMore = {"not_said",
+                           kNoGoals[0].label,
+                           kNoGoals[1].label,
+                           "observed_bounced",
+                           "observed_bounced_of",
+                           "truth_bounced",
+                           "truth_bounced_of",
+                           "expected_wrong_inside",
+                           "expected_wrong_outside",
+                           "repeated_in_paired_halves",
+                           "simulated",
+                           "data_lost",
+                           "name",
+                           "value"};
+
+std::string csv_cell(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
+std::string csv_cell(double value) { return fmt::format("{}", value); }
+std::string csv_cell(std::int64_t value) { return fmt::format("{}", value); }
+
+/// A line of a table of the report: as many cells as the head has.
+std::string csv_line(CsvCells cells) {
+  cells.resize(kCsvHead.size() + kMisses.size() + kCsvMore.size());
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+std::string csv_row_line(const PolicyRow& row, const std::string& robot_id, const Report& report) {
+  const auto wilson = row.efficiency_ci(), bounds = row.efficiency_bounds();
+  CsvCells cells = {robot_id.empty() ? "policy" : "robot",
+                    csv_text(row.arm),
+                    csv_text(row.policy),
+                    robot_id,
+                    csv_cell(row.inside()),
+                    csv_cell(row.outside()),
+                    csv_cell(row.unknown()),
+                    csv_cell(stats::efficiency(row.counts())),
+                    csv_cell(wilson.lo),
+                    csv_cell(wilson.hi),
+                    csv_cell(bounds.lo),
+                    csv_cell(bounds.hi),
+                    csv_cell(row.played_min),
+                    csv_cell(row.kicks_per_min())};
+  for (const std::string& miss : kMisses) cells.push_back(csv_cell(row.of(miss)));
+  for (const std::int64_t n :
+       {row.of("outside"), row.of(kNoGoals[0].label), row.of(kNoGoals[1].label), row.bounces.observed_bounced,
+        row.bounces.observed, row.bounces.truth_bounced, row.bounces.truth})
+    cells.push_back(csv_cell(n));
+  cells.push_back(csv_cell(row.doubt.inside));
+  cells.push_back(csv_cell(row.doubt.outside));
+  cells.push_back(csv_cell(row.repeated));
+  cells.push_back(report.simulated_sessions() > 0 ? "1" : "0");
+  cells.push_back(report.data_lost() ? "1" : "0");
+  return csv_line(std::move(cells));
+}
+
+// A number that belongs to no policy: `row` says to which part of the report, `name` which one.
+std::string csv_number_line(const std::string& row, const std::string& name, const std::string& value) {
+  CsvCells cells(kCsvHead.size() + kMisses.size() + kCsvMore.size());
+  cells.front() = row;
+  cells[cells.size() - 2] = csv_text(name);
+  cells.back() = value;
+  return csv_line(std::move(cells));
+}
+
+std::string csv_quality_lines(const Report& report) {
+  std::string text;
+  const auto add = [&](const char* row, const std::string& name, const auto& value) {
+    text += csv_number_line(row, name, csv_cell(value));
+  };
+  for (const SightingsRow& row : report.labels.rows) {
+    add("sightings", row.sightings + ": kicks", row.kicks);
+    add("sightings", row.sightings + ": unknown", row.unknown);
+    if (report.labels.has_probabilities) add("sightings", row.sightings + ": expected_wrong", row.expected_wrong);
+  }
+  for (const log::Loss& loss : report.losses) {
+    for (const auto& [name, n] : {std::pair{"received", loss.received}, std::pair{"missing", loss.missing()},
+                                  std::pair{"lost", loss.lost}, std::pair{"gaps", loss.gaps},
+                                  std::pair{"overflow", loss.overflow}, std::pair{"nan_refused", loss.nan_refused},
+                                  std::pair{"rejected", loss.rejected}, std::pair{"out_of_order", loss.out_of_order}})
+      add("stream", fmt::format("{}: {}", loss.stream, name), n);
+  }
+  for (const RefusedOrders& refused : report.refused_orders)
+    add("refused_orders", fmt::format("{}: {}", refused.policy, refused.refusal), refused.orders);
+  for (const RefusedOrders& refused : report.refused_orders)
+    add("orders_not_fired", fmt::format("{}: {}", refused.policy, refused.refusal), refused.not_fired);
+  for (const PlayedLength& length : report.lengths) {
+    add("length", fmt::format("{}: planned_s", length.session_id), length.planned_s);
+    add("length", fmt::format("{}: recorded_s", length.session_id), length.recorded_s);
+  }
+  const auto size = [](const auto& list) { return static_cast<std::int64_t>(list.size()); };
+  add("quality", "sessions", size(report.sessions));
+  add("quality", "rows_missing", report.rows_missing());
+  add("quality", "unclosed_sessions", report.unclosed_sessions());
+  add("quality", "unclosed_kicks", size(report.unclosed_kicks));
+  add("quality", "silences", size(report.silences));
+  add("quality", "verified_rows", report.verified_rows);
+  add("quality", "compared_with_truth", report.compared_with_truth);
+  add("quality", "alike_with_truth", report.alike_with_truth);
+  for (const GateResult& gate : report.gates) {
+    for (const Measured& of : gate.measured) text += csv_number_line("gate", gate.gate, csv_cell(of.value));
+    add("gate_met", gate.gate, std::int64_t{gate.met});
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_csv(const Report& report) {
+  std::string text =
+      fmt::format("{},{},{}\n", fmt::join(kCsvHead, ","), fmt::join(kMisses, ","), fmt::join(kCsvMore, ","));
+  for (const PolicyRow& row : report.policies) text += csv_row_line(row, "", report);
+  for (const RobotRow& row : report.robots) text += csv_row_line(row, fmt::to_string(row.robot_id), report);
+  return text + csv_quality_lines(report);
+}
+
+}  // namespace trivela::evaluator

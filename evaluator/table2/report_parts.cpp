@@ -1,0 +1,209 @@
+#include "evaluator/table2/report_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "evaluator/render/text_table.hpp"
+#include "evaluator/sessions/no_goal.hpp"
+#include "evaluator/table2/report_sentences.hpp"
+#include "kicking/geometry/time.hpp"
+#include "kicking/text/printable.hpp"
+
+namespace trivela::evaluator {
+namespace {
+
+std::string shown(std::int64_t n) { return std::to_string(n); }
+
+std::string shown(std::optional<double> x) { return x ? fmt::format("{:.2f}", *x) : "-"; }
+
+// Lines that are indented for a terminal, as sentences.
+void add_lines(std::vector<std::string>& notes, const std::string& lines) {
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) notes.push_back(line.substr(line.find_first_not_of(' ')));
+}
+
+// The first cells of a row: who kicked.
+std::vector<std::string> who_of(const Report& report, const PolicyRow& row) {
+  std::vector<std::string> cells;
+  if (!report.arms.empty()) cells.push_back(row.arm.empty() ? "-" : row.arm);
+  cells.push_back(row.policy.empty() ? "-" : row.policy);
+  return cells;
+}
+
+std::vector<std::string> head_of(const Report& report, const std::vector<std::string>& rest) {
+  std::vector<std::string> cells =
+      report.arms.empty() ? std::vector<std::string>{"policy"} : std::vector<std::string>{"arm", "policy"};
+  cells.insert(cells.end(), rest.begin(), rest.end());
+  return cells;
+}
+
+const std::vector<std::string> kCountHead = {"inside",      "outside", "unknown",       "efficiency",
+                                             "Wilson 95 %", "minutes", "kicks a minute"};
+
+void add_counts(std::vector<std::string>& cells, const PolicyRow& row) {
+  const auto efficiency = stats::efficiency(row.counts());
+  for (const std::int64_t n : {row.inside(), row.outside(), row.unknown()}) cells.push_back(shown(n));
+  cells.push_back(efficiency ? percent(*efficiency) : "-");
+  cells.push_back(efficiency ? percent(row.efficiency_ci()) : "-");
+  cells.push_back(shown(row.played_min));
+  cells.push_back(shown(row.kicks_per_min()));
+}
+
+ReportPart table2_part(const Report& report) {
+  ReportPart part{report.arms.empty() ? "Table 2: kicks by policy" : "Table 2: kicks by arm",
+                  {head_of(report, kCountHead)},
+                  {"inside: between the posts and below the bar, saves included; it is not goals scored"}};
+  std::vector<NamedBounces> bounces;
+  bool blocked_apart = false;
+  for (const PolicyRow& row : report.policies) {
+    bounces.push_back({kicking::printable(name_of(row)), row.bounces});  // its lines are taken apart
+    blocked_apart = blocked_apart || row.blocked_apart;
+    part.table.push_back(who_of(report, row));
+    add_counts(part.table.back(), row);
+  }
+  add_lines(part.notes, bounce_lines(bounces));
+  if (report.arms.size() > 1)
+    part.notes.emplace_back("arms of an experiment meet the same opportunities, so that their kicks are not added up");
+  if (blocked_apart) part.notes.emplace_back("blocked kicks stand apart, below: neither outside nor in the efficiency");
+  for (const PolicyRow& row : report.policies) {
+    if (row.repeated == 0) continue;
+    part.notes.push_back(fmt::format(
+        "{} of the kicks of {} are in situations that it had in an earlier half, too{}", row.repeated, name_of(row),
+        row.paired_ci ? ": its interval takes each situation once"
+                      : "; for an interval that allows for it these are too few situations"));
+  }
+  return part;
+}
+
+ReportPart by_robot_part(const Report& report) {
+  ReportPart part{"By robot", {head_of(report, kCountHead)}, {}};
+  part.table[0].insert(part.table[0].begin(), "robot");
+  for (const RobotRow& row : report.robots) {
+    part.table.push_back(who_of(report, row));
+    part.table.back().insert(part.table.back().begin(), shown(row.robot_id));
+    add_counts(part.table.back(), row);
+  }
+  part.notes.emplace_back("minutes: of play, in the possessions in which the robot had the ball");
+  return part;
+}
+
+ReportPart misses_part(const Report& report) {
+  std::vector<std::string> names;
+  names.reserve(kMisses.size());
+  for (const std::string& miss : kMisses) names.push_back(words(miss));
+  std::vector<std::string> rarer;  // that there are
+  for (const char* const label : {"outside", kNoGoals[0].label, kNoGoals[1].label}) {
+    if (std::ranges::none_of(report.policies, [&](const PolicyRow& row) { return row.of(label) > 0; })) continue;
+    rarer.emplace_back(label);
+    names.push_back(rarer.back() == "outside" ? "not said" : words(label));
+  }
+  names.emplace_back("unknown");
+  ReportPart part{"Why the misses missed", {head_of(report, names)}, {}};
+  for (const PolicyRow& row : report.policies) {
+    std::vector<std::string>& cells = part.table.emplace_back(who_of(report, row));
+    for (const std::string& miss : kMisses) cells.push_back(shown(row.of(miss)));
+    for (const std::string& label : rarer) cells.push_back(shown(row.of(label)));
+    cells.push_back(shown(row.unknown()));
+  }
+  return part;
+}
+
+ReportPart label_quality_part(const LabelQuality& labels) {
+  ReportPart part{
+      "Outcomes by sightings of the flight", {{"sightings", "kicks", "unknown", "labels expected wrong"}}, {}};
+  for (const SightingsRow& row : labels.rows) {
+    if (row.kicks == 0) continue;
+    part.table.push_back({row.sightings, shown(row.kicks), shown(row.unknown),
+                          labels.has_probabilities ? fmt::format("{:.2f}", row.expected_wrong) : "-"});
+  }
+  if (!labels.has_probabilities) part.notes.emplace_back("the labels came without their probabilities");
+  return part;
+}
+
+// Nobody counts the sightings of somebody who watched a video.
+bool imported_alone(const Report& report) { return report.imports.size() == report.sessions.size(); }
+
+void add_lost_rows(ReportPart& part, const Report& report) {
+  if (report.rows_missing() == 0) return part.notes.emplace_back("lost: nothing"), void();
+  part.table = {{"lost", "received", "lost on the bus", "gaps", "queue full", "not a number", "rejected", "late"}};
+  for (const log::Loss& loss : report.losses) {
+    if (loss.missing() == 0) continue;
+    part.table.push_back({loss.stream, shown(loss.received), shown(loss.lost), shown(loss.gaps), shown(loss.overflow),
+                          shown(loss.nan_refused), shown(loss.rejected), shown(loss.out_of_order)});
+  }
+}
+
+void add_bounds(std::vector<std::string>& notes, const PolicyRow& row) {
+  if (row.unknown() == 0 && row.doubt.sum() <= 0.0) return;
+  std::string text = fmt::format("efficiency of {}: {}", name_of(row), percent(row.efficiency_bounds()));
+  if (row.unknown() > 0) text += ", whatever the unknown kicks were";
+  if (row.doubt.sum() > 0.0) {
+    text += fmt::format("; mislabelled at most: {} inside, {} outside", stats::most_wrong(row.doubt.inside),
+                        stats::most_wrong(row.doubt.outside));
+  }
+  notes.push_back(text);
+}
+
+ReportPart quality_part(const Report& report) {
+  ReportPart part{"Data quality"};
+  add_lost_rows(part, report);
+  std::vector<std::string>& notes = part.notes;
+  for (const std::string& warning : report.warnings) notes.push_back("warning: " + warning);
+  for (const auto& lines : {report.not_counted, cut_short_lines(report.lengths), silence_lines(report.silences),
+                            order_lines(report.unrecorded_orders)})
+    notes.insert(notes.end(), lines.begin(), lines.end());
+  notes.push_back(report.doubt ? *report.doubt
+                               : fmt::format("verified: {} rows are as they were recorded", report.verified_rows));
+  for (const RefusedOrders& refused : report.refused_orders) notes.push_back(line_of(refused));
+  if (report.unclosed_kicks.empty()) notes.emplace_back("unclosed kicks: none");
+  for (const UnclosedKick& kick : report.unclosed_kicks) {
+    notes.push_back(fmt::format("unclosed kick {} of robot {} at {:.2f} s ({}): no{}{}{}", kick.kick_id, kick.robot_id,
+                                kicking::seconds(kick.t_ns), kick.policy, kick.has_order ? "" : " order",
+                                kick.has_receipt ? "" : " receipt", kick.has_outcome ? "" : " outcome"));
+  }
+  for (const PolicyRow& row : report.policies) add_bounds(notes, row);
+  if (report.hand_labels.kicks > 0) notes.push_back(report.hand_labels.line());
+  if (report.compared_with_truth > 0) {
+    notes.push_back(fmt::format("observed outcomes like the simulator's truth: {} of {}", report.alike_with_truth,
+                                report.compared_with_truth));
+  }
+  return part;
+}
+
+}  // namespace
+
+std::string line_of(const RefusedOrders& refused) {
+  if (refused.refusal == "not_known")
+    return fmt::format("kicks that may not have been fired: {} ({}): the driver was killed while it told the device",
+                       refused.orders, refused.policy);
+  std::string line =
+      fmt::format("refused orders, no kicks: {} x {} ({})", refused.orders, words(refused.refusal), refused.policy);
+  if (refused.not_fired > 0) line += fmt::format("; accepted at first and not fired: {}", refused.not_fired);
+  return line;
+}
+
+std::string name_of(const PolicyRow& row) {
+  if (row.arm.empty()) return row.policy;
+  return row.arm.starts_with(row.policy) ? row.arm : fmt::format("{}/{}", row.arm, row.policy);
+}
+
+ReportParts parts_of(const Report& report) {
+  ReportParts result{heading_of(report), {table2_part(report)}, next_comparison(report)};
+  if (std::ranges::any_of(report.policies, [](const PolicyRow& row) { return row.kicks() > 0; })) {
+    if (!report.robots.empty()) result.parts.push_back(by_robot_part(report));
+    result.parts.push_back(misses_part(report));
+    if (!imported_alone(report)) result.parts.push_back(label_quality_part(report.labels));
+  } else {
+    result.parts.back().notes.emplace_back("there are no kicks");
+  }
+  result.parts.push_back(quality_part(report));
+  if (!report.gates.empty()) {
+    ReportPart& gates = result.parts.emplace_back(ReportPart{"Gates"});
+    for (const GateResult& gate : report.gates) gates.notes.push_back(gate.sentence());
+  }
+  return result;
+}
+
+}  // namespace trivela::evaluator

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "experiment/run/arms.hpp"
+#include "experiment/run/calibrated_arms.hpp"
+#include "kicking/random/draws.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::experiment {
+
+inline constexpr std::uint64_t kCalibrationSeeds =
+    1'000'001;  ///< 0 to 1e6, as `trivela calibrate run --seed` takes them
+
+/// The seed of one robot's calibration, a pure function of the experiment's seed.
+inline std::uint64_t calibration_seed(std::uint64_t seed, std::uint32_t calibration, std::uint32_t robot_id) {
+  const auto words = kicking::philox4x32({calibration, robot_id, 0, 0x4556454e},
+                                         {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  return (std::uint64_t{words[0]} << 32 | words[1]) % kCalibrationSeeds;
+}
+
+/// Which calibrations an experiment plays before its matches.
+struct RepeatedCalibration {
+  std::uint32_t calibrations = 0;  ///< 0: none, robots are those of the files
+  std::uint64_t seed = 1;          ///< of the experiment
+  unsigned jobs = 1;               ///< threads
+};
+
+/// The teams that the calibrations leave behind. The same for any number of jobs. `progress`: calibrations of robots
+/// that were played, of how many; called by one thread at a time.
+std::vector<Team> calibrated_teams(
+    const sim::Scenario& world, const RepeatedCalibration& plan,
+    const std::function<void(std::size_t done, std::size_t all)>& progress = [](auto, auto) {});
+
+}  // namespace trivela::experiment

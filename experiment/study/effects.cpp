@@ -1,0 +1,114 @@
+#include "experiment/study/effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "evaluator/stats/clustered.hpp"
+#include "evaluator/stats/counts/interval.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+double real(std::int64_t n) { return static_cast<double>(n); }
+
+bool in_two_matches(const ArmTally& arm, Measure measure) {
+  return std::ranges::count_if(arm, [&](const MatchTally& match) { return counts_of(match, measure).n > 0; }) >= 2;
+}
+
+}  // namespace
+
+bool has_interval(const Effect& effect) { return std::isfinite(effect.ci.lo) && std::isfinite(effect.ci.hi); }
+
+MatchTally total_of(const ArmTally& matches) {
+  MatchTally total;
+  for (const MatchTally& match : matches) {
+    total.opportunities += match.opportunities;
+    total.kicks += match.kicks;
+    total.on_target += match.on_target;
+    total.blocked += match.blocked;
+    total.bounced += match.bounced;
+    total.goals += match.goals;
+    total.true_on_target += match.true_on_target;
+  }
+  return total;
+}
+
+std::vector<evaluator::stats::Influence> influences_of(const ArmTally& arm, const std::vector<double>& u) {
+  std::vector<evaluator::stats::Influence> influences;
+  for (std::size_t m = 0; m < arm.size(); ++m)
+    influences.push_back({static_cast<std::uint32_t>(m), arm[m].calibration, u[m]});
+  return influences;
+}
+
+double half_width_of(const ArmTally& arm, const std::vector<double>& u) {
+  const auto variance = evaluator::stats::cluster_variance(influences_of(arm, u));
+  return variance ? variance->reach() : std::nan("");
+}
+
+evaluator::stats::Counts counts_of(const MatchTally& tally, Measure measure) {
+  switch (measure) {
+    case Measure::kEfficiency:
+      return {tally.on_target, tally.kicks};
+    case Measure::kUnblocked:
+      return {tally.on_target, tally.kicks - tally.blocked};
+    case Measure::kGoals:
+      return {tally.goals, tally.opportunities};
+    case Measure::kBounced:
+      return {tally.bounced, tally.on_target};
+    case Measure::kPerOpportunity:
+      break;
+  }
+  return {tally.on_target, tally.opportunities};
+}
+
+Effect contrast(std::span<const Term> terms, Measure measure) {
+  Effect effect;
+  std::vector<double> influences;
+  bool in_matches = true, varies = false;
+  for (const Term& term : terms) {
+    in_matches = in_matches && in_two_matches(*term.arm, measure);
+    const auto total = counts_of(total_of(*term.arm), measure);
+    const double n = real(total.n), p = real(total.inside) / n;
+    effect.value += term.weight * p;
+    varies = varies || (p > 0.0 && p < 1.0);
+    influences.resize(term.arm->size());
+    for (std::size_t m = 0; m < term.arm->size(); ++m) {
+      const auto match = counts_of((*term.arm)[m], measure);
+      influences[m] += term.weight * (real(match.inside) - p * real(match.n)) / n;
+    }
+  }
+  const double reach = in_matches && varies ? half_width_of(*terms.front().arm, influences) : std::nan("");
+  effect.ci = {effect.value - reach, effect.value + reach};
+  return effect;
+}
+
+Effect share_of(const ArmTally& matches, Measure measure) {
+  const Term alone{&matches, 1.0};
+  Effect share = contrast({&alone, 1}, measure);
+  if (!in_two_matches(matches, measure)) return share;
+  if (share.value == 0.0 || share.value == 1.0) {
+    std::vector<evaluator::stats::Counts> counts;
+    for (const MatchTally& match : matches) counts.push_back(counts_of(match, measure));
+    const auto by_match = evaluator::stats::clustered_wilson(counts);
+    share.ci = by_match.value_or(evaluator::stats::wilson_or_exact(counts_of(total_of(matches), measure)));
+  }
+  share.ci = {std::max(share.ci.lo, 0.0), std::min(share.ci.hi, 1.0)};
+  return share;
+}
+
+Effect kick_ratio(const ArmTally& older, const ArmTally& newer) {
+  const double n1 = real(total_of(older).kicks), n2 = real(total_of(newer).kicks);
+  const double none = std::nan("");
+  if (n1 == 0.0) return {none, {none, none}};
+  if (!in_two_matches(older, Measure::kEfficiency) || !in_two_matches(newer, Measure::kEfficiency)) {
+    return {n2 / n1, {none, none}};
+  }
+  std::vector<double> influences(older.size());
+  for (std::size_t m = 0; m < older.size(); ++m) {
+    influences[m] = real(newer[m].kicks) / n2 - real(older[m].kicks) / n1;
+  }
+  const double reach = half_width_of(older, influences);
+  return {n2 / n1, {n2 / n1 * std::exp(-reach), n2 / n1 * std::exp(reach)}};
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/run/calibrated_arms.hpp"
+#include "experiment/study/effects.hpp"
+#include "log/shards/study_results.hpp"
+#include "sim/scenario.hpp"
+
+namespace trivela::experiment {
+
+/// How much is played.
+struct PlayPlan {
+  std::uint64_t seed = 1;
+  std::uint32_t matches = 400;
+  std::uint32_t possessions = 45;  ///< a match
+  unsigned jobs = 1;               ///< threads
+  /// Teams as calibrations left them. Match m is played with team m mod their number, in every arm but one that has
+  /// robots of its own. Empty: each arm's robots.
+  std::vector<Team> calibrations{};
+};
+
+/// What is known of the arms.
+struct KnownPlay {
+  std::vector<ArmTally> arms;  ///< by match; a match that is not known is empty
+  bool whole = false;          ///< every match of every arm is known
+};
+
+/// Plays the matches of `range` that `results` do not have, and keeps them there; arms have the name "what: NAME". All
+/// arms of a match meet the same opportunities. The rows do not depend on the number of threads. `progress(done, all)`,
+/// of what is to be played, is called before the first match, then by one thread at a time; where it throws, nothing
+/// more is played or reported. Rethrows what it or a match throws.
+KnownPlay play_missing(const sim::Scenario& scenario, const std::vector<Arm>& arms, const PlayPlan& plan,
+                       const std::string& what, const log::MatchRange& range, log::StudyResults& results,
+                       const std::function<void(std::size_t done, std::size_t all)>& progress);
+
+}  // namespace trivela::experiment

@@ -1,0 +1,107 @@
+#include "experiment/study/tune/tune_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "evaluator/render/text_table.hpp"
+#include "experiment/study/report.hpp"
+
+namespace trivela::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string share(const ArmTally& arm) { return share_text(share_of(arm, Measure::kPerOpportunity)); }
+
+std::string gain(const ArmTally& best, const ArmTally& start) {
+  const Term terms[] = {{&best, 1.0}, {&start, -1.0}};
+  return points_text(contrast(terms, Measure::kPerOpportunity));
+}
+
+std::string described(const TuneMatches& matches) {
+  const std::string robots =
+      matches.calibrations == 0 ? "the robot files" : fmt::format("{} calibrations", matches.calibrations);
+  return fmt::format("{} matches of {}, {}, seed {}", matches.matches, matches.possessions, robots, matches.seed);
+}
+
+/// "settle_s = 0.1, ..." of lines that begin with "policy.".
+std::string in_one_line(const std::string& choice) {
+  std::string text;
+  std::istringstream lines{choice};
+  for (std::string line; std::getline(lines, line);)
+    text += (text.empty() ? "" : ", ") + (line.starts_with("policy.") ? line.substr(7) : line);
+  return text;
+}
+
+/// The outcome in lines: the same words for the terminal and the file.
+std::string outcome(const TuneReport& report) {
+  const TuneState& state = report.state;
+  std::string text = fmt::format("tuned on {}: {} %, before {} %; {} settings were tried\n", described(report.tuning),
+                                 share(state.best), share(state.start), state.tried);
+  if (!state.finished) text += "interrupted: the best so far\n";
+  if (!report.held_out_best)
+    return text + "not tried on other matches: the share above is too good, it was chosen by\n";
+  text += fmt::format("held out, {}: {} %, before {} %; gain {} points where {} were seen\n",
+                      described(report.held_out), share(*report.held_out_best), share(*report.held_out_start),
+                      gain(*report.held_out_best, *report.held_out_start), gain(state.best, state.start));
+  return text;
+}
+
+/// Keys below [policy] that the file names, with their values.
+std::map<std::string, std::string> named(const TuneReport& report) {
+  const auto values = config::setting_values(report.state.settings);
+  const auto defaults = config::setting_values({});
+  std::set<std::string> searched;
+  for (const Coordinate& coordinate : report.space) {
+    std::istringstream lines{present_choice(report.state.settings, coordinate)};
+    for (std::string line; std::getline(lines, line);) searched.insert(line.substr(0, line.find(" = ")));
+  }
+  std::map<std::string, std::string> kept;
+  for (const auto& [key, value] : values) {
+    const bool own = key.starts_with("policy.") && (searched.contains(key) || defaults.at(key) != value);
+    if (own) kept[key] = value;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string to_text(const TuneReport& report) {
+  std::string text = fmt::format(
+      "SIMULATED: settings of {} for the world {}; observed shots on target per opportunity, 95 % intervals.\n\n",
+      report.policy, report.scenario);
+  std::vector<std::vector<std::string>> rows{{"round", "from", "to", "gain [points]"}};
+  for (const TuneStep& step : report.state.steps)
+    rows.push_back(
+        {fmt::format("{}", step.round), in_one_line(step.from), in_one_line(step.to), points_text(step.gain)});
+  text += report.state.steps.empty() ? "Nothing was found that is better.\n" : evaluator::text_table(rows);
+  return text + '\n' + outcome(report);
+}
+
+std::string to_settings_file(const TuneReport& report, const fs::path& out) {
+  std::string text = fmt::format(
+      "# Settings of {} for the world {}, simulated, found by\n#   {}\n# Objective: observed shots on target per "
+      "opportunity [%], 95 % intervals by match{}.\n",
+      report.policy, report.scenario, report.command, report.tuning.calibrations > 0 ? " and calibration" : "");
+  std::istringstream lines{outcome(report)};
+  for (std::string line; std::getline(lines, line);) text += "# " + line + '\n';
+  const fs::path folder = fs::absolute(out).parent_path();
+  const auto relative = [&](const std::string& file) {
+    return fs::relative(fs::absolute(file), folder).generic_string();
+  };
+  const config::Run& run = report.state.settings.run;
+  text += fmt::format("\n[run]\nrobot = \"{}\"\nscenario = \"{}\"\n", relative(run.robot), relative(run.scenario));
+  std::map<std::string, std::string> sections;  // text by name
+  for (const auto& [key, value] : named(report)) {
+    const auto dot = key.rfind('.');
+    sections[key.substr(0, dot)] += fmt::format("{} = {}\n", key.substr(dot + 1), value);
+  }
+  for (const auto& [section, keys] : sections) text += fmt::format("\n[{}]\n{}", section, keys);
+  return text;
+}
+
+}  // namespace trivela::experiment

@@ -1,0 +1,173 @@
+#include "kicking/policy/predictive/lookahead_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/shot.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+constexpr double kBetter = 2e-3;           // a plan must promise so much more than the one before it
+constexpr double kLastShare = 1.0 - 1e-3;  // of a cycle: its end is the next decision's beginning
+
+DriveMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
+  DriveMotion base(input.pose, input.twist);
+  if (memory.command) base.hasten(*memory.command, config, config.predictive.twist_lag_s);
+  return base;
+}
+
+StateSpread spread_of(const PredictiveConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
+  return {std::hypot(config.position_sd_m, input.sd_position_m),
+          std::hypot(config.heading_sd_rad, input.sd_heading_rad),
+          std::hypot(config.speed_sd_mps, memory.speed_jump_mps), config.turn_rate_sd_radps};
+}
+
+}  // namespace
+
+LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                 const PolicyInput& input, const PredictiveMemory& memory, const LearnedModel* learned)
+    : config_(config),
+      robot_(robot),
+      goal_(goal),
+      input_(input),
+      learned_(learned),
+      reach_(carry_reach(config, robot, memory)),
+      start_(settled(config, input, memory)),
+      model_(config.predictive, robot, goal, spread_of(config.predictive, input, memory)),
+      survival_(config.predictive, memory.opponent),
+      opponent_(memory.opponent),
+      last_fire_after_s_(last_fire_after_s(robot, input)) {
+  guess_.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
+  ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
+}
+
+Twist LookaheadSearch::command_at(DrivePlan plan, const DriveMotion& base) const {
+  const Twist command =
+      command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral, ball_speed_mps_);
+  return reach_.keep(command, base.position_m, base.forward);
+}
+
+/// Cycle by cycle, as the policy itself will steer.
+void LookaheadSearch::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const {
+  while (time_s > 1e-6) {
+    const double step_s = std::min(time_s, config_.cycle_s);
+    base.step(command_at(plan, base), config_, step_s);
+    time_s -= step_s;
+  }
+}
+
+/// What a log has of a kick ordered then: as believed now for one of this cycle, as predicted for a later one.
+ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedShot& planned) const {
+  const bool now = planned.fire_after_s <= config_.cycle_s;
+  const Eigen::Vector2d ball = now ? held_ball(input_.pose, robot_) : planned.release.ball_m;
+  const Twist twist = now ? input_.twist : base.twist();
+  ShotFeatures shot{.p_on_target = planned.p_on_target,
+                    .distance_m = (target_on_line(config_, goal_) - ball).norm(),
+                    .vx_mps = twist.vx_mps,
+                    .vy_mps = twist.vy_mps,
+                    .omega_radps = twist.omega_radps,
+                    .power = planned.shot.power,
+                    .opponent_distance_m = input_.opponent_distance_m};
+  if (!now && opponent_.seen) shot.opponent_distance_m = opponent_.distance_after_m(planned.fire_after_s);
+  return shot;
+}
+
+PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
+  PlannedShot out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
+  if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
+  out.shot = model_.chance(out.release, guess_);
+  out.p_on_target = out.shot.p;
+  if (!(out.shot.p > 0.0)) return out;
+  if (opponent_.seen) {
+    const double distance_m = opponent_.distance_after_m(fire_after_s + robot_.delay_s);
+    out.p_on_target *= 1.0 - p_blocked(config_.predictive, distance_m, out.shot, robot_.ball);
+  }
+  if (learned_) out.p_on_target = learned_->p_on_target(features(base, out));
+  return out;
+}
+
+double LookaheadSearch::value(const PlannedShot& planned, double survival) const {
+  return planned.p_on_target >= config_.predictive.threshold ? survival * planned.p_on_target : 0.0;
+}
+
+/// The plans part where their commands do.
+void LookaheadSearch::go_on(Ways& ways, double time_s) const {
+  std::array<Twist, kDrivePlans.size()> commands;
+  for (std::size_t i = 0; i < kDrivePlans.size(); ++i) {
+    commands[i] = command_at(kDrivePlans[i], ways.bases[std::min(i, ways.count - 1)]);
+    if (i < ways.count || commands[i].omega_radps == commands[0].omega_radps) continue;
+    ways.bases[i] = ways.bases[0];
+    ways.candidates[i] = ways.candidates[0];
+    ways.candidates[i].plan = kDrivePlans[i];
+    ways.count = i + 1;
+  }
+  for (std::size_t i = 0; i < ways.count; ++i) ways.bases[i].step(commands[i], config_, time_s);
+}
+
+void LookaheadSearch::look_at_this_cycle(Ways& ways) {
+  for (double left_s = robot_.delay_s; left_s > 1e-6; left_s -= config_.cycle_s)
+    go_on(ways, std::min(left_s, config_.cycle_s));
+  const double half_s = 0.5 * config_.cycle_s;
+  for (std::size_t instant = 0; instant < 3; ++instant) {
+    const double fire_after_s = static_cast<double>(instant) * half_s;
+    if (instant > 0) go_on(ways, half_s);
+    for (std::size_t i = 0; i < ways.count; ++i) {
+      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s);
+      ways.candidates[i].values[instant] = value(shot, survival_(fire_after_s));
+      if (instant == 0) ways.candidates[i].now = shot;
+    }
+  }
+  for (CandidatePlan& candidate : ways.candidates) {
+    candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
+    candidate.value_later = config_.cycle_s <= last_fire_after_s_ ? candidate.values[2] : 0.0;
+  }
+}
+
+/// Until nothing can be worth more than the best any more.
+void LookaheadSearch::look_ahead(Ways& ways) {
+  const PredictiveConfig& settings = config_.predictive;
+  double best = std::max(ways.candidates[0].value(), ways.candidates[ways.count - 1].value());
+  const double horizon_s = std::min(settings.horizon_s, last_fire_after_s_);
+  for (double fire_after_s = config_.cycle_s + settings.step_s; fire_after_s <= horizon_s;
+       fire_after_s += settings.step_s) {
+    const double survival = survival_(fire_after_s);
+    if (survival <= best) return;
+    go_on(ways, settings.step_s);
+    for (std::size_t i = 0; i < ways.count; ++i) {
+      double& later = ways.candidates[i].value_later;
+      later = std::max(later, value(planned_shot(ways.bases[i], fire_after_s), survival));
+      best = std::max(best, later);
+    }
+  }
+}
+
+/// The vertex of the parabola through the three values, where there is one; the end of the cycle belongs to the next
+/// decision.
+void LookaheadSearch::schedule(CandidatePlan& candidate) {
+  const auto [first, middle, last] = candidate.values;
+  const double bend = first - 2.0 * middle + last;
+  double share = first >= last ? 0.0 : 1.0;
+  if (bend < 0.0) share = std::clamp(0.5 - 0.25 * (last - first) / bend, 0.0, 1.0);
+  const double fire_after_s = std::min(share, kLastShare) * config_.cycle_s;
+  DriveMotion base = start_;
+  drive_for(candidate.plan, base, robot_.delay_s + fire_after_s);
+  candidate.now = planned_shot(base, fire_after_s);
+  candidate.value_now = value(candidate.now, survival_(fire_after_s));
+}
+
+CandidatePlan LookaheadSearch::best() {
+  Ways ways{{start_, start_}};
+  look_at_this_cycle(ways);
+  look_ahead(ways);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ways.count; ++i) {
+    if (ways.candidates[i].value() > ways.candidates[best].value() + kBetter) best = i;
+  }
+  CandidatePlan& chosen = ways.candidates[best];
+  if (chosen.value_now > 0.0 && chosen.value_now >= chosen.value_later) schedule(chosen);
+  return chosen;
+}
+
+}  // namespace trivela::kicking

@@ -1,0 +1,104 @@
+#include "log/file/files_beside.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <stdexcept>
+
+#include "log/file/new_file.hpp"
+
+namespace trivela::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Source: sqlite.org/fileformat2.html, section 1.3: 1 for a rollback journal, 2 for a write-ahead log.
+bool is_in_wal_mode(const fs::path& log) {
+  constexpr std::size_t kReadVersion = 19;
+  std::array<char, kReadVersion + 1> header{};
+  std::ifstream in(log, std::ios::binary);
+  return in.read(header.data(), header.size()) && header[kReadVersion] == 2;
+}
+
+bool exists_beside(const fs::path& log, const char* suffix) {
+  std::error_code none;
+  return fs::exists(beside(log, suffix), none);
+}
+
+/// Readers of a write-ahead log write their marks into the -shm.
+bool can_be_read_in_place(const fs::path& log) {
+  return exists_beside(log, "-shm") && ::access(beside(log, "-shm").c_str(), W_OK) == 0;
+}
+
+/// Its first bytes, which change when a recorder begins it again after it moved its rows into the log.
+std::string start_of_wal(const fs::path& log) {
+  constexpr std::size_t kHeader_B = 32;
+  std::string start(kHeader_B, '\0');
+  std::ifstream(beside(log, "-wal"), std::ios::binary).read(start.data(), kHeader_B);
+  return start;
+}
+
+void copy_both(const fs::path& log, const fs::path& folder) {
+  std::error_code error;
+  constexpr int kAttempts = 5;
+  for (int attempt = 0; attempt < kAttempts && !error; ++attempt) {
+    const std::string start = start_of_wal(log);
+    for (const char* const suffix : {"", "-wal"}) {
+      const fs::path copy = folder / ("log.db" + std::string(suffix));
+      if (!error) fs::copy_file(beside(log, suffix), copy, fs::copy_options::overwrite_existing, error);
+      if (!error) fs::permissions(copy, fs::perms::owner_all, error);
+    }
+    if (!error && start_of_wal(log) == start) return;
+  }
+  throw std::runtime_error(error ? error.message() : "its recorder moves rows meanwhile; ask again");
+}
+
+}  // namespace
+
+Wal wal_beside(const fs::path& log) {
+  std::error_code none;
+  const auto bytes = fs::file_size(beside(log, "-wal"), none);
+  if (none || bytes == 0) return Wal::kNone;
+  return is_in_wal_mode(log) ? Wal::kOfThis : Wal::kOfAnother;
+}
+
+void refuse_wal_of_another(const fs::path& log, Wal wal) {
+  if (wal == Wal::kOfAnother)
+    throw std::runtime_error(fmt::format("{0}-wal is not of {0} but of another recording: move it away", log.string()));
+}
+
+std::string name_of_main_file(const fs::path& log) {
+  std::string name = "file:";
+  for (const char c : fs::absolute(log).string()) {
+    const bool plain = c != '%' && c != '?' && c != '#';
+    plain ? name += c : name += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return name + "?immutable=1";
+}
+
+ReadableLog::ReadableLog(const fs::path& log) : log_(log), wal_(wal_beside(log)), name_(log.string()) {
+  // One that a killed program left open needs its journal; one that a recorder has just emptied its -shm.
+  const bool in_use = exists_beside(log, "-journal") || (wal_ == Wal::kNone && can_be_read_in_place(log));
+  if (wal_ != Wal::kOfThis) {
+    if (!in_use || wal_ == Wal::kOfAnother) name_ = name_of_main_file(log);
+    return;
+  }
+  if (can_be_read_in_place(log)) return;
+  try {
+    copied_to_.emplace();
+    copy_both(log, copied_to_->path());
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{} and its -wal cannot be copied to a folder for reading: {}", log.string(), error.what()));
+  }
+  name_ = (copied_to_->path() / "log.db").string();
+}
+
+void ReadableLog::leave_wal_out() {
+  wal_ = Wal::kOfAnother;
+  name_ = name_of_main_file(log_);
+}
+
+}  // namespace trivela::log

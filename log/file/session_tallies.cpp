@@ -1,0 +1,138 @@
+#include "log/file/session_tallies.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "log/file/ball_turns.hpp"
+#include "log/file/decisions_of.sql.hpp"
+#include "log/file/driver_counts_of.sql.hpp"
+#include "log/file/first_decisions_of.sql.hpp"
+#include "log/file/heard_halves_of.sql.hpp"
+#include "log/file/own_rows.hpp"
+#include "log/file/played_spans_of.sql.hpp"
+#include "log/schema/row_digest.hpp"
+
+namespace trivela::log {
+namespace {
+
+/// What is counted of the sessions that `wanted`, a SELECT, names, as a SELECT.
+std::string counted(std::string_view wanted, std::string_view what) {
+  return fmt::format("WITH wanted (session_id) AS ({}) {}", wanted, what);
+}
+
+/// Possessions with decisions, with play, or with both.
+std::string possessions(std::string_view wanted) {
+  return fmt::format(
+      "SELECT session_id, robot_id, half, possession_id, counted_by, max(first_seq), sum(decisions), sum(fires), "
+      "max(from_t_ns), max(to_t_ns), max(played_ns) FROM ("
+      "SELECT session_id, robot_id, half, possession_id, 'robot' AS counted_by, first_seq, decisions, fires, "
+      "NULL AS from_t_ns, NULL AS to_t_ns, NULL AS played_ns FROM ({}) UNION ALL "
+      "SELECT session_id, robot_id, half, possession_id, CASE WHEN of_robot IS NULL THEN 'referee' ELSE 'robot' END, "
+      "NULL, 0, 0, from_t_ns, to_t_ns, played_ns FROM ({})) "
+      "GROUP BY session_id, robot_id, half, possession_id, counted_by",
+      counted(wanted, kFirstDecisionsOfSql), counted(wanted, kPlayedSpansOfSql));
+}
+
+struct Tally {
+  std::string_view table;
+  std::string rows;  // SELECT of what it should have
+};
+
+/// All but the ball's turns, which no SELECT counts.
+std::array<Tally, 4> tallies(std::string_view wanted) {
+  return {Tally{"session_tallies", counted(wanted, kDecisionsOfSql)}, Tally{"possession_tallies", possessions(wanted)},
+          Tally{"order_tallies", counted(wanted, kDriverCountsOfSql)},
+          Tally{"referee_tallies", counted(wanted, kHeardHalvesOfSql)}};
+}
+
+void write_turns(SQLite::Database& database, std::int64_t session_id, std::string_view wanted) {
+  SQLite::Statement insert(database, "INSERT INTO main.ball_turns VALUES (?, ?, ?)");
+  std::int64_t turn = 0;
+  for (const BallTurn& found : ball_turns(OwnRows(database), wanted)) {
+    insert.reset();
+    insert.bind(1, session_id);
+    insert.bind(2, turn++);
+    insert.bind(3, found.y_m);
+    insert.exec();
+  }
+}
+
+}  // namespace
+
+void write_tallies(SQLite::Database& database, std::int64_t session_id) {
+  for (const std::string_view table : kTallies)
+    database.exec(fmt::format("DELETE FROM main.{} WHERE session_id = {}", table, session_id));
+  SQLite::Statement of_experiment(database, "SELECT match_id IS NOT NULL FROM main.sessions WHERE session_id = ?");
+  of_experiment.bind(1, session_id);
+  if (!of_experiment.executeStep() || of_experiment.getColumn(0).getInt() != 0) return;
+  const std::string wanted = fmt::format("SELECT {}", session_id);
+  for (const Tally& tally : tallies(wanted))
+    database.exec(fmt::format("INSERT INTO main.{} {}", tally.table, tally.rows));
+  write_turns(database, session_id, wanted);
+  database.exec(
+      fmt::format("INSERT INTO main.tallied_sessions SELECT session_id, sha256 FROM main.digests WHERE "
+                  "session_id = {}",
+                  session_id));
+}
+
+void create_tally_views(SQLite::Database& database) {
+  database.exec(
+      "CREATE TEMP VIEW counted_sessions AS SELECT t.session_id FROM main.tallied_sessions AS t JOIN main.digests AS d "
+      "ON d.session_id = t.session_id AND d.sha256 = t.sha256");
+  database.exec(
+      "CREATE TEMP VIEW uncounted_sessions AS SELECT session_id FROM sessions WHERE session_id NOT IN (SELECT "
+      "session_id FROM counted_sessions)");
+  constexpr std::string_view kCounted = "session_id IN (SELECT session_id FROM counted_sessions)";
+  const auto view = [&](std::string_view name, std::string_view tallied, std::string_view rows) {
+    database.exec(fmt::format("CREATE TEMP VIEW {} AS {} UNION ALL SELECT * FROM ({})", name, tallied,
+                              counted("SELECT session_id FROM uncounted_sessions", rows)));
+  };
+  view("played_possessions",
+       fmt::format("SELECT session_id, CASE counted_by WHEN 'robot' THEN robot_id END AS of_robot, robot_id, half, "
+                   "possession_id, from_t_ns, to_t_ns, played_ns FROM possession_tallies WHERE from_t_ns IS NOT NULL "
+                   "AND {}",
+                   kCounted),
+       kPlayedSpansOfSql);
+  view("decided_possessions",
+       fmt::format("SELECT session_id, robot_id, half, possession_id, first_seq, decisions, fires FROM "
+                   "possession_tallies WHERE first_seq IS NOT NULL AND {}",
+                   kCounted),
+       kFirstDecisionsOfSql);
+  view("driver_counts", fmt::format("SELECT * FROM order_tallies WHERE {}", kCounted), kDriverCountsOfSql);
+  view("heard_halves", fmt::format("SELECT * FROM referee_tallies WHERE {}", kCounted), kHeardHalvesOfSql);
+}
+
+std::vector<std::string> wrong_tallies(const LogFile& file) {
+  std::vector<std::string> sentences;
+  std::set<std::pair<std::int64_t, std::string_view>> wrong;
+  constexpr std::string_view kWanted = "SELECT session_id FROM counted_sessions";
+  for (const Tally& tally : tallies(kWanted)) {
+    const std::string noted = fmt::format("SELECT * FROM main.{} WHERE session_id IN ({})", tally.table, kWanted);
+    for (const auto& [a, b] : {std::pair{tally.rows, noted}, std::pair{noted, tally.rows}})
+      file.query(fmt::format("SELECT DISTINCT session_id FROM (SELECT * FROM ({}) EXCEPT SELECT * FROM ({}))", a, b),
+                 [&](std::int64_t session_id) { wrong.emplace(session_id, tally.table); });
+  }
+  std::vector<std::pair<std::int64_t, double>> noted, counted_now;
+  file.query(
+      fmt::format("SELECT session_id, y_m FROM main.ball_turns WHERE session_id IN ({}) ORDER BY session_id, turn",
+                  kWanted),
+      [&](std::int64_t session_id, double y_m) { noted.emplace_back(session_id, y_m); });
+  for (const BallTurn& turn : ball_turns(file, kWanted)) counted_now.emplace_back(turn.session_id, turn.y_m);
+  if (noted != counted_now) {
+    const auto& longer = noted.size() > counted_now.size() ? noted : counted_now;
+    const auto& other = &longer == &noted ? counted_now : noted;
+    for (std::size_t i = 0; i < longer.size(); ++i)
+      if (i >= other.size() || longer[i] != other[i]) wrong.emplace(longer[i].first, "ball_turns");
+  }
+  for (const auto& [session_id, table] : wrong)
+    file.query(fmt::format("SELECT uuid FROM main.sessions WHERE session_id = {}", session_id),
+               [&, name = table](const std::string& uuid) {
+                 sentences.push_back(fmt::format("{} of session {} does not count its rows", name, uuid));
+               });
+  return sentences;
+}
+
+}  // namespace trivela::log

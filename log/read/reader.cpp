@@ -1,0 +1,252 @@
+#include "log/read/reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "log/file/log_check.hpp"
+#include "log/file/log_file.hpp"
+#include "log/file/session_tallies.hpp"
+#include "log/read/stream_search.hpp"
+#include "log/schema/row_digest.hpp"
+
+namespace trivela::log {
+namespace {
+
+constexpr std::int64_t kMostHeldKicks = 100'000;  // some 40 MB
+
+std::optional<RecordedOutcome> crossing_of(const std::optional<std::string>& outcome, std::optional<double> x_cross_m,
+                                           std::optional<double> z_cross_m) {
+  if (!outcome) return std::nullopt;
+  return RecordedOutcome{*outcome, x_cross_m, z_cross_m};
+}
+
+}  // namespace
+
+struct Reader::Impl {
+  Impl(const std::filesystem::path& path, Check check) : file(path, kMatchLog, check) {
+    create_reading_views(file.database());
+    create_tally_views(file.database());
+    if (file.may_be_damaged()) return;
+    file.query("BEGIN", [](auto) {});  // a log may grow meanwhile
+    check_texts(file);
+    verification = file.looks_at_everything() ? verify(file) : unverified(file);
+    file.query("COMMIT", [](auto) {});
+  }
+
+  std::vector<Column> schema_with(std::string_view table, const std::vector<std::string>& columns) const;
+
+  LogFile file;
+  Verification verification;
+  bool holds_kicks = false;
+  std::map<std::string, StreamSearch, std::less<>> streams;  // by table and columns; before the file goes, they go
+};
+
+Reader::Reader(const std::filesystem::path& path, Check check) : impl_(std::make_unique<Impl>(path, check)) {}
+Reader::~Reader() = default;
+
+const Verification& Reader::verification() const { return impl_->verification; }
+
+bool Reader::is_whole(std::int64_t session_id) const { return log::is_whole(impl_->file, session_id); }
+
+std::optional<std::string> Reader::doubt() const {
+  const Verification& found = impl_->verification;
+  if (!found.compared && found.rows > 0)
+    return fmt::format("not verified: {} rows; trivela report --verify", found.rows);
+  if (found.without_digest > 0)
+    return fmt::format("not verified: {} that never ended and so {} no digest",
+                       found.without_digest == 1 ? "a session" : fmt::format("{} sessions", found.without_digest),
+                       found.without_digest == 1 ? "has" : "have");
+  return std::nullopt;
+}
+
+void Reader::hold_kicks() const {
+  if (std::exchange(impl_->holds_kicks, true)) return;
+  SQLite::Database& database = impl_->file.database();
+  impl_->file.as_query([&] {
+    if (database.execAndGet("SELECT count(*) FROM kick_decisions WHERE fire = 1").getInt64() > kMostHeldKicks) return;
+    // By the view's own name, which the others go by.
+    database.exec(
+        "CREATE TEMP TABLE put_together AS SELECT * FROM temp.kicks; DROP VIEW temp.kicks; "
+        "CREATE TEMP TABLE kicks AS SELECT * FROM temp.put_together; DROP TABLE temp.put_together; "
+        "CREATE INDEX temp.kicks_key ON kicks (session_id, robot_id, kick_id)");
+  });
+}
+
+void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::vector<RecordedKick>& kicks) {
+  SQLite::Database& database = impl_->file.database();
+  SQLite::Statement session(database, "INSERT OR IGNORE INTO temp.left_out_sessions VALUES (?)");
+  for (const std::int64_t session_id : session_ids) {
+    session.bind(1, session_id);
+    session.exec();
+    session.reset();
+  }
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO temp.left_out_kicks VALUES (?, ?, ?)");
+  for (const RecordedKick& kick : kicks) {
+    insert.bind(1, kick.session_id);
+    insert.bind(2, kick.robot_id);
+    insert.bind(3, kick.kick_id);
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void Reader::each_row(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
+
+void Reader::ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
+                 const RowFunction& fn) const {
+  impl_->file.ask(sql, head, fn);
+}
+
+std::vector<Column> Reader::Impl::schema_with(std::string_view table, const std::vector<std::string>& columns) const {
+  const auto schema = columns_of(file.database(), table);
+  if (!schema) throw std::runtime_error(fmt::format("the match log {} has no table '{}'", file.path(), table));
+  for (const std::string& column : columns) {
+    if (std::ranges::find(*schema, column, &Column::name) != schema->end()) continue;
+    throw std::runtime_error(fmt::format("table '{}' of {} has no column '{}'", table, file.path(), column));
+  }
+  return *schema;
+}
+
+void Reader::for_each_row_between(std::string_view table, const std::vector<std::string>& columns,
+                                  const StreamSpan& span, const RowFunction& fn) const {
+  const std::string key = fmt::format("{}:{}", table, fmt::join(columns, ","));
+  auto stream = impl_->streams.find(key);
+  if (stream == impl_->streams.end()) {
+    impl_->schema_with(table, columns);
+    stream = impl_->streams.try_emplace(key, impl_->file.database(), table, columns).first;
+  }
+  try {
+    impl_->file.as_query([&] { stream->second.rows(span, fn); });
+  } catch (const WrongCell& wrong) {
+    throw std::runtime_error(fmt::format("cannot read the match log {}: column {} of {} is not {}", impl_->file.path(),
+                                         columns.at(wrong.column), table, wrong.wanted));
+  }
+}
+
+void Reader::for_each_row_in_time(const std::vector<TimedPart>& parts, const PartInstant& instant,
+                                  const PartRow& fn) const {
+  try {
+    impl_->file.as_query([&] { rows_in_time(impl_->file.database(), parts, instant, fn); });
+  } catch (const WrongCell& wrong) {
+    throw std::runtime_error(fmt::format("cannot read the match log {}: column {} of a table is not {}",
+                                         impl_->file.path(), wrong.column + 1, wrong.wanted));
+  }
+}
+
+std::vector<int> Reader::robots_in(std::string_view table, std::int64_t session_id) const {
+  std::vector<int> robots;
+  query(fmt::format("WITH RECURSIVE robots (id) AS ("
+                    "SELECT (SELECT min(robot_id) FROM {0} WHERE session_id = {1}) UNION ALL "
+                    "SELECT (SELECT min(robot_id) FROM {0} WHERE session_id = {1} AND robot_id > id) FROM robots "
+                    "WHERE id IS NOT NULL) SELECT id FROM robots WHERE id IS NOT NULL",
+                    table, session_id),
+        [&](int robot_id) { robots.push_back(robot_id); });
+  return robots;
+}
+
+void Reader::for_each_row(std::string_view table, const std::vector<std::string>& columns,
+                          const RowFunction& fn) const {
+  const std::vector<Column> schema = impl_->schema_with(table, columns);
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(schema, name, &Column::name) != schema.end();
+  };
+  std::vector<std::string> order;
+  for (const char* const key : {"session_id", "robot_id", "seq", "shadow_index"}) {
+    if (has(key)) order.push_back(key);
+  }
+  query(fmt::format("SELECT {} FROM {}{}{}", fmt::join(columns, ", "), table, order.empty() ? "" : " ORDER BY ",
+                    fmt::join(order, ", ")),
+        fn);
+}
+
+std::vector<RecordedSession> Reader::sessions() const {
+  using S = RecordedSession;
+  auto sessions = rows<S>(
+      "SELECT session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock = 'simulated', realtime_offset_ns, "
+      "idl_sha256, config_sha256, seed, software_version, scenario, simulated, nullif(arm, ''), "
+      "nullif(kicker_table, ''), match_id, coalesce(continues_uuid, ''), coalesce(replays_uuid, ''), paired_halves, "
+      "planned_s, calibration_id FROM sessions ORDER BY started_t_ns, session_id",
+      &S::session_id, &S::uuid, &S::robot_id, &S::started_t_ns, &S::closed_t_ns, &S::simulated_clock,
+      &S::realtime_offset_ns, &S::idl_sha256, &S::config_sha256, &S::seed, &S::software_version, &S::scenario,
+      &S::simulated, &S::arm, &S::kicker_table, &S::match_id, &S::continues_uuid, &S::replays_uuid, &S::paired_halves,
+      &S::planned_s, &S::calibration_id);
+  query("SELECT session_id, half, policy, robot_id FROM session_policies ORDER BY session_id, robot_id, half",
+        [&](std::int64_t session_id, int half, const std::string& policy, int robot_id) {
+          const auto session = std::ranges::find(sessions, session_id, &S::session_id);
+          if (session != sessions.end()) session->policies.push_back({half, policy, robot_id});
+        });
+  return sessions;
+}
+
+RecordedSession Reader::whole(RecordedSession session) const {
+  query(fmt::format(
+            "SELECT config.text, idl.text FROM sessions LEFT JOIN texts AS config ON config.sha256 = config_sha256 "
+            "LEFT JOIN texts AS idl ON idl.sha256 = idl_sha256 WHERE session_id = {}",
+            session.session_id),
+        [&](std::optional<std::string> config_toml, std::optional<std::string> idl) {
+          session.config_toml = std::move(config_toml).value_or("");
+          session.idl = std::move(idl).value_or("");
+        });
+  return session;
+}
+
+std::vector<Kick> Reader::kicks() const {
+  std::vector<Kick> kicks;
+  query(
+      "SELECT session_id, robot_id, kick_id, t_ns, half, possession_id, policy, order_seq, accepted, refusal, outcome, "
+      "x_cross_m, z_cross_m, sd_cross_m, truth_outcome, truth_x_cross_m, truth_z_cross_m, truth_margin_m FROM kicks "
+      "ORDER BY session_id, t_ns, robot_id",
+      [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns, int half,
+          std::int64_t possession_id, const std::string& policy, std::optional<std::int64_t> order_seq,
+          std::optional<bool> accepted, std::optional<std::string> refusal, const std::optional<std::string>& outcome,
+          std::optional<double> x_cross_m, std::optional<double> z_cross_m, std::optional<double> sd_cross_m,
+          const std::optional<std::string>& truth_outcome, std::optional<double> truth_x_cross_m,
+          std::optional<double> truth_z_cross_m, std::optional<double> truth_margin_m) {
+        kicks.push_back({.session_id = session_id,
+                         .robot_id = robot_id,
+                         .kick_id = kick_id,
+                         .t_ns = t_ns,
+                         .half = half,
+                         .possession_id = possession_id,
+                         .policy = policy,
+                         .ordered = order_seq.has_value(),
+                         .accepted = accepted,
+                         .refusal = std::move(refusal).value_or(""),
+                         .observed = crossing_of(outcome, x_cross_m, z_cross_m),
+                         .sd_cross_m = sd_cross_m,
+                         .truth = crossing_of(truth_outcome, truth_x_cross_m, truth_z_cross_m),
+                         .truth_margin_m = truth_margin_m});
+      });
+  return kicks;
+}
+
+std::vector<Loss> Reader::losses() const {
+  return rows<Loss>(
+      "SELECT stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
+      "sum(out_of_order) FROM losses GROUP BY stream ORDER BY stream",
+      &Loss::stream, &Loss::received, &Loss::lost, &Loss::gaps, &Loss::overflow, &Loss::nan_refused, &Loss::rejected,
+      &Loss::out_of_order);
+}
+
+Wal Reader::wal() const { return impl_->file.wal(); }
+
+std::string Reader::not_closed() const { return impl_->file.not_closed(); }
+
+std::vector<std::string> Reader::warnings() const {
+  std::vector<std::string> warnings;
+  for (const RecordedSession& session : sessions()) {
+    if (session.closed_t_ns) continue;
+    warnings.push_back(fmt::format("session {} was not closed: {}", session.uuid, impl_->file.not_closed()));
+  }
+  for (const Loss& loss : losses()) {
+    if (loss.missing() > 0) warnings.push_back(fmt::format("{}: {} rows are missing", loss.stream, loss.missing()));
+  }
+  return warnings;
+}
+
+}  // namespace trivela::log

@@ -1,0 +1,133 @@
+#include "log/schema/row_digest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace trivela::log {
+namespace {
+
+constexpr std::int64_t kToldEvery_rows = 10'000;
+constexpr std::size_t kPour_B = 1 << 16;
+
+std::vector<DigestedTable> digested_tables_of_schema() {
+  SQLite::Database empty(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  empty.exec(std::string(schema_of(kMatchLog)));
+  SQLite::Statement keys(empty, R"(
+    SELECT t.name, k.name FROM sqlite_schema t, pragma_table_info(t.name) k
+    WHERE t.type = 'table' AND t.name <> 'digests' AND k.pk > 0
+      AND EXISTS (SELECT * FROM pragma_table_info(t.name) WHERE name = 'session_id')
+    ORDER BY t.rowid, k.pk)");
+  std::vector<DigestedTable> tables;
+  while (keys.executeStep()) {
+    const std::string name = keys.getColumn(0).getString(), column = keys.getColumn(1).getString();
+    if (std::ranges::find(kSaidAfterwards, name) != kSaidAfterwards.end()) continue;
+    if (std::ranges::find(kTallies, name) != kTallies.end()) continue;
+    if (tables.empty() || tables.back().name != name) {
+      tables.push_back({name, column});
+    } else {
+      tables.back().key += ", " + column;
+    }
+  }
+  return tables;
+}
+
+}  // namespace
+
+const std::vector<DigestedTable>& digested_tables() {
+  static const std::vector<DigestedTable> tables = digested_tables_of_schema();
+  return tables;
+}
+
+RowDigests::RowDigests(SQLite::Database& database) : database_(database) {
+  for (const DigestedTable& table : digested_tables()) {
+    const std::string sql =
+        fmt::format("SELECT * FROM main.{} WHERE session_id = ? ORDER BY {}", table.name, table.key);
+    sqlite3_stmt* select = nullptr;
+    const int code =
+        sqlite3_prepare_v3(database.getHandle(), sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &select, nullptr);
+    if (code != SQLITE_OK) throw SQLite::Exception(database.getHandle(), code);
+    Rows& rows = tables_.emplace_back();
+    rows.select.reset(select);
+    rows.head = fmt::format("table {}", table.name);
+    for (int i = 0; i < sqlite3_column_count(select); ++i)
+      rows.head += fmt::format(" {}", sqlite3_column_name(select, i));
+    rows.head += '\n';
+  }
+}
+
+void RowDigests::pour() {
+  sha256_.add(bytes_);
+  bytes_.clear();
+}
+
+void RowDigests::add_text(std::string_view text) { bytes_.insert(bytes_.end(), text.begin(), text.end()); }
+
+void RowDigests::add_number(unsigned char tag, std::uint64_t bits) {
+  std::array<unsigned char, 9> bytes{tag};
+  for (std::size_t i = 0; i < 8; ++i) bytes[i + 1] = static_cast<unsigned char>(bits >> (56 - 8 * i));
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+}
+
+void RowDigests::add_cell(sqlite3_stmt* row, int column) {
+  switch (sqlite3_column_type(row, column)) {
+    case SQLITE_INTEGER:
+      return add_number('i', static_cast<std::uint64_t>(sqlite3_column_int64(row, column)));
+    case SQLITE_FLOAT:
+      return add_number('f', std::bit_cast<std::uint64_t>(sqlite3_column_double(row, column)));
+    case SQLITE_TEXT: {
+      const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(row, column));
+      const std::string_view whole(text, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+      add_number('t', whole.size());
+      return add_text(whole);
+    }
+    case SQLITE_BLOB: {
+      const auto* const blob = static_cast<const char*>(sqlite3_column_blob(row, column));
+      const std::string_view whole(blob, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
+      add_number('b', whole.size());
+      return add_text(whole);
+    }
+    default:
+      bytes_.push_back('n');
+  }
+}
+
+RowDigest RowDigests::of(std::int64_t session_id) {
+  RowDigest digest;
+  bytes_.clear();
+  add_text(fmt::format("trivela match log {}\n", kMatchLog.version));
+  for (const Rows& rows : tables_) {
+    add_text(rows.head);
+    sqlite3_stmt* const row = rows.select.get();
+    sqlite3_bind_int64(row, 1, session_id);
+    int code = SQLITE_OK;
+    while ((code = sqlite3_step(row)) == SQLITE_ROW) {
+      if (++digest.row_count % kToldEvery_rows == 0 && told_) told_(digest.row_count);
+      bytes_.push_back('r');
+      for (int i = 0; i < sqlite3_column_count(row); ++i) add_cell(row, i);
+      if (bytes_.size() >= kPour_B) pour();
+    }
+    sqlite3_reset(row);
+    if (code != SQLITE_DONE) {
+      sha256_.finish();  // begins anew
+      throw SQLite::Exception(database_.getHandle(), code);
+    }
+  }
+  pour();
+  digest.sha256 = sha256_.finish();
+  return digest;
+}
+
+void RowDigests::write(std::int64_t session_id) {
+  const RowDigest digest = of(session_id);
+  SQLite::Statement insert(database_,
+                           "INSERT OR REPLACE INTO main.digests (session_id, row_count, sha256) VALUES (?, ?, ?)");
+  insert.bind(1, session_id);
+  insert.bind(2, digest.row_count);
+  insert.bind(3, digest.sha256);
+  insert.exec();
+}
+
+}  // namespace trivela::log

@@ -1,0 +1,200 @@
+#include "log/schema/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+
+#include "kicking/policy/policy.hpp"
+#include "log/schema/reading_views.sql.hpp"
+#include "log/schema/row.hpp"
+#include "log/schema/scan_schema.sql.hpp"
+#include "log/schema/schema.sql.hpp"
+#include "log/schema/study_schema.sql.hpp"
+
+namespace trivela::log {
+
+namespace {
+
+/// Key of a text that the log holds from now on.
+const std::string& store(SQLite::Database& database, const std::string& text, Digests& digests) {
+  const std::string& key = digests.of(text);
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO texts (sha256, text) VALUES (?, ?)");
+  insert.bind(1, key);
+  insert.bindNoCopy(2, text);
+  insert.exec();
+  return key;
+}
+
+/// schema.sql with the policies that came after its text.
+const std::string& match_schema() {
+  static const std::string text = [] {
+    const std::string schema(kSchemaSql);
+    std::string later;
+    for (const kicking::PolicyFacts& policy : kicking::kPolicyFacts) {
+      const std::string allowed = fmt::format("policy = '{}'", policy.name);
+      if (schema.find(allowed) == std::string::npos) later += " OR " + allowed;
+    }
+    return std::regex_replace(schema, std::regex(" OR policy = 'oracle'"), "$&" + later);
+  }();
+  return text;
+}
+
+/// The view `kicks` of the schema as a view of the connection. It asks the file's own tables, also where a view of the
+/// connection stands before one of them.
+std::string own_kicks() {
+  static const std::string head = "CREATE VIEW kicks AS";
+  static const std::regex table("(FROM|JOIN) (kick_[a-z]+)");
+  const std::string& schema = match_schema();
+  const std::string body = schema.substr(schema.find(head) + head.size());
+  return "CREATE TEMP VIEW kicks AS" + std::regex_replace(body, table, "$1 main.$2");
+}
+
+}  // namespace
+
+std::string_view schema_of(const LogKind& kind) {
+  if (kind.application_id == kScanRecord.application_id) return kScanSchemaSql;
+  if (kind.application_id == kStudyResults.application_id) return kStudySchemaSql;
+  return match_schema();
+}
+
+std::optional<std::string> table_of_message(std::string_view type) {
+  std::string name;
+  for (const char c : type) {
+    if (std::isupper(c) != 0 && !name.empty()) name += '_';
+    name += static_cast<char>(std::tolower(c));
+  }
+  for (const char* const ending : {"", "s"}) {
+    const std::string table = name + ending;
+    if (std::string_view(kSchemaSql).find("CREATE TABLE " + table + " (") != std::string_view::npos) return table;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// The view policy_order: policies with their place in every list.
+std::string policy_order() {
+  std::string rows;
+  for (std::size_t place = 0; place < kicking::kPolicyCount; ++place)
+    rows += fmt::format("{}('{}', {})", place == 0 ? "" : ", ", kicking::kPolicyFacts[place].name, place);
+  return fmt::format("CREATE TEMP VIEW policy_order (policy, place) AS VALUES {};", rows);
+}
+
+}  // namespace
+
+void create_reading_views(SQLite::Database& database) {
+  database.exec(own_kicks());
+  database.exec(policy_order());
+  database.exec(kReadingViewsSql);
+}
+
+void create_tables(SQLite::Database& database) {
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kMatchLog.application_id,
+                            kMatchLog.version));
+  database.exec(match_schema());
+  database.exec("ANALYZE");  // its table now, while the schema lies in front: of a file that was cut the schema is read
+}
+
+void create_study(SQLite::Database& database, const StudyRow& study) {
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kStudyResults.application_id,
+                            kStudyResults.version));
+  database.exec(kStudySchemaSql);
+  SQLite::Statement insert(database, "INSERT INTO studies VALUES (?, ?, ?, ?)");
+  insert.bind(1, sha256(study.arguments));
+  insert.bind(2, study.arguments);
+  insert.bind(3, study.matches);
+  insert.bind(4, study.finished ? 1 : 0);
+  insert.exec();
+}
+
+namespace {
+
+/// What a session has several of.
+void insert_lists(SQLite::Database& database, const Session& session, std::int64_t session_id) {
+  for (const DriverCount& driver : session.continued) {
+    SQLite::Statement count(
+        database, "INSERT INTO continued (session_id, robot_id, orders_handled, orders_refused) VALUES (?, ?, ?, ?)");
+    count.bind(1, session_id);
+    count.bind(2, driver.robot_id);
+    count.bind(3, driver.orders_handled);
+    count.bind(4, driver.orders_refused);
+    count.exec();
+  }
+  for (const HalfPolicy& half : session.policies) {
+    SQLite::Statement policy(database,
+                             "INSERT INTO session_policies (session_id, robot_id, half, policy) VALUES (?, ?, ?, ?)");
+    policy.bind(1, session_id);
+    policy.bind(2, half.robot_id);
+    policy.bind(3, half.half);
+    policy.bind(4, half.policy);
+    policy.exec();
+  }
+}
+
+}  // namespace
+
+void insert_session(SQLite::Database& database, const Session& session, std::optional<std::int64_t> closed_t_ns,
+                    Digests& digests) {
+  const std::int64_t session_id = session_id_of(session.uuid);
+  SQLite::Statement insert(
+      database,
+      "INSERT INTO sessions (session_id, uuid, robot_id, started_t_ns, closed_t_ns, clock, "
+      "realtime_offset_ns, config_sha256, seed, software_version, scenario, simulated, "
+      "idl_sha256, arm, kicker_table, match_id, continues_uuid, replays_uuid, paired_halves, planned_s, "
+      "calibration_id) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(1, session_id);
+  insert.bind(2, session.uuid);
+  if (session.robot_id) insert.bind(3, *session.robot_id);
+  insert.bind(4, session.started_t_ns);
+  if (closed_t_ns) insert.bind(5, *closed_t_ns);
+  insert.bind(6, session.simulated_clock ? "simulated" : "steady");
+  insert.bind(7, session.realtime_offset_ns);
+  insert.bind(8, store(database, session.config_toml, digests));
+  if (session.seed) insert.bind(9, *session.seed);
+  insert.bind(10, session.software_version);
+  insert.bind(11, session.scenario);
+  insert.bind(12, session.simulated ? 1 : 0);
+  insert.bind(13, store(database, session.idl, digests));
+  if (session.arm) insert.bind(14, *session.arm);
+  if (session.kicker_table) insert.bind(15, *session.kicker_table);
+  if (session.match_id) insert.bind(16, *session.match_id);
+  if (!session.continues_uuid.empty()) insert.bind(17, session.continues_uuid);
+  if (!session.replays_uuid.empty()) insert.bind(18, session.replays_uuid);
+  insert.bind(19, session.paired_halves ? 1 : 0);
+  if (session.planned_s) insert.bind(20, *session.planned_s);
+  if (session.calibration_id) insert.bind(21, *session.calibration_id);
+  insert.exec();
+  insert_lists(database, session, session_id);
+}
+
+void create_log(SQLite::Database& database, const Session& session) {
+  SQLite::Transaction transaction(database);
+  create_tables(database);
+  Digests digests;
+  insert_session(database, session, std::nullopt, digests);
+  transaction.commit();
+}
+
+std::vector<std::string> tables_of(SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name");
+  std::vector<std::string> names;
+  while (query.executeStep()) names.push_back(query.getColumn(0).getString());
+  return names;
+}
+
+std::optional<std::vector<Column>> columns_of(SQLite::Database& database, std::string_view table) {
+  std::string quoted;
+  for (const char c : table) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  // The statement, not the function pragma_table_info(), in whose place a file may have a table.
+  SQLite::Statement query(database, fmt::format("PRAGMA table_info(\"{}\")", quoted));
+  std::vector<Column> columns;
+  while (query.executeStep())
+    columns.push_back({query.getColumn("name").getString(), query.getColumn("notnull").getInt() != 0});
+  if (columns.empty()) return std::nullopt;
+  return columns;
+}
+
+}  // namespace trivela::log

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "log/shards/match_tally.hpp"
+#include "log/shards/shard.hpp"
+
+namespace trivela::log {
+
+/// What a study was asked for.
+struct StudyPlan {
+  std::string arguments;      ///< everything that its rows depend on, as text
+  std::uint32_t matches = 0;  ///< of each arm, of the whole study
+  std::optional<Shard> shard{};
+
+  MatchRange range() const { return range_of(shard, matches); }
+};
+
+/// What a study has played so far, match by match: no match is played twice, however often the run is stopped. The same
+/// arms and matches make the same rows, in any order. For one thread and one process at a time: the file is locked.
+class StudyResults {
+ public:
+  /// Makes the file, or goes on with it; without a path the results are in memory until save(). Throws FileTaken naming
+  /// the file where it is something else, of other arguments, or in use.
+  StudyResults(const std::filesystem::path& path, const StudyPlan& plan);
+  ~StudyResults();
+  StudyResults(const StudyResults&) = delete;
+  StudyResults& operator=(const StudyResults&) = delete;
+
+  /// Takes over what another file of this study, or of one of its shards, has. Throws std::runtime_error naming the
+  /// file where it is of another study, cannot be read, or says something else of a match.
+  void take_over(const std::filesystem::path& path);
+
+  /// The number of an arm, by `text`, all that its matches depend on but their number; `name` is for people.
+  std::int64_t arm(const std::string& text, const std::string& name);
+
+  std::map<std::uint32_t, MatchTally> matches_of(std::int64_t arm_id) const;
+
+  /// A match that matches_of() does not have. Committed within half a second. Throws std::runtime_error naming the
+  /// file where it cannot be written.
+  void add(std::int64_t arm_id, std::uint32_t match_id, const MatchTally& tally);
+
+  /// Matches of arms.
+  std::int64_t size() const;
+
+  void commit();
+
+  /// What was asked for is there.
+  void finish();
+
+  /// Writes results in memory to a new file.
+  void save(const std::filesystem::path& path);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trivela::log

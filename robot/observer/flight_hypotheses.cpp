@@ -1,0 +1,195 @@
+#include "robot/observer/flight_hypotheses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kicking/constants.hpp"
+#include "kicking/geometry/time.hpp"
+
+namespace trivela::robot {
+namespace {
+
+constexpr double kReleaseDoubt_s = 0.04;  // until then the ball may be in the handler still
+constexpr std::size_t kFewestInFlight = 3;
+constexpr double kOnFloorBelow_m = 0.25;  // a ball that never was higher rolls
+constexpr double kMostMisfit = 30.0;      // squared, of one sighting: more is a false detection
+constexpr double kTurnKeeps = 0.2;        // of the speed over ground, on average over where the body is hit ...
+constexpr double kTurnSd = 0.5;           // ... and its spread along either axis, in speeds of the ball
+constexpr std::size_t kLateTurns = 3;     // too late to show in a misfit
+constexpr double kSuspicious = 12.0;      // misfit of three sightings; 6 on average
+constexpr double kFrameKeeps = 0.45, kFrameKeepsSd = 0.15;  // of the speed: post, bar or a keeper; assumption
+constexpr double kNetArea_m2 = 6.0;                         // where a ball behind the line may be that the net holds
+
+double log_density(const std::array<double, 3>& misfit, double log_variance) {
+  const double square = std::min(misfit[0] + misfit[1], kMostMisfit);
+  return -0.5 * (square + log_variance) - std::log(2.0 * std::numbers::pi);
+}
+
+/// The crossing ahead of a ball, or just behind it; none: it does not come there within `within_s`.
+std::optional<PlaneCrossing> meets_plane(const FlightFilter& from, double t_s, double goal_y_m, double within_s) {
+  FlightFilter ball = from;
+  double ahead_s = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double v = ball.y().v_mps;
+    if (v < 0.1) return std::nullopt;
+    const double step_s = (goal_y_m - ball.y().p_m) / v;
+    if (ahead_s + step_s > within_s) return std::nullopt;
+    if (step_s <= 0.0) break;
+    ball.advance(step_s);
+    ahead_s += step_s;
+  }
+  const double v = ball.y().v_mps;
+  if (v < 0.1) return std::nullopt;
+  const double rest_s = (goal_y_m - ball.y().p_m) / v;
+  const double sd_y_m = std::sqrt(ball.y().var_p_m2);
+  const auto sd = [&](const AxisState& s) { return std::hypot(std::sqrt(s.var_p_m2), s.v_mps / v * sd_y_m); };
+  return PlaneCrossing{t_s + ahead_s + rest_s,
+                       sd_y_m / v,
+                       ball.x().p_m + ball.x().v_mps * rest_s,
+                       sd(ball.x()),
+                       std::max(kicking::Ball{}.radius_m, ball.z().p_m + ball.z().v_mps * rest_s),
+                       sd(ball.z()),
+                       ball};
+}
+
+class Hypotheses {
+ public:
+  Hypotheses(const ShotTrack& track, std::span<const kicking::Sighting> seen, double goal_y_m)
+      : track_(track),
+        seen_(seen),
+        goal_y_m_(goal_y_m),
+        rolls_(std::ranges::all_of(seen, [](const kicking::Sighting& s) { return s.ball_m.z() < kOnFloorBelow_m; })) {
+    free_.reserve(seen.size());
+    misfit_.reserve(seen.size());
+    log_free_.reserve(seen.size());
+  }
+
+  FlightHypotheses tell() {
+    free_flight();
+    FlightHypotheses stories{.crossing = crossing_,
+                             .seen_after_crossing = before_line_ < seen_.size(),
+                             .turns = {},
+                             .last = free_.back(),
+                             .last_t_s = time_s(before_line_ - 1),
+                             .residual_sd_m = residual_sd_m()};
+    if (!stories.crossing) stories.crossing = meets_plane(free_.back(), stories.last_t_s, goal_y_m_, kFar_s);
+    if (crossing_) {
+      stories.log_passed = std::max(continued(free_.back(), before_line_ - 1, true), held_by_the_net());
+      FlightFilter back = crossing_->ball;
+      back.throw_back(goal_y_m_, kFrameKeeps, kFrameKeepsSd);
+      stories.log_thrown_back = thrown_back(back);
+    }
+    for (std::size_t i = 0; i < before_line_; ++i) {
+      if (may_turn_after(i)) stories.turns.push_back(turn_after(i));
+    }
+    return stories;
+  }
+
+ private:
+  static constexpr double kFar_s = 10.0;
+
+  double time_s(std::size_t i) const { return kicking::seconds(seen_[i].t_ns - track_.release_t_ns); }
+
+  FlightFilter start() const {
+    const Eigen::Vector3d& first = seen_.front().ball_m;
+    Eigen::Vector2d to_goal{-first.x(), std::max(1.0, goal_y_m_ - first.y())};
+    to_goal.normalize();
+    const double v = track_.expected_speed_mps;
+    const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * time_s(0);
+    const double sd_climb = track_.expected_climb_mps ? 0.1 * *track_.expected_climb_mps + 0.3 : 5.0;
+    // The robot's own speed, and where it aims. What never left the floor was no kick as expected.
+    const double sd = rolls_ ? v + 1.0 : 0.1 * v + 1.2;
+    return {seen_.front(), track_.ball_sd_m, {v * to_goal.x(), v * to_goal.y(), climb}, {sd, sd, sd_climb}, rolls_};
+  }
+
+  void free_flight() {
+    free_.push_back(start());
+    misfit_.push_back(0.0);
+    log_free_.push_back(0.0);
+    for (before_line_ = 1; before_line_ < seen_.size(); ++before_line_) {
+      FlightFilter ball = free_.back();
+      const double t_s = time_s(before_line_ - 1), dt_s = time_s(before_line_) - t_s;
+      if (ball.y().p_m + 1.05 * dt_s * ball.y().v_mps > goal_y_m_) crossing_ = meets_plane(ball, t_s, goal_y_m_, dt_s);
+      if (crossing_) return;
+      ball.advance(dt_s);
+      const auto misfit = ball.correct(seen_[before_line_].ball_m, track_.ball_sd_m);
+      squares_ += misfit[0] + misfit[1] + misfit[2];
+      misfit_.push_back(std::min(misfit[0] + misfit[1], kMostMisfit));
+      log_free_.push_back(log_free_.back() + log_density(misfit, ball.log_variance()));
+      free_.push_back(ball);
+    }
+  }
+
+  /// ln of the likelihood of all sightings after number `i`, whose ball it is.
+  double continued(FlightFilter ball, std::size_t i, bool advance_first, double from_s = 0.0) const {
+    double sum = 0.0;
+    for (++i; i < seen_.size(); ++i) {
+      if (advance_first) ball.advance(time_s(i) - (from_s > 0.0 ? from_s : time_s(i - 1)));
+      from_s = 0.0;
+      advance_first = true;
+      const auto misfit = ball.correct(seen_[i].ball_m, track_.ball_sd_m);
+      sum += log_density(misfit, ball.log_variance());
+    }
+    return sum;
+  }
+
+  double thrown_back(const FlightFilter& back) const {
+    return continued(back, before_line_ - 1, true, std::max(crossing_->t_s, 1e-9));
+  }
+
+  double held_by_the_net() const {
+    double sum = 0.0;
+    for (std::size_t i = before_line_; i < seen_.size(); ++i) {
+      const double before = std::max(0.0, goal_y_m_ - seen_[i].ball_m.y()) / track_.ball_sd_m;
+      sum -= 0.5 * std::min(before * before, kMostMisfit) + std::log(kNetArea_m2);
+    }
+    return sum;
+  }
+
+  bool may_turn_after(std::size_t i) const {
+    if (i + 1 >= seen_.size()) return false;
+    if (i == 0 || i + kLateTurns >= before_line_) return true;
+    return misfit_[i + 1] + misfit_[i + 2] + misfit_[i + 3] > kSuspicious;
+  }
+
+  Turn turn_after(std::size_t i) const {
+    FlightFilter ball = free_[i];
+    const double dt_s = time_s(i + 1) - time_s(i);
+    const Eigen::Vector2d v{ball.x().v_mps, ball.y().v_mps};
+    ball.advance(dt_s);
+    ball.turn((kTurnKeeps - 1.0) * v, kTurnSd * v.norm(), dt_s);
+    const bool last = crossing_ && i + 1 == before_line_;
+    const double within_s = last ? std::max(0.0, crossing_->t_s - time_s(i)) : dt_s;
+    return {within_s, continued(ball, i, false) - (log_free_.back() - log_free_[i])};
+  }
+
+  double residual_sd_m() const {
+    const double n = 3.0 * static_cast<double>(before_line_ - 1);
+    return n > 0.0 ? track_.ball_sd_m * std::sqrt(squares_ / n) : 0.0;
+  }
+
+  const ShotTrack& track_;
+  std::span<const kicking::Sighting> seen_;
+  double goal_y_m_;
+  bool rolls_;
+  std::vector<FlightFilter> free_;  // after each sighting before the line
+  std::vector<double> misfit_;
+  std::vector<double> log_free_;  // of all sightings up to this one
+  double squares_ = 0.0;
+  std::size_t before_line_ = 0;  // how many sightings are
+  std::optional<PlaneCrossing> crossing_;
+};
+
+}  // namespace
+
+std::optional<FlightHypotheses> flight_hypotheses(const ShotTrack& track, double goal_y_m) {
+  const auto left = std::find_if(track.sightings.begin(), track.sightings.end(), [&](const kicking::Sighting& s) {
+    return kicking::seconds(s.t_ns - track.release_t_ns) >= kReleaseDoubt_s;
+  });
+  const std::span<const kicking::Sighting> seen{left, track.sightings.end()};
+  if (seen.size() < kFewestInFlight) return std::nullopt;
+  return Hypotheses{track, seen, goal_y_m}.tell();
+}
+
+}  // namespace trivela::robot

@@ -1,0 +1,84 @@
+#include "sim/kicker/kicker.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "kicking/random/draws.hpp"
+#include "sim/kicker/flight.hpp"
+
+namespace trivela::sim {
+
+Kicker team_kicker(const Scenario& scenario, std::uint32_t robot) {
+  Kicker kicker = scenario.kicker;
+  const auto& ratios = scenario.team.speed_scale_ratios;
+  if (!ratios.empty()) kicker.speed_scale_ratio *= ratios.at(robot - 1);
+  return kicker;
+}
+
+Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t seed) {
+  Kicker kicker = team_kicker(scenario, robot);
+  const double drift =
+      kicking::Draws{seed, 0}.normal(kicking::Role::kTeam, robot);  // opportunities count from 1: 0 is the match's own
+  kicker.speed_scale_ratio *= std::max(0.5, 1.0 + kicker.drift_sd_ratio * drift);
+  return kicker;
+}
+
+double worn_ratio(const Kicker& kicker, std::uint32_t kicks) {
+  return kicks < kicker.drop_after_kicks ? 1.0 : 1.0 - kicker.drop_ratio;
+}
+
+Exit exit_at(const Kicker& kicker, double power) {
+  const auto& powers = kicker.powers;
+  const auto above = std::upper_bound(powers.begin(), powers.end(), power);
+  if (above == powers.begin()) return {kicker.exit_speeds_mps.front(), kicker.exit_elevations_rad.front()};
+  if (above == powers.end()) return {kicker.exit_speeds_mps.back(), kicker.exit_elevations_rad.back()};
+  const auto i = static_cast<std::size_t>(above - powers.begin());
+  const double part = (power - powers[i - 1]) / (powers[i] - powers[i - 1]);
+  return {std::lerp(kicker.exit_speeds_mps[i - 1], kicker.exit_speeds_mps[i], part),
+          std::lerp(kicker.exit_elevations_rad[i - 1], kicker.exit_elevations_rad[i], part)};
+}
+
+Exit effective_exit(const Exit& true_exit, const BallPhysics& ball) {
+  const double elevation = true_exit.elevation_rad;
+  if (!(elevation > 0.0 && elevation < std::numbers::pi / 2) || !(true_exit.speed_mps > 0.0)) {
+    throw std::runtime_error{
+        fmt::format("no lob leaves at {} m/s and an elevation of {} rad", true_exit.speed_mps, elevation)};
+  }
+  // Far above the floor, so that it never bounces.
+  BallMotion now{
+      {{0.0, 0.0, 100.0}, {0.0, true_exit.speed_mps * std::cos(elevation), true_exit.speed_mps * std::sin(elevation)}}};
+  const double launch_z = now.position_m.z();
+  double apex = 0.0;
+  constexpr double kFine_s = 1e-3;
+  for (;;) {
+    BallMotion next = now;
+    advance(next, ball, kFine_s);
+    if (now.velocity_mps.z() > 0.0 && next.velocity_mps.z() <= 0.0) {
+      const double fraction = now.velocity_mps.z() / (now.velocity_mps.z() - next.velocity_mps.z());
+      apex = now.position_m.z() - launch_z + 0.5 * now.velocity_mps.z() * fraction * kFine_s;
+    }
+    if (next.position_m.z() <= launch_z) {
+      const double fraction = (now.position_m.z() - launch_z) / (now.position_m.z() - next.position_m.z());
+      const double range = std::lerp(now.position_m.y(), next.position_m.y(), fraction);
+      const double theta = std::atan(4.0 * apex / range);
+      return {std::sqrt(range * ball.gravity_mps2 / std::sin(2.0 * theta)), theta};
+    }
+    now = next;
+  }
+}
+
+Exit true_exit(const Exit& effective, const BallPhysics& ball) {
+  Exit exit = effective;
+  for (int i = 0; i < 20; ++i) {  // drag changes little: each round gains about a digit
+    const Exit seen = effective_exit(exit, ball);
+    exit.speed_mps *= effective.speed_mps / seen.speed_mps;
+    exit.elevation_rad -= seen.elevation_rad - effective.elevation_rad;
+  }
+  return exit;
+}
+
+}  // namespace trivela::sim
