@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/architecture.md says of rooms, storeys and libraries what tests/house/rules_test.cpp keeps, and the functions of its
+"""docs/architecture.md says of modules, layers and libraries what tests/rules/rules_test.cpp keeps, and the functions of its
 call chain stand in the files beside them."""
 import pathlib
 import re
@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/architecture.md").read_text()
-RULES = (ROOT / "tests/house/rules_test.cpp").read_text()
+RULES = (ROOT / "tests/rules/rules_test.cpp").read_text()
 
 
 def named(cell):
@@ -35,18 +35,19 @@ def part(begin, end):
 class Architecture(unittest.TestCase):
     maxDiff = None
 
-    def test_rooms_include_what_the_house_test_allows(self):
-        shown = {named(cells[0])[0]: set(named(cells[2])) for cells in rows("| room |")}
+    def test_modules_include_what_the_rules_test_allows(self):
+        shown = {named(cells[0])[0]: set(named(cells[2])) for cells in rows("| module |")}
         del shown["cli"]
         self.assertEqual(shown, map_of(part("kMayInclude{", "};")))
 
-    def test_storeys(self):
-        storeys = re.findall(r'"(\w+)"', part("storeys{", "};"))
-        self.assertIn("\n    " + " ".join(storeys) + "\n", PAGE)
+    def test_layers(self):
+        shown = {named(cells[0])[0]: named(cells[1]) for cells in rows("| layers of |")}
+        kept = re.findall(r'\{"(\w+)",\s*\{([^}]*)\}\}', part("kLayers{", "};"))
+        self.assertEqual(shown, {module: re.findall(r'"(\w+)"', layers) for module, layers in kept})
 
     def test_outer_libraries(self):
         shown = {named(cells[0])[0].rstrip("/"): set(named(cells[1])) for cells in rows("| library |")}
-        self.assertEqual(shown, map_of(part("doors{", "};")))
+        self.assertEqual(shown, map_of(part("users_of{", "};")))
 
     def test_functions_of_the_call_chain_are_in_their_files(self):
         steps, files = 0, []
