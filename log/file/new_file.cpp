@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -76,7 +77,10 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
     throw FileTaken(failed(error.what()));
   } catch (const std::exception& error) {
     const auto* const sqlite = dynamic_cast<const SQLite::Exception*>(&error);
-    if (sqlite != nullptr && is_busy(*sqlite)) throw FileTaken(failed(error.what()));
+    // Who was quicker may be at the end already, and its -wal just gone.
+    const bool just_gone = !made_here && sqlite != nullptr && (sqlite->getErrorCode() & 0xFF) == SQLITE_CANTOPEN &&
+                           ::access(path.c_str(), W_OK) == 0;
+    if (just_gone || (sqlite != nullptr && is_busy(*sqlite))) throw FileTaken(failed(error.what()));
     leave_nothing();
     throw std::runtime_error(failed(error.what()));
   } catch (...) {

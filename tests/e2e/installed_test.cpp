@@ -54,7 +54,7 @@ TEST_F(Installed, EveryProgramFindsTheInstalledConfiguration) {
     EXPECT_THAT(output_of(entry.path(), {"--version"}), HasSubstr("\nconfiguration: " + config() + "\n"));
     ++programs;
   }
-  EXPECT_EQ(programs, 15);
+  EXPECT_EQ(programs, 16);
 }
 
 TEST_F(Installed, NoProgramNamesTheSources) {
