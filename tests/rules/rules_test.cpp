@@ -125,7 +125,9 @@ const std::map<std::string, std::vector<std::string>> kLayers{
 
 TEST(Rules, LayersOfAModuleRestOnThoseBelow) {
   std::vector<std::string> broken;
-  for (const auto& [module, layers] : kLayers) {
+  for (const auto& entry : kLayers) {
+    const std::string& module = entry.first;
+    const std::vector<std::string>& layers = entry.second;
     const auto layer = [&](const std::string& path) {
       const auto begin = path.find('/') + 1, end = path.find('/', begin);
       if (end == std::string::npos) return std::ptrdiff_t{-1};
