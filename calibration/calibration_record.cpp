@@ -54,10 +54,10 @@ void CalibrationRecord::read() {
     for (const auto& [what, value] : json.at("measured").items()) measured_[what] = value.get<double>();
     finished_ = json.at("finished").get<std::set<std::string>>();
   } catch (const evaluator::Json::exception&) {
-    throw std::runtime_error{
-        fmt::format("{} is cut short, or no book of a calibration. Its drives are not lost: to go on with those whose "
-                    "logs are whole beside it, write this into it (what was measured is asked again):\n{}",
-                    file_.string(), text_with(played_in(folder_)))};
+    throw std::runtime_error{fmt::format(
+        "{} is cut short, or no record of a calibration. Its drives are not lost: to go on with those whose "
+        "logs are whole beside it, write this into it (what was measured is asked again):\n{}",
+        file_.string(), text_with(played_in(folder_)))};
   }
   if (begun_with == arguments_) return;
   throw config::BadArgument{
@@ -71,7 +71,7 @@ std::string CalibrationRecord::text_with(const std::set<std::string>& finished) 
 }
 
 void CalibrationRecord::write() const {
-  evaluator::replace_file(file_, text_with(finished_), "the calibration's book");
+  evaluator::replace_file(file_, text_with(finished_), "the calibration's record");
 }
 
 std::optional<double> CalibrationRecord::measured(const std::string& what) const {

@@ -36,7 +36,7 @@ std::string bars(const PageView& view, const std::vector<HeldReason>& rows) {
     y += kRow;
   }
   return figure({"held-figure", "Cycles in which each policy held, by reason", y, view.simulated}, svg,
-                "Cycles of the decision in which the policy in charge held, and the possessions in which it did so for "
+                "Cycles of the decision in which the active policy held, and the possessions in which it did so for "
                 "that reason. Cycles in which the game stood or a kick was under way are left out.");
 }
 
@@ -117,7 +117,7 @@ std::string held_section(const PageView& view) {
   body += paragraphs(
       {view.data.shadows.empty()
            ? "No other policy rode along."
-           : "A policy that rides along judges the same cycle and orders nothing. It would have kicked once and held "
+           : "A shadow policy judges the same cycle and orders nothing. It would have kicked once and held "
              "no more: "
              "where it would have kicked is counted by possession. What its kick would have become nobody knows."});
   return section("held", title, body);

@@ -164,7 +164,8 @@ std::string pair_text(const FactorialReport& report) {
              "%\n(95 % {:.0f} to {:.0f} and {:.0f} to {:.0f} %):\n",
              name(report.sweep_law), 100.0 * older.lo, 100.0 * older.hi, 100.0 * newer.lo, 100.0 * newer.hi) +
          evaluator::text_table(rows) +
-         "  Common error: balls so much too high seemed right to whoever made the old tables, at every distance.\n"
+         "  Common error: balls so much too high seemed right to the person who made the old tables, at every "
+         "distance.\n"
          "  Assumptions that meet two numbers are not shown to be right by it: several do.\n";
 }
 
