@@ -83,9 +83,9 @@ ExitCode StudyRun::run(const std::function<void()>& play_all, const std::functio
   }
   const auto range = log::range_of(study_.shard, study_.plan.matches);
   fmt::print(
-      "shard {}: matches {} to {} of {} are in {}; this command without --shard, with --with FILE for each shard's "
-      "file, "
-      "reports on all\n",
+      "shard {}: matches {} to {} of {} are in {}. For the report give this command --with and the files of all "
+      "shards, "
+      "in place of --shard and --results\n",
       study_.shard->text(), range.begin, range.end - 1, study_.plan.matches, study_.results);
   return kDone;
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "config/scenario/scenario.hpp"
 #include "config/text/error.hpp"
@@ -115,24 +116,33 @@ class Sessions {
 /// Somebody asked to stop.
 struct Interrupted {};
 
-/// Writes matches in the order of their numbers, whatever order they are played in; for one thread at a time.
+/// Writes matches in the order of their numbers, whatever order they are played in. Any thread may add one; one of them
+/// writes at a time, while the others play on.
 class OrderedWriter {
  public:
-  OrderedWriter(std::uint32_t first, std::function<void(std::uint32_t, const std::vector<Played>&)> write)
-      : next_(first), write_(std::move(write)) {}
+  using Write = std::function<void(std::uint32_t match_id, const std::vector<Played>& played)>;
+
+  OrderedWriter(std::uint32_t first, Write write) : next_(first), write_(std::move(write)) {}
 
   void add(std::uint32_t match_id, std::vector<Played> played) {
+    std::unique_lock lock{mutex_};
     waiting_.emplace(match_id, std::move(played));
-    for (auto found = waiting_.extract(next_); found; found = waiting_.extract(next_)) {
-      write_(next_, found.mapped());
+    if (std::exchange(writing_, true)) return;
+    while (const auto found = waiting_.extract(next_)) {
+      lock.unlock();
+      write_(found.key(), found.mapped());
+      lock.lock();
       ++next_;
     }
+    writing_ = false;
   }
 
  private:
+  std::mutex mutex_;
   std::uint32_t next_;
-  std::function<void(std::uint32_t, const std::vector<Played>&)> write_;
+  Write write_;
   std::map<std::uint32_t, std::vector<Played>> waiting_;
+  bool writing_ = false;
 };
 
 /// What the arms did in each match.
@@ -254,15 +264,12 @@ ExperimentRun run_experiment(const ExperimentPlan& plan, unsigned jobs, const st
     log.end_match();
   };
   OrderedWriter writer{first, write};
-  std::mutex one_at_a_time;
   try {
     in_threads(
         range.end - first, jobs,
         [&](std::size_t i) {
           const std::uint32_t match_id = first + static_cast<std::uint32_t>(i);
-          std::vector<Played> played = play_all(plan, calibrations, match_id);
-          const std::lock_guard lock{one_at_a_time};
-          writer.add(match_id, std::move(played));
+          writer.add(match_id, play_all(plan, calibrations, match_id));
         },
         [&](std::size_t done, std::size_t all) {
           const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - started;

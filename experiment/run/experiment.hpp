@@ -38,7 +38,7 @@ void check_playable(const ExperimentPlan& plan);
 /// Who looks on while an experiment is played.
 struct ExperimentWatch {
   std::function<void(std::int64_t matches)> found;                                   ///< in the log already
-  std::function<void(double done, double total, const std::string& what)> progress;  ///< several times a second
+  std::function<void(double done, double total, const std::string& what)> progress;  ///< after each match
   std::function<bool()> stop;  ///< asked as often: shall no further match begin?
 };
 

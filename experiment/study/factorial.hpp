@@ -71,9 +71,9 @@ struct Gain {
 };
 Gain gain_of(const std::vector<PlayedCell>& cells, Measure measure);
 
-/// The paper's two tournaments, old table and `stopped`, new table and `moving`, under one assumption: the opponents'
-/// median distance, or the common error of the person who made the old table (balls so much over the target's height
-/// seemed to pass at it, at every distance and in every match) [m].
+/// The paper's two tournaments under one assumption. Older: old table and `stopped`; newer: new table and `moving`.
+/// `value_m` is the opponents' median distance [m], or the common error of the person who made the old table: balls so
+/// much over the target's height seemed to pass at it, at every distance and in every match [m].
 struct SweepPoint {
   double value_m = 0.0;
   ArmTally older;

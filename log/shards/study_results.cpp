@@ -101,7 +101,7 @@ struct StudyResults::Impl {
     try {
       work();
     } catch (const SQLite::Exception& error) {
-      throw std::runtime_error(fmt::format("{}: tallies could not be written: {}", path.string(), error.what()));
+      throw std::runtime_error(fmt::format("{}: results could not be written: {}", path.string(), error.what()));
     }
   }
 
@@ -117,6 +117,8 @@ StudyResults::StudyResults(const fs::path& path, const StudyPlan& plan) : impl_(
 StudyResults::~StudyResults() = default;
 
 void StudyResults::take_over(const fs::path& path) {
+  std::error_code none;
+  if (fs::equivalent(path, impl_->path, none)) return;
   LogFile(path, kStudyResults, Check::kWhole).query("SELECT arguments FROM studies", [&](const std::string& arguments) {
     const auto stamp = stamp_of(arguments);
     if ((stamp ? stamp->arguments : arguments) != impl_->plan.arguments ||

@@ -137,6 +137,10 @@ TEST(StudyShards, ThatAreForeignOrSaySomethingElseAreNamed) {
   EXPECT_THAT(refusal("changed.db"), HasSubstr("changed.db: says something else of match 1"));
   EXPECT_EQ(ran(folder, study, {"--with", "1.db", "2.db", "1.db"}).exit_code, 0)
       << "one that is there twice says nothing new";
+  const Ran whole = ran(folder, study, {"--results", "whole.db", "--with", "1.db", "2.db"});
+  const Ran again = ran(folder, study, {"--results", "whole.db", "--with", "whole.db", "1.db"});
+  EXPECT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(again.output, whole.output) << "its own file, as a pattern of names gives it";
 }
 
 /// Stops a study of many matches when its file has some of them, by a signal.
