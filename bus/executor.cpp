@@ -133,9 +133,9 @@ void Executor::beat() const {
 std::string Executor::late() const {
   const auto now = Clock::now();
   for (const Node* node : nodes_) {
-    if (node->turn_.late(now, pulse_.patience)) return node->name();
+    if (node->turn_.late(now, pulse_.timeout)) return node->name();
     for (const auto& slot : node->slots_)
-      if (slot->turn.late(now, pulse_.patience)) return slot->reaction.name;
+      if (slot->turn.late(now, pulse_.timeout)) return slot->reaction.name;
   }
   return {};
 }
@@ -164,7 +164,7 @@ void Executor::finish() noexcept {
       if (slot->to_the_last && slot->reader && !failed()) take(*slot);
   for (Node* node : nodes_) {
     for (const auto& slot : node->slots_) {
-      // Deleting a reader waits for its listener, who may be waiting for his turn: he finds none then.
+      // To delete a reader waits for its listener, which may be waiting for this lock: it finds no reader then.
       std::unique_ptr<AnyReader> reader;
       const std::lock_guard lock(slot->running);
       reader = std::move(slot->reader);

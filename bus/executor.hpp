@@ -34,7 +34,7 @@ class Executor {
   /// Runs until the stop is requested; what has then arrived for a reaction with ReaderOptions::keep_all is still
   /// delivered. Throws Error naming the topics if the reactions form a cycle (kListener), and
   /// rethrows the first exception of a reaction, which ends the run; BusUnresponsive, where a participant in real time
-  /// does not hear what its nodes need and making readers anew does not help.
+  /// does not hear what its nodes need and making readers again does not help.
   void run();
 
  private:

@@ -71,7 +71,7 @@ class Mailbox {
 
   AnyReader& reader() { return reader_; }
 
-  /// In real time, to be called now and then, but by no listener: makes a reader anew that has heard nothing for too
+  /// In real time, to be called now and then, but by no listener: makes a reader again that has heard nothing for too
   /// long. A node's executor does it.
   void keep_hearing() {
     renew_if_silent(reader_, mutex_, [this] { waitset_.attach(reader_.condition(), 0); });

@@ -17,10 +17,10 @@ class Turn {
   void due(Time at) noexcept { due_ns_.store(ns(at), std::memory_order_relaxed); }
   void idle() noexcept { due_ns_.store(kIdle, std::memory_order_relaxed); }
 
-  /// Whether it should have been over longer than `patience` before `now`.
-  bool late(Time now, std::chrono::nanoseconds patience) const noexcept {
+  /// Whether it should have been over longer than `timeout` before `now`.
+  bool late(Time now, std::chrono::nanoseconds timeout) const noexcept {
     const std::int64_t due_ns = due_ns_.load(std::memory_order_relaxed);
-    return due_ns != kIdle && ns(now) - due_ns > patience.count();
+    return due_ns != kIdle && ns(now) - due_ns > timeout.count();
   }
 
  private:
@@ -38,7 +38,7 @@ struct Pulse {
   /// asks.
   std::function<void(const std::string& late)> beat;
   /// How long a reaction may take, and a device or timer may come too late.
-  std::chrono::nanoseconds patience = std::chrono::seconds{1};
+  std::chrono::nanoseconds timeout = std::chrono::seconds{1};
 };
 
 }  // namespace trivela::bus

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A reader without a period is made anew no more often than this, and its predecessor heard for as long.
+// A reader without a period is made again no more often than this, and its predecessor heard for as long.
 constexpr std::chrono::seconds kPause{2};
 
 // Of a topic without a period silence means nothing, or that its reader alone was broken.
@@ -130,18 +130,18 @@ bool AnyReader::time_to_renew() {
   const double silent_s = std::chrono::duration<double>(silence_->silent_for(now)).count();
   const std::uint32_t alive = liveliness().alive;
   hearing->renewed(
-      fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made anew", topic_, silent_s, alive));
+      fmt::format("{}: silent for {:.1f} s with {} live writers: the reader is made again", topic_, silent_s, alive));
   // A writer that stands still or is gone lapses; one that is there and not heard lives on.
   constexpr std::size_t kHelpless = 4;  // 15 s: a node may live and have nothing to say
   if (alive > 0 && silence_->attempts() > kHelpless)
-    hearing->give_up(
-        topic_, fmt::format("silent for {:.1f} s with {} live writers, and the reader was made anew {} times", silent_s,
-                            alive, kHelpless));
+    hearing->give_up(topic_,
+                     fmt::format("silent for {:.1f} s with {} live writers, and the reader was made again {} times",
+                                 silent_s, alive, kHelpless));
   return true;
 }
 
-AnyReader::Retired AnyReader::replace(Entity anew) {
-  Retired old{std::exchange(reader_, std::move(anew)), std::exchange(condition_, Entity()), std::move(waitset_)};
+AnyReader::Retired AnyReader::replace(Entity again) {
+  Retired old{std::exchange(reader_, std::move(again)), std::exchange(condition_, Entity()), std::move(waitset_)};
   if (!periodic_) std::swap(predecessor_, old.reader);
   return old;
 }
@@ -150,7 +150,7 @@ Entity AnyReader::outlived() {
   return Clock::now() - renewed_ < kPause ? Entity() : std::exchange(predecessor_, Entity());
 }
 
-// A reader made anew is given the last sample of each writer that still stands, and events by its predecessor as well.
+// A reader made again is given the last sample of each writer that still stands, and events by its predecessor as well.
 bool AnyReader::is_new(std::uint64_t writer, std::int64_t source_t_ns) {
   const auto known =
       std::find_if(newest_.begin(), newest_.end(), [&](const Newest& newest) { return newest.writer == writer; });

@@ -59,12 +59,12 @@ class AnyReader {
   ReaderCounts counts() const;
   const std::string& topic() const { return topic_; }
 
-  /// In real time: whether it has heard nothing for so long that it shall be made anew, since what a packet broke in
+  /// In real time: whether it has heard nothing for so long that it shall be made again, since what a packet broke in
   /// Cyclone's picture of a writer stays broken for the readers that it has. To be asked now and then by who takes;
   /// bus/renewal.hpp does what follows.
   bool time_to_renew();
 
-  /// What goes when a reader is made anew.
+  /// What goes when a reader is made again.
   struct Retired {
     Entity reader;
     Entity condition;
@@ -75,7 +75,7 @@ class AnyReader {
   /// Cyclone waits for it. Of a topic without a period, whose samples nobody says again, the predecessor is heard for
   /// two more seconds, until every writer knows its successor; outlived() gives it away then.
   Entity open() const;
-  [[nodiscard]] Retired replace(Entity anew);
+  [[nodiscard]] Retired replace(Entity again);
   [[nodiscard]] Entity outlived();
 
   const Participant& participant() const { return participant_; }
@@ -122,7 +122,7 @@ class AnyReader {
   Entity condition_;
   std::unique_ptr<Waitset> waitset_;
 
-  // The newest sample of each writer, who speaks for one robot: a reader made anew is given it once more, and what two
+  // The newest sample of each writer, who speaks for one robot: a reader made again is given it once more, and what two
   // readers hear is one sample.
   struct Newest {
     std::uint64_t writer;
@@ -134,7 +134,7 @@ class AnyReader {
   std::optional<ReconnectBackoff> silence_;  // in real time
   std::uint64_t renewals_seen_ = 0;          // of the participant's readers that have a period
   std::chrono::steady_clock::time_point renewed_{};
-  Entity predecessor_;  // of a topic without a period, for a while after it was made anew
+  Entity predecessor_;  // of a topic without a period, for a while after it was made again
 };
 
 /// The period of T's topic; zero: it has none.

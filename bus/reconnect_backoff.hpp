@@ -7,14 +7,14 @@
 
 namespace trivela::bus {
 
-/// Knows when a reader that hears nothing is to be made anew: after its first patience, then each time after twice as
+/// Knows when a reader that hears nothing is to be made again: after its first timeout, then each time after twice as
 /// long, up to ten seconds. Time in which nobody looked is nobody's silence: this process stood still or has not begun,
 /// and what was sent to it meanwhile is on its way.
 class ReconnectBackoff {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// The first patience with a topic of this period: 25 periods, at least half a second.
+  /// The first timeout with a topic of this period: 25 periods, at least half a second.
   static std::chrono::nanoseconds of_period(std::chrono::nanoseconds period) {
     return std::max<std::chrono::nanoseconds>(std::chrono::milliseconds{500}, 25 * period);
   }
@@ -27,7 +27,7 @@ class ReconnectBackoff {
     attempts_ = 0;
   }
 
-  /// True once it is time to make the reader anew; begins the next wait. To be asked several times a second.
+  /// True once it is time to make the reader again; begins the next wait. To be asked several times a second.
   bool due(Time now) {
     if (!looked_) heard(now);
     since_ += std::max<std::chrono::nanoseconds>(now - looked_.value_or(now) - kLongestLook,
@@ -40,7 +40,7 @@ class ReconnectBackoff {
     return true;
   }
 
-  /// How often it was made anew since something was heard.
+  /// How often it was made again since something was heard.
   std::size_t attempts() const { return attempts_; }
   std::chrono::nanoseconds silent_for(Time now) const { return now - heard_; }
 

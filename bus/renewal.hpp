@@ -6,7 +6,7 @@
 
 namespace trivela::bus {
 
-/// In real time, makes a reader anew that has heard nothing for too long; true if it did. `taking` is what who takes
+/// In real time, makes a reader again that has heard nothing for too long; true if it did. `taking` is what who takes
 /// holds: it is not held while Cyclone makes and deletes readers, since a listener may wait for it that Cyclone waits
 /// for. `attach`, under it, is for who waits for the reader's condition(), which then is another one. Not for
 /// listeners.
@@ -18,11 +18,11 @@ bool renew_if_silent(AnyReader& reader, Mutex& taking, F&& attach) {
     outlived = reader.outlived();
     if (!reader.time_to_renew()) return false;
   }
-  Entity anew = reader.open();
+  Entity again = reader.open();
   AnyReader::Retired old;
   {
     const std::lock_guard lock(taking);
-    old = reader.replace(std::move(anew));
+    old = reader.replace(std::move(again));
     attach();
   }
   return true;

@@ -12,8 +12,8 @@ namespace trivela::calibration {
 /// first one ended. Every change is on the disk before it returns.
 class CalibrationRecord {
  public:
-  /// Goes on with the folder's book, or begins it. Throws config::BadArgument where it was begun with other
-  /// `arguments`, naming both; std::runtime_error naming a book that cannot be written, or read,
+  /// Goes on with the folder's record, or begins it. Throws config::BadArgument where it was begun with other
+  /// `arguments`, naming both; std::runtime_error naming a record that cannot be written, or read,
   /// with the text that takes its place.
   CalibrationRecord(std::filesystem::path folder, std::string arguments);
 
@@ -30,7 +30,7 @@ class CalibrationRecord {
  private:
   void read();
   void write() const;
-  /// The book's text where those drives are finished.
+  /// The record's text where those drives are finished.
   std::string text_with(const std::set<std::string>& finished) const;
 
   std::filesystem::path folder_;

@@ -9,7 +9,7 @@ namespace trivela::calibration {
 
 /// A length that a person measures on the field before the first drive.
 struct FieldMeasure {
-  std::string name;      ///< key in the calibration's book
+  std::string name;      ///< key in the calibration's record
   std::string question;  ///< for the person, without the proposed value
   double least_m;
   double most_m;

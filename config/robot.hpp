@@ -32,7 +32,7 @@ struct Robot {
 /// whole: kind, powers and exit speeds, and may have an exit angle and the lever's height for each power; the lever is
 /// too slow to be moved between a decision and its kick, so that the heights of one table are the same. In place of
 /// [table] a file may have [height_table], powers over distances: model.table is then kicking::effective_table() by the
-/// default settings' law and target height; robot_for() makes it anew for others. Throws Error: also for a table of
+/// default settings' law and target height; robot_for() makes it again for others. Throws Error: also for a table of
 /// kind "true", which the drag-free laws of the policies must not be given, and for set-points that do not rise.
 Robot load_robot(const std::filesystem::path& path);
 

@@ -22,7 +22,7 @@ struct Run {
   bool match_mode = false;         ///< a match is on: what changes a log or a robot by hand is refused
   bool lockstep = false;           ///< wait for every input of a cycle and tell the simulator when it is finished
   bool one_process = false;        ///< odometry, world_state and kick_decision share one, trivela-chain
-  double referee_timeout_s = 1.0;  ///< without his word for longer the game is stopped; real time alone
+  double referee_timeout_s = 1.0;  ///< without a command for longer the game is stopped; real time alone
   std::string robot = "robots/cambada_1.toml";      ///< relative to the file that names it
   std::string scenario = "scenarios/default.toml";  ///< simulator alone
   std::string field_file;  ///< goal, field and rules in one file (config/field.hpp); empty: as the settings say
@@ -82,7 +82,7 @@ struct KickDecision {
   std::vector<double> random_probabilities;          ///< of those, their sum 1; empty: alike
   std::uint64_t assignment_seed = 1;                 ///< of the draw
   std::string learned_model;  ///< file of `trivela study learn`, read into policy.learned; policy "learned" needs one
-  bool shadows = true;        ///< judge with the other policies as well
+  bool shadows = true;        ///< evaluate the other policies, too
   double order_validity_s = 0.05;  ///< an order older than this is refused
   DriveMode drive = DriveMode::kAlways;
   bool standby = false;  ///< a second decision node stands by; in real time alone
@@ -171,7 +171,7 @@ struct Refbox {
 struct TeamLink {
   std::uint32_t domain_id = 43;  ///< of the team's bus
   std::string dds_file;          ///< its Cyclone configuration
-  std::string interface;         ///< by which this machine is on it: joined anew where its address goes or comes
+  std::string interface;         ///< by which this machine is on it: joined again where its address goes or comes
   bool base = false;             ///< it is the base, which passes its referee on; else robot run.robot_id
   bool referee = true;           ///< a robot's referee is the base's; false: it has one of its own
 };

@@ -10,12 +10,11 @@ int main() {
   state.twist = {.vx_mps = 0.0, .vy_mps = 1.0, .omega_radps = 0.0};
   state.playing = state.possession = state.kicker_ready = true;
 
-  const trivela::Judgement judgement = trivela::judge(robot, goal, state);
+  const trivela::PolicyOutput output = trivela::evaluate(robot, goal, state);
 
-  std::printf("%s: %s, %.2f m from the target\n", judgement.fire ? "fire" : "hold", name(judgement.reason),
-              judgement.distance_m);
-  if (judgement.power) std::printf("power %.3f for %.3f m/s\n", *judgement.power, *judgement.v_kick_mps);
-  if (judgement.predicted)  // it lands on the line: by default heights are by the paper's law
-    std::printf("crosses the goal line at x = %.3f m, z = %.3f m\n", judgement.predicted->x_m,
-                judgement.predicted->z_m);
+  std::printf("%s: %s, %.2f m from the target\n", output.fire ? "fire" : "hold", name(output.reason),
+              output.distance_m);
+  if (output.power) std::printf("power %.3f for %.3f m/s\n", *output.power, *output.v_kick_mps);
+  if (output.predicted)  // it lands on the line: by default heights are by the paper's law
+    std::printf("crosses the goal line at x = %.3f m, z = %.3f m\n", output.predicted->x_m, output.predicted->z_m);
 }

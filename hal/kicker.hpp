@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -12,6 +13,7 @@
 namespace trivela::hal {
 
 enum class KickerFault { kNone, kCharger, kCoil, kLink };
+inline constexpr std::array kKickerFaultNames{"none", "charger", "coil", "link"};
 
 /// One reading of the kicker.
 struct KickerSample {

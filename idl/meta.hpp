@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -95,6 +96,17 @@ constexpr const char* label(const E& value) {
   for (const auto& e : enumeration<E>::enumerators)
     if (std::bit_cast<std::underlying_type_t<E>>(e.value) == number) return e.label;
   return "invalid";
+}
+
+/// Whether the enum's values are 0, 1, ... and have these labels in this order: an enum of the same names may be cast.
+template <Enumeration E>
+constexpr bool has_labels(std::span<const char* const> names) {
+  std::size_t place = 0;
+  for (const auto& e : enumeration<E>::enumerators)
+    if (place >= names.size() || static_cast<std::size_t>(e.value) != place ||
+        std::string_view{e.label} != names[place++])
+      return false;
+  return place == names.size();
 }
 
 /// The value with that label, if there is one.

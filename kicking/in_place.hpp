@@ -6,7 +6,7 @@
 
 namespace trivela::kicking {
 
-/// Makes `object` anew, where it is, of what `make` returns, which does not look at it; where that throws, it holds
+/// Makes `object` again, where it is, of what `make` returns, which does not look at it; where that throws, it holds
 /// nothing. Who copies some hundred bytes that were just written waits until they are.
 template <class T, class Make>
 void make_in_place(T& object, const Make& make) {

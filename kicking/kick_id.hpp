@@ -30,7 +30,7 @@ constexpr std::uint32_t kick_session(std::uint64_t number) {
 
 /// The session of a decision node that starts at `unix_s`; `second`: of the robot's second one. Nodes of a robot that
 /// start in different seconds have different ones, a first and a second too, if they start less than 4.5 hours apart
-/// (16383 s): kicks of a match that a node was started anew in stay apart, which sessions drawn at random do not
+/// (16383 s): kicks of a match that a node was started again in stay apart, which sessions drawn at random do not
 /// promise.
 constexpr std::uint32_t kick_session_at(std::uint64_t unix_s, bool second) {
   return kick_session(2 * unix_s + (second ? 1 : 0));

@@ -16,7 +16,7 @@ WriterPicture picture_of(const bus::End& writer) {
           writer.strength, WriterState::kThere};
 }
 
-// Each process once: it may have several, such as the one before the last that was made anew.
+// Each process once: it may have several, such as the one before the last that was made again.
 std::vector<std::string> readers_of(const std::string& topic, const bus::Census& census) {
   std::vector<std::string> names;
   std::vector<bus::Member> known;

@@ -18,7 +18,7 @@ class PassiveSubscriber {
   PassiveSubscriber& operator=(const PassiveSubscriber&) = delete;
   virtual ~PassiveSubscriber() = default;
 
-  /// In real time, to be called now and then: a topic that fell silent is listened to anew.
+  /// In real time, to be called now and then: a topic that fell silent is listened to again.
   virtual void keep_hearing() = 0;
 };
 

@@ -20,7 +20,7 @@ namespace trivela::security {
 ///
 /// Each robot has an identity authority of its own: a node of another robot is a stranger there, whatever it may do at
 /// home. On the team's bus all have one authority in common, which nobody asks anywhere else. Every function writes a
-/// robot's folder anew beside the old one and then puts it in its place; throws std::runtime_error,
+/// robot's folder again beside the old one and then puts it in its place; throws std::runtime_error,
 /// std::invalid_argument (a kind of node that is none) or std::filesystem::filesystem_error.
 class KeyFolder {
  public:

@@ -61,7 +61,7 @@ class SensorSuite {
   const std::int64_t flight_latency_ns_;
   const std::int64_t flight_period_ns_;
   const std::int64_t cycle_ns_;
-  const double slow_keep_, slow_fresh_;  // what of the slow error stays from cycle to cycle, and what comes anew
+  const double slow_keep_, slow_fresh_;  // what of the slow error stays from cycle to cycle, and what comes again
   std::vector<WheelRow> wheels_;
 
   kicking::Draws draws_{0, 0};

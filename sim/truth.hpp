@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -37,6 +38,7 @@ struct KickTruth {
 
 /// kStopped: the referee whistled.
 enum class PossessionEnd { kKicked, kDisputed, kTimedOut, kStopped };
+inline constexpr std::array kPossessionEndNames{"kicked", "disputed", "timed_out", "stopped"};
 
 /// How a possession ended.
 struct PossessionTruth {

@@ -29,7 +29,7 @@ class Participant {
   /// domain already with another configuration, or is short of file descriptors or threads.
   explicit Participant(const DomainConfig& config);
 
-  /// The same for a run in real time: readers of topics with a period that hear nothing are made anew.
+  /// The same for a run in real time: readers of topics with a period that hear nothing are made again.
   Participant(const DomainConfig& config, RealTime real_time);
 
   /// False where an instant cannot be true: in real time, below 0 or over a second ahead of the steady clock.

@@ -67,7 +67,7 @@ bool keep_processors_awake() {
 }  // namespace
 
 void require_resources() {
-  // Who joins the bus anew has just given back what the first participant took.
+  // Who joins the bus again has just given back what the first participant took.
   static std::atomic<bool> there = false;
   if (there) return;
   if (const std::size_t free = free_descriptors(kDescriptors); free < kDescriptors) {

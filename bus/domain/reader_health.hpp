@@ -13,7 +13,7 @@
 
 namespace trivela::bus {
 
-/// A topic stays silent though its reader was made anew again and again: only a new participant may help.
+/// A topic stays silent though its reader was made again several times: only a new participant may help.
 class BusUnresponsive : public Error {
  public:
   using Error::Error;
@@ -26,16 +26,16 @@ class ReaderHealth {
   explicit ReaderHealth(RealTime options)
       : warn_(std::move(options.warn)), stays_until_(std::chrono::steady_clock::now() + options.stay) {}
 
-  /// A reader of a topic with a period was made anew.
+  /// A reader of a topic with a period was made again.
   void renewed(const std::string& sentence) {
     ++renewals_;
     if (warn_) warn_(sentence);
   }
 
-  /// Readers that have no period to miss are made anew with those that have: counts the latter.
+  /// Readers that have no period to miss are made again with those that have: counts the latter.
   std::uint64_t renewals() const { return renewals_; }
 
-  /// Making readers anew does not help; the first topic's name and story are kept.
+  /// Making readers again does not help; the first topic's name and reason are kept.
   void give_up(const std::string& topic, const std::string& story) {
     if (std::chrono::steady_clock::now() < stays_until_) return;
     const std::lock_guard lock(mutex_);

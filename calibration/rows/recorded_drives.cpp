@@ -35,25 +35,24 @@ std::optional<kicking::FlightState> fit_track(std::span<const kicking::Sighting>
 
 RecordedDrives recorded_drives(const log::Reader& reader) {
   RecordedDrives result;
-  evaluator::SessionIndex book;
-  const evaluator::SessionPlaces places = book.add(reader, "");
-  book.settle();
-  reader.query(
-      kDriveKicksSql,
-      [&](const std::string& policy, std::int64_t order_t_ns, double x_m, double y_m, double heading_rad, double vx_mps,
-          double vy_mps, double omega_radps, double goal_line_y_m, double power, std::optional<double> x_cross_m,
-          std::optional<double> z_cross_m, std::int64_t session_id, int robot_id, std::int64_t kick_id) {
-        if (!book.counts(places.at(session_id), robot_id, kick_id)) return;
-        result.kicks.push_back({.policy = policy,
-                                .order_t_ns = order_t_ns,
-                                .pose = {x_m, y_m, heading_rad},
-                                .twist = {vx_mps, vy_mps, omega_radps},
-                                .goal_line_y_m = goal_line_y_m,
-                                .power = power,
-                                .x_cross_m = x_cross_m,
-                                .z_cross_m = z_cross_m,
-                                .robot = {session_id, robot_id}});
-      });
+  evaluator::SessionIndex sessions_read;
+  const evaluator::SessionPlaces places = sessions_read.add(reader, "");
+  sessions_read.settle();
+  reader.query(kDriveKicksSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto robot_id = row.get<int>("robot_id");
+    if (!sessions_read.counts(places.at(session_id), robot_id, row.get<std::int64_t>("kick_id"))) return;
+    result.kicks.push_back(
+        {.policy = row.get<std::string>("policy"),
+         .order_t_ns = row.get<std::int64_t>("order_t_ns"),
+         .pose = {row.get<double>("x_m"), row.get<double>("y_m"), row.get<double>("heading_rad")},
+         .twist = {row.get<double>("vx_mps"), row.get<double>("vy_mps"), row.get<double>("omega_radps")},
+         .goal_line_y_m = row.get<double>("goal_line_y_m"),
+         .power = row.get<double>("power"),
+         .x_cross_m = row.find<double>("x_cross_m"),
+         .z_cross_m = row.find<double>("z_cross_m"),
+         .robot = {session_id, robot_id}});
+  });
   reader.query(kBallSightingsSql, [&](std::int64_t session_id, std::int64_t robot_id, std::int64_t t_exposure_ns,
                                       std::optional<double> x_m, std::optional<double> y_m, std::optional<double> z_m) {
     result.sightings[{session_id, robot_id}].push_back(

@@ -13,18 +13,18 @@ struct LeftForToday : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Asks for the length, proposing what is in the book, else `proposed`; keeps the answer. Throws LeftForToday.
-double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& book,
+/// Asks for the length, proposing what is in the record, else `proposed`; keeps the answer. Throws LeftForToday.
+double ask_for(const calibration::FieldMeasure& measure, double proposed, calibration::CalibrationRecord& kept,
                Person& person);
 
 /// The drives of a calibration on a field: before each a person is told what to place and asked to go on, and each that
-/// was played to its end is in the book. One that the book has is read from its records.
+/// was played to its end is in the record. One that the record has is read from its records.
 class AskedDrives : public calibration::DriveSource {
  public:
   /// All outlive it. `played_by`: plays what was confirmed.
   AskedDrives(calibration::DriveSource& played_by, const config::Settings& settings,
-              calibration::CalibrationRecord& book, Person& person)
-      : played_by_(played_by), settings_(settings), book_(book), person_(person) {}
+              calibration::CalibrationRecord& kept, Person& person)
+      : played_by_(played_by), settings_(settings), kept_(kept), person_(person) {}
 
   /// Throws LeftForToday, and what the source throws; then the records so far are set aside when it is played again.
   calibration::DriveRecord play(const calibration::DrivePlan& plan, const calibration::RobotUpdate& robot) override;
@@ -32,7 +32,7 @@ class AskedDrives : public calibration::DriveSource {
  private:
   calibration::DriveSource& played_by_;
   const config::Settings& settings_;
-  calibration::CalibrationRecord& book_;
+  calibration::CalibrationRecord& kept_;
   Person& person_;
 };
 

@@ -77,25 +77,25 @@ int play_in(Field field, const RunFlags& flags, const calibration::RobotUpdate& 
   const fs::path folder = fs::absolute(flags.out_dir);
   fs::path part = file;
   part += ".part";  // until every figure is in it
-  calibration::CalibrationRecord book{folder, arguments_of(flags, field.world.has_value())};
+  calibration::CalibrationRecord kept{folder, arguments_of(flags, field.world.has_value())};
   Person person{signals};
   config::Settings& settings = field.settings;
   const double standing_m = ask_for(calibration::standing_distance(),
-                                    field.world ? field.world->possession.goal_distance_max_m : 6.0, book, person);
+                                    field.world ? field.world->possession.goal_distance_max_m : 6.0, kept, person);
   settings.scan_recorder.mount_x_m =
-      ask_for(calibration::laser_ahead(), settings.scan_recorder.mount_x_m, book, person);
+      ask_for(calibration::laser_ahead(), settings.scan_recorder.mount_x_m, kept, person);
   settings.scan_recorder.mount_z_m =
-      ask_for(calibration::laser_height(), settings.scan_recorder.mount_z_m, book, person);
+      ask_for(calibration::laser_height(), settings.scan_recorder.mount_z_m, kept, person);
   RunReport report{false};
   const auto played = drives_in(field.world, settings, folder, part, signals);
-  AskedDrives asked{*played, settings, book, person};
+  AskedDrives asked{*played, settings, kept, person};
   calibration::CalibrationRun run{asked, standing_m, settings, flags.effort, flags.seed * 100, start};
   run.calibration([&](const calibration::DriveSummary& summary) {
     report.add(summary);
     std::fflush(stdout);
   });
   const auto checked_by = drives_in(field.check_world, settings, folder, part, signals);
-  AskedDrives check{*checked_by, settings, book, person};
+  AskedDrives check{*checked_by, settings, kept, person};
   const calibration::DriveRecord checked = check.play(check_plan(flags, false), run.robot());
   run.robot().write(file);
   std::error_code none;

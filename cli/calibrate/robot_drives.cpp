@@ -68,7 +68,7 @@ class NodesOfADrive {
   std::deque<ChildProcess> nodes_;
 };
 
-/// Somebody who says START, and STOP when he goes.
+/// Publishes START, and STOP when it ends.
 class OwnReferee {
  public:
   OwnReferee() : box_({.port = 0, .groups = {kOwnGroup, "224.16.32.2"}}) {}

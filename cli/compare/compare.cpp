@@ -75,34 +75,34 @@ evaluator::LogKicks options_of(const CompareArguments& arguments) {
           .blocked_apart = arguments.blocked == "apart"};
 }
 
-evaluator::KickDataset book_of(const evaluator::LoggedOpportunities& logged, const CompareArguments& arguments,
-                               std::string& by) try {
+evaluator::KickDataset dataset_of(const evaluator::LoggedOpportunities& logged, const CompareArguments& arguments,
+                                  std::string& by) try {
   return evaluator::kick_dataset_of(logged, options_of(arguments), by);
 } catch (const evaluator::BadOption& error) {
   throw std::runtime_error(fmt::format("--{}", error.what()));
 }
 
 /// With its baseline and its design as they were asked for.
-evaluator::PolicyComparison compared(evaluator::KickDataset book, const std::string& by,
+evaluator::PolicyComparison compared(evaluator::KickDataset dataset, const std::string& by,
                                      const CompareArguments& arguments) {
   if (arguments.stratify == by) {
     throw UsageError(fmt::format("--stratify {}: within one {} there is nothing to compare", by, by));
   }
-  if (!arguments.baseline.empty() && !evaluator::put_first(book, arguments.baseline)) {
-    throw UsageError(
-        fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by, fmt::join(book.groups, ", ")));
+  if (!arguments.baseline.empty() && !evaluator::put_first(dataset, arguments.baseline)) {
+    throw UsageError(fmt::format("--baseline '{}': there is no such {} ({})", arguments.baseline, by,
+                                 fmt::join(dataset.groups, ", ")));
   }
   if (!arguments.design.empty()) {
-    book.design = *evaluator::design_of(arguments.design);
-    book.design_reason = "as --design says";
+    dataset.design = *evaluator::design_of(arguments.design);
+    dataset.design_reason = "as --design says";
   }
-  return evaluator::compare_policies(std::move(book), by, 0.01 * arguments.smallest_effect_points);
+  return evaluator::compare_policies(std::move(dataset), by, 0.01 * arguments.smallest_effect_points);
 }
 
 evaluator::PolicyComparison compared_csv(const CompareArguments& arguments) {
-  evaluator::KickDataset book = read_csv(arguments);
+  evaluator::KickDataset dataset = read_csv(arguments);
   try {
-    return compared(std::move(book), arguments.by.empty() ? "policy" : arguments.by, arguments);
+    return compared(std::move(dataset), arguments.by.empty() ? "policy" : arguments.by, arguments);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("{}: {}", csv_name(arguments), error.what()));  // it knows no file
   }
@@ -113,7 +113,7 @@ evaluator::PolicyComparison compared_logs(const CompareArguments& arguments) {
   const auto options = options_of(arguments);
   const auto logged = evaluator::read_opportunities(logs, options.truth);
   std::string by;
-  auto comparison = compared(book_of(logged, arguments, by), by, arguments);
+  auto comparison = compared(dataset_of(logged, arguments, by), by, arguments);
   comparison.logs = arguments.logs;
   if (logs.size() > 1) comparison.differences = evaluator::log_differences(logs);
   if (logs.size() != 2 || (by != "policy" && by != "arm")) return comparison;

@@ -94,28 +94,28 @@ void check_header(const std::vector<std::string>& header, const std::string& fil
   }
 }
 
-void add_minutes(KickDataset& book, const Row& row, const evaluator::Opportunity& opportunity) {
+void add_minutes(KickDataset& dataset, const Row& row, const evaluator::Opportunity& opportunity) {
   const auto minutes = row.number_if_any("minutes");
   if (!minutes) return;
   if (*minutes <= 0.0) throw CellError("minutes", *row.word("minutes"), "is not above 0");
-  const auto [place, added] = book.minutes.try_emplace({opportunity.group, opportunity.match}, *minutes);
+  const auto [place, added] = dataset.minutes.try_emplace({opportunity.group, opportunity.match}, *minutes);
   if (added || place->second == *minutes) return;
   throw CellError("minutes", *row.word("minutes"),
                   fmt::format("differs from {} in an earlier row of the same group and match", place->second));
 }
 
-std::uint32_t stratum_of(KickDataset& book, const Row& row, const std::string& column) {
+std::uint32_t stratum_of(KickDataset& dataset, const Row& row, const std::string& column) {
   if (column.empty()) return 0;
   if (column == "distance") {
     const auto distance_m = row.number_if_any("distance_m");
-    if (!distance_m) return static_cast<std::uint32_t>(book.strata.size());
+    if (!distance_m) return static_cast<std::uint32_t>(dataset.strata.size());
     if (*distance_m < 0.0) throw CellError("distance_m", *row.word("distance_m"), "is negative");
     return evaluator::distance_bin(*distance_m);
   }
   const auto word = row.word(column);
   if (!word) return UINT32_MAX;
-  const std::uint32_t place = evaluator::place_of(book.strata, *word);
-  if (book.strata.size() <= kMostStrata) return place;
+  const std::uint32_t place = evaluator::place_of(dataset.strata, *word);
+  if (dataset.strata.size() <= kMostStrata) return place;
   throw CellError(column, *word,
                   fmt::format("is one of more than {} different values: too many to stratify by", kMostStrata));
 }
@@ -129,9 +129,9 @@ KickDataset read_kicks(std::istream& in, const std::string& file, const CsvCompa
   if (!head) throw std::runtime_error(file + ": no header line");
   const std::vector<std::string> header = config::trimmed(head->cells);
   check_header(header, file, options);
-  KickDataset book;
-  book.stratified_by = options.stratify;
-  if (options.stratify == "distance") book.strata = evaluator::distance_bins();
+  KickDataset dataset;
+  dataset.stratified_by = options.stratify;
+  if (options.stratify == "distance") dataset.strata = evaluator::distance_bins();
   Places matches, opportunities;
   Plays plays;
   const auto has = [&](const char* name) { return std::ranges::find(header, name) != header.end(); };
@@ -141,26 +141,26 @@ KickDataset read_kicks(std::istream& in, const std::string& file, const CsvCompa
       check_width(header, *record);
       const Row row(header, record->cells);
       evaluator::Opportunity opportunity{.ending = ending_of(row)};
-      opportunity.group = evaluator::place_of(book.groups, word_of(row, options.by));
+      opportunity.group = evaluator::place_of(dataset.groups, word_of(row, options.by));
       if (row.has("match")) opportunity.match = matches.of(word_of(row, "match"));
       if (row.has("opportunity")) opportunity.id = opportunities.of(word_of(row, "opportunity")) + 1;
-      opportunity.stratum = stratum_of(book, row, options.stratify);
+      opportunity.stratum = stratum_of(dataset, row, options.stratify);
       if (once_each) plays.add(opportunity, row, options.by, record->line);
-      add_minutes(book, row, opportunity);
-      book.opportunities.push_back(opportunity);
+      add_minutes(dataset, row, opportunity);
+      dataset.opportunities.push_back(opportunity);
     } catch (const CellError& error) {
       throw std::runtime_error(fmt::format("{}:{}: {}", file, record->line, error.what()));
     }
   }
-  book.has_opportunities = has("kicked");
-  book.has_matches = has("match");
-  book.matches = matches.size();
-  const auto unknown = static_cast<std::uint32_t>(book.strata.size());
-  for (evaluator::Opportunity& opportunity : book.opportunities) {
+  dataset.has_opportunities = has("kicked");
+  dataset.has_matches = has("match");
+  dataset.matches = matches.size();
+  const auto unknown = static_cast<std::uint32_t>(dataset.strata.size());
+  for (evaluator::Opportunity& opportunity : dataset.opportunities) {
     opportunity.stratum = std::min(opportunity.stratum, unknown);
   }
-  book.design_reason = "a table of kicks does not say how the policies were assigned; --design does";
-  return book;
+  dataset.design_reason = "a table of kicks does not say how the policies were assigned; --design does";
+  return dataset;
 }
 
 }  // namespace trivela::cli

@@ -42,7 +42,7 @@ class SafeAfterwards {
   hal::Kicker& kicker_;
 };
 
-/// Takes what the kicker says until `done` or the patience is over. False: somebody asked to stop.
+/// Takes what the kicker says until `done` or the timeout is over. False: somebody asked to stop.
 bool listen(hal::Kicker& kicker, robot::OrderGate& gate, std::optional<hal::KickerSample>& newest,
             KickClock::time_point end, SignalInbox& signals, auto done) {
   while (!done() && KickClock::now() < end) {
@@ -120,13 +120,13 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                   "Lay the ball into the handler. Is nobody in front of the robot, and nobody's hand near it?\n",
                   kicker_text(*newest), powers.min, robot.name));
   if (!person.confirms("kick")) return not_fired("not confirmed");
-  const std::chrono::duration<double> patience =
+  const std::chrono::duration<double> timeout =
       kKickerTimeout + std::chrono::duration<double>{config::modelled_charge_s(settings.hal.kicker)};
-  say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", patience.count()));
+  say(fmt::format("It charges; the shot comes by itself within {:.0f} s. Ctrl-C calls it off.\n", timeout.count()));
   std::fflush(stdout);
   kicker.charge(hal::ChargeCommand::kCharge);
   newest.reset();  // what waited while the person thought is too old
-  if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(patience),
+  if (!listen(kicker, gate, newest, KickClock::now() + std::chrono::duration_cast<KickClock::duration>(timeout),
               signals, [&] { return newest && sound(*newest) && (!newest->armed || gate.ready(kick_now_ns())); }))
     return not_fired("stopped");
   const msg::KickOrder order =

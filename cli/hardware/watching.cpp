@@ -109,10 +109,10 @@ std::string listing(const DeviceProbes& probes) {
 }
 
 int watch(DeviceProbes& probes, std::optional<double> seconds, SignalInbox& signals) {
-  const auto patience_ends = WatchClock::now() + kListingTimeout;
+  const auto timeout_at = WatchClock::now() + kListingTimeout;
   bool goes_on = true;
   Heard heard;
-  while (goes_on && !all_found(probes) && WatchClock::now() < patience_ends)
+  while (goes_on && !all_found(probes) && WatchClock::now() < timeout_at)
     goes_on = look_until(probes, WatchClock::now(), signals, heard);
   if (goes_on) goes_on = look_until(probes, WatchClock::now() + kRedraw, signals, heard);
   say(listing(probes));

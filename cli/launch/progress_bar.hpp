@@ -77,7 +77,7 @@ class ProgressBar {
   /// Time counts from now, on the same line.
   void restart() { started_.reset(); }
 
-  /// The line stays as it is; the next one begins anew.
+  /// The line stays as it is; the next one begins again.
   void end() {
     if (drawn_) std::fputs("\n", stderr);  // does not throw where the terminal is gone
     drawn_.reset();

@@ -37,7 +37,7 @@ void add_parts(const CLI::App& app, ManualVerb& verb) {
     if (option->get_group().empty()) continue;
     auto& place = option->get_positional() && option->get_lnames().empty() ? verb.arguments : verb.flags;
     ManualFlag flag = flag_of(*option);
-    // Each group has the help flag anew.
+    // Each group has the help flag again.
     if (std::ranges::find(place, flag.names, &ManualFlag::names) == place.end()) place.push_back(std::move(flag));
   }
   for (const CLI::App* part : app.get_subcommands([](const CLI::App*) { return true; })) {

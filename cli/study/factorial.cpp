@@ -125,7 +125,7 @@ void add_study_factorial(CLI::App& study, int& exit_code) {
   verb->add_flag("--no-sweep", flags->no_sweep, "The factorial alone");
   verb->footer(
       "{old, new height table} x {stopped, moving, predictive} x {paper, released, exact law}, on the same\n"
-      "opportunities. The old table is drawn anew for each match from the scenario's [hand_table].");
+      "opportunities. The old table is drawn again for each match from the scenario's [hand_table].");
   verb->callback([flags, &exit_code] { exit_code = study_factorial(*flags); });
 }
 

@@ -131,7 +131,7 @@ void add_study_sensitivity(CLI::App& study, int& exit_code) {
       "Each uncertain input of the scenario and each setting of the policies is set to a low and a high value\n"
       "(config/studies/sensitivity.csv says which and why), one at a time, and the same opportunities are played. "
       "Robots\n"
-      "are not calibrated anew. Inputs of the hand table matter to arms with it (@old) alone.");
+      "are not calibrated again. Inputs of the hand table matter to arms with it (@old) alone.");
   verb->callback([flags, &exit_code] { exit_code = study_sensitivity(*flags); });
 }
 

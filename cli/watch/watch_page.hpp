@@ -23,7 +23,7 @@ std::vector<CLI::Option*> add_watch_flags(CLI::App& verb, WatchFlags& flags);
 pages::SceneSettings scene_settings(const config::Settings& settings);
 
 /// The live page of a domain, served while it lives. On this machine's own addresses alone without a token; on any
-/// other with that of a file, or with one that is drawn anew.
+/// other with that of a file, or with one that is drawn again.
 class WatchPage {
  public:
   /// Joins the domain and prints the address. Throws config::BadArgument for flags that make no sense,

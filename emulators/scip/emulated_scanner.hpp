@@ -38,7 +38,7 @@ class EmulatedScanner {
   std::string next_scan(std::span<const std::uint32_t> range_mm, std::uint32_t stamp_ms);
 
   bool laser_on() const { return laser_on_; }
-  /// True once after RS: the clock starts anew.
+  /// True once after RS: the clock starts again.
   bool take_reset() { return std::exchange(reset_, false); }
   void stop();
 

@@ -10,8 +10,7 @@
 namespace trivela::hal {
 namespace {
 
-static_assert(int{msg::POSSESSION_KICKED} == int(sim::PossessionEnd::kKicked));
-static_assert(int{msg::POSSESSION_STOPPED} == int(sim::PossessionEnd::kStopped));
+static_assert(bus::has_labels<msg::PossessionEnd>(sim::kPossessionEndNames));
 
 constexpr sim::PlanPoint kNoPoint{msg::kNone, msg::kNone};
 

@@ -28,11 +28,11 @@ BetweenLogs of_part(const LoggedOpportunities& part, const std::string& group, c
                     double smallest_effect) try {
   BetweenLogs between{group, nullptr, ""};
   std::string by;
-  KickDataset book = kick_dataset_of(part, options, by);
-  if (book.groups.size() == 1) {
-    between.why_none = fmt::format("in {} alone", book.groups.front());
+  KickDataset dataset = kick_dataset_of(part, options, by);
+  if (dataset.groups.size() == 1) {
+    between.why_none = fmt::format("in {} alone", dataset.groups.front());
   } else {
-    between.comparison = std::make_shared<PolicyComparison>(compare_policies(std::move(book), by, smallest_effect));
+    between.comparison = std::make_shared<PolicyComparison>(compare_policies(std::move(dataset), by, smallest_effect));
   }
   return between;
 } catch (const std::runtime_error& error) {

@@ -69,7 +69,7 @@ double missing(double needed_of_each, stats::Counts older, stats::Counts newer) 
 
 std::string remarks_of(const PolicyComparison& c) {
   std::string text;
-  const auto& remarks = c.book.remarks;
+  const auto& remarks = c.dataset.remarks;
   for (std::size_t i = 0; i < std::min(remarks.size(), kMostRemarks); ++i) text += bullet(remarks[i]);
   if (remarks.size() > kMostRemarks)
     text += fmt::format("  - and {} more remarks on the data (--all)\n", remarks.size() - kMostRemarks);
@@ -90,7 +90,7 @@ std::string short_line_of(const PairResult& pair, const PolicyComparison& c, std
        .causal = pair.design != Design::kBeforeAfter,
        .verdict = h.verdict,
        .measure = std::string(h.of_opportunities ? "in shots on target an opportunity" : "in efficiency") +
-                  (h.adjusted ? " on the same mix of " + c.book.stratified_by : ""),
+                  (h.adjusted ? " on the same mix of " + c.dataset.stratified_by : ""),
        .difference = h.difference,
        .ci = h.ci,
        .p = h.p_holm,
@@ -107,7 +107,7 @@ std::string gates_text(std::span<const GateResult> gates) {
 }
 
 std::string head_text(const PolicyComparison& c, std::size_t most_differences) {
-  std::string text = c.book.simulated ? kSimulated : "";
+  std::string text = c.dataset.simulated ? kSimulated : "";
   if (c.logs.size() < 2) return text;
   text += differences_text(c.differences, c.logs, most_differences);
   text += between_logs_text(c.between);
@@ -122,9 +122,9 @@ std::string to_short_text(const PolicyComparison& c) {
   const Design design = c.pairs.front().design;
   text += fmt::format("  {}, outcomes {}; tables, tests and what to be careful about: --all\n",
                       design == Design::kBeforeAfter ? "before and after" : label(design),
-                      c.book.outcome == "truth"      ? "by the simulator's truth"
-                      : c.book.outcome == "labelled" ? "as labelled"
-                                                     : "as observed");
+                      c.dataset.outcome == "truth"      ? "by the simulator's truth"
+                      : c.dataset.outcome == "labelled" ? "as labelled"
+                                                        : "as observed");
   return text + remarks_of(c) + gates_text(c.gates);
 }
 

@@ -26,13 +26,13 @@ void count(Bounces& bounces, const Opportunity& o) {
   bounces.truth_bounced += o.truth_bounced.value_or(false) ? 1 : 0;
 }
 
-GroupResult group_result(const KickDataset& book, std::uint32_t group) {
+GroupResult group_result(const KickDataset& dataset, std::uint32_t group) {
   GroupResult result;
-  result.name = book.groups[group];
+  result.name = dataset.groups[group];
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<stats::ClusterCounts, 3>> cells;  // match, calibration
-  for (const Opportunity& o : book.opportunities) {
+  for (const Opportunity& o : dataset.opportunities) {
     if (o.group != group) continue;
-    result.opportunities += book.has_opportunities ? 1 : 0;
+    result.opportunities += dataset.has_opportunities ? 1 : 0;
     result.inside += o.ending == Ending::kInside ? 1 : 0;
     result.outside += o.ending == Ending::kOutside ? 1 : 0;
     result.unknown += o.ending == Ending::kUnknown ? 1 : 0;
@@ -40,7 +40,7 @@ GroupResult group_result(const KickDataset& book, std::uint32_t group) {
     result.goals += o.goal ? 1 : 0;
     if (o.ending == Ending::kInside) count(result.bounces, o);
     result.doubt += {o.ending == Ending::kInside ? o.doubt : 0.0, o.ending == Ending::kOutside ? o.doubt : 0.0};
-    if (!book.has_matches) continue;
+    if (!dataset.has_matches) continue;
     const stats::ClusterCounts empty{o.match, o.calibration, {}};
     auto& [all, known, past] =
         cells.try_emplace({o.match, o.calibration}, std::array{empty, empty, empty}).first->second;
@@ -64,7 +64,7 @@ GroupResult group_result(const KickDataset& book, std::uint32_t group) {
   result.goals_ci =
       stats::clustered_wilson(goals).value_or(stats::wilson_or_exact({result.goals, result.opportunities}));
   result.by_match = by_match.has_value();
-  for (const auto& [key, minutes] : book.minutes) {
+  for (const auto& [key, minutes] : dataset.minutes) {
     if (key.first == group) result.minutes = result.minutes.value_or(0.0) + minutes;
   }
   if (result.unknown > 0 || result.doubt.sum() > 0.0)
@@ -87,10 +87,10 @@ std::optional<Effect> effect(std::vector<stats::MatchCounts> cells, bool has_mat
   return result;
 }
 
-// The same book with goals as what is inside.
-KickDataset goals_of(KickDataset book) {
-  for (Opportunity& o : book.opportunities) o.ending = past_keeper(o.ending, o.goal);
-  return book;
+// The same dataset with goals as what is inside.
+KickDataset goals_of(KickDataset dataset) {
+  for (Opportunity& o : dataset.opportunities) o.ending = past_keeper(o.ending, o.goal);
+  return dataset;
 }
 
 std::optional<Effect> goals_effect(const KickDataset& goals, std::uint32_t place, bool paired) {
@@ -101,11 +101,11 @@ std::optional<Effect> goals_effect(const KickDataset& goals, std::uint32_t place
   return result;
 }
 
-Stratified stratified(const KickDataset& book, const std::vector<stats::MatchCounts>& cells, bool of_opportunities) {
+Stratified stratified(const KickDataset& dataset, const std::vector<stats::MatchCounts>& cells, bool of_opportunities) {
   Stratified result;
-  result.column = book.stratified_by;
+  result.column = dataset.stratified_by;
   result.of_opportunities = of_opportunities;
-  std::vector<stats::Stratum> all(book.strata.size() + 1);
+  std::vector<stats::Stratum> all(dataset.strata.size() + 1);
   std::vector<stats::MatchCounts> known;
   stats::Stratum crude;
   for (const stats::MatchCounts& cell : cells) {
@@ -113,16 +113,16 @@ Stratified stratified(const KickDataset& book, const std::vector<stats::MatchCou
     add(all[cell.stratum].newer, cell.newer);
     add(crude.older, cell.older);
     add(crude.newer, cell.newer);
-    if (cell.stratum < book.strata.size()) known.push_back(cell);
+    if (cell.stratum < dataset.strata.size()) known.push_back(cell);
   }
   const double crude_sign =
       crude.older.n > 0 && crude.newer.n > 0 ? *stats::efficiency(crude.newer) - *stats::efficiency(crude.older) : 0.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool both = all[i].older.n > 0 && all[i].newer.n > 0;
-    if (i == book.strata.size() || !both) result.left_out += all[i].older.n + all[i].newer.n;
-    if (i == book.strata.size() || all[i].older.n + all[i].newer.n == 0) continue;
+    if (i == dataset.strata.size() || !both) result.left_out += all[i].older.n + all[i].newer.n;
+    if (i == dataset.strata.size() || all[i].older.n + all[i].newer.n == 0) continue;
     const double sign = both ? *stats::efficiency(all[i].newer) - *stats::efficiency(all[i].older) : 0.0;
-    result.strata.push_back({book.strata[i], all[i], sign * crude_sign < 0.0});
+    result.strata.push_back({dataset.strata[i], all[i], sign * crude_sign < 0.0});
   }
   all.pop_back();
   result.odds_ratio = stats::mantel_haenszel_odds_ratio(all);
@@ -130,23 +130,23 @@ Stratified stratified(const KickDataset& book, const std::vector<stats::MatchCou
   result.cmh_corrected = stats::cochran_mantel_haenszel(all, true);
   result.risk_difference = stats::mantel_haenszel_risk_difference(all);
   result.standardised = stats::standardised(all);
-  if (book.has_matches) result.clustered = stats::clustered_difference(known);
+  if (dataset.has_matches) result.clustered = stats::clustered_difference(known);
   result.homogeneity = stats::breslow_day(all);
   result.simpson = result.standardised && crude_sign * result.standardised->difference.value < 0.0;
   return result;
 }
 
-// `place` of the newer one in the book; the older one is its first.
-std::optional<stats::RateRatio> rate(const KickDataset& book, const GroupResult& older, const GroupResult& newer,
+// `place` of the newer one in the dataset; the older one is its first.
+std::optional<stats::RateRatio> rate(const KickDataset& dataset, const GroupResult& older, const GroupResult& newer,
                                      std::uint32_t place, bool inside_only) {
   if (!older.minutes || !newer.minutes || *older.minutes <= 0.0 || *newer.minutes <= 0.0) return std::nullopt;
-  std::vector<stats::MatchRates> matches(book.has_matches ? book.matches : 0);
+  std::vector<stats::MatchRates> matches(dataset.has_matches ? dataset.matches : 0);
   for (std::uint32_t m = 0; m < matches.size(); ++m) matches[m].match = m;
-  for (const auto& [key, minutes] : book.minutes) {
+  for (const auto& [key, minutes] : dataset.minutes) {
     if (key.second < matches.size() && (key.first == 0 || key.first == place))
       (key.first == 0 ? matches[key.second].older : matches[key.second].newer).minutes = minutes;
   }
-  for (const Opportunity& o : book.opportunities) {
+  for (const Opportunity& o : dataset.opportunities) {
     if (o.match >= matches.size() || (o.group != 0 && o.group != place)) continue;
     const bool counts = inside_only ? o.ending == Ending::kInside : o.ending != Ending::kNoKick;
     (o.group == 0 ? matches[o.match].older : matches[o.match].newer).events += counts ? 1 : 0;
@@ -156,37 +156,38 @@ std::optional<stats::RateRatio> rate(const KickDataset& book, const GroupResult&
   return stats::rate_ratio({events(older), *older.minutes}, {events(newer), *newer.minutes});
 }
 
-PairResult pair_result(const KickDataset& book, const GroupResult& older, const GroupResult& newer, std::uint32_t place,
-                       double smallest_effect) {
+PairResult pair_result(const KickDataset& dataset, const GroupResult& older, const GroupResult& newer,
+                       std::uint32_t place, double smallest_effect) {
   PairResult pair;
   pair.older = older.name;
   pair.newer = newer.name;
-  pair.design = book.design;
-  if (book.design == Design::kPaired) {
-    const auto played = paired_opportunities(book, 0, place);
+  pair.design = dataset.design;
+  if (dataset.design == Design::kPaired) {
+    const auto played = paired_opportunities(dataset, 0, place);
     if (played.counts.n() > 0) {
       pair.pairs = played.counts;
       pair.unpaired = played.unpaired;
       pair.mcnemar_p = stats::mcnemar_two_sided(played.counts);
-      pair.per_opportunity = effect(played.cells, book.has_matches);
+      pair.per_opportunity = effect(played.cells, dataset.has_matches);
       pair.per_opportunity->independent = stats::paired_newcombe(played.counts);
     } else {
       pair.design = Design::kBeforeAfter;
     }
   }
-  const auto kicks = cells_of(book, 0, place, false);
-  pair.efficiency = effect(kicks, book.has_matches);
-  if (book.has_opportunities && !pair.pairs) {
-    pair.per_opportunity = effect(cells_of(book, 0, place, true), book.has_matches);
+  const auto kicks = cells_of(dataset, 0, place, false);
+  pair.efficiency = effect(kicks, dataset.has_matches);
+  if (dataset.has_opportunities && !pair.pairs) {
+    pair.per_opportunity = effect(cells_of(dataset, 0, place, true), dataset.has_matches);
   }
   if (pair.efficiency)
     pair.kicks = compare({older.name, older.efficiency()}, {newer.name, newer.efficiency()}, smallest_effect);
-  if (!book.strata.empty()) {
-    const bool of_opportunities = book.has_opportunities && !book.strata_of_kicks;
-    pair.stratified = stratified(book, of_opportunities ? cells_of(book, 0, place, true) : kicks, of_opportunities);
+  if (!dataset.strata.empty()) {
+    const bool of_opportunities = dataset.has_opportunities && !dataset.strata_of_kicks;
+    pair.stratified =
+        stratified(dataset, of_opportunities ? cells_of(dataset, 0, place, true) : kicks, of_opportunities);
   }
-  pair.on_target_rate = rate(book, older, newer, place, true);
-  pair.kick_rate = rate(book, older, newer, place, false);
+  pair.on_target_rate = rate(dataset, older, newer, place, true);
+  pair.kick_rate = rate(dataset, older, newer, place, false);
   pair.unknown = older.unknown + newer.unknown;
   pair.expected_wrong = older.doubt.sum() + newer.doubt.sum();
   if (!pair.efficiency && !pair.per_opportunity) {
@@ -226,39 +227,39 @@ void adjust_together(std::span<PairResult* const> pairs) {
   }
 }
 
-PolicyComparison compare_policies(KickDataset book, const std::string& by, double smallest_effect) {
+PolicyComparison compare_policies(KickDataset dataset, const std::string& by, double smallest_effect) {
   PolicyComparison result;
   result.by = by;
   result.smallest_effect = smallest_effect;
   std::int64_t kicks = 0;
-  for (std::uint32_t group = 0; group < book.groups.size(); ++group) {
-    result.groups.push_back(group_result(book, group));
+  for (std::uint32_t group = 0; group < dataset.groups.size(); ++group) {
+    result.groups.push_back(group_result(dataset, group));
     kicks += result.groups.back().kicks();
   }
-  if (book.opportunities.empty()) throw std::runtime_error("there are no kicks, so there is nothing to compare");
-  if (book.groups.size() < 2) {
-    throw std::runtime_error(fmt::format("the only {} is '{}': a comparison needs two", by, book.groups.front()));
+  if (dataset.opportunities.empty()) throw std::runtime_error("there are no kicks, so there is nothing to compare");
+  if (dataset.groups.size() < 2) {
+    throw std::runtime_error(fmt::format("the only {} is '{}': a comparison needs two", by, dataset.groups.front()));
   }
   if (kicks == 0) {
     throw std::runtime_error(fmt::format("there are {} opportunities but no kick, so there is nothing to compare",
-                                         book.opportunities.size()));
+                                         dataset.opportunities.size()));
   }
-  const auto goals = book.keeper && book.has_opportunities ? std::optional(goals_of(book)) : std::nullopt;
-  for (std::uint32_t place = 1; place < book.groups.size(); ++place) {
-    result.pairs.push_back(pair_result(book, result.groups[0], result.groups[place], place, smallest_effect));
+  const auto goals = dataset.keeper && dataset.has_opportunities ? std::optional(goals_of(dataset)) : std::nullopt;
+  for (std::uint32_t place = 1; place < dataset.groups.size(); ++place) {
+    result.pairs.push_back(pair_result(dataset, result.groups[0], result.groups[place], place, smallest_effect));
     PairResult& pair = result.pairs.back();
     if (goals) pair.goals = goals_effect(*goals, place, pair.pairs.has_value());
   }
   std::vector<PairResult*> pairs;
   for (PairResult& pair : result.pairs) pairs.push_back(&pair);
   adjust_together(pairs);
-  if (book.planned_shares.size() == book.groups.size()) {
-    std::vector<std::int64_t> counts(book.groups.size());
-    for (const Opportunity& o : book.opportunities) ++counts[o.group];
-    result.sample_ratio_p = stats::sample_ratio_p(counts, book.planned_shares);
+  if (dataset.planned_shares.size() == dataset.groups.size()) {
+    std::vector<std::int64_t> counts(dataset.groups.size());
+    for (const Opportunity& o : dataset.opportunities) ++counts[o.group];
+    result.sample_ratio_p = stats::sample_ratio_p(counts, dataset.planned_shares);
   }
-  book.opportunities.clear();
-  result.book = std::move(book);
+  dataset.opportunities.clear();
+  result.dataset = std::move(dataset);
   return result;
 }
 

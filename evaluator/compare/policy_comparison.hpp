@@ -132,7 +132,7 @@ struct PolicyComparison {
   std::vector<GroupResult> groups;
   std::vector<PairResult> pairs;
   std::optional<double> sample_ratio_p;  ///< that the groups came in their planned shares; none: no plan
-  KickDataset book;                      ///< what it was made from, without its opportunities
+  KickDataset dataset;                   ///< what it was made from, without its opportunities
   double smallest_effect = stats::kSmallestEffect;
   std::vector<std::string> logs;           ///< that were compared or taken together; empty: it is of no logs
   std::vector<LogDifference> differences;  ///< between them
@@ -142,7 +142,7 @@ struct PolicyComparison {
 
 /// Compares every group with the first. Throws std::runtime_error with a sentence where there are fewer than two groups
 /// or no kick at all.
-PolicyComparison compare_policies(KickDataset book, const std::string& by,
+PolicyComparison compare_policies(KickDataset dataset, const std::string& by,
                                   double smallest_effect = stats::kSmallestEffect);
 
 /// Adjusts p and verdict of comparisons that are read together, by Holm's method.

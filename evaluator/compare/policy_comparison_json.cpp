@@ -166,20 +166,20 @@ Json between_json(const std::vector<BetweenLogs>& between) {
 
 std::string to_json(const PolicyComparison& c) {
   Json json = {{"by", c.by},
-               {"simulated", c.book.simulated},
-               {"outcome", c.book.outcome},
-               {"design", label(c.book.design)},
-               {"design_reason", c.book.design_reason},
+               {"simulated", c.dataset.simulated},
+               {"outcome", c.dataset.outcome},
+               {"design", label(c.dataset.design)},
+               {"design_reason", c.dataset.design_reason},
                {"smallest_effect", c.smallest_effect},
                {"sample_ratio_p", json_of(c.sample_ratio_p)},
                {"groups", Json::array()},
                {"comparisons", Json::array()},
-               {"remarks", c.book.remarks},
+               {"remarks", c.dataset.remarks},
                {"logs", c.logs},
                {"differences", differences_json(c.differences, c.logs)}};
   if (!c.between.empty()) json["between_logs"] = between_json(c.between);
   for (const GroupResult& group : c.groups)
-    json["groups"].push_back(group_json(group, c.book.keeper, c.book.blocked_apart));
+    json["groups"].push_back(group_json(group, c.dataset.keeper, c.dataset.blocked_apart));
   for (const PairResult& pair : c.pairs) json["comparisons"].push_back(pair_json(pair, c));
   if (!c.gates.empty()) json["gates"] = gates_json(c.gates);
   return json_text(json);

@@ -31,12 +31,12 @@ std::string groups_table(const PolicyComparison& c) {
                      share_ci(g.efficiency(), g.efficiency_ci),
                      g.matches > 0 ? whole(static_cast<std::int64_t>(g.matches)) : "-"});
   }
-  if (c.book.blocked_apart) {
+  if (c.dataset.blocked_apart) {
     table[0].push_back("blocked");
     for (std::size_t i = 0; i < c.groups.size(); ++i) table[i + 1].push_back(whole(c.groups[i].blocked));
   }
   std::string text = "\nEfficiency\n" + text_table(table);
-  if (c.book.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
+  if (c.dataset.blocked_apart) text += "  blocked kicks stand apart: neither outside nor in the efficiency\n";
   const bool few = std::ranges::any_of(c.groups, [](const GroupResult& g) { return is_few(g.efficiency()); });
   text += c.groups.front().by_match ? "  95 %: Wilson's, with kicks of one match taken as alike as they were\n"
           : few                     ? fmt::format(
@@ -50,7 +50,7 @@ std::string groups_table(const PolicyComparison& c) {
 std::string volume_table(const PolicyComparison& c) {
   bool minutes = false;
   for (const GroupResult& g : c.groups) minutes = minutes || g.minutes;
-  if (!c.book.has_opportunities && !minutes) {
+  if (!c.dataset.has_opportunities && !minutes) {
     return "\nVolume\n  neither opportunities nor minutes of play are known: how often each kicked cannot be said\n";
   }
   Table table = {{c.by, "opportunities", "kicks", "kicks an opp.", "on target an opp.", "95 %", "minutes",
@@ -83,7 +83,7 @@ std::string inside_text(const PolicyComparison& c) {
   for (const GroupResult& g : c.groups) bounces.push_back({g.name, g.bounces});
   std::string text = bounce_lines(bounces);
   if (!text.empty()) text = "\nOf the balls inside\n" + text;
-  if (!c.book.keeper || !c.book.has_opportunities) return text;
+  if (!c.dataset.keeper || !c.dataset.has_opportunities) return text;
   Table table = {{c.by, "inside", "goals", "goals an opp.", "95 %"}};
   for (const GroupResult& g : c.groups) {
     const stats::Counts goals{g.goals, g.opportunities};
@@ -226,10 +226,11 @@ std::string doubts_text(const PairResult& pair, const PolicyComparison& c) {
         clustered->calibrations, clustered->calibrations));
   }
   if (!pair.headline->by_match) {
-    text += bullet(c.book.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
-                                        "one match are, and the intervals take kicks as independent."
-                                      : "Which kick belongs to which match is not known: the intervals take kicks as "
-                                        "independent, so the truth is less certain.");
+    text +=
+        bullet(c.dataset.has_matches ? "Fewer than five matches a side: nothing can be said about how alike kicks of "
+                                       "one match are, and the intervals take kicks as independent."
+                                     : "Which kick belongs to which match is not known: the intervals take kicks as "
+                                       "independent, so the truth is less certain.");
   }
   return text;
 }
@@ -268,9 +269,9 @@ std::string to_text(const PolicyComparison& c) {
     }
   }
   text += "\nDesign: " + wrapped(design_sentence(c.pairs.front(), c), "  ", 100) + ".\n";
-  text += fmt::format("Outcomes: {}.\n", c.book.outcome == "truth"      ? "the simulator's truth"
-                                         : c.book.outcome == "labelled" ? "as somebody labelled them"
-                                                                        : "as the robots observed them");
+  text += fmt::format("Outcomes: {}.\n", c.dataset.outcome == "truth"      ? "the simulator's truth"
+                                         : c.dataset.outcome == "labelled" ? "as somebody labelled them"
+                                                                           : "as the robots observed them");
   if (c.sample_ratio_p) {
     text += fmt::format("Shares as planned: p {}{}\n", p_value(*c.sample_ratio_p),
                         *c.sample_ratio_p < 0.001
@@ -279,8 +280,8 @@ std::string to_text(const PolicyComparison& c) {
   }
   text += groups_table(c) + volume_table(c) + inside_text(c);
   for (const PairResult& pair : c.pairs) text += pair_text(pair, c);
-  if (!c.book.remarks.empty()) text += "\nData\n";
-  for (const std::string& remark : c.book.remarks) text += bullet(remark);
+  if (!c.dataset.remarks.empty()) text += "\nData\n";
+  for (const std::string& remark : c.dataset.remarks) text += bullet(remark);
   text += "\n  inside: between the posts and below the bar, saves included; it is not goals scored\n";
   return text + gates_text(c.gates);
 }

@@ -34,7 +34,7 @@ std::string verdict_sentence(const PairResult& pair, const PolicyComparison& com
   const Headline& h = *pair.headline;
   const std::string numbers = fmt::format("{}, 95 % {}", points(h.difference), points(h.ci));
   const std::string measure =
-      measure_of(h) + (h.adjusted ? ", on the same mix of " + comparison.book.stratified_by : "");
+      measure_of(h) + (h.adjusted ? ", on the same mix of " + comparison.dataset.stratified_by : "");
   const std::string smallest = fmt::format("{:.1f} points", 100.0 * comparison.smallest_effect);
   const bool causal = pair.design != Design::kBeforeAfter;
   const std::string cause = cause_of(pair.design, comparison.by);
@@ -65,8 +65,8 @@ std::string verdict_sentence(const PairResult& pair, const PolicyComparison& com
 }
 
 std::string design_sentence(const PairResult& pair, const PolicyComparison& comparison) {
-  std::string reason = comparison.book.design_reason;
-  if (pair.design != comparison.book.design) reason = "no opportunity that both had";
+  std::string reason = comparison.dataset.design_reason;
+  if (pair.design != comparison.dataset.design) reason = "no opportunity that both had";
   const std::string because = reason.empty() ? "" : " (" + reason + ")";
   switch (pair.design) {
     case Design::kBeforeAfter:

@@ -39,20 +39,20 @@ std::uint32_t distance_bin(double distance_m) {
   return static_cast<std::uint32_t>(std::clamp(static_cast<int>(distance_m) - 2, 0, 4));
 }
 
-bool put_first(KickDataset& book, const std::string& baseline) {
-  const auto found = std::ranges::find(book.groups, baseline);
-  if (found == book.groups.end()) return false;
-  const auto place = static_cast<std::uint32_t>(found - book.groups.begin());
+bool put_first(KickDataset& dataset, const std::string& baseline) {
+  const auto found = std::ranges::find(dataset.groups, baseline);
+  if (found == dataset.groups.end()) return false;
+  const auto place = static_cast<std::uint32_t>(found - dataset.groups.begin());
   const auto moved = [&](std::uint32_t group) { return group == place ? 0 : group < place ? group + 1 : group; };
-  std::rotate(book.groups.begin(), found, found + 1);
-  if (!book.planned_shares.empty()) {
-    const auto share = book.planned_shares.begin() + place;
-    std::rotate(book.planned_shares.begin(), share, share + 1);
+  std::rotate(dataset.groups.begin(), found, found + 1);
+  if (!dataset.planned_shares.empty()) {
+    const auto share = dataset.planned_shares.begin() + place;
+    std::rotate(dataset.planned_shares.begin(), share, share + 1);
   }
-  for (Opportunity& opportunity : book.opportunities) opportunity.group = moved(opportunity.group);
-  decltype(book.minutes) minutes;
-  for (const auto& [key, value] : book.minutes) minutes[{moved(key.first), key.second}] = value;
-  book.minutes = std::move(minutes);
+  for (Opportunity& opportunity : dataset.opportunities) opportunity.group = moved(opportunity.group);
+  decltype(dataset.minutes) minutes;
+  for (const auto& [key, value] : dataset.minutes) minutes[{moved(key.first), key.second}] = value;
+  dataset.minutes = std::move(minutes);
   return true;
 }
 

@@ -30,11 +30,11 @@ enum class Design {
 const char* label(Design design);
 std::optional<Design> design_of(const std::string& label);
 
-/// One opportunity, or one kick where opportunities are not known. Numbers are places in the book's lists.
+/// One opportunity, or one kick where opportunities are not known. Numbers are places in the dataset's lists.
 struct Opportunity {
   std::uint32_t group = 0;
   std::uint32_t match = 0;    ///< opportunities of a match are alike; numbered from 0
-  std::uint32_t stratum = 0;  ///< situation; 0 where the book has no strata
+  std::uint32_t stratum = 0;  ///< situation; 0 where the dataset has no strata
   std::uint64_t id = 0;       ///< the same id in the same match: the same situation; 0: not known
   std::uint32_t setting = 0;  ///< what it was played with apart from what is compared: others make no pair
   Ending ending = Ending::kNoKick;
@@ -76,6 +76,6 @@ const std::vector<std::string>& distance_bins();
 std::uint32_t distance_bin(double distance_m);
 
 /// Brings the baseline to the front, keeping the order of the others. False: there is no such group.
-bool put_first(KickDataset& book, const std::string& baseline);
+bool put_first(KickDataset& dataset, const std::string& baseline);
 
 }  // namespace trivela::evaluator

@@ -9,17 +9,18 @@
 
 namespace trivela::evaluator {
 
-/// How the groups of a book came about, by what its logs say. `rows` are the places in logged.rows of the book's
+/// How the groups of a dataset came about, by what its logs say. `rows` are the places in logged.rows of the dataset's
 /// opportunities; `drawn`: chance chose the group of each.
-void infer_design(KickDataset& book, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows,
+void infer_design(KickDataset& dataset, const LoggedOpportunities& logged, const std::vector<std::size_t>& rows,
                   const std::string& by, bool drawn);
 
-/// Of a paired book, where halves have the same possessions: of situations that a group had in several halves the
+/// Of a paired dataset, where halves have the same possessions: of situations that a group had in several halves the
 /// first. `rows` as for infer_design(), which stay in step.
-void keep_first_of_paired_halves(KickDataset& book, const LoggedOpportunities& logged, std::vector<std::size_t>& rows);
+void keep_first_of_paired_halves(KickDataset& dataset, const LoggedOpportunities& logged,
+                                 std::vector<std::size_t>& rows);
 
-/// Of a paired book the opportunities whose setting all groups played: what else differs is then the same for all.
+/// Of a paired dataset the opportunities whose setting all groups played: what else differs is then the same for all.
 /// Throws std::runtime_error where there is no such setting, or a group has an opportunity twice.
-void keep_common_settings(KickDataset& book, const std::string& by);
+void keep_common_settings(KickDataset& dataset, const std::string& by);
 
 }  // namespace trivela::evaluator

@@ -70,11 +70,11 @@ class Settings {
 };
 
 // Minutes of play of the possessions that a group had; the whole session's, where that is what is compared.
-void add_minutes(KickDataset& book, const LoggedOpportunities& logged, const std::string& by, Settings& settings) {
+void add_minutes(KickDataset& dataset, const LoggedOpportunities& logged, const std::string& by, Settings& settings) {
   std::set<std::uint32_t> kept;  // settings
-  for (const Opportunity& o : book.opportunities) kept.insert(o.setting);
+  for (const Opportunity& o : dataset.opportunities) kept.insert(o.setting);
   const auto left_out = [&](std::uint32_t setting) {
-    return book.design == Design::kPaired && !kept.contains(setting);
+    return dataset.design == Design::kPaired && !kept.contains(setting);
   };
   for (const PlayedSpan& span : logged.spans) {
     const ComparedSession& session = logged.sessions[span.session];
@@ -92,9 +92,9 @@ void add_minutes(KickDataset& book, const LoggedOpportunities& logged, const std
       names.insert(of_session ? *of_session : by == "policy" ? who.policy : fmt::format("robot {}", who.robot_id));
     }
     for (const std::string& name : names) {
-      const auto group = std::ranges::find(book.groups, name);
-      if (group == book.groups.end()) continue;
-      book.minutes[{static_cast<std::uint32_t>(group - book.groups.begin()), session.match}] += span.minutes;
+      const auto group = std::ranges::find(dataset.groups, name);
+      if (group == dataset.groups.end()) continue;
+      dataset.minutes[{static_cast<std::uint32_t>(group - dataset.groups.begin()), session.match}] += span.minutes;
     }
   }
 }
@@ -112,32 +112,33 @@ void check(const LogKicks& options, const std::string& by, bool known_stratum) {
   }
 }
 
-// The book without its opportunities: what is compared, and how. Throws where the logs do not say what is asked for.
-KickDataset book_of(const LoggedOpportunities& logged, const LogKicks& options, const std::string& by) {
-  KickDataset book;
-  book.groups = groups_of(logged, by, *name_by(logged, by));
-  if (book.groups.empty() && !logged.rows.empty()) {
+// The dataset without its opportunities: what is compared, and how. Throws where the logs do not say what is asked for.
+KickDataset dataset_of(const LoggedOpportunities& logged, const LogKicks& options, const std::string& by) {
+  KickDataset dataset;
+  dataset.groups = groups_of(logged, by, *name_by(logged, by));
+  if (dataset.groups.empty() && !logged.rows.empty()) {
     throw BadOption(fmt::format("by {0}: no session of these logs names its {0}{1}", by,
                                 by == "table" || by == "arm" ? "; those of trivela simulate do" : ""));
   }
   const bool labelled = !logged.rows.empty() && std::ranges::all_of(logged.rows, [&](const LoggedOpportunity& o) {
     return logged.sessions[o.session].imported;
   });
-  book.outcome = options.truth ? "truth" : labelled ? "labelled" : "observed";
-  book.remarks = logged.remarks;
-  book.blocked_apart = options.blocked_apart;
-  book.matches = logged.matches;
-  book.has_matches = true;
-  for (const ComparedSession& session : logged.sessions) book.simulated = book.simulated || session.simulated;
-  if (options.truth && !book.simulated) throw BadOption("outcome truth: none of these matches was simulated");
-  book.has_opportunities = !logged.rows.empty() && std::ranges::all_of(logged.rows, &LoggedOpportunity::has_possession);
-  book.stratified_by = options.stratify;
-  book.strata_of_kicks = options.stratify == "distance";
-  if (options.stratify.ends_with("distance")) book.strata = distance_bins();
-  return book;
+  dataset.outcome = options.truth ? "truth" : labelled ? "labelled" : "observed";
+  dataset.remarks = logged.remarks;
+  dataset.blocked_apart = options.blocked_apart;
+  dataset.matches = logged.matches;
+  dataset.has_matches = true;
+  for (const ComparedSession& session : logged.sessions) dataset.simulated = dataset.simulated || session.simulated;
+  if (options.truth && !dataset.simulated) throw BadOption("outcome truth: none of these matches was simulated");
+  dataset.has_opportunities =
+      !logged.rows.empty() && std::ranges::all_of(logged.rows, &LoggedOpportunity::has_possession);
+  dataset.stratified_by = options.stratify;
+  dataset.strata_of_kicks = options.stratify == "distance";
+  if (options.stratify.ends_with("distance")) dataset.strata = distance_bins();
+  return dataset;
 }
 
-// What a row says by itself, without the numbers that the book gives to groups, strata, settings and calibrations.
+// What a row says by itself, without the numbers that the dataset gives to groups, strata, settings and calibrations.
 Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& session, bool blocked_apart) {
   Opportunity opportunity;
   opportunity.match = session.match;
@@ -153,13 +154,13 @@ Opportunity opportunity_of(const LoggedOpportunity& o, const ComparedSession& se
   return opportunity;
 }
 
-// The opportunities of the book, and sentences on the rows left out. Returns which row each of them is.
-std::vector<std::size_t> enter_opportunities(KickDataset& book, const LoggedOpportunities& logged,
+// The opportunities of the dataset, and sentences on the rows left out. Returns which row each of them is.
+std::vector<std::size_t> enter_opportunities(KickDataset& dataset, const LoggedOpportunities& logged,
                                              const std::string& by, bool drawn, Settings& settings) {
   const Name group_name = *name_by(logged, by);
-  const auto stratum_name = name_by(logged, book.stratified_by);
+  const auto stratum_name = name_by(logged, dataset.stratified_by);
   std::map<std::string, std::uint32_t> places;
-  for (std::uint32_t i = 0; i < book.groups.size(); ++i) places[book.groups[i]] = i;
+  for (std::uint32_t i = 0; i < dataset.groups.size(); ++i) places[dataset.groups[i]] = i;
   std::map<std::optional<std::int64_t>, std::uint32_t> calibrations;  // numbers of calibrations
   std::vector<std::size_t> rows;
   std::int64_t nameless = 0, certain = 0;
@@ -172,24 +173,24 @@ std::vector<std::size_t> enter_opportunities(KickDataset& book, const LoggedOppo
       ++certain;
     } else {
       const ComparedSession& session = logged.sessions[o.session];
-      Opportunity& opportunity = book.opportunities.emplace_back(opportunity_of(o, session, book.blocked_apart));
+      Opportunity& opportunity = dataset.opportunities.emplace_back(opportunity_of(o, session, dataset.blocked_apart));
       opportunity.group = group->second;
       const std::string stratum = stratum_name ? (*stratum_name)(o) : std::string();
-      opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(book.strata, stratum);
+      opportunity.stratum = stratum.empty() ? UINT32_MAX : place_of(dataset.strata, stratum);
       opportunity.setting = settings.of(session, o.policy);
       opportunity.calibration = calibrations.try_emplace(session.calibration_id, calibrations.size()).first->second;
-      book.keeper = book.keeper || o.saved;
+      dataset.keeper = dataset.keeper || o.saved;
       rows.push_back(i);
     }
   }
-  const auto unknown = static_cast<std::uint32_t>(book.strata.size());
-  for (Opportunity& opportunity : book.opportunities) opportunity.stratum = std::min(opportunity.stratum, unknown);
+  const auto unknown = static_cast<std::uint32_t>(dataset.strata.size());
+  for (Opportunity& opportunity : dataset.opportunities) opportunity.stratum = std::min(opportunity.stratum, unknown);
   if (nameless > 0) {
-    book.remarks.push_back(
-        fmt::format("{} {} without a {} left out", nameless, book.has_opportunities ? "opportunities" : "kicks", by));
+    dataset.remarks.push_back(fmt::format("{} {} without a {} left out", nameless,
+                                          dataset.has_opportunities ? "opportunities" : "kicks", by));
   }
   if (certain > 0)
-    book.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
+    dataset.remarks.push_back(fmt::format("{} opportunities left out: their policy was not drawn at random", certain));
   return rows;
 }
 
@@ -211,18 +212,18 @@ KickDataset read_log_kicks(const std::vector<std::filesystem::path>& logs, const
 KickDataset kick_dataset_of(const LoggedOpportunities& logged, const LogKicks& options, std::string& by) {
   by = options.by.empty() ? what_differs(logged) : options.by;
   check(options, by, name_by(logged, options.stratify).has_value());
-  KickDataset book = book_of(logged, options, by);
+  KickDataset dataset = dataset_of(logged, options, by);
   Settings settings{by};
   // Policies drawn for each possession are compared by those alone: chance gave no others their policy.
   const bool drawn = by == "policy" && std::ranges::any_of(logged.rows, was_drawn);
-  std::vector<std::size_t> rows = enter_opportunities(book, logged, by, drawn, settings);
-  infer_design(book, logged, rows, by, drawn);
-  if (book.design == Design::kPaired) {
-    keep_first_of_paired_halves(book, logged, rows);
-    keep_common_settings(book, by);
+  std::vector<std::size_t> rows = enter_opportunities(dataset, logged, by, drawn, settings);
+  infer_design(dataset, logged, rows, by, drawn);
+  if (dataset.design == Design::kPaired) {
+    keep_first_of_paired_halves(dataset, logged, rows);
+    keep_common_settings(dataset, by);
   }
-  if (!drawn) add_minutes(book, logged, by, settings);
-  return book;
+  if (!drawn) add_minutes(dataset, logged, by, settings);
+  return dataset;
 }
 
 }  // namespace trivela::evaluator

@@ -63,14 +63,17 @@ class PoliciesOfHalves {
 }  // namespace
 
 void hear_play(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, HeardPlay& heard) {
-  reader.query(
-      kPlayedSpansSql, [&](std::int64_t session_id, std::optional<int> of_robot, int half, std::int64_t possession_id,
-                           std::int64_t from_ns, std::int64_t to_ns, std::int64_t played_ns) {
-        const auto session = sessions.find(session_id);
-        if (session == sessions.end()) return;
-        const std::int64_t id = of_robot ? truths.number(session_id, *of_robot, half, possession_id) : possession_id;
-        heard.spans.push_back({session->second, of_robot.value_or(0), half, id, from_ns, to_ns, played_ns});
-      });
+  reader.query(kPlayedSpansSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto of_robot = row.find<int>("of_robot");
+    const auto half = row.get<int>("half");
+    const auto possession_id = row.get<std::int64_t>("possession_id");
+    const auto session = sessions.find(session_id);
+    if (session == sessions.end()) return;
+    const std::int64_t id = of_robot ? truths.number(session_id, *of_robot, half, possession_id) : possession_id;
+    heard.spans.push_back({session->second, of_robot.value_or(0), half, id, row.get<std::int64_t>("from_ns"),
+                           row.get<std::int64_t>("to_ns"), row.get<std::int64_t>("played_ns")});
+  });
   reader.query("SELECT session_id, half, robot_id, policy FROM session_policies",
                [&](std::int64_t session_id, int half, int robot_id, const std::string& policy) {
                  const auto session = sessions.find(session_id);

@@ -54,25 +54,26 @@ struct SeenRows {
 // Who was in charge of the simulator's possessions, and possessions that the robots alone counted.
 void see_assigned(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
                   PossessionPlaces& places, std::vector<LoggedOpportunity>& opportunities) {
-  reader.query(kAssignedPossessionsSql,
-               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id,
-                   std::optional<std::int64_t> /*t_ns*/, const std::string& policy, double probability) {
-                 const auto session = sessions.find(session_id);
-                 if (session == sessions.end()) return;
-                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
-                 const PossessionKey key{session->second, robot_id, half, id};
-                 const bool alone = id != 0 && !truths.has(session_id);
-                 if (alone && places.try_emplace(key, opportunities.size()).second) {
-                   LoggedOpportunity& o = opportunities.emplace_back();
-                   std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
-                 }
-                 const auto place = places.find(key);
-                 if (place == places.end()) return;
-                 LoggedOpportunity& o = opportunities[place->second];
-                 if (o.probability) return;  // the robot took one possession for two: chance decided with the first
-                 o.policy = policy;
-                 o.probability = probability;
-               });
+  reader.query(kAssignedPossessionsSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto robot_id = row.get<int>("robot_id");
+    const auto half = row.get<int>("half");
+    const auto session = sessions.find(session_id);
+    if (session == sessions.end()) return;
+    const std::int64_t id = truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id"));
+    const PossessionKey key{session->second, robot_id, half, id};
+    const bool alone = id != 0 && !truths.has(session_id);
+    if (alone && places.try_emplace(key, opportunities.size()).second) {
+      LoggedOpportunity& o = opportunities.emplace_back();
+      std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+    }
+    const auto place = places.find(key);
+    if (place == places.end()) return;
+    LoggedOpportunity& o = opportunities[place->second];
+    if (o.probability) return;  // the robot took one possession for two: chance decided with the first
+    o.policy = row.get<std::string>("policy");
+    o.probability = row.get<double>("probability");
+  });
 }
 
 void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
@@ -82,58 +83,63 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
   reader.query("SELECT max(target_y_m) FROM (SELECT target_y_m FROM kick_decisions LIMIT 1000)",
                [&](std::optional<double> y_m) { goal_y_m = y_m; });
   PossessionPlaces places;  // with the session in the play's place
-  reader.query(kOpportunitiesSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
-                                      std::optional<std::string> policy, double x_m, double y_m) {
-    const auto session = sessions.find(session_id);
+  reader.query(kOpportunitiesSql, [&](const log::NamedCells& row) {
+    const auto x_m = row.get<double>("start_x_m");
+    const auto session = sessions.find(row.get<std::int64_t>("session_id"));
     if (session == sessions.end()) return;
-    const PossessionKey key{session->second, robot_id, half, possession_id};
+    const PossessionKey key{session->second, row.get<int>("robot_id"), row.get<int>("half"),
+                            row.get<std::int64_t>("possession_id")};
     LoggedOpportunity o;
     std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
-    o.policy = std::move(policy).value_or("");
+    o.policy = row.find<std::string>("policy").value_or("");
     o.start_x_m = x_m;
-    if (goal_y_m) o.start_distance_m = std::hypot(x_m, *goal_y_m - y_m);
+    if (goal_y_m) o.start_distance_m = std::hypot(x_m, *goal_y_m - row.get<double>("start_y_m"));
     places[key] = seen.opportunities.size();
     seen.opportunities.push_back(std::move(o));
   });
   see_assigned(reader, sessions, truths, places, seen.opportunities);
-  reader.query(kFirstDecisionsSql,
-               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::int64_t /*seq*/,
-                   double distance_m, double x_m, std::optional<double> opponent_distance_m) {
-                 const auto session = sessions.find(session_id);
-                 if (session == sessions.end()) return;
-                 const std::int64_t id = truths.number(session_id, robot_id, half, own_id);
-                 const auto place = places.find({session->second, robot_id, half, id});
-                 if (place == places.end() || seen.opportunities[place->second].first) return;
-                 seen.opportunities[place->second].first = {distance_m, x_m, opponent_distance_m};
-               });
+  reader.query(kFirstDecisionsSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto robot_id = row.get<int>("robot_id");
+    const auto half = row.get<int>("half");
+    const auto session = sessions.find(session_id);
+    if (session == sessions.end()) return;
+    const std::int64_t id = truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id"));
+    const auto place = places.find({session->second, robot_id, half, id});
+    if (place == places.end() || seen.opportunities[place->second].first) return;
+    seen.opportunities[place->second].first = {row.get<double>("distance_m"), row.get<double>("x_m"),
+                                               row.find<double>("opponent_distance_m")};
+  });
 }
 
 void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, bool truth,
                SeenRows& seen) {
-  reader.query(
-      kComparedKicksSql,
-      [&](std::int64_t session_id, int robot_id, int half, std::int64_t own_id, std::optional<std::int64_t> true_id,
-          const std::string& policy, std::optional<std::string> outcome, std::optional<std::string> truth_outcome,
-          std::optional<double> distance_m, std::optional<double> p_inside, std::optional<bool> bounced,
-          std::optional<bool> truth_bounced, std::optional<bool> truth_saved, std::int64_t kick_id) {
-        const auto session = sessions.find(session_id);
-        if (session == sessions.end()) return;
-        const bool saved = truth_saved.value_or(false);
-        const bool goal = truth_outcome == "on_target" && !saved;
-        seen.kicks.push_back({.session = session->second,
-                              .robot_id = robot_id,
-                              .half = half,
-                              .possession_id = true_id ? *true_id : truths.number(session_id, robot_id, half, own_id),
-                              .policy = policy,
-                              .outcome = std::move(truth ? truth_outcome : outcome).value_or(""),
-                              .distance_m = distance_m,
-                              .kick_id = kick_id,
-                              .p_inside = truth ? std::nullopt : p_inside,
-                              .bounced = bounced,
-                              .truth_bounced = truth_bounced,
-                              .saved = saved,
-                              .goal = goal});
-      });
+  reader.query(kComparedKicksSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto robot_id = row.get<int>("robot_id");
+    const auto half = row.get<int>("half");
+    const auto true_id = row.find<std::int64_t>("true_possession_id");
+    const auto truth_outcome = row.find<std::string>("truth_outcome");
+    const auto session = sessions.find(session_id);
+    if (session == sessions.end()) return;
+    const bool saved = row.find<bool>("truth_saved").value_or(false);
+    const bool goal = truth_outcome == "on_target" && !saved;
+    seen.kicks.push_back(
+        {.session = session->second,
+         .robot_id = robot_id,
+         .half = half,
+         .possession_id =
+             true_id ? *true_id : truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id")),
+         .policy = row.get<std::string>("policy"),
+         .outcome = std::move(truth ? truth_outcome : row.find<std::string>("outcome")).value_or(""),
+         .distance_m = row.find<double>("distance_m"),
+         .kick_id = row.get<std::int64_t>("kick_id"),
+         .p_inside = truth ? std::nullopt : row.find<double>("observed_p_on_target"),
+         .bounced = row.find<bool>("bounced"),
+         .truth_bounced = row.find<bool>("truth_bounced"),
+         .saved = saved,
+         .goal = goal});
+  });
 }
 
 // What a recording lacks another one of the play may have.
@@ -161,12 +167,12 @@ PossessionPlaces add_opportunities(std::vector<LoggedOpportunity>&& opportunitie
   return places;
 }
 
-void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& book, const PossessionPlaces& places, bool truth,
-               LoggedOpportunities& logged) {
+void add_kicks(const std::vector<SeenKick>& kicks, const SessionIndex& sessions_read, const PossessionPlaces& places,
+               bool truth, LoggedOpportunities& logged) {
   std::int64_t alone = 0;
   std::array<std::int64_t, kNoGoals.size()> no_goals{};
   for (const SeenKick& kick : kicks) {
-    if (!book.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
+    if (!sessions_read.counts(kick.session, kick.robot_id, kick.kick_id)) continue;
     const ComparedSession& session = logged.sessions[kick.session];
     const auto place = places.find({session.play, kick.robot_id, kick.half, kick.possession_id});
     if (place == places.end()) {
@@ -213,7 +219,7 @@ class OpportunityReading {
   explicit OpportunityReading(bool truth) : truth_(truth) {}
 
   SessionPlaces add(const log::Reader& reader, const std::string& name) {
-    SessionPlaces fresh = book_.add(reader, name);
+    SessionPlaces fresh = sessions_read_.add(reader, name);
     logged_.logs.push_back(name);
     const TruthCount truths(reader);
     see_opportunities(reader, fresh, truths, seen_);
@@ -229,18 +235,18 @@ class OpportunityReading {
     return fresh;
   }
 
-  const SessionIndex& book() const { return book_; }
+  const SessionIndex& sessions_read() const { return sessions_read_; }
 
-  void settle() { book_.settle(); }
+  void settle() { sessions_read_.settle(); }
 
   LoggedOpportunities finish() && {
-    logged_.sessions = book_.sessions();
-    logged_.matches = book_.matches();
-    logged_.not_counted = book_.not_counted();
-    logged_.remarks = book_.remarks();
+    logged_.sessions = sessions_read_.sessions();
+    logged_.matches = sessions_read_.matches();
+    logged_.not_counted = sessions_read_.not_counted();
+    logged_.remarks = sessions_read_.remarks();
     logged_.remarks.insert(logged_.remarks.end(), logged_.not_counted.begin(), logged_.not_counted.end());
     const PossessionPlaces places = add_opportunities(std::move(seen_.opportunities), logged_);
-    add_kicks(seen_.kicks, book_, places, truth_, logged_);
+    add_kicks(seen_.kicks, sessions_read_, places, truth_, logged_);
     logged_.remarks.insert(logged_.remarks.end(), losses_.begin(), losses_.end());
     remark_lengths();
     logged_.spans = played_spans(seen_.play, logged_);
@@ -251,7 +257,7 @@ class OpportunityReading {
   // Each recording by itself: which ones are of one play is known when all are read.
   void note_lengths(const log::Reader& reader, const std::string& name, const SessionPlaces& fresh) {
     std::vector<ComparedSession> alone;
-    for (const ComparedSession& session : book_.sessions()) {
+    for (const ComparedSession& session : sessions_read_.sessions()) {
       alone.push_back(session);
       alone.back().play = static_cast<std::uint32_t>(alone.size());
     }
@@ -274,7 +280,7 @@ class OpportunityReading {
   }
 
   bool truth_;
-  SessionIndex book_;
+  SessionIndex sessions_read_;
   SeenRows seen_;
   LoggedOpportunities logged_;
   std::vector<std::string> losses_;
@@ -286,7 +292,7 @@ class OpportunityReading {
 LoggedOpportunities read_opportunities(const std::vector<std::filesystem::path>& logs, bool truth) {
   OpportunityReading reading(truth);
   for (const std::filesystem::path& path : logs) reading.add(log::Reader(path), path.string());
-  reading.book().refuse_replays_alone();
+  reading.sessions_read().refuse_replays_alone();
   reading.settle();
   return std::move(reading).finish();
 }
@@ -297,11 +303,11 @@ LoggedOpportunities read_opportunities(std::span<const OpenLog> logs, bool truth
   for (const OpenLog& log : logs) places.push_back(reading.add(*log.reader, log.name));
   reading.settle();
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    std::vector<std::int64_t> left_out = reading.book().sessions_left_out(places[i]);
+    std::vector<std::int64_t> left_out = reading.sessions_read().sessions_left_out(places[i]);
     logs[i].reader->query("SELECT session_id FROM sessions", [&](std::int64_t session_id) {
       if (!places[i].contains(session_id)) left_out.push_back(session_id);
     });
-    logs[i].reader->leave_out(left_out, reading.book().kicks_left_out(places[i]));
+    logs[i].reader->leave_out(left_out, reading.sessions_read().kicks_left_out(places[i]));
   }
   return std::move(reading).finish();
 }

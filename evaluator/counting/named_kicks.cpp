@@ -60,16 +60,17 @@ std::string NamedKick::name() const { return fmt::format("{}:{}", robot_id, numb
 std::vector<NamedKick> named_kicks(const log::Reader& reader) {
   std::vector<NamedKick> kicks;
   reader.query(
-      "SELECT k.session_id, s.uuid, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff, k.t_ns, k.t_ns - s.started_t_ns, "
-      "k.policy, coalesce(k.outcome, ''), k.hand_outcome, h.who FROM counted_kicks AS k JOIN sessions AS s ON "
-      "s.session_id = k.session_id LEFT JOIN hand_labels AS h ON h.session_id = k.session_id AND h.robot_id = "
-      "k.robot_id AND h.kick_id = k.kick_id WHERE k.accepted IS NOT 0 ORDER BY s.started_t_ns, k.session_id, k.t_ns, "
-      "k.robot_id",
-      [&](std::int64_t session_id, const std::string& uuid, int robot_id, std::int64_t kick_id, std::int64_t number,
-          std::int64_t t_ns, std::int64_t after_ns, const std::string& policy, const std::string& observed,
-          std::optional<std::string> by_hand, std::optional<std::string> who) {
-        kicks.push_back({session_id, uuid, robot_id, kick_id, number, t_ns, kicking::seconds(after_ns), policy,
-                         observed, std::move(by_hand), std::move(who)});
+      "SELECT k.session_id, s.uuid, k.robot_id, k.kick_id, k.kick_id & 0xffffffffff AS number, k.t_ns, "
+      "k.t_ns - s.started_t_ns AS after_ns, k.policy, coalesce(k.outcome, '') AS observed, k.hand_outcome, h.who "
+      "FROM counted_kicks AS k JOIN sessions AS s ON s.session_id = k.session_id LEFT JOIN hand_labels AS h ON "
+      "h.session_id = k.session_id AND h.robot_id = k.robot_id AND h.kick_id = k.kick_id WHERE k.accepted IS NOT 0 "
+      "ORDER BY s.started_t_ns, k.session_id, k.t_ns, k.robot_id",
+      [&](const log::NamedCells& row) {
+        kicks.push_back({row.get<std::int64_t>("session_id"), row.get<std::string>("uuid"), row.get<int>("robot_id"),
+                         row.get<std::int64_t>("kick_id"), row.get<std::int64_t>("number"),
+                         row.get<std::int64_t>("t_ns"), kicking::seconds(row.get<std::int64_t>("after_ns")),
+                         row.get<std::string>("policy"), row.get<std::string>("observed"),
+                         row.find<std::string>("hand_outcome"), row.find<std::string>("who")});
       });
   return kicks;
 }

@@ -12,9 +12,9 @@ namespace {
 using PairKey = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::uint32_t>;
 
 // Endings of a group in the order of their keys.
-std::vector<std::pair<PairKey, Ending>> keyed(const KickDataset& book, std::uint32_t group) {
+std::vector<std::pair<PairKey, Ending>> keyed(const KickDataset& dataset, std::uint32_t group) {
   std::vector<std::pair<PairKey, Ending>> rows;
-  for (const Opportunity& o : book.opportunities) {
+  for (const Opportunity& o : dataset.opportunities) {
     if (o.group == group && o.id != 0) rows.push_back({{o.match, o.calibration, o.id, o.setting}, o.ending});
   }
   std::ranges::stable_sort(rows, {}, [](const auto& row) { return row.first; });
@@ -23,10 +23,10 @@ std::vector<std::pair<PairKey, Ending>> keyed(const KickDataset& book, std::uint
 
 }  // namespace
 
-std::vector<stats::MatchCounts> cells_of(const KickDataset& book, std::uint32_t older, std::uint32_t newer,
+std::vector<stats::MatchCounts> cells_of(const KickDataset& dataset, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities) {
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, stats::MatchCounts> cells;
-  for (const Opportunity& o : book.opportunities) {
+  for (const Opportunity& o : dataset.opportunities) {
     if (!of_opportunities && o.ending != Ending::kInside && o.ending != Ending::kOutside) continue;
     if (o.group != older && o.group != newer) continue;
     const stats::MatchCounts empty{o.match, o.stratum, {}, {}, o.calibration};
@@ -39,8 +39,8 @@ std::vector<stats::MatchCounts> cells_of(const KickDataset& book, std::uint32_t 
   return result;
 }
 
-PairedOpportunities paired_opportunities(const KickDataset& book, std::uint32_t older, std::uint32_t newer) {
-  const auto a = keyed(book, older), b = keyed(book, newer);
+PairedOpportunities paired_opportunities(const KickDataset& dataset, std::uint32_t older, std::uint32_t newer) {
+  const auto a = keyed(dataset, older), b = keyed(dataset, newer);
   PairedOpportunities result;
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {

@@ -21,7 +21,7 @@ inline void add(stats::Counts& sum, stats::Counts counts) {
 
 /// Counts of two groups by match, calibration and stratum, of opportunities or of kicks. A kick with an unknown outcome
 /// is an opportunity without a shot on target, and left out of the kicks.
-std::vector<stats::MatchCounts> cells_of(const KickDataset& book, std::uint32_t older, std::uint32_t newer,
+std::vector<stats::MatchCounts> cells_of(const KickDataset& dataset, std::uint32_t older, std::uint32_t newer,
                                          bool of_opportunities);
 
 /// Opportunities that two groups both had: of the same match, calibration, id and setting, which a group has once.
@@ -30,6 +30,6 @@ struct PairedOpportunities {
   std::vector<stats::MatchCounts> cells;  ///< the same by match and calibration
   std::int64_t unpaired = 0;              ///< without a partner
 };
-PairedOpportunities paired_opportunities(const KickDataset& book, std::uint32_t older, std::uint32_t newer);
+PairedOpportunities paired_opportunities(const KickDataset& dataset, std::uint32_t older, std::uint32_t newer);
 
 }  // namespace trivela::evaluator

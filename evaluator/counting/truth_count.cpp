@@ -19,16 +19,19 @@ TruthCount::TruthCount(const log::Reader& reader) {
         starts[{session_id, robot_id, half}].emplace_back(start_t_ns, number);
       });
   if (starts.empty()) return;
-  reader.query(kAssignedPossessionsSql,
-               [&](std::int64_t session_id, int robot_id, int half, std::int64_t own, std::optional<std::int64_t> t_ns,
-                   const std::string& /*policy*/, double /*probability*/) {
-                 const auto of_robot = starts.find({session_id, robot_id, half});
-                 if (!t_ns || of_robot == starts.end()) return;
-                 const auto later = std::ranges::upper_bound(of_robot->second, *t_ns, {}, &Start::first);
-                 if (later == of_robot->second.begin()) return;
-                 const std::int64_t number = std::prev(later)->second;
-                 if (number != own) other_[{session_id, robot_id, half, own}] = number;
-               });
+  reader.query(kAssignedPossessionsSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto robot_id = row.get<int>("robot_id");
+    const auto half = row.get<int>("half");
+    const auto own = row.get<std::int64_t>("possession_id");
+    const auto t_ns = row.find<std::int64_t>("t_ns");
+    const auto of_robot = starts.find({session_id, robot_id, half});
+    if (!t_ns || of_robot == starts.end()) return;
+    const auto later = std::ranges::upper_bound(of_robot->second, *t_ns, {}, &Start::first);
+    if (later == of_robot->second.begin()) return;
+    const std::int64_t number = std::prev(later)->second;
+    if (number != own) other_[{session_id, robot_id, half, own}] = number;
+  });
 }
 
 std::int64_t TruthCount::number(std::int64_t session_id, int robot_id, int half, std::int64_t own) const {

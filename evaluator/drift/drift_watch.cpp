@@ -162,7 +162,7 @@ class Watch {
             kick.speed && speed_.add(*kick.speed, false, kick.group)};
   }
 
-  /// The change that kick `found` made certain; the charts begin anew with the kicks after it.
+  /// The change that kick `found` made certain; the charts begin again with the kicks after it.
   void settle(std::size_t found, bool by_height) {
     const auto heights = readings(kicks_, true, from_, found + 1), speeds = readings(kicks_, false, from_, found + 1);
     Drift drift;
@@ -225,8 +225,8 @@ std::string words_of(const Drift& drift) {
 }
 
 std::string correction_of(const Drift& drift) {
-  if (drift.kind == DriftKind::kElevation) return "measure exit_angle_deg anew: trivela calibrate table";
-  return fmt::format("multiply exit_speeds_mps of its [table] by {:.3f}, or measure it anew: trivela calibrate table",
+  if (drift.kind == DriftKind::kElevation) return "measure exit_angle_deg again: trivela calibrate table";
+  return fmt::format("multiply exit_speeds_mps of its [table] by {:.3f}, or measure it again: trivela calibrate table",
                      std::exp(drift.factor.value));
 }
 

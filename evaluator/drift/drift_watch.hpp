@@ -50,12 +50,12 @@ struct DriftEstimate {
   DriftLevel level;  ///< since the last of them
 };
 
-/// What the kicks of one robot, in their order, say of its kicker. After a change the charts begin anew with the kicks
+/// What the kicks of one robot, in their order, say of its kicker. After a change the charts begin again with the kicks
 /// after it. The same kicks, and any before whose story is the same, give the same drifts: a kick more adds some at the
 /// end and changes none.
 DriftEstimate drifts_of(std::span<const KickResidual> kicks, const DriftRule& rule = {});
 
-/// What to do, as a sentence for people: by what to multiply the table's speeds, what to measure anew.
+/// What to do, as a sentence for people: by what to multiply the table's speeds, what to measure again.
 std::string correction_of(const Drift& drift);
 
 /// The change in words: "exit speed fell by 3.1 % (standard error 0.8)".

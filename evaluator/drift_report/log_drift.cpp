@@ -14,7 +14,7 @@ namespace trivela::evaluator {
 namespace {
 
 constexpr const char* kWatchedKicksSql = R"(
-SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns, k.release_t_ns,
+SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns AS utc_ns, k.release_t_ns,
   k.outcome, k.bounced, k.policy, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
   d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
 FROM counted_kicks AS k
@@ -34,34 +34,39 @@ struct Row {
 
 std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const SessionPlaces& fresh) {
   std::vector<Row> rows;
-  reader.query(
-      kWatchedKicksSql,
-      [&](std::int64_t session_id, const std::string& uuid, bool simulated, int robot_id, std::int64_t kick_id,
-          std::int64_t t_ns, std::int64_t utc_ns, std::optional<std::int64_t> release_t_ns,
-          const std::optional<std::string>& outcome, std::optional<bool> bounced, const std::string& policy,
-          std::optional<double> z_cross_m, std::optional<double> exit_speed_mps, double x_m, double y_m,
-          double heading_rad, double vx_mps, double vy_mps, double omega_radps, double target_y_m,
-          std::optional<double> predicted_x_m, std::optional<double> predicted_z_m, std::optional<double> t_flight_s) {
-        const auto session = fresh.find(session_id);
-        if (session == fresh.end()) return;
-        Row& row =
-            rows.emplace_back(Row{session->second, robot_id, simulated, {log, session_id, uuid, kick_id, utc_ns}, {}});
-        row.kick = {.kick_id = kick_id,
+  reader.query(kWatchedKicksSql, [&](const log::NamedCells& row) {
+    const auto session_id = row.get<std::int64_t>("session_id");
+    const auto kick_id = row.get<std::int64_t>("kick_id");
+    const auto t_ns = row.get<std::int64_t>("t_ns");
+    const auto release_t_ns = row.find<std::int64_t>("release_t_ns");
+    const auto outcome = row.find<std::string>("outcome");
+    const auto predicted_x_m = row.find<double>("predicted_x_cross_m");
+    const auto predicted_z_m = row.find<double>("predicted_z_cross_m");
+    const auto t_flight_s = row.find<double>("predicted_t_flight_s");
+    const auto session = fresh.find(session_id);
+    if (session == fresh.end()) return;
+    Row& watched =
+        rows.emplace_back(Row{session->second,
+                              row.get<int>("robot_id"),
+                              row.get<bool>("simulated"),
+                              {log, session_id, row.get<std::string>("uuid"), kick_id, row.get<std::int64_t>("utc_ns")},
+                              {}});
+    watched.kick = {.kick_id = kick_id,
                     .t_ns = t_ns,
-                    .robot = {x_m, y_m, heading_rad},
-                    .twist = {vx_mps, vy_mps, omega_radps},
-                    .policy = kicking::row_of(policy).value_or(-1),
-                    .goal_y_m = target_y_m};
-        if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
-        row.kick.x_m = *predicted_x_m;
-        row.kick.z_m = *predicted_z_m;
-        row.kick.t_flight_s = *t_flight_s;
-        row.kick.lead_s = release_t_ns ? kicking::seconds(*release_t_ns - t_ns) : 0.0;
-        row.kick.seen_to_the_line = outcome && *outcome != "blocked" && *outcome != "unknown";
-        row.kick.bounced = bounced.value_or(false);
-        row.kick.z_cross_m = z_cross_m;
-        row.kick.exit_speed_mps = exit_speed_mps;
-      });
+                    .robot = {row.get<double>("x_m"), row.get<double>("y_m"), row.get<double>("heading_rad")},
+                    .twist = {row.get<double>("vx_mps"), row.get<double>("vy_mps"), row.get<double>("omega_radps")},
+                    .policy = kicking::row_of(row.get<std::string>("policy")).value_or(-1),
+                    .goal_y_m = row.get<double>("target_y_m")};
+    if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
+    watched.kick.x_m = *predicted_x_m;
+    watched.kick.z_m = *predicted_z_m;
+    watched.kick.t_flight_s = *t_flight_s;
+    watched.kick.lead_s = release_t_ns ? kicking::seconds(*release_t_ns - t_ns) : 0.0;
+    watched.kick.seen_to_the_line = outcome && *outcome != "blocked" && *outcome != "unknown";
+    watched.kick.bounced = row.find<bool>("bounced").value_or(false);
+    watched.kick.z_cross_m = row.find<double>("z_cross_m");
+    watched.kick.exit_speed_mps = row.find<double>("exit_speed_mps");
+  });
   return rows;
 }
 
@@ -69,14 +74,14 @@ std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const 
 class DriftKicks {
  public:
   void add(const log::Reader& reader, const std::string& name) {
-    for (Row& row : watched_rows(reader, logs_++, book_.add(reader, name))) rows_.push_back(std::move(row));
+    for (Row& row : watched_rows(reader, logs_++, index_.add(reader, name))) rows_.push_back(std::move(row));
   }
 
   DriftReport tell() {
-    book_.settle();
-    DriftReport report{.robots = {}, .remarks = book_.remarks()};
-    report.remarks.insert(report.remarks.end(), book_.not_counted().begin(), book_.not_counted().end());
-    std::erase_if(rows_, [&](const Row& row) { return !book_.counts(row.session, row.robot_id, row.at.kick_id); });
+    index_.settle();
+    DriftReport report{.robots = {}, .remarks = index_.remarks()};
+    report.remarks.insert(report.remarks.end(), index_.not_counted().begin(), index_.not_counted().end());
+    std::erase_if(rows_, [&](const Row& row) { return !index_.counts(row.session, row.robot_id, row.at.kick_id); });
     std::ranges::stable_sort(rows_, {}, [](const Row& row) { return std::pair(row.at.utc_ns, row.at.kick_id); });
     using Series = std::pair<int, std::string>;  // robot; session where it is one by itself
     std::map<Series, std::vector<const Row*>> series;
@@ -105,7 +110,7 @@ class DriftKicks {
 
   std::size_t logs_ = 0;
   std::vector<Row> rows_;
-  SessionIndex book_;
+  SessionIndex index_;
 };
 
 }  // namespace
@@ -115,15 +120,15 @@ bool DriftReport::found() const {
 }
 
 DriftReport drift_in(const std::vector<std::filesystem::path>& logs) {
-  DriftKicks book;
-  for (const std::filesystem::path& path : logs) book.add(log::Reader{path}, path.string());
-  return book.tell();
+  DriftKicks index;
+  for (const std::filesystem::path& path : logs) index.add(log::Reader{path}, path.string());
+  return index.tell();
 }
 
 DriftReport drift_in(std::span<const OpenLog> logs) {
-  DriftKicks book;
-  for (const OpenLog& log : logs) book.add(*log.reader, log.name);
-  return book.tell();
+  DriftKicks index;
+  for (const OpenLog& log : logs) index.add(*log.reader, log.name);
+  return index.tell();
 }
 
 }  // namespace trivela::evaluator

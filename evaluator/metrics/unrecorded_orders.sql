@@ -1,7 +1,7 @@
 -- Orders and kicks that a kicker's driver counted and the log has no receipt of, by session and robot, where there are
--- any. A driver that starts anew counts from 0. A withdrawn kick, and one of which it is not known whether it fired, has two receipts of one order.
+-- any. A driver that starts again counts from 0. A withdrawn kick, and one of which it is not known whether it fired, has two receipts of one order.
 -- Columns: session_id, robot_id, continues (1: the session goes on from another), restarted_before (1: the driver was
--- started anew between the two, what it did before that is not known), orders_before, kicks_before (before the
+-- started again between the two, what it did before that is not known), orders_before, kicks_before (before the
 -- session's first status; where it continues another: since that one's last), orders_within, kicks_within (between the
 -- session's first status and its last).
 WITH counts AS MATERIALIZED (SELECT * FROM driver_counts),

@@ -65,10 +65,15 @@ class HeldCycles {
 
   void add(const log::Reader& reader) {
     std::map<std::pair<std::int64_t, ChanceKey>, ChanceCycles> fresh;  // by session, too
-    reader.query(kHeldDecisionsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
-                                        const std::string& policy, const std::string& reason, std::int64_t cycles,
-                                        std::int64_t seq, double x_m, double y_m) {
-      ChanceCycles& chance = fresh[{session_id, {plays_[session_id], robot_id, half, possession_id}}];
+    reader.query(kHeldDecisionsSql, [&](const log::NamedCells& row) {
+      const auto session_id = row.get<std::int64_t>("session_id");
+      const auto& policy = row.get<std::string>("policy");
+      const auto& reason = row.get<std::string>("reason");
+      const auto cycles = row.get<std::int64_t>("cycles");
+      const auto seq = row.get<std::int64_t>("seq");
+      ChanceCycles& chance = fresh[{session_id,
+                                    {plays_[session_id], row.get<int>("robot_id"), row.get<int>("half"),
+                                     row.get<std::int64_t>("possession_id")}}];
       if (reason == "fire") {
         chance.kicked = true;
       } else {
@@ -78,16 +83,20 @@ class HeldCycles {
       if (stands(reason) || seq <= chance.last_seq) return;
       chance.last_seq = seq;
       chance.policy = policy;
-      chance.x_m = x_m;
-      chance.y_m = y_m;
+      chance.x_m = row.get<double>("x_m");
+      chance.y_m = row.get<double>("y_m");
     });
-    reader.query(kHeldShadowsSql, [&](std::int64_t session_id, int robot_id, int half, std::int64_t possession_id,
-                                      const std::string& policy, const std::string& reason, const std::string& shadow,
-                                      std::int64_t cycles, std::optional<double> p_on_target) {
-      const auto chance = fresh.find({session_id, {plays_[session_id], robot_id, half, possession_id}});
+    reader.query(kHeldShadowsSql, [&](const log::NamedCells& row) {
+      const auto session_id = row.get<std::int64_t>("session_id");
+      const auto& reason = row.get<std::string>("reason");
+      const auto chance = fresh.find({session_id,
+                                      {plays_[session_id], row.get<int>("robot_id"), row.get<int>("half"),
+                                       row.get<std::int64_t>("possession_id")}});
       if (chance == fresh.end()) return;
-      chance->second.would[{policy, reason, shadow}] += cycles;
-      if (!stands(reason)) chance->second.p_on_target = std::max(chance->second.p_on_target, p_on_target);
+      chance->second.would[{row.get<std::string>("policy"), reason, row.get<std::string>("shadow")}] +=
+          row.get<std::int64_t>("cycles");
+      if (!stands(reason))
+        chance->second.p_on_target = std::max(chance->second.p_on_target, row.find<double>("p_on_target"));
     });
     for (auto& [key, chance] : fresh) {
       ChanceCycles& kept = chances_[key.second];
@@ -159,8 +168,8 @@ class Parts {
 void compare(const LoggedOpportunities& logged, PageData& data) {
   try {
     std::string by;  // arms where there are several, else policies
-    KickDataset book = kick_dataset_of(logged, {}, by);
-    data.comparison = compare_policies(std::move(book), by);
+    KickDataset dataset = kick_dataset_of(logged, {}, by);
+    data.comparison = compare_policies(std::move(dataset), by);
   } catch (const std::runtime_error& error) {
     data.no_comparison = error.what();
   }
@@ -171,13 +180,9 @@ void read_kicks(const log::Reader& reader, std::size_t log, PageData& data) {
 }
 
 void read_predictions(const log::Reader& reader, PageData& data) {
-  reader.query(
-      kPredictedKicksSql,
-      [&](const std::string& /*policy*/, std::int64_t /*session_id*/, int /*robot_id*/, double p_on_target,
-          double /*distance_m*/, double /*vx_mps*/, double /*vy_mps*/, double /*omega_radps*/, double /*power*/,
-          std::optional<double> /*opponent_distance_m*/, bool on_target, std::int64_t /*kick_id*/) {
-        data.predictions.push_back({p_on_target, on_target});
-      });
+  reader.query(kPredictedKicksSql, [&](const log::NamedCells& row) {
+    data.predictions.push_back({row.get<double>("p_on_target"), row.get<bool>("on_target")});
+  });
 }
 
 /// Out of what was counted when a session ended, where it was: a long log is not walked through for four names.

@@ -9,7 +9,7 @@ namespace trivela::evaluator {
 /// Throws std::runtime_error naming `what` and the path, which may be a link, where a file there begins as SQLite's do.
 void require_no_database(const std::string& what, const std::filesystem::path& path);
 
-/// Writes a text file anew. Throws std::runtime_error naming it, and the reason, where that fails, and what
+/// Writes a text file again. Throws std::runtime_error naming it, and the reason, where that fails, and what
 /// require_no_database() throws.
 void write_file(const std::filesystem::path& path, const std::string& text);
 

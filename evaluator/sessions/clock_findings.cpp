@@ -58,7 +58,7 @@ void find_utc_steps(const log::Reader& reader, std::vector<std::string>& jumps) 
   for (const log::RecordedSession& session : sessions) {
     const auto before = std::ranges::find(sessions, session.continues_uuid, &log::RecordedSession::uuid);
     if (session.continues_uuid.empty() || before == sessions.end()) continue;
-    const bool same_start = session.started_t_ns >= before->started_t_ns;  // else the machine was started anew
+    const bool same_start = session.started_t_ns >= before->started_t_ns;  // else the machine was started again
     const std::int64_t step_ns = session.realtime_offset_ns - before->realtime_offset_ns;
     if (session.simulated_clock || !same_start || std::abs(step_ns) < kUtcStep_ns) continue;
     jumps.push_back(fmt::format("UTC jumped by {:+.3f} s between session {} and session {}, which goes on from it",

@@ -14,20 +14,18 @@ bool disagree(const std::string& by_hand, const std::string& observed) {
 
 HandLabels hand_labels_of(const log::Reader& reader, const std::set<std::int64_t>& sessions) {
   HandLabels labels;
-  reader.query(kLabelsByHandSql,
-               [&](std::int64_t session_id, int /*robot_id*/, std::int64_t /*kick_id*/, std::int64_t /*number*/,
-                   std::int64_t /*t_ns*/, const std::string& /*policy*/, const std::string& outcome,
-                   std::optional<std::string> observed, const std::string& /*who*/, std::int64_t /*labelled_utc_ns*/,
-                   const std::string& /*note*/) {
-                 if (!sessions.contains(session_id)) return;
-                 ++labels.kicks;
-                 if (!observed || *observed == "unknown") {
-                   ++labels.observer_knew_not;
-                 } else if (outcome != "unknown") {
-                   ++labels.compared;
-                   labels.disagreed += disagree(outcome, *observed) ? 1 : 0;
-                 }
-               });
+  reader.query(kLabelsByHandSql, [&](const log::NamedCells& row) {
+    const auto& outcome = row.get<std::string>("outcome");
+    const auto observed = row.find<std::string>("observed");
+    if (!sessions.contains(row.get<std::int64_t>("session_id"))) return;
+    ++labels.kicks;
+    if (!observed || *observed == "unknown") {
+      ++labels.observer_knew_not;
+    } else if (outcome != "unknown") {
+      ++labels.compared;
+      labels.disagreed += disagree(outcome, *observed) ? 1 : 0;
+    }
+  });
   return labels;
 }
 

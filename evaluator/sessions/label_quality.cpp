@@ -18,6 +18,8 @@ namespace {
 constexpr std::int64_t kManyTurns = 4;
 constexpr std::int64_t kManySightings = 10;  // by which a block would have been seen
 constexpr double kNearGoal_m = 0.3;
+constexpr std::int64_t kManyReleases = 8;
+constexpr double kWrongDelay_s = 0.03;  // a robot that turns with 2 rad/s points 3.4 degrees further then
 
 constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
     {{0, "none"}, {4, "1 to 4"}, {9, "5 to 9"}, {19, "10 to 19"}, {INT64_MAX, "20 or more"}}};
@@ -25,9 +27,13 @@ constexpr std::array<std::pair<std::int64_t, const char*>, 5> kRows{
 void read_labels(const log::Reader& reader, LabelQuality& quality) {
   for (const auto& [most, name] : kRows) quality.rows.push_back({.sightings = name});
   std::map<std::tuple<std::int64_t, int, std::string>, stats::LabelDoubt> doubts;
-  const auto add = [&](std::int64_t session_id, int robot_id, const std::string& policy, const std::string& label,
-                       std::int64_t sightings, std::optional<double> p_inside, std::optional<double> p_label,
-                       std::optional<double> p_any) {
+  std::map<int, std::vector<double>> late_s;  // by robot
+  const auto add = [&](const log::NamedCells& row) {
+    const auto& label = row.get<std::string>("outcome");
+    const auto sightings = row.get<std::int64_t>("observations");
+    const auto p_inside = row.find<double>("p_on_target");
+    const auto p_any = row.find<double>("p_of_any");
+    if (const auto late = row.find<double>("release_late_s")) late_s[row.get<int>("robot_id")].push_back(*late);
     const auto place = std::ranges::find_if(kRows, [&](const auto& r) { return sightings <= r.first; });
     SightingsRow& of = quality.rows[static_cast<std::size_t>(place - kRows.begin())];
     const bool unknown = label == "unknown";
@@ -39,8 +45,9 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
       quality.stopped_free += p_any && 1.0 - *p_any > 0.3 && sightings >= kManySightings ? 1 : 0;
       return;
     }
-    of.expected_wrong += 1.0 - p_label.value_or(1.0);
-    stats::LabelDoubt& doubt = doubts[{session_id, robot_id, policy}];
+    of.expected_wrong += 1.0 - row.find<double>("p_of_label").value_or(1.0);
+    stats::LabelDoubt& doubt =
+        doubts[{row.get<std::int64_t>("session_id"), row.get<int>("robot_id"), row.get<std::string>("policy")}];
     if (label == "on_target") {
       doubt.inside += 1.0 - p_inside.value_or(1.0);
     } else if (!is_no_goal(label)) {  // however sure it is that it was inside
@@ -48,6 +55,11 @@ void read_labels(const log::Reader& reader, LabelQuality& quality) {
     }
   };
   reader.query(kLabelDoubtSql, add);
+  for (auto& [robot_id, late] : late_s) {
+    const auto middle = late.begin() + static_cast<std::ptrdiff_t>(late.size() / 2);
+    std::ranges::nth_element(late, middle);
+    quality.releases.push_back({robot_id, static_cast<std::int64_t>(late.size()), *middle});
+  }
   for (const auto& [key, doubt] : doubts)
     quality.doubts.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), doubt});
 }
@@ -107,6 +119,18 @@ std::vector<std::string> LabelQuality::goal_warnings() const {
         fmt::format("{} of {} kicks were seen flying freely until the game was stopped, before they reached the goal "
                     "line{}: is the goal where the settings have it?",
                     stopped_free, kicks, goal_y_m ? fmt::format(" at goal.y_m = {:.2f} m", *goal_y_m) : ""));
+  }
+  return warnings;
+}
+
+std::vector<std::string> LabelQuality::release_warnings() const {
+  std::vector<std::string> warnings;
+  for (const RobotRelease& robot : releases) {
+    if (robot.kicks < kManyReleases || std::abs(robot.late_s) < kWrongDelay_s) continue;
+    warnings.push_back(
+        fmt::format("robot {}: the ball leaves {:.2f} s {} than its file says (median of {} kicks): measure "
+                    "kicker.delay_s (trivela calibrate run)",
+                    robot.robot_id, std::abs(robot.late_s), robot.late_s > 0.0 ? "later" : "earlier", robot.kicks));
   }
   return warnings;
 }

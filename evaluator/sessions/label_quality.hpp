@@ -34,23 +34,33 @@ struct KickerDoubt {
   stats::LabelDoubt doubt;
 };
 
+/// When a robot's balls leave, by their flights.
+struct RobotRelease {
+  int robot_id = 0;
+  std::int64_t kicks = 0;  ///< that were seen to leave
+  double late_s = 0.0;     ///< median, after the instant that the robot's file expects
+};
+
 /// How far the observed outcomes can be trusted.
 struct LabelQuality {
   std::vector<SightingsRow> rows;   ///< "none", "1 to 4", "5 to 9", "10 to 19", "20 or more"
   std::vector<KickerDoubt> doubts;  ///< by session, robot and policy
-  bool has_probabilities = false;   ///< false: the labels came without them, and count as certain
-  std::int64_t stopped_free = 0;    ///< kicks seen flying freely until the game was stopped, before the goal line
+  std::vector<RobotRelease> releases;
+  bool has_probabilities = false;  ///< false: the labels came without them, and count as certain
+  std::int64_t stopped_free = 0;   ///< kicks seen flying freely until the game was stopped, before the goal line
   std::int64_t kicks = 0;
   std::optional<double> goal_y_m;        ///< of the robots' settings; none: no kick says it
   std::int64_t turns_at_goal = 0;        ///< balls that came back within 0.3 m of it
   std::optional<TurnCluster> elsewhere;  ///< where most of the others did, if they were four or more
 
-  /// Adds the labels of another log; where each has its goal, their own goal_warnings() say.
+  /// Adds the labels of another log. Goal and releases are each log's own: its warnings say them.
   void add(const LabelQuality& other);
 
   double expected_wrong() const;
   /// Sentences on tracks that contradict the goal's place; none: they do not.
   std::vector<std::string> goal_warnings() const;
+  /// Sentences on robots whose balls leave earlier or later than their files say.
+  std::vector<std::string> release_warnings() const;
 };
 
 /// Where most of `turns_y_m` lie within kTurnReach_m; none: fewer than four.

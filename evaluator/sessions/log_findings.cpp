@@ -88,11 +88,11 @@ void look_for_gaps(const log::Reader& reader, Findings& findings) {
 }
 
 void look_at_lengths(const log::Reader& reader, Findings& findings) {
-  SessionIndex book;
-  book.add(reader, "this log");
-  book.settle();
+  SessionIndex sessions_read;
+  sessions_read.add(reader, "this log");
+  sessions_read.settle();
   const std::array<const log::Reader*, 1> readers{&reader};
-  const auto lengths = played_lengths(readers, book.sessions());
+  const auto lengths = played_lengths(readers, sessions_read.sessions());
   add_finding(findings, "length", cut_short_lines(lengths),
               "compare counts what was played; play it again, or merge the rest",
               lengths.empty() ? "nobody planned one" : "as planned");
@@ -106,6 +106,9 @@ void look_at_goal(const log::Reader& reader, Findings& findings) {
       quality.turns_at_goal > 0
           ? fmt::format("{} ball{} came back from it", quality.turns_at_goal, quality.turns_at_goal == 1 ? "" : "s")
           : std::string("no ball came back from anywhere else"));
+  add_finding(findings, "release", quality.release_warnings(),
+              "trivela calibrate run measures the delay; policies that turn aim beside the goal until then",
+              quality.releases.empty() ? "no flight shows it" : "when the robots' files expect it");
 }
 
 /// Without who says more: that is this.
@@ -180,10 +183,10 @@ std::vector<LogFinding> examine_log(const fs::path& path) {
 }
 
 std::vector<LogFinding> compare_logs(const std::vector<fs::path>& paths) {
-  log::KickConflicts sayings;
-  for (const fs::path& path : paths) sayings.add(log::MergeSource(path));
+  log::KickConflicts claims;
+  for (const fs::path& path : paths) claims.add(log::MergeSource(path));
   std::vector<std::string> conflicts;
-  for (const log::KickConflict& conflict : sayings.conflicts()) conflicts.push_back(conflict.line());
+  for (const log::KickConflict& conflict : claims.conflicts()) conflicts.push_back(conflict.line());
   Findings findings;
   add_finding(
       findings, "conflicts", conflicts,

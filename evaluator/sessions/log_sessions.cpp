@@ -14,10 +14,10 @@
 namespace trivela::evaluator {
 namespace {
 
-std::map<std::string, SessionSetup> setups_of(const log::Reader& reader, SetupIndex& book) {
+std::map<std::string, SessionSetup> setups_of(const log::Reader& reader, SetupIndex& sessions_read) {
   std::map<std::string, SessionSetup> setups;
   reader.query("SELECT DISTINCT config_sha256, text FROM sessions JOIN texts ON sha256 = config_sha256",
-               [&](const std::string& sha256, const std::string& text) { setups[sha256] = book.of(text); });
+               [&](const std::string& sha256, const std::string& text) { setups[sha256] = sessions_read.of(text); });
   return setups;
 }
 
@@ -55,11 +55,12 @@ SessionPlaces SessionIndex::add(const log::Reader& reader, const std::string& na
                  if (session == fresh.end()) return;
                  sessions_[session->second].in_charge[half] += fmt::format("{}:{} ", robot_id, policy);
                });
-  reader.query(kKickWordsSql, [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns,
-                                  std::int64_t utc_ns, int words, int half, std::int64_t labelled_utc_ns) {
-    const auto session = fresh.find(session_id);
+  reader.query(kKickWordsSql, [&](const log::NamedCells& row) {
+    const auto session = fresh.find(row.get<std::int64_t>("session_id"));
     if (session != fresh.end())
-      kicks_.push_back({session->second, robot_id, kick_id, t_ns, utc_ns, words, half, labelled_utc_ns});
+      kicks_.push_back({session->second, row.get<int>("robot_id"), row.get<std::int64_t>("kick_id"),
+                        row.get<std::int64_t>("t_ns"), row.get<std::int64_t>("utc_ns"), row.get<int>("words"),
+                        row.get<int>("half"), row.get<std::int64_t>("labelled_utc_ns")});
   });
   note_log(reader, name, again, open);
   return fresh;

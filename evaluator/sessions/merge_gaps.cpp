@@ -102,7 +102,7 @@ void add_missing_kicks(const log::Reader& reader, std::vector<std::string>& line
     }
     if (orders.continues && orders.restarted_before)
       lines.push_back(
-          fmt::format("robot {}: its driver was started anew while nobody recorded, what it did before "
+          fmt::format("robot {}: its driver was started again while nobody recorded, what it did before "
                       "that is not known",
                       orders.robot_id));
   }

@@ -68,10 +68,10 @@ std::vector<std::string> file_row(const log::Merged& merged, const log::MergedFi
 
 /// Those that count once, in the whole log.
 std::int64_t counted_kicks(log::Reader& reader) {
-  SessionIndex book;
-  const SessionPlaces places = book.add(reader, "the merged log");
-  book.settle();
-  reader.leave_out(book.sessions_left_out(places), book.kicks_left_out(places));
+  SessionIndex sessions_read;
+  const SessionPlaces places = sessions_read.add(reader, "the merged log");
+  sessions_read.settle();
+  reader.leave_out(sessions_read.sessions_left_out(places), sessions_read.kicks_left_out(places));
   std::int64_t kicks = 0;
   reader.query("SELECT count(*) FROM counted_kicks", [&](std::int64_t count) { kicks = count; });
   return kicks;

@@ -26,6 +26,6 @@ std::string participant(int robot_id);
 /// Sentences on what a merged log lacks: files and sessions that could not be read whole, rows lost while they were
 /// recorded, silences, times in which a robot was recorded by nobody, and kicks that its driver counted and that stand
 /// in no session. What one recorder missed and another one has is not missing.
-std::vector<std::string> merge_gaps(const log::Merged& merged, log::Reader&& reader);
+std::vector<std::string> merge_gaps(const log::Merged& merged, const log::Reader& reader);
 
 }  // namespace trivela::evaluator

@@ -30,7 +30,7 @@ std::string before(const UnrecordedOrders& o) {
   return fmt::format(
       "robot {}: between the session that this one continues and this one its driver handled {}{}: in no log{}",
       o.robot_id, o.restarted_before ? "at least " : "", what,
-      o.restarted_before ? "; it was started anew meanwhile" : "");
+      o.restarted_before ? "; it was started again meanwhile" : "");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct UnrecordedOrders {
   std::int64_t session_id = 0;
   int robot_id = 0;
   bool continues = false;          ///< the session goes on from another
-  bool restarted_before = false;   ///< the driver was started anew between the two: there may be more
+  bool restarted_before = false;   ///< the driver was started again between the two: there may be more
   std::int64_t orders_before = 0;  ///< before the session; where it continues another: since that one's end
   std::int64_t kicks_before = 0;
   std::int64_t orders_within = 0;

@@ -5,7 +5,7 @@
 
 namespace trivela::evaluator::stats {
 
-// Intervals and tests that hold at every look at once: whoever looks after each kick and stops when he likes what he
+// Intervals and tests that hold at every look at once: whoever looks after each kick and stops when they like what they
 // sees errs no more often than 1 - confidence (Ville 1939; Robbins 1970, "Statistical methods related to the law of the
 // iterated logarithm"; of two groups Turner, Ly and Gruenwald 2024). They pay for it by being wider than Wilson's.
 

@@ -40,16 +40,17 @@ template <class F>
 void each_order(const log::Reader& reader, const log::RecordedSession& session, F&& fn) {
   const std::int64_t started_t_ns = session.started_t_ns;
   reader.query(
-      fmt::format("SELECT robot_id, half, possession_id, t_ns, kick_id & 0xffffffffff, policy, power, p_on_target, "
-                  "accepted, label FROM labelled_kicks WHERE session_id = {} ORDER BY robot_id, t_ns",
-                  session.session_id),
-      [&](int robot_id, int half, std::int64_t possession_id, std::int64_t t_ns, std::int64_t number,
-          const std::string& policy, std::optional<double> power, std::optional<double> p_on_target,
-          std::optional<bool> accepted, const std::optional<std::string>& label) {
-        const bool refused = accepted == false;
-        fn(Key{robot_id, half, possession_id}, t_ns,
-           PossessionOrder{1e-9 * static_cast<double>(t_ns - started_t_ns), number, policy, power, p_on_target,
-                           refused ? "refused" : label.value_or("")},
+      fmt::format(
+          "SELECT robot_id, half, possession_id, t_ns, kick_id & 0xffffffffff AS number, policy, power, p_on_target, "
+          "accepted, label FROM labelled_kicks WHERE session_id = {} ORDER BY robot_id, t_ns",
+          session.session_id),
+      [&](const log::NamedCells& row) {
+        const auto t_ns = row.get<std::int64_t>("t_ns");
+        const bool refused = row.find<bool>("accepted") == false;
+        fn(Key{row.get<int>("robot_id"), row.get<int>("half"), row.get<std::int64_t>("possession_id")}, t_ns,
+           PossessionOrder{1e-9 * static_cast<double>(t_ns - started_t_ns), row.get<std::int64_t>("number"),
+                           row.get<std::string>("policy"), row.find<double>("power"), row.find<double>("p_on_target"),
+                           refused ? "refused" : row.find<std::string>("label").value_or("")},
            refused);
       });
 }

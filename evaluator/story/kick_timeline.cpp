@@ -34,42 +34,41 @@ std::optional<TimelineEnd> end_of(const std::optional<std::string>& outcome, std
 /// The kicks with what their decision, receipt and outcome say.
 std::vector<KickTimeline> listed_kicks(const log::Reader& reader) {
   std::vector<KickTimeline> stories;
-  reader.query(
-      kListedKicksSql,
-      [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t number, std::int64_t t_ns,
-          std::int64_t utc_ns, int half, std::string policy, double distance_m, std::optional<double> power, double x_m,
-          double y_m, double heading_rad, double alpha_rad, double target_x_m, double target_y_m, bool aligned,
-          std::optional<double> offset_right_m, double left_m, double right_m, std::optional<double> predicted_x_m,
-          std::optional<double> predicted_z_m, std::optional<double> flight_s, std::optional<std::int64_t> fired_t_ns,
-          std::optional<std::int64_t> release_t_ns, const std::optional<std::string>& outcome,
-          std::optional<std::int64_t> settled_t_ns, std::optional<double> x_cross_m, std::optional<double> z_cross_m,
-          std::optional<double> sd_cross_m, const std::optional<std::string>& truth_outcome,
-          std::optional<double> truth_x_m, std::optional<double> truth_z_m, std::optional<bool> bounced) {
-        KickTimeline& story = stories.emplace_back();
-        story.session_id = session_id;
-        story.robot_id = robot_id;
-        story.kick_id = kick_id;
-        story.number = number;
-        story.t_ns = t_ns;
-        story.utc_ns = utc_ns;
-        story.half = half;
-        story.policy = std::move(policy);
-        story.distance_m = distance_m;
-        story.power = power;
-        story.robot = {x_m, y_m, heading_rad};
-        story.target_m = {target_x_m, target_y_m};
-        story.bounced = bounced;
-        story.segments = decided_segments(
-            {story.robot, alpha_rad, story.target_m, distance_m, aligned, offset_right_m, left_m, right_m});
-        story.fired_after_s = seconds_after(t_ns, fired_t_ns);
-        story.released_after_s = seconds_after(t_ns, release_t_ns);
-        if (predicted_x_m || predicted_z_m) {
-          story.predicted = TimelineEnd{"", predicted_x_m, predicted_z_m, {}, {}};
-          if (flight_s) story.predicted->after_s = story.released_after_s.value_or(0.0) + *flight_s;
-        }
-        story.observed = end_of(outcome, x_cross_m, z_cross_m, sd_cross_m, seconds_after(t_ns, settled_t_ns));
-        story.truth = end_of(truth_outcome, truth_x_m, truth_z_m);
-      });
+  reader.query(kListedKicksSql, [&](const log::NamedCells& row) {
+    const auto t_ns = row.get<std::int64_t>("t_ns");
+    const auto distance_m = row.get<double>("distance_m");
+    const auto predicted_x_m = row.find<double>("predicted_x_cross_m");
+    const auto predicted_z_m = row.find<double>("predicted_z_cross_m");
+    const auto flight_s = row.find<double>("predicted_t_flight_s");
+    KickTimeline& story = stories.emplace_back();
+    story.session_id = row.get<std::int64_t>("session_id");
+    story.robot_id = row.get<int>("robot_id");
+    story.kick_id = row.get<std::int64_t>("kick_id");
+    story.number = row.get<std::int64_t>("number");
+    story.t_ns = t_ns;
+    story.utc_ns = row.get<std::int64_t>("utc_ns");
+    story.half = row.get<int>("half");
+    story.policy = row.get<std::string>("policy");
+    story.distance_m = distance_m;
+    story.power = row.find<double>("power");
+    story.robot = {row.get<double>("x_m"), row.get<double>("y_m"), row.get<double>("heading_rad")};
+    story.target_m = {row.get<double>("target_x_m"), row.get<double>("target_y_m")};
+    story.bounced = row.find<bool>("bounced");
+    story.segments = decided_segments({story.robot, row.get<double>("alpha_rad"), story.target_m, distance_m,
+                                       row.get<bool>("aligned"), row.find<double>("offset_right_m"),
+                                       row.get<double>("left_m"), row.get<double>("right_m")});
+    story.fired_after_s = seconds_after(t_ns, row.find<std::int64_t>("fired_t_ns"));
+    story.released_after_s = seconds_after(t_ns, row.find<std::int64_t>("release_t_ns"));
+    if (predicted_x_m || predicted_z_m) {
+      story.predicted = TimelineEnd{"", predicted_x_m, predicted_z_m, {}, {}};
+      if (flight_s) story.predicted->after_s = story.released_after_s.value_or(0.0) + *flight_s;
+    }
+    story.observed =
+        end_of(row.find<std::string>("outcome"), row.find<double>("x_cross_m"), row.find<double>("z_cross_m"),
+               row.find<double>("sd_cross_m"), seconds_after(t_ns, row.find<std::int64_t>("settled_t_ns")));
+    story.truth = end_of(row.find<std::string>("truth_outcome"), row.find<double>("truth_x_cross_m"),
+                         row.find<double>("truth_z_cross_m"));
+  });
   return stories;
 }
 

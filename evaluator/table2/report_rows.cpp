@@ -100,19 +100,18 @@ void add_minutes(Rows& rows, const LoggedOpportunities& logged) {
 }
 
 void add_kicks(Rows& rows, const log::Reader& reader) {
-  reader.query(kOutcomesBySessionSql,
-               [&](std::int64_t session_id, int robot_id, const std::string& policy, const std::string& outcome,
-                   std::int64_t kicks, std::int64_t observed, std::int64_t observed_bounced, std::int64_t truth,
-                   std::int64_t truth_bounced) {
-                 rows.of_both(robot_id, session_id, policy, [&](RobotRow& row) {
-                   row.kicks_by_outcome[outcome] += kicks;
+  reader.query(kOutcomesBySessionSql, [&](const log::NamedCells& row) {
+    const auto& outcome = row.get<std::string>("outcome");
+    rows.of_both(row.get<int>("robot_id"), row.get<std::int64_t>("session_id"), row.get<std::string>("policy"),
+                 [&](RobotRow& of) {
+                   of.kicks_by_outcome[outcome] += row.get<std::int64_t>("kicks");
                    if (outcome != "on_target") return;
-                   row.bounces.observed += observed;
-                   row.bounces.observed_bounced += observed_bounced;
-                   row.bounces.truth += truth;
-                   row.bounces.truth_bounced += truth_bounced;
+                   of.bounces.observed += row.get<std::int64_t>("observed");
+                   of.bounces.observed_bounced += row.get<std::int64_t>("observed_bounced");
+                   of.bounces.truth += row.get<std::int64_t>("truth");
+                   of.bounces.truth_bounced += row.get<std::int64_t>("truth_bounced");
                  });
-               });
+  });
 }
 
 // Situations of paired halves are one thing each, however many halves had them.

@@ -40,21 +40,21 @@ void append(std::vector<Row>& all, std::vector<Row> rows, const std::set<std::in
 void add_losses(std::map<std::string, log::Loss>& losses, const log::Reader& reader,
                 const std::set<std::int64_t>& own) {
   reader.query(
-      "SELECT session_id, stream, sum(received), sum(lost), sum(gaps), sum(overflow), sum(nan_refused), sum(rejected), "
-      "sum(out_of_order) FROM losses GROUP BY session_id, stream",
-      [&](std::int64_t session_id, const std::string& stream, std::int64_t received, std::int64_t lost,
-          std::int64_t gaps, std::int64_t overflow, std::int64_t nan_refused, std::int64_t rejected,
-          std::int64_t out_of_order) {
-        if (!own.contains(session_id)) return;
+      "SELECT session_id, stream, sum(received) AS received, sum(lost) AS lost, sum(gaps) AS gaps, sum(overflow) AS "
+      "overflow, sum(nan_refused) AS nan_refused, sum(rejected) AS rejected, sum(out_of_order) AS out_of_order "
+      "FROM losses GROUP BY session_id, stream",
+      [&](const log::NamedCells& row) {
+        const auto& stream = row.get<std::string>("stream");
+        if (!own.contains(row.get<std::int64_t>("session_id"))) return;
         log::Loss& loss = losses[stream];
         loss.stream = stream;
-        loss.received += received;
-        loss.lost += lost;
-        loss.gaps += gaps;
-        loss.overflow += overflow;
-        loss.nan_refused += nan_refused;
-        loss.rejected += rejected;
-        loss.out_of_order += out_of_order;
+        loss.received += row.get<std::int64_t>("received");
+        loss.lost += row.get<std::int64_t>("lost");
+        loss.gaps += row.get<std::int64_t>("gaps");
+        loss.overflow += row.get<std::int64_t>("overflow");
+        loss.nan_refused += row.get<std::int64_t>("nan_refused");
+        loss.rejected += row.get<std::int64_t>("rejected");
+        loss.out_of_order += row.get<std::int64_t>("out_of_order");
       });
 }
 
@@ -101,6 +101,7 @@ void add_log(Report& report, std::map<std::string, log::Loss>& losses, const Ope
                      fmt::format("the experiment is not finished, {} of {} matches are there", done, matches)));
                });
   for (const std::string& warning : labels.goal_warnings()) report.goal_warnings.push_back(sentence(warning));
+  for (const std::string& warning : labels.release_warnings()) report.warnings.push_back(sentence(warning));
   if (const auto doubt = reader.doubt())
     report.doubt = (report.doubt ? *report.doubt + "; " : std::string()) + sentence(*doubt);
   report.verified_rows += reader.verification().compared ? reader.verification().rows : 0;

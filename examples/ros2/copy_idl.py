@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""copy_idl.py IDL OUT: the messages of IDL as ROS 2 Humble has them, made anew from Trivela's own definition.
+"""copy_idl.py IDL OUT: the messages of IDL as ROS 2 Humble has them, made again from Trivela's own definition.
 
 OUT *.idl: @final instead of @appendable (plain CDR, which every DDS reads), without keys (Humble knows none), and with ROS 2's
 names: trivela::msg::KickDecision becomes trivela_msgs::msg::dds_::KickDecision_. The fields stay as they are.

@@ -27,13 +27,13 @@ struct Arm {
   std::string table = kNewTable;  ///< height tables: kNewTable or kOldTable
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
-  std::vector<robot::PolicyChance> random;             ///< drawn for each possession anew
+  std::vector<robot::PolicyChance> random;             ///< drawn for each possession again
   bool own_robots = false;                             ///< calibrations of an experiment leave `robots` as they are
 };
 
 /// What is recorded beside the possessions.
 struct PlayOptions {
-  bool shadows = false;                              ///< the policies that are not in charge judge as well
+  bool shadows = false;                              ///< the policies that are not in charge decide as well
   bool every_cycle = false;                          ///< record every decision, not only those that fire
   std::function<void(const sim::Sensors&)> watch{};  ///< gets what every cycle's sensors say; none: nobody looks
 };

@@ -49,7 +49,7 @@ const robot::CycleDecision* InProcessRobot::cycle(const sim::Sensors& sensors, c
   const robot::CycleDecision& decision = decider_.decide(world_, &status_, outcome, told ? &*told : nullptr);
   decider_.commit();
   if (decision.order) receipt_ = desk_.answer(*decision.order, sensors.t_ns, robot::OrderBy::kOwnDecision);
-  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.judgement.drive, sensors.t_ns);
+  arbiter_.hear(msg::DRIVE_KICK_DECISION, sensors.t_ns, decision.output.drive, sensors.t_ns);
   kicking::make_in_place(drive_, [&] { return arbiter_.decide(sensors.t_ns, {world_.playing, world_.possession}); });
   return &decision;
 }

@@ -20,7 +20,7 @@ struct Assignment {
 
 /// The messages of a match that a log of it holds, in the order of their sequence numbers.
 struct MatchRecord {
-  std::vector<msg::Referee> referee;  ///< where his word changes
+  std::vector<msg::Referee> referee;  ///< where its command changes
   std::vector<msg::KickDecision> decisions;
   std::vector<msg::KickOrder> orders;
   std::vector<msg::KickReceipt> receipts;

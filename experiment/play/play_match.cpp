@@ -95,11 +95,11 @@ class Game {
   msg::Referee hear(const sim::Sensors& sensors) {
     msg::Referee word = hal::referee_message(sensors.t_ns, sensors.referee);
     robot_id_ = sensors.carrier;
-    word.robot_id = 1;  // the whole team hears him
+    word.robot_id = 1;  // the whole team receives it
     word.seq = played_.cycles;
     const std::uint32_t possession_id = sensors.referee.possession_id;
-    const bool anew = played_.possessions.empty() || possession_id != played_.possessions.back().possession_id;
-    if (anew) {
+    const bool again = played_.possessions.empty() || possession_id != played_.possessions.back().possession_id;
+    if (again) {
       PlayedPossession next;
       next.match_id = match_id_;
       next.possession_id = possession_id;
@@ -109,7 +109,7 @@ class Game {
       kick_ids_.push_back(0);
     }
     if (word.playing) played_.possessions.back().played_s += scenario_.cycle_s;
-    if (record_ && (anew || word.playing != playing_)) record_->referee.push_back(word);
+    if (record_ && (again || word.playing != playing_)) record_->referee.push_back(word);
     playing_ = word.playing;
     if (!first_word_) first_word_ = word;
     return word;
@@ -138,18 +138,18 @@ class Game {
     }
     if (!receipt.accepted) return std::nullopt;
     for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
-    const kicking::Judgement& judgement = decision.judgement;
+    const kicking::PolicyOutput& output = decision.output;
     const msg::WorldState& world = chain.world();
     PlayedKick kick;
-    kick.distance_m = judgement.distance_m;
+    kick.distance_m = output.distance_m;
     kick.vx_mps = world.vx_mps;
     kick.vy_mps = world.vy_mps;
     kick.omega_radps = world.omega_radps;
     kick.opponent_distance_m = world.opponent_distance_m;
     kick.power = receipt.power;
-    kick.v_kick_mps = judgement.v_kick_mps.value_or(0.0);
-    kick.p_on_target = judgement.p_on_target;
-    kick.predicted = judgement.predicted;
+    kick.v_kick_mps = output.v_kick_mps.value_or(0.0);
+    kick.p_on_target = output.p_on_target;
+    kick.predicted = output.predicted;
     played_.possessions.back().kick = kick;
     played_.possessions.back().policy = decision.in_charge.policy;
     played_.possessions.back().assignment_probability = decision.in_charge.probability;

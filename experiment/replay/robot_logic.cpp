@@ -45,7 +45,7 @@ LogicDecision RobotLogic::decide(const msg::WorldState& world, const DecisionInp
       decider_.decide(world, kicker ? &*kicker : nullptr, outcome, nullptr, inputs.late ? kOld_s : 0.0);
   decider_.commit();
   if (decision.order && inputs.recorded_kick_id != 0) own_kick_ids_[inputs.recorded_kick_id] = decision.order->kick_id;
-  return {decider_.record(world, kicker ? &*kicker : nullptr), decision.order, decision.judgement.drive};
+  return {decider_.record(world, kicker ? &*kicker : nullptr), decision.order, decision.output.drive};
 }
 
 }  // namespace trivela::experiment

@@ -48,7 +48,7 @@ std::vector<StudyRow> rows_of(const SensitivityReport& report) {
 
 std::string to_text(const SensitivityReport& report) {
   std::string text = heading(report.played, "arm and value");
-  text += fmt::format("{} per 100 opportunities. No robot is calibrated anew for a changed world.\n\n",
+  text += fmt::format("{} per 100 opportunities. No robot is calibrated again for a changed world.\n\n",
                       goals(report) ? "Goals past the keeper (the simulator's truth)" : "Shots on target");
   for (std::size_t i = 0; i + 1 < report.arms.size(); ++i)
     text += fmt::format("{}: {}\n", headline_name(report, i), points_text(headline(report.base, i, report.measure)));

@@ -10,7 +10,7 @@ namespace trivela::hal {
 /// A stamp cannot arrive before it was made, and some arrive late: the host was busy. The clocks' distance is therefore
 /// the least of all arrival - stamp - least_delay so far. It may grow by kDrift of the time that passes, so that a
 /// device whose clock runs slow is followed; a fast one is anyhow. A stamp that runs backwards, or ahead of the host by
-/// more than a second, starts anew.
+/// more than a second, starts again.
 class DeviceClock {
  public:
   static constexpr double kDrift = 2e-4;

@@ -18,8 +18,8 @@ constexpr std::chrono::milliseconds kSendingTime{50};
 
 }  // namespace
 
-RefboxClient::RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds patience)
-    : line_(std::move(line)), team_(std::move(team)), timeout_(patience), words_(team_) {}
+RefboxClient::RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds timeout)
+    : line_(std::move(line)), team_(std::move(team)), timeout_(timeout), words_(team_) {}
 
 std::optional<BoxEvent> RefboxClient::next(std::chrono::nanoseconds timeout) {
   const auto deadline = Clock::now() + timeout;
@@ -101,8 +101,8 @@ void RefboxClient::send(std::string_view object) {
 }
 
 std::unique_ptr<RefboxClient> refbox_client(const std::string& host, std::uint16_t port, TeamMarks team,
-                                            std::chrono::nanoseconds patience) {
-  return std::make_unique<RefboxClient>(tcp_line(host, port), std::move(team), patience);
+                                            std::chrono::nanoseconds timeout) {
+  return std::make_unique<RefboxClient>(tcp_line(host, port), std::move(team), timeout);
 }
 
 }  // namespace trivela::hal::refbox

@@ -33,7 +33,7 @@ struct Unreachable {
 using BoxEvent = std::variant<Connected, Command, NoCommand, Lost, Unreachable>;
 
 /// A team's end of the connection to a referee box. It connects, and connects again kRetry after a failure. A
-/// connection is lost when the box closes or resets it and when what we sent waits for longer than `patience` to be
+/// connection is lost when the box closes or resets it and when what we sent waits for longer than `timeout` to be
 /// acknowledged; that the box itself says nothing is no fault. For one thread.
 class RefboxClient {
  public:
@@ -43,7 +43,7 @@ class RefboxClient {
   static constexpr std::chrono::seconds kRetryTurnedAway{2};
   static constexpr std::chrono::seconds kLongestAttempt{2};  ///< a host that is switched off answers nothing
 
-  RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds patience);
+  RefboxClient(std::unique_ptr<Line> line, TeamMarks team, std::chrono::nanoseconds timeout);
 
   /// The next event; waits for it up to `timeout`. None: nothing happened.
   std::optional<BoxEvent> next(std::chrono::nanoseconds timeout);
@@ -79,6 +79,6 @@ class RefboxClient {
 
 /// The same over TCP; `host` is a name or an address.
 std::unique_ptr<RefboxClient> refbox_client(const std::string& host, std::uint16_t port, TeamMarks team,
-                                            std::chrono::nanoseconds patience);
+                                            std::chrono::nanoseconds timeout);
 
 }  // namespace trivela::hal::refbox

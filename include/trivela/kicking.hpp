@@ -2,7 +2,7 @@
 
 #include "kicking/policy/policy.hpp"
 
-/// Whether a robot shall kick now, and how hard: four nouns, a robot, a goal, a state and a judgement, and `judge` that
+/// Whether a robot shall kick now, and how hard: four nouns, a robot, a goal, a state and a output, and `evaluate` that
 /// makes the fourth of the other three. SI units; the field's origin is its centre spot, +y points to the opponents'
 /// goal, +x to the right, and a heading of 0 faces the goal. Everything is a value, and nothing is allocated.
 ///
@@ -11,13 +11,13 @@
 ///     trivela::State state;
 ///     state.pose = {.x_m = 0.5, .y_m = 4.0, .heading_rad = 0.1};
 ///     state.playing = state.possession = state.kicker_ready = true;
-///     const trivela::Judgement judgement = trivela::judge(robot, goal, state);
+///     const trivela::PolicyOutput output = trivela::evaluate(robot, goal, state);
 ///
 /// examples/solve_a_kick.cpp is this as a program. What kicking/ holds besides, a program includes by its own name.
 namespace trivela {
 
 using kicking::Goal;
-using kicking::Judgement;
+using kicking::PolicyOutput;
 using kicking::RobotModel;
 
 /// What one instant knows: where the robot is and how it moves, and whether the game runs, it has the ball and the
@@ -29,13 +29,13 @@ using kicking::PolicyMemory;
 using kicking::PolicyName;
 
 /// Fire or hold in each cycle of a match: the memory is the policy's own and goes from call to call.
-using kicking::judge;
+using kicking::evaluate;
 
 /// The same of an instant by itself, which nothing went before; who judges comes last, since there is a usual one.
-inline Judgement judge(const RobotModel& robot, const Goal& goal, const State& state,
-                       PolicyName policy = PolicyName::kMoving, const PolicyConfig& config = {}) {
+inline PolicyOutput evaluate(const RobotModel& robot, const Goal& goal, const State& state,
+                             PolicyName policy = PolicyName::kMoving, const PolicyConfig& config = {}) {
   PolicyMemory nothing;
-  return judge(policy, config, robot, goal, state, nothing);
+  return evaluate(policy, config, robot, goal, state, nothing);
 }
 
 }  // namespace trivela

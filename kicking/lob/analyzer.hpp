@@ -44,7 +44,7 @@ class Analyzer {
   /// The background range of each beam [m]; negative: no return. Empty until it is known.
   const std::vector<double>& background_m() const;
 
-  /// Learns the background anew from the next scans.
+  /// Learns the background again from the next scans.
   void forget_background();
 
  private:

@@ -1,36 +1,10 @@
 #include "kicking/outcome/outcome.hpp"
 
-#include <cassert>
 #include <cmath>
 
 #include "kicking/outcome/p_inside.hpp"
 
 namespace trivela::kicking {
-
-const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kOnTarget:
-      return "on_target";
-    case Outcome::kWideLeft:
-      return "wide_left";
-    case Outcome::kWideRight:
-      return "wide_right";
-    case Outcome::kOver:
-      return "over";
-    case Outcome::kShort:
-      return "short";
-    case Outcome::kPost:
-      return "post";
-    case Outcome::kBar:
-      return "bar";
-    case Outcome::kBlocked:
-      return "blocked";
-    case Outcome::kUnknown:
-      return "unknown";
-  }
-  assert(false);
-  return "unknown";
-}
 
 Outcome classify(double x_cross_m, double z_cross_m, const Goal& goal, const Ball& ball) {
   if (!std::isfinite(x_cross_m) || !std::isfinite(z_cross_m)) return Outcome::kUnknown;

@@ -11,8 +11,10 @@ namespace trivela::kicking {
 /// kicker sees them.
 enum class Outcome { kOnTarget, kWideLeft, kWideRight, kOver, kShort, kPost, kBar, kBlocked, kUnknown };
 
-/// "on_target", "wide_left", ...: the word in logs and reports.
-const char* name(Outcome outcome);
+/// Their names in logs and reports, in their order.
+inline constexpr std::array kOutcomeNames{"on_target", "wide_left", "wide_right", "over",   "short",
+                                          "post",      "bar",       "blocked",    "unknown"};
+constexpr const char* name(Outcome outcome) { return kOutcomeNames.at(static_cast<std::size_t>(outcome)); }
 
 /// Outcome of a ball whose centre crosses the goal line at x [m, F] and height z [m]. A ball that bounced or rolls (low
 /// z) counts as inside. The frame is hit where the ball overlaps post or bar; beyond a post it is wide, however high.

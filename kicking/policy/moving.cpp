@@ -4,7 +4,7 @@
 
 #include "kicking/alignment/deflection.hpp"
 #include "kicking/policy/drive.hpp"
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -32,34 +32,34 @@ Direction expected_direction(const PolicyConfig& config, const RobotModel& robot
 
 }  // namespace
 
-Judgement judge_moving(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                       MovingMemory& memory) {
+PolicyOutput evaluate_moving(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                             const PolicyInput& input, MovingMemory& memory) {
   const Shot shot = moving_shot(config, robot, goal, input);
-  Judgement judgement = describe(config, goal, shot);
+  PolicyOutput output = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
   const double v_kick_mps = shot.power ? robot.table.speed_for(*shot.power) : robot.table.back().speed_mps;
   const Direction expected = expected_direction(config, robot, input, shot, v_kick_mps);
-  judgement.alpha_rad = expected.alpha_rad;
-  judgement.beta_rad = expected.beta_rad;
-  judgement.alignment() =
+  output.alpha_rad = expected.alpha_rad;
+  output.beta_rad = expected.beta_rad;
+  output.alignment() =
       align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target, config.alignment);
 
   const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
   const double wanted_heading = bearing({expected.start.x_m, expected.start.y_m}, target) + expected.alpha_rad;
   const double error = wrap_angle(wanted_heading - input.pose.heading_rad);
-  judgement.drive = {velocity.x(), velocity.y(), turn_rate_for(error, config.moving_turn_gain_hz, config)};
+  output.drive = {velocity.x(), velocity.y(), turn_rate_for(error, config.moving_turn_gain_hz, config)};
 
-  const bool extended = std::max(judgement.left_m, judgement.right_m) > config.alignment.half_width_m;
-  const bool entered = judgement.aligned && !memory.aligned_before;
-  memory.aligned_before = judgement.aligned;
+  const bool extended = std::max(output.left_m, output.right_m) > config.alignment.half_width_m;
+  const bool entered = output.aligned && !memory.aligned_before;
+  memory.aligned_before = output.aligned;
   if (!shot.reachable) {
-    judgement.reason = Reason::kOutOfRange;
-  } else if (!entered && (extended || !judgement.aligned)) {
-    judgement.reason = Reason::kNotAligned;
+    output.reason = Reason::kOutOfRange;
+  } else if (!entered && (extended || !output.aligned)) {
+    output.reason = Reason::kNotAligned;
   } else {
-    judgement.reason = Reason::kFire;
+    output.reason = Reason::kFire;
   }
-  return judgement;
+  return output;
 }
 
 }  // namespace trivela::kicking

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "kicking/policy/drive.hpp"
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/settling.hpp"
 #include "kicking/policy/test_drive.hpp"
 
@@ -25,13 +25,14 @@ Eigen::Vector2d towards_mark(const PolicyConfig& config, const Pose& robot, cons
 
 /// A pass at `velocity_mps` along the unit vector `along` of F, and of R, since the robot faces +y. The kick is due
 /// straight before the target, at `distance_m`. At 0 m/s it stands there: the kick that the others are held against.
-Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                     DriveMemory& memory, const Eigen::Vector2d& along, double velocity_mps, double distance_m) {
+PolicyOutput evaluate_pass(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                           const PolicyInput& input, DriveMemory& memory, const Eigen::Vector2d& along,
+                           double velocity_mps, double distance_m) {
   const Shot shot = drive_shot(config, robot, goal, input);
-  Judgement judgement = describe(config, goal, shot);
+  PolicyOutput output = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
-  judgement.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
-  judgement.drive.omega_radps = turn_rate_for(-wrap_angle(input.pose.heading_rad), config.stopped_turn_gain_hz, config);
+  output.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
+  output.drive.omega_radps = turn_rate_for(-wrap_angle(input.pose.heading_rad), config.stopped_turn_gain_hz, config);
 
   const Eigen::Vector2d position(input.pose.x_m, input.pose.y_m);
   const Eigen::Vector2d kick_place = target - Eigen::Vector2d(0.0, distance_m);
@@ -43,55 +44,55 @@ Judgement judge_pass(const PolicyConfig& config, const RobotModel& robot, const 
     memory.settling_since_t_ns.reset();
     const Eigen::Vector2d mark = standing ? kick_place : kick_place - config.test_drive.run_up_m * ahead;
     const Eigen::Vector2d velocity = towards_mark(config, input.pose, mark);
-    judgement.drive.vx_mps = velocity.x();
-    judgement.drive.vy_mps = velocity.y();
+    output.drive.vx_mps = velocity.x();
+    output.drive.vy_mps = velocity.y();
     const bool there = (mark - position).norm() <= kAtMark_m &&
                        std::hypot(input.twist.vx_mps, input.twist.vy_mps) <= config.test_drive.rest_speed_mps &&
                        std::abs(wrap_angle(input.pose.heading_rad)) <= 2.0 * config.test_drive.aim_tolerance_rad;
-    judgement.reason = there ? Reason::kKickerNotReady : Reason::kApproaching;
+    output.reason = there ? Reason::kKickerNotReady : Reason::kApproaching;
     passing = there && input.kicker_ready;
-    if (!passing) return judgement;
+    if (!passing) return output;
   }
-  judgement.drive.vx_mps = velocity_mps * along.x();
-  judgement.drive.vy_mps = velocity_mps * along.y();
+  output.drive.vx_mps = velocity_mps * along.x();
+  output.drive.vy_mps = velocity_mps * along.y();
   if (standing) {
-    judgement.reason = settle(config, input, memory.settling_since_t_ns);
+    output.reason = settle(config, input, memory.settling_since_t_ns);
   } else if (passed_m >= 0.0 && passed_m <= kOrderCycles * config.cycle_s * std::abs(velocity_mps)) {
-    judgement.reason = Reason::kFire;
+    output.reason = Reason::kFire;
   } else {
-    judgement.reason = Reason::kNotAligned;
+    output.reason = Reason::kNotAligned;
   }
   const Eigen::Vector2d off = position - kick_place;
   const bool on_its_way = std::abs(wrap_angle(input.pose.heading_rad)) <= kAstray_rad &&
                           std::abs(along.x() * off.y() - along.y() * off.x()) <= kAside_m;
-  if (judgement.reason == Reason::kFire && !shot.reachable) judgement.reason = Reason::kOutOfRange;
-  if (judgement.reason == Reason::kFire && !on_its_way) judgement.reason = Reason::kNotAligned;
+  if (output.reason == Reason::kFire && !shot.reachable) output.reason = Reason::kOutOfRange;
+  if (output.reason == Reason::kFire && !on_its_way) output.reason = Reason::kNotAligned;
   if (passed_m > kTooLate_m) passing = false;
-  return judgement;
+  return output;
 }
 
-Judgement finished(const PolicyConfig& config, const Goal& goal) {
-  Judgement judgement = describe(config, goal, {});
-  judgement.reason = Reason::kDriveFinished;
-  return judgement;
+PolicyOutput finished(const PolicyConfig& config, const Goal& goal) {
+  PolicyOutput output = describe(config, goal, {});
+  output.reason = Reason::kDriveFinished;
+  return output;
 }
 
 }  // namespace
 
-Judgement judge_lateral_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                              const PolicyInput& input, DriveMemory& memory) {
+PolicyOutput evaluate_lateral_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                    const PolicyInput& input, DriveMemory& memory) {
   const auto& velocities = config.test_drive.lateral_mps;
   if (memory.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.level],
-                    config.test_drive.distance_m);
+  return evaluate_pass(config, robot, goal, input, memory, {1.0, 0.0}, velocities[memory.level],
+                       config.test_drive.distance_m);
 }
 
-Judgement judge_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                               const PolicyInput& input, DriveMemory& memory) {
+PolicyOutput evaluate_straight_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                     const PolicyInput& input, DriveMemory& memory) {
   const auto& velocities = config.test_drive.straight_mps;
   if (memory.level >= velocities.size()) return finished(config, goal);
-  return judge_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.level],
-                    config.test_drive.straight_distance_m);
+  return evaluate_pass(config, robot, goal, input, memory, {0.0, 1.0}, velocities[memory.level],
+                       config.test_drive.straight_distance_m);
 }
 
 }  // namespace trivela::kicking

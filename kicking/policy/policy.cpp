@@ -1,11 +1,10 @@
 #include "kicking/policy/policy.hpp"
 
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -27,11 +26,11 @@ Reason hindrance(const PolicyConfig& config, const PolicyInput& input) {
 }
 
 /// Nothing is decided: why not, and how to drive meanwhile.
-Judgement hold(const PolicyConfig& config, const Goal& goal, Reason reason, const Twist& drive) {
-  Judgement judgement = describe(config, goal, {});
-  judgement.reason = reason;
-  judgement.drive = drive;
-  return judgement;
+PolicyOutput hold(const PolicyConfig& config, const Goal& goal, Reason reason, const Twist& drive) {
+  PolicyOutput output = describe(config, goal, {});
+  output.reason = reason;
+  output.drive = drive;
+  return output;
 }
 
 /// The memory of this type, a fresh one where the policy before remembered something else.
@@ -60,10 +59,10 @@ Twist within_reach(const PolicyConfig& config, const RobotModel& robot, const Po
   return carry_reach(config, robot, memory).keep(drive, {pose.x_m, pose.y_m}, forward);
 }
 
-/// judge() of one row.
+/// evaluate() of one row.
 template <std::size_t kRow>
-Judgement judge_row(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                    PolicyMemory& any_memory) {
+PolicyOutput evaluate_row(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                          const PolicyInput& input, PolicyMemory& any_memory) {
   constexpr const auto& row = std::get<kRow>(kPolicyRows);
   constexpr bool drive = row.facts.kind == PolicyKind::kDrive;
   auto& memory = own<typename std::remove_cvref_t<decltype(row)>::Remembered>(any_memory);
@@ -81,70 +80,33 @@ Judgement judge_row(const PolicyConfig& config, const RobotModel& robot, const G
   if constexpr (!drive) {
     if (config.rules.carry_limit_m > 0.0 && !memory.taken_m) memory.taken_m = held_ball(input.pose, robot);
   }
-  Judgement judgement = row.judge(config, robot, goal, input, memory);
+  PolicyOutput output = row.evaluate(config, robot, goal, input, memory);
   if constexpr (!drive) {
-    if (memory.taken_m) judgement.drive = within_reach(config, robot, input.pose, memory, judgement.drive);
-    if (!may_shoot(config, robot, input, judgement)) judgement.reason = Reason::kOwnHalf;
+    if (memory.taken_m) output.drive = within_reach(config, robot, input.pose, memory, output.drive);
+    if (!may_shoot(config, robot, input, output)) output.reason = Reason::kOwnHalf;
   }
   if (pending) {
-    judgement.reason = Reason::kOrderPending;
-  } else if (judgement.reason == Reason::kFire && !input.kicker_ready) {
-    judgement.reason = Reason::kKickerNotReady;
+    output.reason = Reason::kOrderPending;
+  } else if (output.reason == Reason::kFire && !input.kicker_ready) {
+    output.reason = Reason::kKickerNotReady;
   }
-  judgement.fire = judgement.reason == Reason::kFire;
-  if (!judgement.fire) return judgement;
+  output.fire = output.reason == Reason::kFire;
+  if (!output.fire) return output;
   memory.fired_t_ns = input.t_ns;
-  if constexpr (drive) memory.order(config.test_drive, judgement.drive);
-  return judgement;
+  if constexpr (drive) memory.order(config.test_drive, output.drive);
+  return output;
 }
 
-constexpr std::array kJudges = []<std::size_t... kRow>(std::index_sequence<kRow...>) {
-  return std::array{judge_row<kRow>...};
+constexpr std::array kEvaluators = []<std::size_t... kRow>(std::index_sequence<kRow...>) {
+  return std::array{evaluate_row<kRow>...};
 }
 (std::make_index_sequence<kPolicyCount>{});
 
 }  // namespace
 
-const char* name(Reason reason) {
-  switch (reason) {
-    case Reason::kFire:
-      return "fire";
-    case Reason::kNotPlaying:
-      return "not_playing";
-    case Reason::kNoBall:
-      return "no_ball";
-    case Reason::kKickerNotReady:
-      return "kicker_not_ready";
-    case Reason::kOrderPending:
-      return "order_pending";
-    case Reason::kApproaching:
-      return "approaching";
-    case Reason::kTurning:
-      return "turning";
-    case Reason::kSettling:
-      return "settling";
-    case Reason::kNotAligned:
-      return "not_aligned";
-    case Reason::kOutOfRange:
-      return "out_of_range";
-    case Reason::kStaleState:
-      return "stale_state";
-    case Reason::kDriveFinished:
-      return "drive_finished";
-    case Reason::kUnlikely:
-      return "unlikely";
-    case Reason::kWaiting:
-      return "waiting";
-    case Reason::kOwnHalf:
-      return "own_half";
-  }
-  assert(false);
-  return "unknown";
-}
-
-Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                const PolicyInput& input, PolicyMemory& memory) {
-  return kJudges[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
+PolicyOutput evaluate(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                      const PolicyInput& input, PolicyMemory& memory) {
+  return kEvaluators[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
 }
 
 }  // namespace trivela::kicking

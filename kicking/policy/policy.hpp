@@ -41,7 +41,7 @@ template <class Memory>
 struct PolicyRow {
   using Remembered = Memory;
   PolicyFacts facts;
-  Rule<Memory>* judge;
+  Rule<Memory>* evaluate;
 };
 template <class Memory>
 PolicyRow(PolicyFacts, Rule<Memory>*) -> PolicyRow<Memory>;
@@ -49,16 +49,16 @@ PolicyRow(PolicyFacts, Rule<Memory>*) -> PolicyRow<Memory>;
 /// The policies, in the order of the wire's Policy; each rule's own file says what it does. The oracle is predictive on
 /// the simulator's true state.
 inline constexpr std::tuple kPolicyRows{
-    PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true}, judge_stopped},
-    PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true}, judge_moving},
-    PolicyRow{{.name = "standing_drive", .kind = PolicyKind::kDrive}, judge_standing_drive},
-    PolicyRow{{.name = "lateral_drive", .kind = PolicyKind::kDrive}, judge_lateral_drive},
-    PolicyRow{{.name = "turn_drive", .kind = PolicyKind::kDrive}, judge_turn_drive},
-    PolicyRow{{.name = "straight_drive", .kind = PolicyKind::kDrive}, judge_straight_drive},
-    PolicyRow{{.name = "predictive", .kind = PolicyKind::kPredictive, .rides_along = true}, judge_predictive},
+    PolicyRow{{.name = "stopped", .kind = PolicyKind::kPlay, .rides_along = true}, evaluate_stopped},
+    PolicyRow{{.name = "moving", .kind = PolicyKind::kPlay, .rides_along = true}, evaluate_moving},
+    PolicyRow{{.name = "standing_drive", .kind = PolicyKind::kDrive}, evaluate_standing_drive},
+    PolicyRow{{.name = "lateral_drive", .kind = PolicyKind::kDrive}, evaluate_lateral_drive},
+    PolicyRow{{.name = "turn_drive", .kind = PolicyKind::kDrive}, evaluate_turn_drive},
+    PolicyRow{{.name = "straight_drive", .kind = PolicyKind::kDrive}, evaluate_straight_drive},
+    PolicyRow{{.name = "predictive", .kind = PolicyKind::kPredictive, .rides_along = true}, evaluate_predictive},
     PolicyRow{{.name = "learned", .kind = PolicyKind::kPredictive, .needs = PolicyNeeds::kModel, .rides_along = true},
-              judge_learned},
-    PolicyRow{{.name = "oracle", .kind = PolicyKind::kPredictive, .needs = PolicyNeeds::kTruth}, judge_predictive},
+              evaluate_learned},
+    PolicyRow{{.name = "oracle", .kind = PolicyKind::kPredictive, .needs = PolicyNeeds::kTruth}, evaluate_predictive},
 };
 
 inline constexpr std::array kPolicyFacts =
@@ -88,6 +88,12 @@ inline constexpr std::array kEveryPolicy = [] {
   std::array<PolicyName, kPolicyCount> all{};
   for (std::size_t i = 0; i < kPolicyCount; ++i) all[i] = static_cast<PolicyName>(i);
   return all;
+}();
+
+inline constexpr std::array kPolicyNames = [] {
+  std::array<const char*, kPolicyCount> names{};
+  for (std::size_t i = 0; i < kPolicyCount; ++i) names[i] = kPolicyFacts[i].name;
+  return names;
 }();
 
 constexpr const PolicyFacts& facts(PolicyName policy) { return kPolicyFacts[static_cast<std::size_t>(policy)]; }
@@ -129,7 +135,7 @@ using PolicyMemory = decltype(memory_of(kPolicyRows));
 /// finite, no set-point reaches the target height (but for kStandingDrive, which kicks for the laser, and the
 /// predictive ones, which choose their height: where full power falls short of the line), or an order of this
 /// possession is pending.
-Judgement judge(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                const PolicyInput& input, PolicyMemory& memory);
+PolicyOutput evaluate(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                      const PolicyInput& input, PolicyMemory& memory);
 
 }  // namespace trivela::kicking

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -15,7 +16,7 @@
 
 namespace trivela::kicking {
 
-/// Why a policy fires or holds, in the order of the wire's DecisionReason.
+/// Why a policy fires or holds.
 enum class Reason {
   kFire,
   kNotPlaying,
@@ -34,8 +35,12 @@ enum class Reason {
   kOwnHalf
 };
 
-/// "fire", "not_playing", ...
-const char* name(Reason reason);
+/// Their names in logs and reports, in their order.
+inline constexpr std::array kReasonNames{"fire",          "not_playing",  "no_ball",     "kicker_not_ready",
+                                         "order_pending", "approaching",  "turning",     "settling",
+                                         "not_aligned",   "out_of_range", "stale_state", "drive_finished",
+                                         "unlikely",      "waiting",      "own_half"};
+constexpr const char* name(Reason reason) { return kReasonNames.at(static_cast<std::size_t>(reason)); }
 
 /// What was seen of a kick.
 struct SeenKick {
@@ -72,7 +77,7 @@ struct ShotNumbers {
 };
 
 /// One decision with every number behind it.
-struct Judgement : Alignment, ShotNumbers {
+struct PolicyOutput : Alignment, ShotNumbers {
   bool fire = false;
   Reason reason = Reason::kNotPlaying;
   double target_x_m = 0.0;  ///< aim point in F
@@ -90,40 +95,40 @@ struct Judgement : Alignment, ShotNumbers {
 
 /// A number of the predicted crossing.
 template <double PredictedCrossing::*number>
-Maybe predicted(const Judgement& judgement) {
-  return judgement.predicted ? Maybe((*judgement.predicted).*number) : std::nullopt;
+Maybe predicted(const PolicyOutput& output) {
+  return output.predicted ? Maybe((*output.predicted).*number) : std::nullopt;
 }
 
-/// A part of a judgement that is recorded, by its name in the messages. A new field of Judgement stands below, too.
+/// A part of a output that is recorded, by its name in the messages. A new field of PolicyOutput stands below, too.
 template <class Get>
 struct RecordedField {
   std::string_view name;
-  Get get;  ///< for std::invoke, with a judgement
+  Get get;  ///< for std::invoke, with a output
 };
 template <class Get>
 RecordedField(std::string_view, Get) -> RecordedField<Get>;
 
 inline constexpr std::tuple kRecordedFields{
-    RecordedField{"fire", &Judgement::fire},
-    RecordedField{"reason", &Judgement::reason},
-    RecordedField{"target_x_m", &Judgement::target_x_m},
-    RecordedField{"target_y_m", &Judgement::target_y_m},
-    RecordedField{"target_z_m", &Judgement::target_z_m},
-    RecordedField{"distance_m", &Judgement::distance_m},
-    RecordedField{"v0_mps", &Judgement::v0_mps},
-    RecordedField{"v_kick_mps", &Judgement::v_kick_mps},
-    RecordedField{"power", &Judgement::power},
-    RecordedField{"alpha_rad", &Judgement::alpha_rad},
-    RecordedField{"beta_rad", &Judgement::beta_rad},
-    RecordedField{"aligned", &Judgement::aligned},
-    RecordedField{"offset_right_m", &Judgement::offset_right_m},
-    RecordedField{"left_m", &Judgement::left_m},
-    RecordedField{"right_m", &Judgement::right_m},
+    RecordedField{"fire", &PolicyOutput::fire},
+    RecordedField{"reason", &PolicyOutput::reason},
+    RecordedField{"target_x_m", &PolicyOutput::target_x_m},
+    RecordedField{"target_y_m", &PolicyOutput::target_y_m},
+    RecordedField{"target_z_m", &PolicyOutput::target_z_m},
+    RecordedField{"distance_m", &PolicyOutput::distance_m},
+    RecordedField{"v0_mps", &PolicyOutput::v0_mps},
+    RecordedField{"v_kick_mps", &PolicyOutput::v_kick_mps},
+    RecordedField{"power", &PolicyOutput::power},
+    RecordedField{"alpha_rad", &PolicyOutput::alpha_rad},
+    RecordedField{"beta_rad", &PolicyOutput::beta_rad},
+    RecordedField{"aligned", &PolicyOutput::aligned},
+    RecordedField{"offset_right_m", &PolicyOutput::offset_right_m},
+    RecordedField{"left_m", &PolicyOutput::left_m},
+    RecordedField{"right_m", &PolicyOutput::right_m},
     RecordedField{"predicted_x_cross_m", predicted<&PredictedCrossing::x_m>},
     RecordedField{"predicted_z_cross_m", predicted<&PredictedCrossing::z_m>},
     RecordedField{"predicted_t_flight_s", predicted<&PredictedCrossing::t_flight_s>},
-    RecordedField{"p_on_target", &Judgement::p_on_target},
-    RecordedField{"fire_after_s", &Judgement::fire_after_s}};
+    RecordedField{"p_on_target", &PolicyOutput::p_on_target},
+    RecordedField{"fire_after_s", &PolicyOutput::fire_after_s}};
 
 /// What every policy remembers of a possession. One that remembers more derives from it.
 struct PossessionMemory {
@@ -138,6 +143,6 @@ struct PossessionMemory {
 /// What makes a policy: asked in each cycle in which something may be decided. Reason kFire: it would kick now, the
 /// kicker and an order on its way aside.
 template <class Memory>
-using Rule = Judgement(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, Memory&);
+using Rule = PolicyOutput(const PolicyConfig&, const RobotModel&, const Goal&, const PolicyInput&, Memory&);
 
 }  // namespace trivela::kicking

@@ -4,7 +4,7 @@
 
 #include "kicking/geometry/time.hpp"
 #include "kicking/policy/drive.hpp"
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -34,27 +34,27 @@ Reason stopped_phase(const PolicyConfig& config, const PolicyInput& input, doubl
 
 }  // namespace
 
-Judgement judge_stopped(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        StoppedMemory& memory) {
+PolicyOutput evaluate_stopped(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                              const PolicyInput& input, StoppedMemory& memory) {
   const Shot shot = stopped_shot(config, robot, goal, input);
-  Judgement judgement = describe(config, goal, shot);
+  PolicyOutput output = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
-  judgement.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
+  output.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
 
   const double error = wrap_angle(bearing({input.pose.x_m, input.pose.y_m}, target) - input.pose.heading_rad);
-  judgement.drive.omega_radps = turn_rate_for(error, config.stopped_turn_gain_hz, config);
+  output.drive.omega_radps = turn_rate_for(error, config.stopped_turn_gain_hz, config);
   if (shot.too_far) {
     const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
-    judgement.drive.vx_mps = velocity.x();
-    judgement.drive.vy_mps = velocity.y();
-    judgement.reason = velocity.isZero() ? Reason::kOutOfRange : Reason::kApproaching;
+    output.drive.vx_mps = velocity.x();
+    output.drive.vy_mps = velocity.y();
+    output.reason = velocity.isZero() ? Reason::kOutOfRange : Reason::kApproaching;
     memory.interrupt();
-    return judgement;
+    return output;
   }
-  judgement.reason = stopped_phase(config, input, error, memory);
-  if (judgement.reason == Reason::kApproaching) judgement.drive = {};  // brakes; turns when it stands
-  if (!shot.reachable) judgement.reason = Reason::kOutOfRange;
-  return judgement;
+  output.reason = stopped_phase(config, input, error, memory);
+  if (output.reason == Reason::kApproaching) output.drive = {};  // brakes; turns when it stands
+  if (!shot.reachable) output.reason = Reason::kOutOfRange;
+  return output;
 }
 
 }  // namespace trivela::kicking

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "kicking/policy/drive.hpp"
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/test_drive.hpp"
 
 namespace trivela::kicking {
@@ -39,47 +39,47 @@ void learn(const PolicyConfig& config, const PolicyInput& input, double omega_ra
 
 }  // namespace
 
-Judgement judge_turn_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, TurnDriveMemory& progress) {
+PolicyOutput evaluate_turn_drive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                 const PolicyInput& input, TurnDriveMemory& progress) {
   const TestDriveConfig& drive = config.test_drive;
   if (progress.level < drive.turn_radps.size()) learn(config, input, drive.turn_radps[progress.level], progress);
   if (progress.level >= drive.turn_radps.size()) {
-    Judgement judgement = describe(config, goal, {});
-    judgement.reason = Reason::kDriveFinished;
-    return judgement;
+    PolicyOutput output = describe(config, goal, {});
+    output.reason = Reason::kDriveFinished;
+    return output;
   }
   const double omega_radps = drive.turn_radps[progress.level];
   const double sense = std::copysign(1.0, omega_radps);
   const Shot shot = drive_shot(config, robot, goal, input);
-  Judgement judgement = describe(config, goal, shot);
+  PolicyOutput output = describe(config, goal, shot);
   const Eigen::Vector2d target = target_on_line(config, goal);
   AlignmentRule rule = config.alignment;
   rule.half_width_m = 0.0;  // the allowed error is all that there is
-  judgement.beta_rad = sense * allowed_rad(drive, progress);
-  judgement.alignment() = align(input.pose, 0.0, judgement.beta_rad, omega_radps, target, rule);
+  output.beta_rad = sense * allowed_rad(drive, progress);
+  output.alignment() = align(input.pose, 0.0, output.beta_rad, omega_radps, target, rule);
 
   if (!progress.passing) {
     const double start_rad = bearing({input.pose.x_m, input.pose.y_m}, target) - sense * drive.turn_lead_rad;
     const double error_rad = wrap_angle(start_rad - input.pose.heading_rad);
-    judgement.drive.omega_radps = turn_rate_for(error_rad, config.stopped_turn_gain_hz, config);
+    output.drive.omega_radps = turn_rate_for(error_rad, config.stopped_turn_gain_hz, config);
     const bool there = std::abs(error_rad) <= 3.0 * drive.aim_tolerance_rad &&
                        std::abs(input.twist.omega_radps) <= drive.rest_turn_rate_radps;
-    judgement.reason = there ? Reason::kKickerNotReady : Reason::kTurning;
+    output.reason = there ? Reason::kKickerNotReady : Reason::kTurning;
     progress.passing = there && input.kicker_ready;
-    if (!progress.passing) return judgement;
+    if (!progress.passing) return output;
   }
-  judgement.drive.omega_radps = omega_radps;
+  output.drive.omega_radps = omega_radps;
   // How far the pointing line still has to go to the target's middle.
-  const double to_go_m = judgement.offset_right_m ? sense * *judgement.offset_right_m : HUGE_VAL;
-  const double allowed_m = sense > 0.0 ? judgement.right_m : judgement.left_m;
+  const double to_go_m = output.offset_right_m ? sense * *output.offset_right_m : HUGE_VAL;
+  const double allowed_m = sense > 0.0 ? output.right_m : output.left_m;
   const double late_m = allowed_m - to_go_m;
-  judgement.aligned =
+  output.aligned =
       late_m >= 0.0 && late_m <= kFewCycles * config.cycle_s * std::abs(omega_radps) * 2.0 *
-                                     judgement.centre_distance_m;  // at 45 degrees the line moves at 2 d omega
-  judgement.reason = Reason::kNotAligned;
-  if (judgement.aligned) judgement.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
-  if (late_m > judgement.centre_distance_m) progress.passing = false;
-  return judgement;
+                                     output.centre_distance_m;  // at 45 degrees the line moves at 2 d omega
+  output.reason = Reason::kNotAligned;
+  if (output.aligned) output.reason = shot.reachable ? Reason::kFire : Reason::kOutOfRange;
+  if (late_m > output.centre_distance_m) progress.passing = false;
+  return output;
 }
 
 }  // namespace trivela::kicking

@@ -1,4 +1,4 @@
--- After WITH wanted (session_id): what the kickers' drivers of these sessions counted. A driver that starts anew counts
+-- After WITH wanted (session_id): what the kickers' drivers of these sessions counted. A driver that starts again counts
 -- from 0.
 -- Columns: session_id, robot_id, first_t_ns, first_handled, first_refused (of the first status), handled_within,
 -- refused_within (from there to the last status).

@@ -132,6 +132,12 @@ Value value_of(const SQLite::Column& column) {
   return Blob(bytes, bytes + column.getBytes());
 }
 
+std::vector<std::string> names_of(const SQLite::Statement& statement) {
+  std::vector<std::string> names(static_cast<std::size_t>(statement.getColumnCount()));
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = statement.getColumnName(static_cast<int>(i));
+  return names;
+}
+
 struct LogFile::Budget {
   std::int64_t calls = 0;
 
@@ -221,14 +227,16 @@ void LogFile::as_query(const std::function<void()>& work) const {
   }
 }
 
-void LogFile::each_row(std::string_view sql, const RowFunction& fn) const {
+void LogFile::each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const {
   as_query([&] {
     SQLite::Statement statement(*database_, std::string(sql));
-    each_row_of(statement, sql, fn);
+    each_row_of(statement, sql, head, fn);
   });
 }
 
-void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, const RowFunction& fn) const {
+void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, const HeadFunction& head,
+                          const RowFunction& fn) const {
+  if (head) head(names_of(statement));
   std::vector<Value> row(static_cast<std::size_t>(statement.getColumnCount()));
   while (statement.executeStep()) {
     for (std::size_t i = 0; i < row.size(); ++i) row[i] = value_of(statement.getColumn(static_cast<int>(i)));
@@ -242,8 +250,7 @@ void LogFile::each_row_of(SQLite::Statement& statement, std::string_view sql, co
   }
 }
 
-void LogFile::ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
-                  const RowFunction& fn) const {
+void LogFile::ask(const std::string& sql, const HeadFunction& head, const RowFunction& fn) const {
   const ReadingOnly reading(database_->getHandle());
   sqlite3_stmt* first = nullptr;
   const char* rest = nullptr;
@@ -258,10 +265,7 @@ void LogFile::ask(const std::string& sql, const std::function<void(const std::ve
   budget_->calls = std::numeric_limits<std::int64_t>::max();
   try {
     SQLite::Statement statement(*database_, sql);
-    std::vector<std::string> names(static_cast<std::size_t>(statement.getColumnCount()));
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = statement.getColumnName(static_cast<int>(i));
-    head(names);
-    each_row_of(statement, sql, fn);
+    each_row_of(statement, sql, head, fn);
   } catch (const SQLite::Exception& error) {
     if (error.getErrorCode() == SQLITE_AUTH) throw only_read;  // VACUUM asks while it runs
     throw unreadable(error);

@@ -21,6 +21,9 @@ namespace trivela::log {
 /// The value of a column of the row that the statement stands at.
 Value value_of(const SQLite::Column& column);
 
+/// The names of a query's columns.
+std::vector<std::string> names_of(const SQLite::Statement& statement);
+
 /// What was opened is no log of the kind that was asked for: it is not there, a folder, empty or another file.
 class NoSuchLog : public RefusedLog {
  public:
@@ -52,8 +55,7 @@ class LogFile final : public Queries {
 
   /// Somebody's own question, which may take as long as it likes: `head` is called once with the names of its columns,
   /// then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.
-  void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
-           const RowFunction& fn) const;
+  void ask(const std::string& sql, const HeadFunction& head, const RowFunction& fn) const;
 
   /// Calls `work`, which steps statements of the database, as one query: within its budget, its errors named.
   void as_query(const std::function<void()>& work) const;
@@ -61,14 +63,16 @@ class LogFile final : public Queries {
   const std::string& path() const { return path_; }
   SQLite::Database& database() const { return *database_; }
 
+  void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const override;
+
  private:
   struct Budget;
 
-  void each_row(std::string_view sql, const RowFunction& fn) const override;
   void open();
   void check() const;
   void allow_steps() const;
-  void each_row_of(SQLite::Statement& statement, std::string_view sql, const RowFunction& fn) const;
+  void each_row_of(SQLite::Statement& statement, std::string_view sql, const HeadFunction& head,
+                   const RowFunction& fn) const;
   RefusedLog unreadable(const SQLite::Exception& error) const;
 
   LogKind kind_;

@@ -49,7 +49,7 @@ std::int64_t utc_offset_at(const std::vector<ClockSegment>& segments, std::int64
 /// Gives every session that measurements join to a reference, also over others in between, UTC by the reference's
 /// clock. Of ten seconds the measurement with the smallest error counts; between two, time is linear, beyond the first
 /// and the last the error grows with kLargestDrift; errors of several steps add. Sessions of one robot whose own UTC
-/// agrees within half a second are by one clock: a machine started anew begins its clock at 0. `reference_robot`:
+/// agrees within half a second are by one clock: a machine started again begins its clock at 0. `reference_robot`:
 /// whose clock, none: the one that joins most sessions, of those the one with the smallest errors.
 Alignment align_clocks(const std::vector<ClockedSession>& sessions, const std::vector<ClockOffset>& offsets,
                        std::optional<int> reference_robot);

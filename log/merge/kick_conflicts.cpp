@@ -13,9 +13,9 @@ constexpr std::int64_t kCounter = (std::int64_t{1} << 40) - 1;  // of a kick_id
 }  // namespace
 
 std::string KickConflict::line() const {
-  std::vector<std::string> sayings;
-  for (const Said& one : said) sayings.push_back(fmt::format("{} says {}", one.source, one.what));
-  return fmt::format("kick {}:{} ({}): {}", robot_id, kick_id & kCounter, about, fmt::join(sayings, ", "));
+  std::vector<std::string> claims;
+  for (const Said& one : said) claims.push_back(fmt::format("{} says {}", one.source, one.what));
+  return fmt::format("kick {}:{} ({}): {}", robot_id, kick_id & kCounter, about, fmt::join(claims, ", "));
 }
 
 void KickConflicts::say(const Kick& kick, const std::string& about, const std::string& source,
@@ -29,16 +29,21 @@ void KickConflicts::add(const MergeSource& file) {
   const std::string source = file.path().filename().string();
   const auto ask = [&] {
     file.reader()->query(
-        "SELECT k.robot_id, k.kick_id, k.t_ns, s.seed, iif(s.match_id IS NULL, 0, k.session_id), k.policy, k.accepted, "
-        "k.refusal, k.outcome, k.hand_outcome FROM labelled_kicks AS k JOIN sessions AS s ON s.session_id = "
+        "SELECT k.robot_id, k.kick_id, k.t_ns, s.seed, iif(s.match_id IS NULL, 0, k.session_id) AS of_experiment, "
+        "k.policy, "
+        "k.accepted, k.refusal, k.outcome, k.hand_outcome FROM labelled_kicks AS k JOIN sessions AS s ON s.session_id "
+        "= "
         "k.session_id",
-        [&](int robot_id, std::int64_t kick_id, std::int64_t t_ns, std::optional<std::int64_t> seed,
-            std::int64_t of_experiment, const std::string& policy, std::optional<bool> accepted,
-            const std::optional<std::string>& refusal, const std::optional<std::string>& outcome,
-            const std::optional<std::string>& by_hand) {
-          const Kick kick{robot_id, kick_id, t_ns, seed, of_experiment};
-          say(kick, "policy", source, policy);
-          if (accepted) say(kick, "driver", source, *accepted ? "kicked" : "refused: " + refusal.value_or("unknown"));
+        [&](const NamedCells& row) {
+          const auto accepted = row.find<bool>("accepted");
+          const auto outcome = row.find<std::string>("outcome");
+          const auto by_hand = row.find<std::string>("hand_outcome");
+          const Kick kick{row.get<int>("robot_id"), row.get<std::int64_t>("kick_id"), row.get<std::int64_t>("t_ns"),
+                          row.find<std::int64_t>("seed"), row.get<std::int64_t>("of_experiment")};
+          say(kick, "policy", source, row.get<std::string>("policy"));
+          if (accepted)
+            say(kick, "driver", source,
+                *accepted ? "kicked" : "refused: " + row.find<std::string>("refusal").value_or("unknown"));
           if (outcome && *outcome != "unknown") say(kick, "outcome", source, *outcome);
           if (by_hand) say(kick, "label", source, *by_hand);
         });
@@ -52,8 +57,8 @@ void KickConflicts::add(const MergeSource& file) {
 
 std::vector<KickConflict> KickConflicts::conflicts() const {
   std::vector<KickConflict> conflicts;
-  for (const auto& [kick, sayings] : kicks_) {
-    for (const auto& [about, said] : sayings)
+  for (const auto& [kick, claims] : kicks_) {
+    for (const auto& [about, said] : claims)
       if (said.size() > 1) conflicts.push_back({std::get<0>(kick), std::get<1>(kick), std::get<2>(kick), about, said});
   }
   return conflicts;

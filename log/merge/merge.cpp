@@ -156,7 +156,7 @@ class Merging {
         texts_.insert(names_[i][name]);
       });
     }
-    add(texts, std::vector<Value>{sha256(""), std::string()});  // of who lost his
+    add(texts, std::vector<Value>{sha256(""), std::string()});  // of a session whose text is lost
   }
 
   /// An experiment of the same arguments is as far as the furthest.
@@ -259,9 +259,9 @@ class Merging {
     }
     write_provenance(database);
     copy_said(database);
-    KickConflicts sayings;
-    for (const MergeSource& source : sources_) sayings.add(source);
-    merged_.conflicts = sayings.conflicts();
+    KickConflicts claims;
+    for (const MergeSource& source : sources_) claims.add(source);
+    merged_.conflicts = claims.conflicts();
     merged_.alignment = write_clocks(database, merged_.sessions, options_.reference_robot);
   }
 

@@ -95,10 +95,11 @@ void Reader::leave_out(const std::vector<std::int64_t>& session_ids, const std::
   }
 }
 
-void Reader::each_row(std::string_view sql, const RowFunction& fn) const { impl_->file.query(sql, fn); }
+void Reader::each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const {
+  impl_->file.each_row(sql, head, fn);
+}
 
-void Reader::ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
-                 const RowFunction& fn) const {
+void Reader::ask(const std::string& sql, const HeadFunction& head, const RowFunction& fn) const {
   impl_->file.ask(sql, head, fn);
 }
 
@@ -201,26 +202,23 @@ std::vector<Kick> Reader::kicks() const {
       "SELECT session_id, robot_id, kick_id, t_ns, half, possession_id, policy, order_seq, accepted, refusal, outcome, "
       "x_cross_m, z_cross_m, sd_cross_m, truth_outcome, truth_x_cross_m, truth_z_cross_m, truth_margin_m FROM kicks "
       "ORDER BY session_id, t_ns, robot_id",
-      [&](std::int64_t session_id, int robot_id, std::int64_t kick_id, std::int64_t t_ns, int half,
-          std::int64_t possession_id, const std::string& policy, std::optional<std::int64_t> order_seq,
-          std::optional<bool> accepted, std::optional<std::string> refusal, const std::optional<std::string>& outcome,
-          std::optional<double> x_cross_m, std::optional<double> z_cross_m, std::optional<double> sd_cross_m,
-          const std::optional<std::string>& truth_outcome, std::optional<double> truth_x_cross_m,
-          std::optional<double> truth_z_cross_m, std::optional<double> truth_margin_m) {
-        kicks.push_back({.session_id = session_id,
-                         .robot_id = robot_id,
-                         .kick_id = kick_id,
-                         .t_ns = t_ns,
-                         .half = half,
-                         .possession_id = possession_id,
-                         .policy = policy,
-                         .ordered = order_seq.has_value(),
-                         .accepted = accepted,
-                         .refusal = std::move(refusal).value_or(""),
-                         .observed = crossing_of(outcome, x_cross_m, z_cross_m),
-                         .sd_cross_m = sd_cross_m,
-                         .truth = crossing_of(truth_outcome, truth_x_cross_m, truth_z_cross_m),
-                         .truth_margin_m = truth_margin_m});
+      [&](const NamedCells& row) {
+        kicks.push_back({.session_id = row.get<std::int64_t>("session_id"),
+                         .robot_id = row.get<int>("robot_id"),
+                         .kick_id = row.get<std::int64_t>("kick_id"),
+                         .t_ns = row.get<std::int64_t>("t_ns"),
+                         .half = row.get<int>("half"),
+                         .possession_id = row.get<std::int64_t>("possession_id"),
+                         .policy = row.get<std::string>("policy"),
+                         .ordered = row.find<std::int64_t>("order_seq").has_value(),
+                         .accepted = row.find<bool>("accepted"),
+                         .refusal = row.find<std::string>("refusal").value_or(""),
+                         .observed = crossing_of(row.find<std::string>("outcome"), row.find<double>("x_cross_m"),
+                                                 row.find<double>("z_cross_m")),
+                         .sd_cross_m = row.find<double>("sd_cross_m"),
+                         .truth = crossing_of(row.find<std::string>("truth_outcome"),
+                                              row.find<double>("truth_x_cross_m"), row.find<double>("truth_z_cross_m")),
+                         .truth_margin_m = row.find<double>("truth_margin_m")});
       });
   return kicks;
 }

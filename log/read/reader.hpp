@@ -125,8 +125,7 @@ class Reader final : public Queries {
 
   /// Somebody's own question about tables, their views and counted_kicks: `head` is called once with the names of its
   /// columns, then `fn` for each row. Throws BadQuestion where it is not one SELECT, or asks for what is not there.
-  void ask(const std::string& sql, const std::function<void(const std::vector<std::string>&)>& head,
-           const RowFunction& fn) const;
+  void ask(const std::string& sql, const HeadFunction& head, const RowFunction& fn) const;
 
   /// From now on every question about kicks is answered out of memory, where there are not too many for that, with the
   /// same answers: putting each together takes five looks into the file.
@@ -137,7 +136,7 @@ class Reader final : public Queries {
 
  private:
   struct Impl;
-  void each_row(std::string_view sql, const RowFunction& fn) const override;
+  void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const override;
   std::unique_ptr<Impl> impl_;
 };
 

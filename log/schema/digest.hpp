@@ -23,7 +23,7 @@ class RunningSha256 {
 
   void add(std::span<const unsigned char> bytes);
 
-  /// 64 lower case hexadecimal digits; afterwards it begins anew.
+  /// 64 lower case hexadecimal digits; afterwards it begins again.
   std::string finish();
 
  private:

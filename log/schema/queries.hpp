@@ -56,6 +56,40 @@ CellAs<T> cell_as(const Value& cell, std::size_t column) {
   }
 }
 
+/// The cells of one row of a query, read by the names of its columns: two that change places change nothing.
+class NamedCells {
+ public:
+  explicit NamedCells(const std::vector<std::string>& names) : names_(names) {}
+
+  void set(std::span<const Value> cells) { cells_ = cells; }
+
+  /// The types are those of cell_as(). Throws std::logic_error where the query has no such column.
+  template <class T>
+  CellAs<T> get(std::string_view name) const {
+    const std::size_t column = place_of(name);
+    return cell_as<T>(cells_[column], column);
+  }
+
+  /// As get(); none where it is NULL.
+  template <class T>
+  std::optional<T> find(std::string_view name) const {
+    return get<std::optional<T>>(name);
+  }
+
+ private:
+  std::size_t place_of(std::string_view name) const {
+    for (std::size_t tried = 0; tried < names_.size(); ++tried) {
+      const std::size_t column = next_++ % names_.size();  // mostly they are read in their order
+      if (names_[column] == name) return column;
+    }
+    throw std::logic_error("a query has no column " + std::string(name));
+  }
+
+  const std::vector<std::string>& names_;
+  std::span<const Value> cells_;
+  mutable std::size_t next_ = 0;
+};
+
 /// A question that is not one SELECT of what is there.
 struct BadQuestion : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
@@ -64,17 +98,28 @@ struct BadQuestion : std::invalid_argument {
 /// What can be asked by SQL, its rows read by type and name and not by number.
 class Queries {
  public:
-  /// Calls `fn` for each row of a query with its columns in their order, e.g.
-  ///   query("SELECT robot_id, power FROM ...", [&](int robot_id, std::optional<double> power) { ... });
-  /// The types are those of cell_as(). A function of one std::span<const Value> is given the cells as they are. Throws
-  /// std::runtime_error where the query fails, would write, or has a cell that is none of its parameter's type; it
-  /// names query and column.
+  /// Calls `fn` for each row of a query:
+  /// - by name, where it takes one const NamedCells&: query(kSql, [&](const NamedCells& row) { row.get<int>("half");
+  /// });
+  /// - a few columns in their order: query("SELECT robot_id, power FROM ...", [&](int robot_id, double power) { });
+  /// - the cells as they are, where it takes one std::span<const Value>.
+  /// The types are those of cell_as(). Throws std::runtime_error where the query fails, would write, or has a cell of
+  /// another type than is read; it names query and column.
   template <class F>
   void query(std::string_view sql, F&& fn) const {
-    if constexpr (std::is_invocable_v<F&, std::span<const Value>>) {
-      each_row(sql, fn);
+    if constexpr (std::is_invocable_v<F&, const NamedCells&>) {
+      std::vector<std::string> names;
+      NamedCells row{names};
+      each_row(
+          sql, [&](const std::vector<std::string>& head) { names = head; },
+          [&](std::span<const Value> cells) {
+            row.set(cells);
+            fn(std::as_const(row));
+          });
+    } else if constexpr (std::is_invocable_v<F&, std::span<const Value>>) {
+      each_row(sql, {}, fn);
     } else {
-      each_row(sql, typed(fn, &std::remove_reference_t<F>::operator()));
+      each_row(sql, {}, typed(fn, &std::remove_reference_t<F>::operator()));
     }
   }
 
@@ -82,7 +127,7 @@ class Queries {
   template <class Row, class... Members>
   std::vector<Row> rows(std::string_view sql, Members... members) const {
     std::vector<Row> rows;
-    each_row(sql, [&](std::span<const Value> cells) {
+    each_row(sql, {}, [&](std::span<const Value> cells) {
       check_width(cells, sizeof...(members));
       Row& row = rows.emplace_back();
       std::size_t i = 0;
@@ -95,7 +140,7 @@ class Queries {
   ~Queries() = default;
 
  private:
-  virtual void each_row(std::string_view sql, const RowFunction& fn) const = 0;
+  virtual void each_row(std::string_view sql, const HeadFunction& head, const RowFunction& fn) const = 0;
 
   static void check_width(std::span<const Value> cells, std::size_t read) {
     if (cells.size() != read) throw std::logic_error("a query has other columns than are read");
@@ -103,6 +148,7 @@ class Queries {
 
   template <class F, class R, class L, class... A>
   static RowFunction typed(F& fn, R (L::*)(A...) const) {
+    static_assert(sizeof...(A) <= 6, "read more columns by their names");
     return [&fn](std::span<const Value> cells) {
       check_width(cells, sizeof...(A));
       [&]<std::size_t... I>(std::index_sequence<I...>) { fn(cell_as<std::remove_cvref_t<A>>(cells[I], I)...); }

@@ -111,7 +111,7 @@ RowDigest RowDigests::of(std::int64_t session_id) {
     }
     sqlite3_reset(row);
     if (code != SQLITE_DONE) {
-      sha256_.finish();  // begins anew
+      sha256_.finish();  // begins again
       throw SQLite::Exception(database_.getHandle(), code);
     }
   }

@@ -27,7 +27,7 @@ struct DigestedTable {
 inline constexpr std::array<std::string_view, 4> kSaidAfterwards = {"session_clocks", "merged_sessions", "labels",
                                                                     "notes"};
 
-/// Tables of what was counted of a session's rows when it ended, which no digest covers; copies count anew.
+/// Tables of what was counted of a session's rows when it ended, which no digest covers; copies count again.
 inline constexpr std::array<std::string_view, 6> kTallies = {
     "session_tallies", "possession_tallies", "order_tallies", "referee_tallies", "ball_turns", "tallied_sessions"};
 

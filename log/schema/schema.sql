@@ -2,7 +2,7 @@
 -- Column names are those of the messages (idl/*.idl); _t_ns and t_ns are nanoseconds of the session's clock.
 -- F: field frame, origin at the centre spot, +y to the opponents' goal, +x right. R: robot frame, +y forward, +x right.
 -- A NULL in a number means that there is no such quantity. Labels are those of the IDL's enums, lower case without prefix;
--- with IN instead of OR, SQLite would build a table of more than two labels anew for each row that is written.
+-- with IN instead of OR, SQLite would build a table of more than two labels again for each row that is written.
 
 CREATE TABLE texts (                       -- long texts, each stored once
   sha256 TEXT NOT NULL PRIMARY KEY,        -- of text, lower case hexadecimal
@@ -142,7 +142,7 @@ CREATE TABLE referee (                     -- what the referee has said
   t_ns INTEGER NOT NULL,                   -- instant of the word
   half INTEGER NOT NULL,                   -- 1, 2; 3, 4 in overtime
   playing INTEGER NOT NULL CHECK (playing IN (0, 1)), -- 0: everybody stands, no kick
-  possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half where he counts them; 0: nobody does
+  possession_id INTEGER NOT NULL,          -- numbers the ball possessions of a half; 0: not counted
   stage TEXT NOT NULL CHECK (stage = 'unknown' OR stage = 'pre_game' OR stage = 'first_half' OR stage = 'half_time'
     OR stage = 'second_half' OR stage = 'full_time' OR stage = 'first_overtime' OR stage = 'overtime_break'
     OR stage = 'second_overtime' OR stage = 'penalties' OR stage = 'game_over'), -- part of the match
@@ -359,6 +359,7 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
   p_blocked REAL,                          -- of blocked
   bounced INTEGER CHECK (bounced IN (0, 1)), -- 1: it touched the floor before the line; NULL: not said
   residual_sd_m REAL,                      -- of a sighting about the fit, m
+  release_late_s REAL,                     -- by its flight the ball left so much later than the robot's file says, s
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -492,7 +493,7 @@ CREATE TABLE session_tallies (             -- decisions counted when a session e
 
 CREATE TABLE possession_tallies (          -- possessions counted when a session ends
   session_id INTEGER NOT NULL,             -- sessions.session_id
-  robot_id INTEGER NOT NULL,               -- robot; of the referee's count the one that heard him
+  robot_id INTEGER NOT NULL,               -- robot; of the referee's count the one that received it
   half INTEGER NOT NULL,                   -- 1, 2
   possession_id INTEGER NOT NULL,          -- by the count of counted_by
   counted_by TEXT NOT NULL CHECK (counted_by = 'robot' OR counted_by = 'referee'), -- whose count it is
@@ -511,7 +512,7 @@ CREATE TABLE order_tallies (               -- kicker_status counted when a sessi
   first_t_ns INTEGER NOT NULL,             -- of the first status
   first_handled INTEGER NOT NULL,          -- orders_handled there
   first_refused INTEGER NOT NULL,          -- orders_refused there
-  handled_within INTEGER NOT NULL,         -- orders from there to the last status, a driver that starts anew counting from 0
+  handled_within INTEGER NOT NULL,         -- orders from there to the last status, a driver that starts again counting from 0
   refused_within INTEGER NOT NULL,         -- of them refused
   PRIMARY KEY (session_id, robot_id)
 ) STRICT, WITHOUT ROWID;

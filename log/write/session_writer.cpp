@@ -107,7 +107,7 @@ SessionWriter::Fate SessionWriter::insert(const Row& row, const RowTable& table,
 }
 
 GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::deque<RowTable>& tables,
-                                  const LossCounters& book) {
+                                  const LossCounters& loss_counters) {
   GroupResult result;
   std::map<std::size_t, Loss> counters;
   std::int64_t latest_t_ns = latest_t_ns_;
@@ -140,7 +140,7 @@ GroupResult SessionWriter::commit(const std::vector<Row>& group, const std::dequ
     if (statement) statement->tryReset();
   }
   LossCounters sums;
-  for (const Loss& loss : book.all()) sums.add(loss);
+  for (const Loss& loss : loss_counters.all()) sums.add(loss);
   for (const auto& [table, loss] : counters) {
     if (!tables[table].counted && loss.missing() == 0) continue;
     sums.add(loss);
@@ -174,9 +174,9 @@ void SessionWriter::write_losses(const std::vector<Loss>& losses, std::int64_t l
   }
 }
 
-void SessionWriter::commit_end(const LossCounters& book, std::optional<std::int64_t> closed_t_ns) {
+void SessionWriter::commit_end(const LossCounters& loss_counters, std::optional<std::int64_t> closed_t_ns) {
   SQLite::Transaction transaction(*database_);
-  write_losses(book.all(), latest_t_ns_);
+  write_losses(loss_counters.all(), latest_t_ns_);
   if (closed_t_ns) {
     SQLite::Statement close(*database_, "UPDATE sessions SET closed_t_ns = ? WHERE session_id = ?");
     close.bind(1, *closed_t_ns);

@@ -65,12 +65,13 @@ class SessionWriter {
   /// See Writer::table.
   RowTable describe(std::string_view name, const std::vector<std::string>& columns) const;
 
-  /// Commits the group with the sums of `book` and the group's own counters. Throws SQLite::Exception where the disk
-  /// refuses; nothing of the group is in the log then.
-  GroupResult commit(const std::vector<Row>& group, const std::deque<RowTable>& tables, const LossCounters& book);
+  /// Commits the group with the sums of `loss_counters` and the group's own counters. Throws SQLite::Exception where
+  /// the disk refuses; nothing of the group is in the log then.
+  GroupResult commit(const std::vector<Row>& group, const std::deque<RowTable>& tables,
+                     const LossCounters& loss_counters);
 
   /// Writes the counters and, with `closed_t_ns`, ends the session.
-  void commit_end(const LossCounters& book, std::optional<std::int64_t> closed_t_ns);
+  void commit_end(const LossCounters& loss_counters, std::optional<std::int64_t> closed_t_ns);
 
   /// Folds the write-ahead log into the file. False: a reader holds it, so that it stays beside the file.
   bool fold();

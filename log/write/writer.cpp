@@ -76,8 +76,8 @@ struct Writer::Impl {
   bool try_commit(const std::vector<Row>& group, Clock::time_point first) {
     const auto begun = Clock::now();
     try {
-      const GroupResult result = connection.commit(group, registered(), book);
-      for (const Loss& loss : result.counters) book.add(loss);
+      const GroupResult result = connection.commit(group, registered(), loss_counters);
+      for (const Loss& loss : result.counters) loss_counters.add(loss);
       for (const std::string& reason : result.reasons) warn_once("", "row left out, " + reason);
       rows_written += result.written - result.amended;
       rows_missing += static_cast<std::int64_t>(group.size()) - result.written;
@@ -121,7 +121,7 @@ struct Writer::Impl {
   }
 
   void count_overflow(std::size_t table) {
-    book.add({.stream = table_name(table), .received = 1, .overflow = 1});
+    loss_counters.add({.stream = table_name(table), .received = 1, .overflow = 1});
     ++rows_missing;
   }
 
@@ -134,7 +134,7 @@ struct Writer::Impl {
   const WriterOptions options;
   RowQueue queue;
   CommitPace pace;  // of the thread
-  LossCounters book;
+  LossCounters loss_counters;
   std::mutex mutex;  // of the next six
   std::deque<RowTable> tables;
   std::optional<std::size_t> silences;
@@ -171,7 +171,7 @@ std::int64_t Writer::session_id() const { return impl_->connection.session_id();
 TableId Writer::table(std::string_view name, const std::vector<std::string>& columns) {
   const std::lock_guard lock(impl_->mutex);
   impl_->tables.push_back(impl_->connection.describe(name, columns));
-  impl_->book.add({.stream = std::string(name)});
+  impl_->loss_counters.add({.stream = std::string(name)});
   return {impl_->tables.size() - 1};
 }
 
@@ -186,7 +186,7 @@ bool Writer::push(TableId table, std::vector<Value> values) {
 void Writer::add_loss(std::string_view stream, LossKind kind, std::int64_t n) {
   Loss delta{.stream = std::string(stream)};
   counter(delta, kind) = n;
-  impl_->book.add(delta);
+  impl_->loss_counters.add(delta);
 }
 
 void Writer::silence(const Silence& silence) {
@@ -236,7 +236,7 @@ void Writer::finalise(std::optional<std::int64_t> closed_t_ns) {
   try {
     SessionWriter& connection = impl_->connection;
     const std::int64_t end = closed_t_ns.value_or(connection.latest_t_ns());
-    connection.commit_end(impl_->book, missing > 0 ? std::nullopt : std::optional(end));
+    connection.commit_end(impl_->loss_counters, missing > 0 ? std::nullopt : std::optional(end));
     if (!connection.fold()) {
       impl_->warn(fmt::format("{} is being read; it is whole together with its -wal file", impl_->path));
     }

@@ -118,12 +118,12 @@ void KickDecisionNode::say(const msg::WorldState& world, const msg::KickerStatus
                            const robot::CycleDecision& decision) {
   if (decision.order) order_out_.write(*decision.order);
   if (world.possession) decision_out_.write(decider_.record(world, kicker));
-  drive(world, decision.judgement);
+  drive(world, decision.output);
   if (!decision.order) return;
   say_unobserved();
   context_.logger->info("kick {} at t {:.3f} s: {} power {:.2f}, distance {:.2f} m", decision.order->seq,
                         kicking::seconds(world.t_ns), kicking::name(decision.in_charge.policy), decision.order->power,
-                        decision.judgement.distance_m);
+                        decision.output.distance_m);
 }
 
 bus::ReaderOptions KickDecisionNode::count_observers() {
@@ -156,14 +156,14 @@ std::optional<msg::KickOutcome> KickDecisionNode::outcome(const msg::WorldState&
   return outcome_->latest();
 }
 
-void KickDecisionNode::drive(const msg::WorldState& world, const kicking::Judgement& judgement) {
+void KickDecisionNode::drive(const msg::WorldState& world, const kicking::PolicyOutput& output) {
   msg::DriveCommand command{};
   command.robot_id = context_.robot_id();
   command.seq = ++drives_;
   command.t_ns = world.t_ns;
-  command.vx_mps = judgement.drive.vx_mps;
-  command.vy_mps = judgement.drive.vy_mps;
-  command.omega_radps = judgement.drive.omega_radps;
+  command.vx_mps = output.drive.vx_mps;
+  command.vy_mps = output.drive.vy_mps;
+  command.omega_radps = output.drive.omega_radps;
   drive_out_.write(command);
 }
 

@@ -28,7 +28,7 @@ class KickDecisionNode {
   void say(const msg::WorldState& world, const msg::KickerStatus* kicker, const robot::CycleDecision& decision);
   double age_s(const msg::WorldState& world) const;
   std::optional<msg::KickOutcome> outcome(const msg::WorldState& world, const msg::KickerStatus* kicker);
-  void drive(const msg::WorldState& world, const kicking::Judgement& judgement);
+  void drive(const msg::WorldState& world, const kicking::PolicyOutput& output);
   void stay_alive();
   bus::ReaderOptions count_observers();
   void say_unobserved();

@@ -22,9 +22,9 @@ namespace trivela::nodes {
 /// Owns the kicker: device samples in, KickerStatus out; KickOrder in, KickReceipt out, and a fire to the device when
 /// the KickerController accepts the order. An order may be fired up to a cycle after it was judged: the device has it
 /// and waits; if the referee stops the game before that instant, or a sample tells of a fault or an open switch, the
-/// kick is called off and a second receipt says so. A referee who falls silent counts as one who stopped the game, and
-/// so does a WorldState that does not play: it hears him by a way of its own, and is of a robot that knows where it is.
-/// Leaving, by whichever way, makes the device safe.
+/// kick is called off and a second receipt says so. Leaving, by whichever way, makes the device safe.
+///
+/// Two independent paths stop it: a referee that stops the game or falls silent, and a WorldState that does not play.
 class KickerDriverNode {
  public:
   KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Kicker> kicker);

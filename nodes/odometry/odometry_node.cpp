@@ -112,14 +112,14 @@ void OdometryNode::on_team_drive(const msg::TeamDrive& command) {
   if (!lockstep) drive_wheels(now_ns, obeyed_ == msg::DRIVE_TEAM);
 }
 
-/// Gives the wheels what the arbiter decides: `anew`, or when another one is obeyed than before.
-void OdometryNode::drive_wheels(std::int64_t now_ns, bool anew) {
+/// Gives the wheels what the arbiter decides: `again`, or when another one is obeyed than before.
+void OdometryNode::drive_wheels(std::int64_t now_ns, bool again) {
   std::optional<msg::WorldState> world;
   if (arbiter_.situation_matters(now_ns)) world = input_of_cycle(context_, *world_, now_ns);
   const auto situation = robot::drive_situation(world, now_ns, context_.settings.odometry.drive_timeout_s);
   const robot::ObeyedDrive obeyed = arbiter_.decide(now_ns, situation);
   const bool changed = obeyed.source != obeyed_;
-  if (!anew && !changed) return;
+  if (!again && !changed) return;
   obeyed_ = obeyed.source;
   wheels_->drive(obeyed.twist, context_.settings.run.lockstep ? now_ns : obeyed.t_ns);
   if (changed) say_who_drives(now_ns, situation);

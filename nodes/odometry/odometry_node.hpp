@@ -27,7 +27,7 @@ class OdometryNode {
   void stop_without_commands();
   void on_drive(const msg::DriveCommand& command);
   void on_team_drive(const msg::TeamDrive& command);
-  void drive_wheels(std::int64_t now_ns, bool anew);
+  void drive_wheels(std::int64_t now_ns, bool again);
   void say_who_drives(std::int64_t now_ns, const robot::DriveSituation& situation);
   msg::DriveSource obeyed();
 

@@ -132,33 +132,33 @@ void RecorderNode::record(const std::string& table) {
   // State streams have a sample a cycle.
   std::optional<std::size_t> cycle_stream;
   if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
-  std::optional<std::size_t> voice;
+  std::optional<std::size_t> place;
   state_->streams[table].events = state_->silences && bus::meta<T>::period_s <= 0.0;
-  if (state_->silences && bus::meta<T>::period_s > 0.0) voice = state_->silences->add(table, bus::meta<T>::period_s);
+  if (state_->silences && bus::meta<T>::period_s > 0.0) place = state_->silences->add(table, bus::meta<T>::period_s);
   node_.on<T>(
-      [this, table, id, cycle_stream, voice, &watch = state_->streams[table]](const T& sample,
+      [this, table, id, cycle_stream, place, &watch = state_->streams[table]](const T& sample,
                                                                               const bus::SampleInfo& info) {
         const auto seq = store(table, id, watch, sample, info.writer);
         if (!seq) return;
         if constexpr (std::is_same_v<T, msg::KickDecision>) store_beside(sample, *seq);
         if constexpr (std::is_same_v<T, msg::KickReceipt>) state_->fires.answered(sample);
-        if (voice) state_->silences->heard(*voice, sample.robot_id, sample.t_ns);
+        if (place) state_->silences->heard(*place, sample.robot_id, sample.t_ns);
         if (cycle_stream && sample.robot_id == context_.robot_id()) report_cycle(*cycle_stream, sample.t_ns);
       },
       bus::writes<msg::StepDone>(), everything);
 }
 
-/// The other's clock once a second, and his silences: of a robot by its number, of the base by that of who heard.
+/// The other's clock once a second, and its silences: of a robot by its number, of the base by that of the receiver.
 void RecorderNode::store_heard(const msg::TeamHeard& heard) {
   constexpr std::int64_t kEvery_ns = 1'000'000'000;
   if (!context_.participant.believes(heard.t_ns)) return;
   const std::int64_t other = heard.other_robot_id;
   if (other > 0) {
-    const std::size_t voice = state_->silences->add("team_state", kTeamPeriod_s);
-    state_->silences->heard(voice, heard.other_robot_id, heard.t_ns);
+    const std::size_t place = state_->silences->add("team_state", kTeamPeriod_s);
+    state_->silences->heard(place, heard.other_robot_id, heard.t_ns);
   } else {
-    const std::size_t voice = state_->silences->add("team_state of the base", kTeamPeriod_s);
-    state_->silences->heard(voice, heard.robot_id, heard.t_ns);
+    const std::size_t place = state_->silences->add("team_state of the base", kTeamPeriod_s);
+    state_->silences->heard(place, heard.robot_id, heard.t_ns);
   }
   const auto last = state_->clocks.find(heard.other_robot_id);
   if (!heard.clock_known || (last != state_->clocks.end() && heard.t_ns - last->second < kEvery_ns)) return;
@@ -197,7 +197,7 @@ void RecorderNode::store_beside(const msg::KickDecision& decision, std::int64_t 
 }
 
 int recorder_main(int argc, char** argv) {
-  // One log with what is known of it, also where the recorder joins the bus anew.
+  // One log with what is known of it, also where the recorder joins the bus again.
   std::optional<PlacedLog> placed;
   const auto state = std::make_shared<RecordingState>();
   return node_main(argc, argv, "recorder", [&placed, &state](NodeContext& context) {

@@ -33,7 +33,7 @@ struct StreamWatch {
   }
 };
 
-/// What a recorder knows of the log that it writes: it outlives a node that joins the bus anew, as the log does.
+/// What a recorder knows of the log that it writes: it outlives a node that joins the bus again, as the log does.
 struct RecordingState {
   std::map<std::string, StreamWatch> streams;              ///< by table
   std::set<std::tuple<int, int, std::uint32_t>> assigned;  ///< robot, half, possession that a policy was noted for

@@ -36,9 +36,9 @@ std::shared_ptr<RefboxLink> open_refbox(const config::Refbox& settings) {
   const box::TeamMarks team{.protocol = settings.letters ? box::Protocol::kLetters : box::Protocol::kJson,
                             .group = settings.group,
                             .colour = magenta ? box::Colour::kMagenta : box::Colour::kCyan};
-  const std::chrono::nanoseconds patience{kicking::nanoseconds(settings.acknowledgement_s)};
+  const std::chrono::nanoseconds timeout{kicking::nanoseconds(settings.acknowledgement_s)};
   auto link = std::make_shared<RefboxLink>();
-  link->client = box::refbox_client(settings.host, static_cast<std::uint16_t>(settings.port), team, patience);
+  link->client = box::refbox_client(settings.host, static_cast<std::uint16_t>(settings.port), team, timeout);
   return link;
 }
 
@@ -149,7 +149,7 @@ void RefboxNode::tell_box() {
 }
 
 int refbox_main(int argc, char** argv) {
-  std::shared_ptr<RefboxLink> link;  // one connection, also where the node joins the bus anew
+  std::shared_ptr<RefboxLink> link;  // one connection, also where the node joins the bus again
   return node_main(argc, argv, "refbox", [&link](NodeContext& context) {
     if (!link) link = open_refbox(context.settings.refbox);
     RefboxNode node{context, link};

@@ -13,7 +13,7 @@
 
 namespace trivela::nodes {
 
-/// The connection and what was said on it. It outlives a node that joins the bus anew: the box would take a new
+/// The connection and what was said on it. It outlives a node that joins the bus again: the box would take a new
 /// connection for a lost one, and the game would stop.
 struct RefboxLink {
   std::unique_ptr<hal::refbox::RefboxClient> client;

@@ -45,9 +45,9 @@ std::int64_t resident_bytes() {
   return statm >> pages >> resident ? resident * sysconf(_SC_PAGESIZE) : 0;
 }
 
-FloodWatch::FloodWatch(std::uint32_t limit_mb, bus::Stop& stop, Tell tell, std::chrono::milliseconds glance,
+FloodWatch::FloodWatch(std::uint32_t limit_mb, bus::Stop& stop, Tell tell, std::chrono::milliseconds interval,
                        std::chrono::milliseconds grace)
-    : limit_mb_(limit_mb), stop_(stop), tell_(std::move(tell)), glance_(glance), grace_(grace), thread_([this] {
+    : limit_mb_(limit_mb), stop_(stop), tell_(std::move(tell)), interval_(interval), grace_(grace), thread_([this] {
         look();
       }) {
   pthread_setname_np(thread_.native_handle(), "flood_watch");
@@ -59,13 +59,13 @@ FloodWatch::~FloodWatch() {
 }
 
 void FloodWatch::look() {
-  for (auto next = Clock::now() + glance_; !over_.wait_until(next); next += glance_) {
-    ++glances_;
+  for (auto next = Clock::now() + interval_; !over_.wait_until(next); next += interval_) {
+    ++polls_;
     std::string why;
     try {
       why = fault();
     } catch (const std::exception&) {
-      // /proc cannot be read now, or there is no memory: the next glance may see more.
+      // /proc cannot be read now, or there is no memory: the next interval may see more.
     }
     if (!why.empty()) return end(why + ": ends, to be started again");
   }
@@ -76,7 +76,7 @@ void FloodWatch::end(const std::string& why) {
   stop_.request();
   tell_(why);
   const auto force = Clock::now() + grace_;
-  while (!over_.wait_until(Clock::now() + glance_))
+  while (!over_.wait_until(Clock::now() + interval_))
     if (Clock::now() > force || resident_bytes() > 2 * kMb * limit_mb_) std::_Exit(1);
 }
 
@@ -85,7 +85,7 @@ std::string FloodWatch::fault() {
   const std::int64_t bytes = resident_bytes();
   if (bytes > limit_mb_ * kMb)
     return fmt::format("takes {} MB of memory, more than run.memory_limit_mb = {}", bytes / kMb, limit_mb_);
-  if (glances_ % kPollsBetween != 0) return {};
+  if (polls_ % kPollsBetween != 0) return {};
   if (gives_back_ && bytes > start_bytes_ + kGrown) malloc_trim(0);
   if (handshakes_turn()) return "the thread of handshakes does not come round, nobody would be let in any more";
   return {};
@@ -95,7 +95,7 @@ std::string FloodWatch::fault() {
 /// processor; one that sleeps has not run.
 bool FloodWatch::handshakes_turn() {
   bool turns = false;
-  const std::int64_t tenth_ns = std::chrono::nanoseconds{glance_ * kPollsBetween}.count() / 10;
+  const std::int64_t tenth_ns = std::chrono::nanoseconds{interval_ * kPollsBetween}.count() / 10;
   for (const auto& task : fs::directory_iterator{"/proc/self/task"}) {
     if (first_word(task.path() / "comm") != kHandshakes) continue;
     Turns now{pauses_of(task.path()), 0};

@@ -15,14 +15,14 @@ namespace trivela::nodes {
 /// What this process has of the memory, in bytes.
 std::int64_t resident_bytes();
 
-/// Looks at every glance at what strangers can do to the library in this process, before any signature is looked at:
+/// Looks, once a poll interval, for what unknown participants can do to Cyclone in this process before their signature
+/// is checked:
 ///
-/// memory: discovery remembers whoever announces himself for as long as he asks to be remembered, so that it can grow
-/// without end; the kernel would then end whom it likes, the recorder too.
-///
-/// handshakes: a stranger who does not answer for 100 s can break the list of timers that they wait in (Cyclone 0.10.2,
-/// mended upstream by 46c70421). Its thread then turns for ever, or the process crashes; who is known goes on being
-/// heard, and nobody new is let in.
+/// - memory: discovery remembers each participant for as long as its announcement asks, so that it can grow without
+///   end; the kernel would then end any process, the recorder too.
+/// - handshakes: a participant that does not answer for 100 s can break the list of timers that handshakes wait in
+///   (Cyclone 0.10.2, mended upstream by 46c70421). Their thread then runs without end, or the process crashes; known
+///   participants are still received, new ones are not.
 class FloodWatch {
  public:
   using Tell = std::function<void(const std::string& why)>;
@@ -30,12 +30,12 @@ class FloodWatch {
   /// Cyclone's name for the thread of a member's handshakes (src/security/core/src/dds_security_fsm.c).
   static constexpr const char* kHandshakes = "fsm";
 
-  /// Beyond the limit, or where the handshakes' thread has run and not paused for ten glances, it requests the stop and
+  /// Beyond the limit, or where the handshakes' thread has run and not paused for ten polls, it requests the stop and
   /// tells why, in its own thread. Where the process has not ended within `grace`, since a participant of such a
   /// library may never be deleted, or takes twice the limit, it ends it with exit code 1. Memory that is free is given
-  /// back to the system at every tenth glance where the process has grown.
+  /// back to the system at every tenth interval where the process has grown.
   FloodWatch(std::uint32_t limit_mb, bus::Stop& stop, Tell tell,
-             std::chrono::milliseconds glance = std::chrono::seconds{1},
+             std::chrono::milliseconds interval = std::chrono::seconds{1},
              std::chrono::milliseconds grace = std::chrono::seconds{10});
   FloodWatch(const FloodWatch&) = delete;
   FloodWatch& operator=(const FloodWatch&) = delete;
@@ -62,8 +62,8 @@ class FloodWatch {
   const std::uint32_t limit_mb_;
   bus::Stop& stop_;
   const Tell tell_;
-  const std::chrono::milliseconds glance_, grace_;
-  int glances_ = 0;
+  const std::chrono::milliseconds interval_, grace_;
+  int polls_ = 0;
   std::map<std::string, Turns> handshakes_;  // by thread
   std::atomic<bool> gives_back_ = true, ended_ = false;
   bus::Stop over_;

@@ -82,7 +82,7 @@ inline constexpr const char* kSecondDecisionNode = "kick_decision_second";
 inline constexpr std::chrono::seconds kLockstepTimeout{20};
 
 /// Asks `ready(timeout)` again and again until it says so. False: the stop was requested first. Throws
-/// std::runtime_error with `what` when the patience is over.
+/// std::runtime_error with `what` when the timeout is over.
 [[nodiscard]] bool ready_before_stop(const bus::Stop& stop, auto&& ready, const std::string& what) {
   constexpr std::chrono::milliseconds kPollInterval{100};  // how often the stop is looked for
   const auto deadline = std::chrono::steady_clock::now() + kLockstepTimeout;

@@ -50,8 +50,8 @@ bus::Pulse NodeContext::pulse() const {
     logger->error("{} does not come round: the service manager hears nothing of this node", late);
   };
   // In lockstep a reaction may wait for the others' samples.
-  const std::chrono::seconds patience = settings.run.lockstep ? kLockstepTimeout : std::chrono::seconds{1};
-  return {.beat = beat, .patience = patience};
+  const std::chrono::seconds timeout = settings.run.lockstep ? kLockstepTimeout : std::chrono::seconds{1};
+  return {.beat = beat, .timeout = timeout};
 }
 
 bus::DomainConfig domain_of(const config::Domain& domain) {
@@ -94,7 +94,7 @@ bus::Participant join(const config::Settings& settings, const bus::DomainConfig&
 }
 
 /// Runs the body; one that hears nothing any more runs again as a new member of the domain, whom everybody gets to know
-/// anew. Should that not help either, since the other side is silent, each stays longer than the one before.
+/// again. Should that not help either, since the other side is silent, each stays longer than the one before.
 void run_as_member(const config::Settings& settings, const config::Robot& robot, const bus::DomainConfig& domain,
                    const std::string& keys, const std::shared_ptr<spdlog::logger>& logger, bus::Stop& stop,
                    const std::function<void(NodeContext&)>& body) {
@@ -110,7 +110,7 @@ void run_as_member(const config::Settings& settings, const config::Robot& robot,
                    domain.xml.find("<Security>") == std::string::npos ? "" : ", secured");
       return body(context);
     } catch (const bus::BusUnresponsive& deaf) {
-      logger->error("{}: joins the bus anew", deaf.what());
+      logger->error("{}: joins the bus again", deaf.what());
     }
   }
 }

@@ -276,9 +276,9 @@ std::int64_t SimulatorNode::kick_of_pulse(std::int64_t t_ns) {
   bus::renew_if_silent(*receipts_);
   receipts_->take([this](const msg::KickReceipt& receipt) {
     if (receipt.robot_id == context_.robot_id() && msg::begins_kick(receipt))
-      book_.accepted(receipt.kick_id, receipt.fired_t_ns);
+      recent_.accepted(receipt.kick_id, receipt.fired_t_ns);
   });
-  const auto kick_id = book_.take(t_ns);
+  const auto kick_id = recent_.take(t_ns);
   if (!kick_id) context_.logger->error("no receipt for the pulse at {} ns", t_ns);
   return kick_id.value_or(0);
 }
@@ -307,7 +307,7 @@ void SimulatorNode::report_progress() {
 }
 
 int simulator_main(int argc, char** argv) {
-  std::optional<EmulatedDevices> devices;  // where the node joins the bus anew they stay where its nodes look for them
+  std::optional<EmulatedDevices> devices;  // where the node joins the bus again they stay where its nodes look for them
   return node_main(argc, argv, "simulator", [&devices](NodeContext& context) {
     const bool emulated = context.settings.simulator.devices == config::SimulatedDevices::kEmulated;
     if (emulated && !devices) devices.emplace(context.settings, context.robot.base, context.logger);

@@ -19,7 +19,7 @@ sim::Scenario scenario_of(const config::Settings& settings);
 
 /// Plays the match: samples out, commands in, cycle by cycle; in lockstep as fast as the nodes answer or, where there
 /// is a pace, no faster than that, otherwise in real time. The world's time begins at 0. In lockstep it is every t_ns
-/// on the bus; in real time those are of the steady clock, so that a simulator that is started anew goes on where the
+/// on the bus; in real time those are of the steady clock, so that a simulator that is started again goes on where the
 /// nodes are; and the referee's word comes as a referee box's does, not in each cycle. A fire that reaches the
 /// simulated coil long after its instant energises nothing, and without a drive command for odometry.drive_timeout_s
 /// the base stands.
@@ -76,7 +76,7 @@ class SimulatorNode {
   std::optional<bus::Writer<msg::DeviceKicker>> kicker_;   // where it has no board
   std::optional<bus::Writer<msg::Referee>> referee_;       // where there is no box
   std::optional<bus::Reader<msg::KickReceipt>> receipts_;  // where the kicker has a board
-  RecentReceipts book_;
+  RecentReceipts recent_;
   RefereeRepeats referee_repeats_;
   bus::Mailbox<msg::DeviceDrive> drive_;
   bus::Reader<msg::DeviceFire> fire_;

@@ -46,7 +46,7 @@ TeamLinkNode::TeamLinkNode(NodeContext& context, const bus::DomainConfig& team_b
       own_(base_ ? 0 : context.robot_id()),
       node_(context.participant, "team_link"),
       heard_out_(node_.writer<msg::TeamHeard>()),
-      book_(own_, context.steady_ns()) {
+      peers_(own_, context.steady_ns()) {
   const bool takes_referee = !base_ && context.settings.team_link.referee;
   if (takes_referee) {
     referee_out_.emplace(node_.writer<msg::Referee>(referee_of(own_)));
@@ -102,7 +102,7 @@ void TeamLinkNode::say_state() {
   {
     const std::lock_guard lock{mutex_};
     state.summary = summary();
-    book_.fill(state, context_.steady_ns());
+    peers_.fill(state, context_.steady_ns());
   }
   member_->say(state);
 }
@@ -113,8 +113,8 @@ void TeamLinkNode::hear(const TeamMember::ReceivedMessage& heard) {
 }
 
 void TeamLinkNode::hear(const msg::TeamState& state, std::int64_t t_ns) {
-  if (book_.is_duplicate(state)) return note_twin();
-  const auto news = book_.heard(state, t_ns);
+  if (peers_.is_duplicate(state)) return note_twin();
+  const auto news = peers_.heard(state, t_ns);
   if (!news) return;
   if (base_) note_alarms(news->other_robot_id, news->summary.alarms);
   heard_out_.write(*news);
@@ -122,7 +122,7 @@ void TeamLinkNode::hear(const msg::TeamState& state, std::int64_t t_ns) {
 
 void TeamLinkNode::hear(const msg::Referee& word, std::int64_t t_ns) {
   if (word.robot_id != 0 || !referee_out_) return;
-  if (const auto ours = book_.own_referee(word, t_ns)) referee_out_->write(*ours);
+  if (const auto ours = peers_.own_referee(word, t_ns)) referee_out_->write(*ours);
 }
 
 /// What the base's log tells of a robot; a word each time that it changes.
@@ -141,7 +141,7 @@ void TeamLinkNode::note_twin() {
   const std::int64_t now = context_.steady_ns();
   if (twin_told_ns_ != 0 && now - twin_told_ns_ < kPause_ns) return;
   twin_told_ns_ = now;
-  context_.logger->error("somebody else says on the team's bus that he is {}: one of the two is configured wrongly",
+  context_.logger->error("somebody else says on the team's bus that it is {}: one of the two is configured wrongly",
                          name_of(own_));
 }
 

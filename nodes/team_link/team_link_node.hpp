@@ -57,7 +57,7 @@ class TeamLinkNode {
   std::optional<bus::Output<msg::Referee>> referee_out_;
   OfRobot robot_;
   std::mutex mutex_;  // of what follows
-  robot::PeerTable book_;
+  robot::PeerTable peers_;
   robot::LatestSample<msg::Referee> referee_;  // of the base
   std::array<std::uint32_t, 256> alarms_{};
   std::int64_t twin_told_ns_ = 0;

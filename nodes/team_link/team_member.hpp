@@ -16,7 +16,7 @@
 namespace trivela::nodes {
 
 /// A machine's membership of the team's bus, in threads of its own. It begins when the interface has an address, ends
-/// with it and begins anew with the next; also where nothing is heard for long, since a multicast group may forget a
+/// with it and begins again with the next; also where nothing is heard for long, since a multicast group may forget a
 /// member. What is said meanwhile is not said. Nothing that happens to it is an error of the node.
 class TeamMember {
  public:

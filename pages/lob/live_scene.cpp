@@ -38,7 +38,7 @@ LiveScene::LiveScene(std::unique_ptr<hal::RangeFinder> finder, LiveOptions optio
       broadcast_(broadcast),
       setup_{{"mode", "live"}, {"file", options_.record.string()}, {"source", options_.device}},
       link_(link_json(*finder_)),
-      book_(options_.plan) {
+      lob_session_(options_.plan) {
   broadcast_.publish(Channel::kSetup, setup_.dump());
   broadcast_.publish(Channel::kLobs, lobs().dump());
   thread_ = std::thread([this] { run(); });
@@ -92,7 +92,7 @@ void LiveScene::begin() {
   if (!power_) return;
   const log::TestedSetPoint tested{.t_ns = session.started_t_ns, .power = power_};
   writer_->set_point(tested);
-  book_.set_point(tested);
+  lob_session_.set_point(tested);
 }
 
 void LiveScene::take(const kicking::lob::Scan& scan) {
@@ -107,8 +107,8 @@ void LiveScene::take(const kicking::lob::Scan& scan) {
   const double t_s = kicking::seconds(scan.t_ns - start_t_ns());
   broadcast_.publish(Channel::kFrame, frame_json(i, t_s, scan.range_mm, max_range_m_, views_.back()));
   if (!lob) return;
-  book_.add(std::move(*lob), i);
-  const auto all = book_.lobs(views_.size());
+  lob_session_.add(std::move(*lob), i);
+  const auto all = lob_session_.lobs(views_.size());
   const bool accepted = all.back().refusal == kicking::lob::Refusal::kNone;
   if (power_ && accepted) set_power(next_power(options_.plan, kicks_done(options_.plan, all), *power_));
   broadcast_.publish(Channel::kLobs, lobs().dump());
@@ -121,7 +121,7 @@ void LiveScene::set_power(std::optional<double> power) {
   const std::int64_t now_ns = views_.empty() ? 0 : views_.back().t_ns;
   const log::TestedSetPoint tested{.t_ns = now_ns, .power = power};
   writer_->set_point(tested);
-  book_.set_point(tested);
+  lob_session_.set_point(tested);
   broadcast_.publish(Channel::kStatus, status().dump());
 }
 
@@ -140,7 +140,7 @@ json LiveScene::status() const {
   return status;
 }
 
-json LiveScene::lobs() const { return book_.to_json(views_.size(), start_t_ns()); }
+json LiveScene::lobs() const { return lob_session_.to_json(views_.size(), start_t_ns()); }
 
 json LiveScene::state() const {
   const std::lock_guard lock(mutex_);
@@ -170,7 +170,7 @@ std::string LiveScene::frame(std::size_t i) {
 
 std::string LiveScene::table_csv() const {
   const std::lock_guard lock(mutex_);
-  return book_.table_csv(views_.size());
+  return lob_session_.table_csv(views_.size());
 }
 
 void LiveScene::command(const std::string& name, const json& arguments) {
@@ -188,10 +188,10 @@ void LiveScene::command(const std::string& name, const json& arguments) {
 
 void LiveScene::judge(const json& arguments) {
   const auto lob = arguments.at("lob").get<std::size_t>();
-  if (lob >= book_.count(views_.size())) throw CommandError{404, fmt::format("there is no lob {}", lob)};
-  writer_->verdict(book_.judge(lob, arguments.at("accepted").get<bool>(), arguments.value("why", "")));
+  if (lob >= lob_session_.count(views_.size())) throw CommandError{404, fmt::format("there is no lob {}", lob)};
+  writer_->verdict(lob_session_.judge(lob, arguments.at("accepted").get<bool>(), arguments.value("why", "")));
   if (!power_ && !options_.plan.powers.empty()) {  // the plan was done, and may lack a kick now
-    const auto done = kicks_done(options_.plan, book_.lobs(views_.size()));
+    const auto done = kicks_done(options_.plan, lob_session_.lobs(views_.size()));
     for (std::size_t i = 0; i < done.size() && !power_; ++i) {
       if (done[i] < options_.plan.trials) set_power(options_.plan.powers[i]);
     }

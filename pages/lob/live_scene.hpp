@@ -27,7 +27,7 @@ struct LiveOptions {
 
 /// A scanner, recorded while it is shown. Kicks are first of the plan's first power; after an accepted lob the power
 /// goes on along the plan. Commands: `verdict` {"lob", "accepted", "why"}, `set-point` {"power"}, `background` {}:
-/// learn it anew.
+/// learn it again.
 class LiveScene : public Scene {
  public:
   LiveScene(std::unique_ptr<hal::RangeFinder> finder, LiveOptions options, Broadcast& broadcast);
@@ -63,7 +63,7 @@ class LiveScene : public Scene {
   std::unique_ptr<log::ScanWriter> writer_;
   std::optional<kicking::lob::Analyzer> analyzer_;
   std::vector<SceneView> views_;  // one for each scan in the record
-  LobSession book_;
+  LobSession lob_session_;
   std::optional<double> power_;
   std::uint64_t refused_ = 0;  // scans that were not recorded
   double max_range_m_ = 0.0;

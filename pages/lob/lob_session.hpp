@@ -11,7 +11,7 @@
 
 namespace trivela::pages {
 
-/// The lobs of a session with their set-points and what humans said of them; everything shown is worked out anew from
+/// The lobs of a session with their set-points and what humans said of them; everything shown is worked out again from
 /// the three. One thread at a time.
 class LobSession {
  public:

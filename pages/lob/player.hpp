@@ -15,7 +15,7 @@ class Player {
   bool playing() const { return playing_; }
   double speed() const { return speed_; }
 
-  /// Begins anew where it has come to its end.
+  /// Begins again where it has come to its end.
   void play();
   void pause() { playing_ = false; }
   void set_speed(double speed) { speed_ = speed; }

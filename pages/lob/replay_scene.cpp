@@ -38,7 +38,7 @@ ReplayScene::ReplayScene(const std::filesystem::path& record, const kicking::lob
     : path_(record),
       broadcast_(broadcast),
       record_(record),
-      book_(plan, record_.set_points(), verdicts_of(record_, record)),
+      lob_session_(plan, record_.set_points(), verdicts_of(record_, record)),
       player_(times_of(record_, record)),
       setup_(setup_json("replay", record.string(), record_.session(), config)) {
   setup_["scans"] = record_.size();
@@ -47,9 +47,9 @@ ReplayScene::ReplayScene(const std::filesystem::path& record, const kicking::lob
   for (std::size_t i = 0; i < record_.size(); ++i) {
     auto lob = analyzer.add(record_.scan(i));
     views_.push_back(scene_of(analyzer.view()));
-    if (lob) book_.add(std::move(*lob), i);
+    if (lob) lob_session_.add(std::move(*lob), i);
   }
-  if (auto lob = analyzer.finish()) book_.add(std::move(*lob), record_.size() - 1);
+  if (auto lob = analyzer.finish()) lob_session_.add(std::move(*lob), record_.size() - 1);
   broadcast_.publish(Channel::kSetup, setup_.dump());
   publish_lobs();
   player_.play();
@@ -100,7 +100,7 @@ json ReplayScene::status() const {
               {"position", player_.position()},
               {"scans", views_.size()},
               {"power", nullptr}};
-  if (const auto power = book_.power_at(views_[player_.position()].t_ns)) status["power"] = *power;
+  if (const auto power = lob_session_.power_at(views_[player_.position()].t_ns)) status["power"] = *power;
   return status;
 }
 
@@ -110,19 +110,19 @@ std::string ReplayScene::frame_now(std::size_t i) const {
 }
 
 void ReplayScene::publish_lobs() {
-  shown_lobs_ = book_.count(player_.position());
-  broadcast_.publish(Channel::kLobs, book_.to_json(shown_lobs_, views_.front().t_ns).dump());
+  shown_lobs_ = lob_session_.count(player_.position());
+  broadcast_.publish(Channel::kLobs, lob_session_.to_json(shown_lobs_, views_.front().t_ns).dump());
 }
 
 void ReplayScene::publish_place() {
-  if (book_.count(player_.position()) != shown_lobs_) publish_lobs();
+  if (lob_session_.count(player_.position()) != shown_lobs_) publish_lobs();
   broadcast_.publish(Channel::kStatus, status().dump());
   broadcast_.publish(Channel::kFrame, frame_now(player_.position()));
 }
 
 json ReplayScene::state() const {
   const std::lock_guard lock(mutex_);
-  json state = book_.to_json(shown_lobs_, views_.front().t_ns);
+  json state = lob_session_.to_json(shown_lobs_, views_.front().t_ns);
   state["setup"] = setup_;
   state["status"] = status();
   return state;
@@ -136,7 +136,7 @@ std::string ReplayScene::frame(std::size_t i) {
 
 std::string ReplayScene::table_csv() const {
   const std::lock_guard lock(mutex_);
-  return book_.table_csv(shown_lobs_);
+  return lob_session_.table_csv(shown_lobs_);
 }
 
 void ReplayScene::command(const std::string& name, const json& arguments) {
@@ -171,7 +171,7 @@ void ReplayScene::judge(const json& arguments) {
   const auto lob = arguments.at("lob").get<std::size_t>();
   if (lob >= shown_lobs_) throw CommandError{404, fmt::format("there is no lob {}", lob)};
   auto verdicts = calibration::verdicts_beside(path_);
-  verdicts.push_back(book_.judge(lob, arguments.at("accepted").get<bool>(), arguments.value("why", "")));
+  verdicts.push_back(lob_session_.judge(lob, arguments.at("accepted").get<bool>(), arguments.value("why", "")));
   publish_lobs();
   try {
     calibration::write_verdicts(path_, verdicts);

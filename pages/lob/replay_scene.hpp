@@ -46,7 +46,7 @@ class ReplayScene : public Scene {
   mutable std::mutex mutex_;  // of all below
   log::ScanReader record_;
   std::vector<SceneView> views_;
-  LobSession book_;
+  LobSession lob_session_;
   Player player_;
   nlohmann::json setup_;
   std::size_t shown_lobs_ = 0;

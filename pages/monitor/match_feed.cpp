@@ -31,7 +31,7 @@ bus::Participant join(const bus::DomainConfig& domain, bool lockstep) {
   return lockstep ? bus::Participant{domain} : bus::Participant{domain, bus::RealTime{}};
 }
 
-// What a census says of where this is played. Who writes the truth has a world of his own.
+// What a census says of where this is played. A participant that writes the truth is a simulator.
 std::set<std::string> simulated_by(const bus::Census& census) {
   std::set<std::string> said;
   for (const bus::End& writer : census.writers) {

@@ -33,8 +33,8 @@ struct RunningTable {
   std::optional<RunningDifference> difference;
 };
 
-/// With the intervals of evaluator/stats/confidence_sequence.hpp: who looks after each kick, and stops when he likes
-/// what he sees, errs in no more than 5 % of matches. Of the difference that holds however the policy of the next kick
+/// With the intervals of evaluator/stats/confidence_sequence.hpp: whoever looks after each kick, and stops when they
+/// like, errs in no more than 5 % of matches. Of the difference that holds however the policy of the next kick
 /// is chosen, as long as nobody chooses it by the situation.
 RunningTable running_table(const std::map<std::optional<msg::Policy>, KickTally>& tallies);
 

@@ -12,10 +12,10 @@ constexpr std::size_t kMostNews = 10'000;
 }  // namespace
 
 std::size_t StreamStatus::add(const std::string& topic, double period_s) {
-  Stream stream{.topic = topic, .voice = std::nullopt};
+  Stream stream{.topic = topic, .watched = std::nullopt};
   if (period_s > 0.0) {
     const double watched_s = std::max(period_s, kShortestSilence_s / static_cast<double>(robot::kSilentPeriods));
-    stream.voice = watch_.add(kicking::nanoseconds(watched_s));
+    stream.watched = watch_.add(kicking::nanoseconds(watched_s));
     stream_of_voice_.push_back(streams_.size());
   }
   streams_.push_back(std::move(stream));
@@ -26,7 +26,7 @@ void StreamStatus::heard(std::size_t stream, std::uint8_t robot_id, std::optiona
                          std::uint64_t writer, std::int64_t now_ns) {
   Stream& heard = streams_[stream];
   heard.robots.insert(robot_id);
-  if (heard.voice) watch_.heard(*heard.voice, robot_id, now_ns);
+  if (heard.watched) watch_.heard(*heard.watched, robot_id, now_ns);
   if (!seq) return;
   const auto finding = heard.numbers.see(robot_id, *seq, writer, kicking::seconds(now_ns));
   const std::int64_t missed = finding.believed ? finding.gap - (finding.filled ? 1 : 0) : 0;
@@ -63,7 +63,7 @@ std::vector<std::string> StreamStatus::silent(std::uint8_t robot_id) const {
 
 bool StreamStatus::all_silent(std::uint8_t robot_id) const {
   const auto periodic = std::ranges::count_if(
-      streams_, [&](const Stream& stream) { return stream.voice && stream.robots.contains(robot_id); });
+      streams_, [&](const Stream& stream) { return stream.watched && stream.robots.contains(robot_id); });
   return periodic > 0 && std::ssize(silent(robot_id)) == periodic;
 }
 

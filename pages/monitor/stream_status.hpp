@@ -52,7 +52,7 @@ class StreamStatus {
  private:
   struct Stream {
     std::string topic;
-    std::optional<std::size_t> voice;  // where it has a period
+    std::optional<std::size_t> watched;  // where it has a period
     robot::SequenceWatch numbers{};
     std::set<std::uint8_t> robots{};
   };

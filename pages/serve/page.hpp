@@ -22,7 +22,7 @@ struct Asset {
   const char* type;
 };
 
-/// What GET answers anew each time.
+/// What GET answers again each time.
 struct Resource {
   using Parameter = std::function<std::string(const char* name)>;  ///< of the request; empty: it has none of the name
 

@@ -20,9 +20,9 @@ bool BallFilter::in_handler() const {
 void BallFilter::observe(std::int64_t t_exposure_ns, const std::optional<Eigen::Vector2d>& ball_m) {
   if (ball_m && ball_m->allFinite()) {
     const double dt_s = kicking::seconds(t_exposure_ns - seen_t_ns_);
-    const bool anew = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kNewBall_m;
-    const double gain = anew ? 1.0 : decay_.gain(dt_s);
-    position_m_ = anew ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
+    const bool again = !position_m_ || dt_s <= 0.0 || (*ball_m - *position_m_).norm() > kNewBall_m;
+    const double gain = again ? 1.0 : decay_.gain(dt_s);
+    position_m_ = again ? *ball_m : Eigen::Vector2d{*position_m_ + gain * (*ball_m - *position_m_)};
     seen_t_ns_ = t_exposure_ns;
   }
   const double unseen_s = kicking::seconds(t_exposure_ns - seen_t_ns_);

@@ -11,7 +11,7 @@ namespace trivela::robot {
 
 /// Where the ball is in R and whether the robot has it.
 ///
-/// The position is low-passed with `ball_time_constant_s`; a jump of more than half a metre starts anew. Possession
+/// The position is low-passed with `ball_time_constant_s`; a jump of more than half a metre starts again. Possession
 /// begins and ends when the handler test has said the same for `possession_debounce_s`; a ball not seen for
 /// `ball_forget_s` is unknown and not possessed. All times are exposures.
 class BallFilter {

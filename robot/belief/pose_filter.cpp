@@ -15,7 +15,7 @@ constexpr double kTurned_rad = 0.2;  // far beyond the noise of a frame and the 
 }  // namespace
 
 void PoseFilter::predict(std::int64_t t_ns, const Pose& odometry, double var_position_m2, double var_heading_rad2) {
-  if (pictured_t_ns_ && t_ns <= *pictured_t_ns_) pictured_t_ns_.reset();  // time begins anew
+  if (pictured_t_ns_ && t_ns <= *pictured_t_ns_) pictured_t_ns_.reset();  // time begins again
   if (!history_.empty()) {
     pose_ = TurnedPose{compose(pose_, relative(history_.latest(), odometry))};
     var_position_m2_ += std::max(0.0, var_position_m2 - last_var_position_m2_);
@@ -33,7 +33,7 @@ std::optional<TurnedPose> PoseFilter::pose_at(std::int64_t t_ns) const {
   return TurnedPose{compose(pose_, relative(history_.latest(), *then))};
 }
 
-/// Far frames that do not agree with each other are wild ones: each starts the count anew.
+/// Far frames that do not agree with each other are wild ones: each starts the count again.
 void PoseFilter::count_far_frames(double innovation_x_m, double innovation_y_m, double innovation_rad) {
   const auto beyond = [limit_m = settings_.relocalise_distance_m](double x_m, double y_m, double angle_rad) {
     return x_m * x_m + y_m * y_m > limit_m * limit_m || std::abs(angle_rad) > kTurned_rad;

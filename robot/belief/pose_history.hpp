@@ -14,7 +14,7 @@ class PoseHistory {
  public:
   explicit PoseHistory(double span_s) : span_ns_(kicking::nanoseconds(span_s)) {}
 
-  /// Appends; an instant that is not newer than the last one starts the history anew.
+  /// Appends; an instant that is not newer than the last one starts the history again.
   void add(std::int64_t t_ns, const kicking::Pose& pose);
 
   bool empty() const { return count_ == 0; }

@@ -23,8 +23,8 @@ struct PossessionSigns {
 /// stop, in which the ball is laid in the handler, or where the robot has the ball again. One that was never in play
 /// keeps its number for the next: what is numbered was played, but for the last of a half.
 ///
-/// Who begins to count in the middle of a half (a node that was started anew) goes on from the tenth of a second of the
-/// half, which no count has come to: nobody has the ball twice in it.
+/// Who begins to count in the middle of a half (a node that was started again) goes on from the tenth of a second of
+/// the half, which no count has come to: nobody has the ball twice in it.
 class PossessionCount {
  public:
   /// The possession of these signs: the one that the robot has, or had last in this play, or will have.

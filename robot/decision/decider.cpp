@@ -49,7 +49,7 @@ Decider::Decider(const DeciderSettings& settings, const kicking::RobotModel& mod
   }
 }
 
-/// Who is in charge of the robot's possession. They are numbered anew in each half; a policy that was not asked in
+/// Who is in charge of the robot's possession. They are numbered again in each half; a policy that was not asked in
 /// between must not take one for another.
 void Decider::begin_possession(std::uint8_t half, std::uint32_t possession_id) {
   if (half_ == half && possession_id_ == possession_id) return;
@@ -83,23 +83,23 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   const PolicyName policy = decision_.in_charge.policy;
   const bool told = facts(policy).needs_truth();
   assert(!told || (oracle_ && truth != nullptr));
-  kicking::make_in_place(decision_.judgement, [&] {
-    return kicking::judge(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
-                          told ? *truth : input, memory(policy));
+  kicking::make_in_place(decision_.output, [&] {
+    return kicking::evaluate(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
+                             told ? *truth : input, memory(policy));
   });
   judge_shadows(input);
   decision_.order.reset();
-  const kicking::Judgement& judgement = decision_.judgement;
-  counts_ = world.possession || judgement.fire;  // the oracle alone may fire where the robot sees no ball
-  if (!judgement.fire) return decision_;
+  const kicking::PolicyOutput& output = decision_.output;
+  counts_ = world.possession || output.fire;  // the oracle alone may fire where the robot sees no ball
+  if (!output.fire) return decision_;
   fired_t_ns_ = std::exchange(last_fire(policy), std::nullopt);  // pending for the policy once it is committed
   msg::KickOrder& order = decision_.order.emplace();
   order.robot_id = robot_id_;
   order.seq = orders_ + 1;
   order.t_ns = world.t_ns;
   order.kick_id = kicking::KickId{session_, robot_id_, order.seq}.number();
-  order.power = *judgement.power;
-  order.fire_t_ns = fire_t_ns(world.t_ns, judgement.fire_after_s);
+  order.power = *output.power;
+  order.fire_t_ns = fire_t_ns(world.t_ns, output.fire_after_s);
   order.valid_until_t_ns = world.t_ns + validity_ns_;
   order.possession = world.possession;
   return decision_;
@@ -110,7 +110,7 @@ void Decider::judge_shadows(const kicking::PolicyInput& input) {
   for (const PolicyName shadow : shadows_) {
     if (shadow == decision_.in_charge.policy) continue;
     kicking::make_in_place(decision_.shadows[decision_.shadow_count++], [&] {
-      return Shadow{shadow, kicking::judge(shadow, policy_, model_, goal_, input, memory(shadow))};
+      return Shadow{shadow, kicking::evaluate(shadow, policy_, model_, goal_, input, memory(shadow))};
     });
   }
 }
@@ -131,13 +131,13 @@ std::optional<std::int64_t>& Decider::last_fire(PolicyName policy) {
 }
 
 msg::KickDecision Decider::record(const msg::WorldState& world, const msg::KickerStatus* kicker) const {
-  msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.judgement);
+  msg::KickDecision out = decision_message(world, kicker, decision_.in_charge.policy, decision_.output);
   out.robot_id = robot_id_;
   out.seq = decisions_;
   out.kick_id = decision_.order ? decision_.order->kick_id : 0;
   out.assignment_probability = decision_.in_charge.probability;
   for (std::size_t i = 0; i < decision_.shadow_count; ++i)
-    out.shadows[i] = shadow_message(decision_.shadows[i].policy, decision_.shadows[i].judgement);
+    out.shadows[i] = shadow_message(decision_.shadows[i].policy, decision_.shadows[i].output);
   out.shadow_count = static_cast<std::uint8_t>(decision_.shadow_count);
   return out;
 }

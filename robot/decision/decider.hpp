@@ -30,13 +30,13 @@ struct DeciderSettings {
 /// What a policy that rides along says of a cycle.
 struct Shadow {
   kicking::PolicyName policy{};
-  kicking::Judgement judgement;
+  kicking::PolicyOutput output;
 };
 
 /// What was decided in a cycle.
 struct CycleDecision {
   PolicyChance in_charge;           ///< of the possession
-  kicking::Judgement judgement;     ///< of the policy in charge
+  kicking::PolicyOutput output;     ///< of the policy in charge
   std::array<Shadow, 4> shadows{};  ///< as many as the wire carries
   std::size_t shadow_count = 0;
   std::optional<msg::KickOrder> order;

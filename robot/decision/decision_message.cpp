@@ -11,11 +11,8 @@
 namespace trivela::robot {
 namespace {
 
-static_assert(int{msg::REASON_FIRE} == int(kicking::Reason::kFire));
-static_assert(int{msg::REASON_STALE_STATE} == int(kicking::Reason::kStaleState));
-static_assert(int{msg::REASON_DRIVE_FINISHED} == int(kicking::Reason::kDriveFinished));
-static_assert(int{msg::REASON_WAITING} == int(kicking::Reason::kWaiting));
-static_assert(int{msg::REASON_OWN_HALF} == int(kicking::Reason::kOwnHalf));
+static_assert(bus::has_labels<msg::Policy>(kicking::kPolicyNames));
+static_assert(bus::has_labels<msg::DecisionReason>(kicking::kReasonNames));
 
 constexpr bool wire(bool value) { return value; }
 constexpr double wire(double value) { return value; }
@@ -34,17 +31,17 @@ constexpr std::size_t place_of(std::string_view name) {
 }
 
 template <std::size_t I, class Message>
-void copy_field(const kicking::Judgement& judgement, Message& out) {
+void copy_field(const kicking::PolicyOutput& output, Message& out) {
   constexpr auto& field = std::get<I>(kicking::kRecordedFields);
   constexpr std::size_t place = place_of<Message>(field.name);
   if constexpr (place < bus::meta<Message>::fields.size())
-    out.*std::get<place>(bus::meta<Message>::members) = wire(std::invoke(field.get, judgement));
+    out.*std::get<place>(bus::meta<Message>::members) = wire(std::invoke(field.get, output));
 }
 
-/// What the message has of the judgement, by the names of the fields.
+/// What the message has of the output, by the names of the fields.
 template <class Message>
-void copy_fields(const kicking::Judgement& judgement, Message& out) {
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (copy_field<I>(judgement, out), ...); }
+void copy_fields(const kicking::PolicyOutput& output, Message& out) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (copy_field<I>(output, out), ...); }
   (std::make_index_sequence<std::tuple_size_v<decltype(kicking::kRecordedFields)>>{});
 }
 
@@ -70,13 +67,13 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
 }
 
 msg::KickDecision decision_message(const msg::WorldState& world, const msg::KickerStatus* kicker,
-                                   kicking::PolicyName policy, const kicking::Judgement& judgement) {
+                                   kicking::PolicyName policy, const kicking::PolicyOutput& output) {
   msg::KickDecision out{};
   out.t_ns = world.t_ns;
   out.half = world.half;
   out.possession_id = world.possession_id;
   out.policy = to_wire(policy);
-  copy_fields(judgement, out);
+  copy_fields(output, out);
   out.x_m = world.x_m;
   out.y_m = world.y_m;
   out.heading_rad = world.heading_rad;
@@ -89,10 +86,10 @@ msg::KickDecision decision_message(const msg::WorldState& world, const msg::Kick
   return out;
 }
 
-msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::Judgement& judgement) {
+msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::PolicyOutput& output) {
   msg::ShadowDecision out{};
   out.policy = to_wire(policy);
-  copy_fields(judgement, out);
+  copy_fields(output, out);
   return out;
 }
 

@@ -14,8 +14,8 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
 
 /// The record of a decision; robot_id, seq and kick_id are the node's.
 msg::KickDecision decision_message(const msg::WorldState& world, const msg::KickerStatus* kicker,
-                                   kicking::PolicyName policy, const kicking::Judgement& judgement);
+                                   kicking::PolicyName policy, const kicking::PolicyOutput& output);
 
-msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::Judgement& judgement);
+msg::ShadowDecision shadow_message(kicking::PolicyName policy, const kicking::PolicyOutput& output);
 
 }  // namespace trivela::robot

@@ -8,8 +8,7 @@
 namespace trivela::robot {
 namespace {
 
-static_assert(int{msg::FAULT_NONE} == int(hal::KickerFault::kNone));
-static_assert(int{msg::FAULT_LINK} == int(hal::KickerFault::kLink));
+static_assert(bus::has_labels<msg::KickerFault>(hal::kKickerFaultNames));
 
 kicking::Range power_range(const kicking::EffectiveTable& table) { return {table.front().power, table.back().power}; }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "kicking/constants.hpp"
 #include "kicking/geometry/time.hpp"
@@ -10,7 +12,11 @@
 namespace trivela::robot {
 namespace {
 
-constexpr double kReleaseDoubt_s = 0.04;  // until then the ball may be in the handler still
+constexpr double kReleaseDoubt_s = 0.04;   // until then the ball may be in the handler still
+constexpr double kLatestRelease_s = 0.25;  // after the expected one: of a robot whose delay nobody measured
+constexpr double kLateRelease = 0.05;      // how often, before anything is seen, the ball leaves as late as that
+constexpr double kTurnedAtAll = 0.05;      // how often something turns it, before anything is seen
+constexpr double kCarried_mps = 2.5;       // as fast as a robot carries the ball, along either axis
 constexpr std::size_t kFewestInFlight = 3;
 constexpr double kOnFloorBelow_m = 0.25;  // a ball that never was higher rolls
 constexpr double kMostMisfit = 30.0;      // squared, of one sighting: more is a false detection
@@ -55,10 +61,12 @@ std::optional<PlaneCrossing> meets_plane(const FlightFilter& from, double t_s, d
 
 class Hypotheses {
  public:
-  Hypotheses(const ShotTrack& track, std::span<const kicking::Sighting> seen, double goal_y_m)
+  /// Of a ball that left at `launch_t_ns`, seen from then on.
+  Hypotheses(const ShotTrack& track, std::span<const kicking::Sighting> seen, double goal_y_m, std::int64_t launch_t_ns)
       : track_(track),
         seen_(seen),
         goal_y_m_(goal_y_m),
+        launch_t_ns_(launch_t_ns),
         rolls_(std::ranges::all_of(seen, [](const kicking::Sighting& s) { return s.ball_m.z() < kOnFloorBelow_m; })) {
     free_.reserve(seen.size());
     misfit_.reserve(seen.size());
@@ -86,8 +94,24 @@ class Hypotheses {
     return stories;
   }
 
+  /// ln of the likelihood of all sightings but the first, by the best of the hypotheses that tell() gave.
+  double log_likelihood(const FlightHypotheses& told) const {
+    return log_free_.back() + std::max(log_untouched(told), log_turned(told));
+  }
+  static bool is_turned(const FlightHypotheses& told) { return log_turned(told) > log_untouched(told); }
+
  private:
   static constexpr double kFar_s = 10.0;
+
+  // Against free flight up to the last sighting before the line.
+  static double log_untouched(const FlightHypotheses& told) {
+    return told.crossing && told.seen_after_crossing ? std::max(told.log_passed, told.log_thrown_back) : 0.0;
+  }
+  static double log_turned(const FlightHypotheses& told) {
+    double best = -HUGE_VAL;
+    for (const Turn& turn : told.turns) best = std::max(best, turn.log_likelihood + std::log(kTurnedAtAll));
+    return best;
+  }
 
   double time_s(std::size_t i) const { return kicking::seconds(seen_[i].t_ns - track_.release_t_ns); }
 
@@ -96,7 +120,8 @@ class Hypotheses {
     Eigen::Vector2d to_goal{-first.x(), std::max(1.0, goal_y_m_ - first.y())};
     to_goal.normalize();
     const double v = track_.expected_speed_mps;
-    const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * time_s(0);
+    const double flown_s = kicking::seconds(seen_[0].t_ns - launch_t_ns_);
+    const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * flown_s;
     const double sd_climb = track_.expected_climb_mps ? 0.1 * *track_.expected_climb_mps + 0.3 : 5.0;
     // The robot's own speed, and where it aims. What never left the floor was no kick as expected.
     const double sd = rolls_ ? v + 1.0 : 0.1 * v + 1.2;
@@ -172,6 +197,7 @@ class Hypotheses {
   const ShotTrack& track_;
   std::span<const kicking::Sighting> seen_;
   double goal_y_m_;
+  std::int64_t launch_t_ns_;
   bool rolls_;
   std::vector<FlightFilter> free_;  // after each sighting before the line
   std::vector<double> misfit_;
@@ -181,6 +207,28 @@ class Hypotheses {
   std::optional<PlaneCrossing> crossing_;
 };
 
+/// ln of the density of a sighting `dt_s` after another one, about which the ball was moved by N(0, sd^2) an axis.
+double log_moved(const kicking::Sighting& from, const kicking::Sighting& to, double sd_mps, double ball_sd_m) {
+  const double dt_s = kicking::seconds(to.t_ns - from.t_ns);
+  const double var_m2 = std::pow(sd_mps * dt_s, 2) + 2.0 * ball_sd_m * ball_sd_m;
+  const double square = (to.ball_m - from.ball_m).head<2>().squaredNorm() / var_m2;
+  return log_density({square, 0.0, 0.0}, 2.0 * std::log(var_m2));
+}
+
+/// How many of the first sightings may show the ball in the handler still: on the floor, and no faster than a robot.
+std::size_t held_at_first(const ShotTrack& track, std::span<const kicking::Sighting> seen) {
+  std::size_t held = 0;
+  for (; held < seen.size() && seen[held].ball_m.z() < kOnFloorBelow_m; ++held) {
+    if (kicking::seconds(seen[held].t_ns - track.release_t_ns) > kLatestRelease_s) break;
+    if (held == 0) continue;
+    const double dt_s = kicking::seconds(seen[held].t_ns - seen[held - 1].t_ns);
+    const double moved_m = (seen[held].ball_m - seen[held - 1].ball_m).head<2>().norm();
+    if (moved_m > kCarried_mps * dt_s + 4.0 * track.ball_sd_m) break;
+  }
+  const bool flies = std::ranges::any_of(seen, [](const auto& s) { return s.ball_m.z() >= kOnFloorBelow_m; });
+  return flies ? held : 0;
+}
+
 }  // namespace
 
 std::optional<FlightHypotheses> flight_hypotheses(const ShotTrack& track, double goal_y_m) {
@@ -189,7 +237,23 @@ std::optional<FlightHypotheses> flight_hypotheses(const ShotTrack& track, double
   });
   const std::span<const kicking::Sighting> seen{left, track.sightings.end()};
   if (seen.size() < kFewestInFlight) return std::nullopt;
-  return Hypotheses{track, seen, goal_y_m}.tell();
+  Hypotheses expected{track, seen, goal_y_m, track.release_t_ns};
+  FlightHypotheses best = expected.tell();
+  if (!Hypotheses::is_turned(best)) return best;
+  double log_best = expected.log_likelihood(best), log_held = std::log(kLateRelease);
+  // The robot's file may have a delay that is too short: the ball then leaves after some sightings.
+  const std::size_t held = held_at_first(track, seen);
+  for (std::size_t first = 1; first <= held && seen.size() - first >= kFewestInFlight; ++first) {
+    const double leaves = log_moved(seen[first - 1], seen[first], 0.6 * track.expected_speed_mps, track.ball_sd_m);
+    Hypotheses late{track, seen.subspan(first), goal_y_m, std::midpoint(seen[first - 1].t_ns, seen[first].t_ns)};
+    FlightHypotheses told = late.tell();
+    if (const double log_all = log_held + leaves + late.log_likelihood(told); log_all > log_best) {
+      log_best = log_all;
+      best = std::move(told);
+    }
+    log_held += log_moved(seen[first - 1], seen[first], kCarried_mps, track.ball_sd_m);
+  }
+  return best;
 }
 
 }  // namespace trivela::robot

@@ -9,8 +9,7 @@
 namespace trivela::robot {
 namespace {
 
-static_assert(int{msg::OUTCOME_ON_TARGET} == int(kicking::Outcome::kOnTarget));
-static_assert(int{msg::OUTCOME_UNKNOWN} == int(kicking::Outcome::kUnknown));
+static_assert(bus::has_labels<msg::Outcome>(kicking::kOutcomeNames));
 
 msg::KickOutcome message(const TrackedShot& shot) {
   msg::KickOutcome out{};
@@ -31,6 +30,7 @@ msg::KickOutcome message(const TrackedShot& shot) {
     *probabilities[i] = shot.verdict.probabilities ? (*shot.verdict.probabilities)[i] : msg::kNone;
   out.bounced = shot.verdict.bounced;
   out.residual_sd_m = shot.verdict.residual_sd_m.wire();
+  out.release_late_s = shot.verdict.release_late_s.wire();
   return out;
 }
 

@@ -19,7 +19,7 @@ class Observer {
   /// An answered order of the robot with that model; a refused one changes nothing.
   std::vector<msg::KickOutcome> receipt(const msg::KickReceipt& receipt, const kicking::RobotModel& model);
 
-  /// A frame and the referee's word of the same cycle, none: he has not spoken.
+  /// A frame and the referee's command of the same cycle; none: none came yet.
   std::vector<msg::KickOutcome> frame(const msg::FlightFrame& frame, const std::optional<msg::Referee>& referee);
 
   /// A kick is followed, so that frames count.

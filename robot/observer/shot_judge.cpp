@@ -15,9 +15,10 @@ namespace {
 using kicking::Outcome;
 using kicking::OutcomeProbabilities;
 
-constexpr std::size_t kFewest = 5;     // sightings that tell of more than a turn
-constexpr std::size_t kWindow = 7;     // sightings that the exit is taken from
-constexpr double kNearFloor_m = 0.25;  // a minimum of z below it is a bounce
+constexpr std::size_t kFewest = 5;         // sightings that tell of more than a turn
+constexpr std::size_t kWindow = 7;         // sightings that the exit is taken from
+constexpr double kNearFloor_m = 0.25;      // a minimum of z below it is a bounce
+constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by a kick
 // What happens how often, before anything is seen.
 constexpr double kBlocked = 0.05;         // an opponent turns a kick on its way
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
@@ -44,11 +45,22 @@ std::span<const kicking::Sighting> in_the_air(std::span<const kicking::Sighting>
   return sightings;
 }
 
-void describe_exit(std::span<const kicking::Sighting> airborne, ShotVerdict& verdict) {
+/// How long before this state a ball that climbs was on the floor, t of z - r - v_z t - g t^2 / 2 = 0; none: it was not
+/// kicked from there.
+kicking::Maybe climbed_for_s(const kicking::FlightState& state) {
+  const double v = state.velocity_mps.z(), above_m = state.position_m.z() - kicking::Ball{}.radius_m;
+  const double at_floor_mps = std::sqrt(v * v + 2.0 * kicking::kGravity_mps2 * above_m);
+  if (!(at_floor_mps > kSlowestClimb_mps) || v < -0.5 * at_floor_mps) return {};
+  return (at_floor_mps - v) / kicking::kGravity_mps2;
+}
+
+void describe_exit(std::span<const kicking::Sighting> airborne, std::int64_t release_t_ns, ShotVerdict& verdict) {
   const auto start = kicking::fit_flight(airborne.first(std::min(airborne.size(), kWindow)), kicking::kGravity_mps2);
   if (!start || airborne.size() < kWindow) return;
   verdict.exit_speed_mps = start->velocity_mps.norm();
   verdict.exit_elevation_rad = std::atan2(start->velocity_mps.z(), start->velocity_mps.head<2>().norm());
+  if (const kicking::Maybe climbed_s = climbed_for_s(*start))
+    verdict.release_late_s = kicking::seconds(airborne.front().t_ns - release_t_ns) - *climbed_s;
 }
 
 double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }
@@ -120,7 +132,7 @@ Weights weigh(const FlightHypotheses& stories, const ShotTrack& track, const kic
 
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
-  describe_exit(in_the_air(track.sightings), verdict);
+  describe_exit(in_the_air(track.sightings), track.release_t_ns, verdict);
   const auto stories = flight_hypotheses(track, goal.y_m);
   if (!stories) return verdict;
   verdict.residual_sd_m = stories->residual_sd_m;

@@ -24,6 +24,7 @@ struct ShotVerdict {
   kicking::Maybe exit_elevation_rad;
   bool bounced = false;  ///< it touched the floor before the line, or before it was seen last
   kicking::Maybe residual_sd_m;
+  kicking::Maybe release_late_s;  ///< after release_t_ns of the track, by the flight
 };
 
 /// How the sightings ended.

@@ -16,7 +16,7 @@ namespace trivela::robot {
 /// of
 ///   a part and a lost connection take it back.
 /// - A GOAL or SUBGOAL counts for its team; for none or both it counts for nobody.
-/// - A RESET sets the match back when the connection ends after it: the box then begins anew (RoboCup-MSL/RefBox,
+/// - A RESET sets the match back when the connection ends after it: the box then begins again (RoboCup-MSL/RefBox,
 ///   mslrb2015/StateMachine.pde). Without that it stops the game alone: a box says it to all, too, when it turns
 ///   another client away (mslrb2015/Comms.pde). On a connection that was not accepted, by a WELCOME or another command,
 ///   it turns us away, and the match stays.

@@ -23,12 +23,12 @@ struct Passage {
 
 /// Compares this machine's clock with another's, by messages in both directions of which each takes its own time.
 ///
-/// Where the other's clock is ahead by o, one of his that took d seems to take f = heard - sent = d - o, and one of
-/// ours g = d' + o. So o = (g - f) / 2 + (d - d') / 2, and since no message takes less than nothing, the second term is
-/// at most (d + d') / 2 = (g + f) / 2: half the round trip. Of all messages of a window those that took least are the
-/// best, each direction by itself. The two clocks part by kLargestDrift, so an older message is worth less by what they
-/// may have parted since, and so much is added to the error. As NTP's clock filter (RFC 5905, section 10), which looks
-/// at round trips where this looks at single ways.
+/// Where the other's clock is ahead by o, one of its messages that took d seems to take f = heard - sent = d - o, and
+/// one of ours g = d' + o. So o = (g - f) / 2 + (d - d') / 2, and since no message takes less than nothing, the second
+/// term is at most (d + d') / 2 = (g + f) / 2: half the round trip. Of all messages of a window those that took least
+/// are the best, each direction by itself. The two clocks part by kLargestDrift, so an older message is worth less by
+/// what they may have parted since, and so much is added to the error. As NTP's clock filter (RFC 5905, section 10),
+/// which looks at round trips where this looks at single ways.
 class ClockExchange {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;
@@ -37,10 +37,10 @@ class ClockExchange {
   /// One of the other's messages came. What is no instant of a steady clock is passed over.
   void heard(const Passage& theirs);
 
-  /// The other says when one of ours came to him; the same one may be told again.
+  /// The other says when one of ours arrived; the same one may be told again.
   void told(const Passage& ours);
 
-  /// Of the other's messages the one that took least, for him to be told; none: none came in the window.
+  /// Of the other's messages the one that took least, which it is told; none: none came in the window.
   std::optional<Passage> quickest(std::int64_t now_ns) const;
 
   /// None: no message of one direction lately. Where the two contradict each other, since one of the clocks was set or

@@ -27,7 +27,7 @@ class PeerTable {
   /// Number, instants and an echo to the one whose turn it is; the summary is the caller's.
   void fill(msg::TeamState& state, std::int64_t now_ns);
 
-  /// None: not known, or nothing came of him lately.
+  /// None: not known, or nothing came from it recently.
   std::optional<OffsetEstimate> offset(std::uint8_t other, std::int64_t now_ns);
 
   /// The base's word as our robot hears it: by our number and clock, and never younger than it is. None: its clock is

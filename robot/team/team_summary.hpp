@@ -30,8 +30,8 @@ msg::TeamSummary robot_summary(const TeamInputs& inputs, std::int64_t now_ns);
 /// The base's, which has a referee and nothing else.
 msg::TeamSummary base_summary(const LatestSample<msg::Referee>& referee, std::int64_t now_ns);
 
-/// A mate's belief as a world_state of this machine's clock, for who tells the referee box; none: he does not know
-/// where he is. What a summary does not have is none.
+/// A mate's belief as a world_state of this machine's clock, for the node that tells the referee box; none: the mate
+/// does not know where it is. What a summary does not have is none.
 std::optional<msg::WorldState> world_of(const msg::TeamHeard& heard);
 
 }  // namespace trivela::robot

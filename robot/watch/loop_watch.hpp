@@ -21,7 +21,7 @@ class LoopWatch {
     if (alive_since_ns_ && now_ns - *alive_since_ns_ > kByBirthAlone_ns) spoke_ = true;
     alive_since_ns_.reset();
     const bool silent = lapsed > 0 && spoke_;
-    if (lapsed == 0) spoke_ = false;  // it left; the next one begins anew
+    if (lapsed == 0) spoke_ = false;  // it left; the next one begins again
     return silent;
   }
 

@@ -17,10 +17,10 @@ namespace trivela::robot {
 
 /// What the referee's word permits.
 enum class RefereeSays {
-  kNothing,  ///< he has not spoken yet
+  kNothing,  ///< it has said nothing yet
   kStop,
   kPlay,
-  kSilent  ///< his last word was to play, but it is too old or nobody writes it any more: as good as kStop
+  kSilent  ///< its last command was to play, but is too old or has no writer any more: counts as kStop
 };
 
 /// Whether the referee's last word still counts: "play" does until timeout_s after the word's own t_ns, on the steady
@@ -65,7 +65,7 @@ class RefereeWatch {
     if (silent == silent_) return std::nullopt;
     silent_ = silent;
     if (!silent) return "the referee is heard again";
-    return fmt::format("the referee is silent, his last word is of {:.2f} s ago: the game counts as stopped",
+    return fmt::format("the referee is silent, its last command is of {:.2f} s ago: the game counts as stopped",
                        age_s(now_ns));
   }
 

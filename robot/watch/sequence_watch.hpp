@@ -9,8 +9,8 @@
 namespace trivela::robot {
 
 /// Finds what a stream lost from its sequence numbers, robot by robot and writer by writer, and keeps the numbers of
-/// the record unique where a node is started anew and where two writers of a robot speak in turn. A writer that was not
-/// heard for long and is heard again goes on counting: what it wrote meanwhile is missing, unless it comes late. A
+/// the record unique where a node is started again and where two writers of a robot speak in turn. A writer that was
+/// not heard for long and is heard again goes on counting: what it wrote meanwhile is missing, unless it comes late. A
 /// number that no writer can have come to in the time that passed is not believed before its successor has confirmed
 /// it, nor is a robot 0.
 class SequenceWatch {
@@ -25,9 +25,9 @@ class SequenceWatch {
   };
 
   /// `writer` tells the writers of a topic apart, also where one goes and comes back; a new one, of a node that was
-  /// started anew or of a second node, starts a new count, which is no gap. `heard_s`: when this one came, on any clock
-  /// that rises; none: as in lockstep, where any time may have passed. `said_s`: its own instant; who stood still for
-  /// long takes what waited for it in no time, and then what came after that was lost.
+  /// started again or of a second node, starts a new count, which is no gap. `heard_s`: when this one came, on any
+  /// clock that rises; none: as in lockstep, where any time may have passed. `said_s`: its own instant; who stood still
+  /// for long takes what waited for it in no time, and then what came after that was lost.
   Finding see(std::uint8_t robot_id, std::uint64_t seq, std::uint64_t writer, std::optional<double> heard_s = {},
               std::optional<double> said_s = {}) {
     if (robot_id == 0 || seq > kHighest) return {.believed = false};
@@ -53,7 +53,7 @@ class SequenceWatch {
   static constexpr std::uint64_t kHighest = std::uint64_t{1} << 40;  // a year at 10 kHz is a third of it
   static constexpr double kMostPerSecond = 10'000.0;
   static constexpr std::uint64_t kAlwaysPossible = 100;
-  static constexpr std::size_t kMostWriters = 16;  // of a robot; who was not heard for longest begins anew
+  static constexpr std::size_t kMostWriters = 16;  // of a robot; who was not heard for longest begins again
 
   /// Numbers that were skipped, as ranges; of very many the latest.
   class Skipped {

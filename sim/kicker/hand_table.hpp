@@ -19,7 +19,7 @@ namespace trivela::sim {
 ///   5. least squares of degree 2 through them (the paper gives no degree).
 ///
 /// Distances beyond the kicker's reach on that day are left out. A table with fewer than two distances, or whose powers
-/// do not rise, is none that anybody would play by: it is made again on another day, all numbers drawn anew.
+/// do not rise, is none that anybody would play by: it is made again on another day, all numbers drawn again.
 /// One draw for each (seed, match, robot): the same in every arm. `robot` counts from 1; `kicker` is that robot's, or
 /// the team's reference where one table serves all.
 /// Throws std::runtime_error where 100 tables in a row are no good.

@@ -21,8 +21,8 @@
 #include "emulators/ioboard/emulated_board.hpp"
 #include "hal/ioboard/io_board.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::bench {
 namespace {
@@ -121,7 +121,7 @@ class DrivenBoard {
     return count;
   }
 
-  e2e::Folder folder_;
+  tests::Folder folder_;
   hal::ioboard::Emulator board_;
   config::Settings settings_;
   bus::Participant participant_{

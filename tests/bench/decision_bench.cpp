@@ -35,7 +35,7 @@ void judge_cycles(benchmark::State& state, PolicyName policy, const PolicyConfig
   PolicyMemory memory;
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(judge(policy, config, robot, goal, inputs[i++ % inputs.size()], memory));
+    benchmark::DoNotOptimize(evaluate(policy, config, robot, goal, inputs[i++ % inputs.size()], memory));
   }
 }
 
@@ -68,14 +68,14 @@ void predictive_kick_decision(benchmark::State& state) {
       before.t_ns -= 20'000'000 * cycle;
       before.opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8) + 0.026 * cycle;
       before.kicker_ready = false;
-      judge(PolicyName::kPredictive, config, robot, goal, before, watched[i]);
+      evaluate(PolicyName::kPredictive, config, robot, goal, before, watched[i]);
     }
     inputs[i].opponent_distance_m = 0.8 + 0.3 * static_cast<double>(i % 8);
   }
   std::size_t i = 0;
   for (auto _ : state) {
     PolicyMemory memory = watched[i];
-    benchmark::DoNotOptimize(judge(PolicyName::kPredictive, config, robot, goal, inputs[i], memory));
+    benchmark::DoNotOptimize(evaluate(PolicyName::kPredictive, config, robot, goal, inputs[i], memory));
     i = (i + 1) % inputs.size();
   }
 }

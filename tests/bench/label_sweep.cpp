@@ -1,16 +1,37 @@
 // How right the shot observer's labels are, by the goal camera: noise, frames a second, dropouts. Simulated.
 //     build/release/tests/label_sweep [--matches 40] [--possessions 60] [--seed 1] [--confused]
+// With --beliefs: by what robot and observer believe of the world, and is not so.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 
 #include "tests/experiment/label_sweep.hpp"
 
+namespace {
+
+using namespace trivela;
+
+double percent(double part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; }
+
+void sweep_beliefs(std::uint32_t matches, std::uint32_t possessions, std::uint64_t seed) {
+  fmt::print("SIMULATED: {} matches of {} possessions a world, seed {}\n", matches, possessions, seed);
+  fmt::print("{:<74} kicks  unknown  right of given  too good  too bad  bounds hold\n", "world");
+  for (const experiment::OtherWorld& world : experiment::kOtherWorlds) {
+    experiment::LabelCounts counts;
+    for (std::uint32_t match = 0; match < matches; ++match)
+      experiment::add_match({}, seed, match, possessions, counts, world);
+    fmt::print("{:<73} {:6d}  {:5.1f} %  {:12.2f} %  {:8d} {:8d}  {:9.1f} %\n", world.what, counts.kicks,
+               percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given), counts.too_good,
+               counts.too_bad, percent(counts.covered, counts.matches));
+  }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace trivela;
   std::uint32_t matches = 40, possessions = 60;
   std::uint64_t seed = 1;
-  bool confused = false;
+  bool confused = false, beliefs = false;
   double only_sd_m = 0.0, only_frames_per_s = 0.0;
   CLI::App app{"Labels of the shot observer beside the simulator's truth, by the goal camera"};
   app.add_option("--matches", matches, "of each camera")->check(CLI::Range(1, 100000));
@@ -19,7 +40,12 @@ int main(int argc, char** argv) {
   app.add_option("--sd", only_sd_m, "only this noise, m");
   app.add_option("--frames", only_frames_per_s, "only so many a second");
   app.add_flag("--confused", confused, "say which labels were wrong");
+  app.add_flag("--beliefs", beliefs, "worlds that are not what robot and observer believe, with the default camera");
   CLI11_PARSE(app, argc, argv);
+  if (beliefs) {
+    sweep_beliefs(matches, possessions, seed);
+    return 0;
+  }
 
   fmt::print("SIMULATED: {} matches of {} possessions a camera, seed {}; the observer is told 3 cm\n", matches,
              possessions, seed);
@@ -32,7 +58,6 @@ int main(int argc, char** argv) {
         experiment::LabelCounts counts;
         for (std::uint32_t match = 0; match < matches; ++match)
           experiment::add_match({sd_m, frames_per_s, dropout_ratio}, seed, match, possessions, counts);
-        const auto percent = [](double part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; };
         fmt::print("{:3.0f} cm  {:8.0f}  {:6.0f} %  {:6d}  {:5.1f} %  {:12.2f} %  {:6.2f} %  {:8d} {:8d}  {:9.1f} %\n",
                    100.0 * sd_m, frames_per_s, 100.0 * dropout_ratio, counts.kicks,
                    percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given),

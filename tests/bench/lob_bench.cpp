@@ -51,7 +51,7 @@ std::vector<kicking::lob::Scan> flight() {
   return scans;
 }
 
-/// The flight again and again; each time it begins anew 1.5 s later.
+/// The flight again and again; each time it begins again 1.5 s later.
 void add_scan_with_flying_ball(benchmark::State& state) {
   auto scans = flight();
   Analyzer analyzer = with_background();

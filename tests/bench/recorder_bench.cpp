@@ -19,6 +19,7 @@
 #include "nodes/recorder/recorder_node.hpp"
 #include "tests/bench/chain/contender.hpp"
 #include "tests/bench/chain/hogs.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::bench {
 namespace {
@@ -146,22 +147,6 @@ class Pipe {
   int ends_[2] = {-1, -1};
 };
 
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_bench_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"cannot make the folder " + pattern};
-    path_ = pattern;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 /// Waits until the rows are in the log, or none has come for a second: what is missing then will not come.
 void drain(log::Writer& log, std::int64_t rows) {
   std::int64_t before = -1;
@@ -190,9 +175,9 @@ bool robots_are_ready(bus::Participant& participant, const Plan& plan, const Pip
 void add_log(Result& result, const fs::path& path) {
   const log::Reader reader{path};
   reader.query("SELECT (SELECT count(*) FROM kick_decisions), (SELECT count(*) FROM shadow_decisions)",
-               [&](const auto& row) {
-                 result.recorded = std::get<std::int64_t>(row[0]);
-                 result.shadows = std::get<std::int64_t>(row[1]);
+               [&](std::int64_t decisions, std::int64_t shadows) {
+                 result.recorded = decisions;
+                 result.shadows = shadows;
                });
   for (const auto& loss : reader.losses()) {
     result.gaps += loss.gaps;
@@ -213,7 +198,7 @@ Result measure(const Plan& plan) {
     play_robots(domain, plan, report.write_end(), release.read_end());
   });
   report.close_end(1);
-  const Folder folder;
+  const tests::Folder folder;
   const fs::path path = folder.path() / "match.db";
   bus::Stop stop;
   config::Settings settings;

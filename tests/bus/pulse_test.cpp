@@ -51,7 +51,7 @@ struct PulseTest : testing::TestWithParam<Executor::Kind> {
       if (!late.empty()) hang.release();
       if (late.empty() && std::ranges::find(said, hung) != said.end()) stop.request();
     };
-    Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kTimeout}}.run();
+    Executor{GetParam(), stop, {&node}, {.beat = beat, .timeout = kTimeout}}.run();
     EXPECT_THAT(said, testing::Contains(hung));
     EXPECT_EQ(said.back(), "");
   }
@@ -98,7 +98,7 @@ TEST_P(PulseTest, WhatHasNothingToDoIsNotLate) {
     EXPECT_EQ(late, "");
     if (++beats == 3) stop.request();
   };
-  Executor{GetParam(), stop, {&node}, {.beat = beat, .patience = kTimeout}}.run();
+  Executor{GetParam(), stop, {&node}, {.beat = beat, .timeout = kTimeout}}.run();
   EXPECT_EQ(beats, 3);
 }
 

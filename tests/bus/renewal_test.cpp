@@ -37,7 +37,7 @@ std::vector<std::int64_t> taken(Reader<T>& reader) {
   return instants;
 }
 
-/// Waits, with nothing to hear, until the reader has been made anew.
+/// Waits, with nothing to hear, until the reader has been made again.
 bool renewed(AnyReader& reader) {
   const auto deadline = std::chrono::steady_clock::now() + kPlenty;
   while (std::chrono::steady_clock::now() < deadline) {
@@ -75,7 +75,7 @@ TEST(Renewal, ASilentReaderMadeAnewHearsNothingTwiceAndMissesNothing) {
 }
 
 TEST(Renewal, EventsThatAreSaidWhileTheirReaderIsMadeAnewAreHeardOnceEach) {
-  Wire wire;  // its own reader hears nothing, so that all are made anew
+  Wire wire;  // its own reader hears nothing, so that all are made again
   Writer<msg::KickReceipt> events{wire.near};
   Reader<msg::KickReceipt> hears{wire.far, {.period = {}, .keep_all = true, .on_liveliness = {}}};
   ASSERT_TRUE(events.wait_for_readers(1, kPlenty));
@@ -162,7 +162,7 @@ TEST(Renewal, WhereItDoesNotHelpTheExecutorEndsWithTheTopicsName) {
   } catch (const BusUnresponsive& deaf) {
     EXPECT_THAT(deaf.what(), testing::HasSubstr("vision"));
   }
-  EXPECT_FALSE(stop.requested()) << "the program may join anew";
+  EXPECT_FALSE(stop.requested()) << "the program may join again";
 }
 
 TEST(Renewal, AnInstantMoreThanASecondAheadIsBelievedInRealTimeByNobody) {

@@ -7,7 +7,7 @@
 
 #include "config/text/error.hpp"
 #include "log/write/writer.hpp"
-#include "tests/e2e/folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::calibration {
 namespace {
@@ -18,36 +18,36 @@ using testing::ThrowsMessage;
 void touch(const std::filesystem::path& file) { std::ofstream{file} << "a record"; }
 
 TEST(CalibrationRecord, ASecondStartKnowsWhatWasMeasuredAndPlayed) {
-  const e2e::Folder folder;
+  const tests::Folder folder;
   {
-    CalibrationRecord book{folder.path(), "--kicks 16"};
-    EXPECT_FALSE(book.measured("laser_x_m"));
-    book.measure("laser_x_m", 3.987);
-    book.finish("1_standing");
+    CalibrationRecord kept{folder.path(), "--kicks 16"};
+    EXPECT_FALSE(kept.measured("laser_x_m"));
+    kept.measure("laser_x_m", 3.987);
+    kept.finish("1_standing");
   }
-  const CalibrationRecord book{folder.path(), "--kicks 16"};
-  EXPECT_EQ(book.measured("laser_x_m"), 3.987);
-  EXPECT_FALSE(book.measured("laser_z_m"));
-  EXPECT_TRUE(book.finished("1_standing"));
-  EXPECT_FALSE(book.finished("3_lateral"));
+  const CalibrationRecord kept{folder.path(), "--kicks 16"};
+  EXPECT_EQ(kept.measured("laser_x_m"), 3.987);
+  EXPECT_FALSE(kept.measured("laser_z_m"));
+  EXPECT_TRUE(kept.finished("1_standing"));
+  EXPECT_FALSE(kept.finished("3_lateral"));
 }
 
 TEST(CalibrationRecord, OtherArgumentsAreAnotherCalibration) {
-  const e2e::Folder folder;
+  const tests::Folder folder;
   const CalibrationRecord begun{folder.path(), "--kicks 16"};
   EXPECT_THAT([&] { CalibrationRecord(folder.path(), "--kicks 8"); },
               ThrowsMessage<config::BadArgument>(HasSubstr("was begun with '--kicks 16', not with '--kicks 8'")));
 }
 
 TEST(CalibrationRecord, ABrokenBookIsNamed) {
-  const e2e::Folder folder;
+  const tests::Folder folder;
   touch(folder / "calibration.json");
   EXPECT_THAT([&] { CalibrationRecord(folder.path(), "--kicks 16"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("calibration.json is cut short")));
 }
 
 TEST(CalibrationRecord, ABrokenBookIsMendedWithWhatItsMessageSays) {
-  const e2e::Folder folder;
+  const tests::Folder folder;
   const auto session = [](char last) {
     log::Session begun;
     begun.uuid = std::string("00000000-0000-4000-8000-00000000000") + last;
@@ -65,13 +65,13 @@ TEST(CalibrationRecord, ABrokenBookIsMendedWithWhatItsMessageSays) {
   }
   ASSERT_NE(said.find('{'), std::string::npos) << said;
   std::ofstream{folder / "calibration.json"} << said.substr(said.find('{'));
-  const CalibrationRecord book{folder.path(), "--kicks 16"};
-  EXPECT_TRUE(book.finished("1_standing"));
-  EXPECT_FALSE(book.finished("2_straight") || book.finished("3_lateral"));
+  const CalibrationRecord kept{folder.path(), "--kicks 16"};
+  EXPECT_TRUE(kept.finished("1_standing"));
+  EXPECT_FALSE(kept.finished("2_straight") || kept.finished("3_lateral"));
 }
 
 TEST(CalibrationRecord, RecordsOfAnUnfinishedDriveAreKeptBesideTheNextOnes) {
-  const e2e::Folder folder;
+  const tests::Folder folder;
   for (int start = 1; start <= 2; ++start) {
     for (const char* record : {"1_standing.db", "1_standing.scans.db"}) touch(folder / record);
     touch(folder / "1_standing_2.db");  // of another drive

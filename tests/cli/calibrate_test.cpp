@@ -13,6 +13,7 @@
 #include "config/robot.hpp"
 #include "config/text/error.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -35,15 +36,8 @@ class CalibrateVerb : public testing::Test {
     int exit_code = -1;
   };
 
-  CalibrateVerb() : before_(fs::current_path()) {
-    std::string pattern = (fs::temp_directory_path() / "trivela_calibrate_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    fs::current_path(folder_);
-  }
-  ~CalibrateVerb() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  CalibrateVerb() : before_(fs::current_path()) { fs::current_path(folder_.path()); }
+  ~CalibrateVerb() override { fs::current_path(before_); }
 
   static void write(const std::string& file, const std::string& text) { std::ofstream{file} << text; }
   static std::string text_of(const std::string& file) {
@@ -88,7 +82,7 @@ class CalibrateVerb : public testing::Test {
 
  private:
   fs::path before_;
-  fs::path folder_;
+  tests::Folder folder_;
 };
 
 const std::string kLobs =
@@ -347,7 +341,7 @@ TEST_F(CalibrateVerb, WhatCannotBeWrittenIsSaidBeforeAnythingIsRead) {
   EXPECT_EQ(run("plot nothing.csv --out new.svg").exit_code, kFailed);
   write("old.svg", "a chart");
   EXPECT_EQ(run("plot nothing.csv --out old.svg").exit_code, kFailed);
-  EXPECT_EQ(text_of("old.svg"), "a chart") << "what could not be made anew stays";
+  EXPECT_EQ(text_of("old.svg"), "a chart") << "what could not be made again stays";
   EXPECT_THAT(files(), testing::ElementsAre("lobs.csv", "old.svg"));
 }
 

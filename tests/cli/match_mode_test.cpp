@@ -9,6 +9,7 @@
 
 #include "cli/verbs.hpp"
 #include "tests/cli/verb_run.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -17,12 +18,7 @@ using testing::HasSubstr;
 
 class WhileAMatchIsOn : public testing::Test {
  protected:
-  WhileAMatchIsOn() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_match_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    std::ofstream(folder_ / "match.toml") << "[run]\nmatch_mode = true\n";
-  }
-  ~WhileAMatchIsOn() override { std::filesystem::remove_all(folder_); }
+  WhileAMatchIsOn() { std::ofstream(folder_ / "match.toml") << "[run]\nmatch_mode = true\n"; }
 
   std::string why_refused(AddVerb verb, std::vector<std::string> words) const {
     words.insert(words.end(), {"--config", (folder_ / "match.toml").string()});
@@ -34,7 +30,7 @@ class WhileAMatchIsOn : public testing::Test {
     return "it was not refused";
   }
 
-  std::filesystem::path folder_;
+  tests::Folder folder_;
 };
 
 TEST_F(WhileAMatchIsOn, NoWheelIsTurnedAndNoTestKickGiven) {
@@ -45,7 +41,8 @@ TEST_F(WhileAMatchIsOn, NoWheelIsTurnedAndNoTestKickGiven) {
 }
 
 TEST_F(WhileAMatchIsOn, NoCalibrationOfCalibrationBegins) {
-  EXPECT_THAT(why_refused(add_calibrate, {"calibrate", "run", "--in", "field", "--robot", "r", "--out-dir", folder_}),
+  EXPECT_THAT(why_refused(add_calibrate,
+                          {"calibrate", "run", "--in", "field", "--robot", "r", "--out-dir", folder_.path().string()}),
               HasSubstr("run.match_mode = true: a match is on, and the calibration on a field waits"));
 }
 

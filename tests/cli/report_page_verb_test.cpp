@@ -44,7 +44,7 @@ TEST_F(ReportPageVerb, WritesAPageBesideTheText) {
 TEST_F(ReportPageVerb, SaysFirstWhereItCannotWrite) {
   EXPECT_THAT([&] { run(path("nowhere/page.html").string()); },
               ThrowsMessage<std::runtime_error>(HasSubstr("cannot write --html")));
-  EXPECT_THAT([&] { run(directory_.string()); }, ThrowsMessage<std::runtime_error>(HasSubstr("it is a folder")));
+  EXPECT_THAT([&] { run(directory_.path().string()); }, ThrowsMessage<std::runtime_error>(HasSubstr("it is a folder")));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/verbs.hpp"
 #include "config/settings.hpp"
 #include "tests/cli/verb_run.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::cli {
 namespace {
@@ -20,13 +21,10 @@ using testing::HasSubstr;
 class TeamVerb : public testing::Test {
  protected:
   TeamVerb() {
-    std::string pattern = testing::TempDir() + "trivela_team_XXXXXX";
-    folder = mkdtemp(pattern.data());
     fs::create_directory(folder / "teams");
     fs::copy(TRIVELA_SOURCE_DIR "/config/teams/example.toml", folder / "teams" / "team.toml");
     fs::create_directory_symlink(TRIVELA_SOURCE_DIR "/config/robots", folder / "robots");
   }
-  ~TeamVerb() override { fs::remove_all(folder); }
 
   /// The exit code; what was said in `said`. Throws what the program's main turns into a sentence.
   int run(std::vector<std::string> words) {
@@ -46,7 +44,7 @@ class TeamVerb : public testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  fs::path folder;
+  tests::Folder folder;
   std::string said;
 };
 

@@ -7,6 +7,7 @@
 #include "config/robot.hpp"
 #include "config/text/error.hpp"
 #include "kicking/ballistics/crossing.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::config {
 namespace {
@@ -19,12 +20,6 @@ using testing::ThrowsMessage;
 
 class CalibratedRobot : public testing::Test {
  protected:
-  CalibratedRobot() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_robot_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~CalibratedRobot() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& text) const {
     const fs::path path = folder_ / "robot.toml";
     std::ofstream{path} << text;
@@ -32,7 +27,7 @@ class CalibratedRobot : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  tests::Folder folder_;
 };
 
 const std::string kTable = "[table]\nkind = \"effective\"\npowers = [10.0, 20.0]\nexit_speeds_mps = [5.0, 7.0]\n";

@@ -11,6 +11,7 @@
 #include "config/scenario/scenario.hpp"
 #include "config/scenario/scenario_field.hpp"
 #include "config/text/error.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::config {
 namespace {
@@ -66,12 +67,6 @@ const std::string kFields = TRIVELA_SOURCE_DIR "/config/fields/";
 
 class FieldFileTest : public testing::Test {
  protected:
-  FieldFileTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_field_XXXXXX").string();
-    folder = ::mkdtemp(pattern.data());
-  }
-  ~FieldFileTest() override { std::filesystem::remove_all(folder); }
-
   std::filesystem::path file(const std::string& name, const std::string& text) const {
     std::ofstream{folder / name} << text;
     return folder / name;
@@ -85,7 +80,7 @@ class FieldFileTest : public testing::Test {
     return "";
   }
 
-  std::filesystem::path folder;
+  tests::Folder folder;
 };
 
 TEST_F(FieldFileTest, NodesAndScenarioThatNameOneFileAgree) {

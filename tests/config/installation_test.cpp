@@ -1,4 +1,5 @@
 #include "config/text/installation.hpp"
+#include "tests/support/folder.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -14,16 +15,11 @@ namespace fs = std::filesystem;
 /// A folder with a default.toml. This program lies in a build of the sources, whose configuration is there as well.
 struct Folder : testing::Test {
   Folder() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_config_XXXXXX").string();
-    machine = ::mkdtemp(pattern.data());
     std::ofstream{machine / "default.toml"} << "";
     unsetenv("TRIVELA_CONFIG");
   }
-  ~Folder() override {
-    unsetenv("TRIVELA_CONFIG");
-    fs::remove_all(machine);
-  }
-  fs::path machine;
+  ~Folder() override { unsetenv("TRIVELA_CONFIG"); }
+  tests::Folder machine;
 };
 
 TEST_F(Folder, OfTheSourcesGoesBeforeThatOfTheMachine) {
@@ -31,8 +27,8 @@ TEST_F(Folder, OfTheSourcesGoesBeforeThatOfTheMachine) {
 }
 
 TEST_F(Folder, ThatTheEnvironmentNamesGoesBeforeAll) {
-  setenv("TRIVELA_CONFIG", machine.c_str(), 1);
-  EXPECT_EQ(folder("/nowhere"), machine);
+  setenv("TRIVELA_CONFIG", machine.path().c_str(), 1);
+  EXPECT_EQ(folder("/nowhere"), machine.path());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "config/settings.hpp"
 #include "config/text/error.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::config {
 namespace {
@@ -17,19 +18,13 @@ using testing::ThrowsMessage;
 
 class LearnedModelFiles : public testing::Test {
  protected:
-  LearnedModelFiles() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_learned_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~LearnedModelFiles() override { fs::remove_all(folder_); }
-
   fs::path file(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
     return folder_ / name;
   }
 
  private:
-  fs::path folder_;
+  tests::Folder folder_;
 };
 
 LearnedModelFile example() {

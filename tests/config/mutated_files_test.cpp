@@ -17,7 +17,7 @@
 #include "config/team/team_bus.hpp"
 #include "config/team/team_files.hpp"
 #include "config/team/team_settings.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::config {
 namespace {
@@ -133,7 +133,7 @@ class MutatedFiles : public testing::TestWithParam<Kind> {};
 TEST_P(MutatedFiles, AreReadOrRefusedInASentence) {
   const Kind& kind = GetParam();
   std::size_t read = 0, refused = 0;
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const fs::path copy = folder / "config";  // whole, since files name each other
   fs::copy(fs::path{TRIVELA_SOURCE_DIR} / "config", copy, fs::copy_options::recursive);
   for (const std::string& file : kind.files) {
@@ -162,7 +162,7 @@ TEST_P(MutatedFiles, AreReadOrRefusedInASentence) {
       for (const std::string& value : wrong_values()) play(place, value);
     }
   }
-  EXPECT_GT(read, 0u) << "the file as it is, written anew, reads";
+  EXPECT_GT(read, 0u) << "the file as it is, written again, reads";
   EXPECT_GT(refused, read / 10);
 }
 

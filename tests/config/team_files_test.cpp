@@ -12,6 +12,7 @@
 #include "config/team/team_bus.hpp"
 #include "config/team/team_settings.hpp"
 #include "config/text/error.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::config {
 namespace {
@@ -41,19 +42,11 @@ std::string text_in(const std::vector<TeamFile>& files, const std::string& name)
 /// A file of a test's own folder, which goes with the object.
 class WrittenFile {
  public:
-  explicit WrittenFile(const std::string& text) {
-    std::string pattern = testing::TempDir() + "trivela_team_XXXXXX";
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"no folder " + pattern};
-    folder_ = pattern;
-    std::ofstream{path()} << text;
-  }
-  WrittenFile(const WrittenFile&) = delete;
-  WrittenFile& operator=(const WrittenFile&) = delete;
-  ~WrittenFile() { std::filesystem::remove_all(folder_); }
+  explicit WrittenFile(const std::string& text) { std::ofstream{path()} << text; }
   std::filesystem::path path() const { return folder_ / "written.toml"; }
 
  private:
-  std::filesystem::path folder_;
+  tests::Folder folder_;
 };
 
 TEST(TeamFiles, SettingsReadBackAreThoseOfTheTeam) {

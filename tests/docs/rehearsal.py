@@ -207,7 +207,7 @@ class Rehearsal:
                 continue
             if self.update:
                 shutil.copyfile(self.folder / source, self.root / committed)
-                print(f"{committed}: made anew")
+                print(f"{committed}: made again")
             else:
                 self._wrong(command.line, f"{committed} is not what the command draws")
 

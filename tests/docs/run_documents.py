@@ -45,7 +45,7 @@ def main():
                     problems += rehearsal.play(document)
                     if flags.update and rehearsal.edits:
                         path.write_text("\n".join(rehearsal.updated(document)))
-                        print(f"{document.name}: {len(rehearsal.edits)} blocks written anew")
+                        print(f"{document.name}: {len(rehearsal.edits)} blocks written again")
     except DocumentError as error:
         problems = [str(error)]
     for problem in problems:

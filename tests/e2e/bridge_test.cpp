@@ -19,8 +19,8 @@
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
 #include "log/read/reader.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -32,7 +32,7 @@ using testing::SizeIs;
 
 std::int64_t steady_ns() { return Clock::now().time_since_epoch().count(); }
 
-config::Settings settings_for(const Folder& folder) {
+config::Settings settings_for(const tests::Folder& folder) {
   config::Settings settings = config::load_settings(TRIVELA_SOURCE_DIR "/config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;
@@ -74,7 +74,7 @@ class BehindABridge : public testing::Test {
     EXPECT_EQ(program(name).wait(), 0) << name << ": " << program(name).errors();
   }
 
-  Folder folder_;
+  tests::Folder folder_;
   config::Settings settings_ = settings_for(folder_);
   bus::Participant participant_{bus::loopback(settings_.domain.domain_id, settings_.domain.tag)};
 

@@ -10,10 +10,10 @@
 #include <memory>
 #include <random>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -42,7 +42,7 @@ class CalibrateInField : public testing::Test {
 
   bool exists(const std::string& record) const { return std::filesystem::exists(folder_.path() / "drives" / record); }
 
-  Folder folder_;
+  tests::Folder folder_;
   TypedTerminal person_;
 };
 

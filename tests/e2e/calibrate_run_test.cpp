@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "config/robot.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::chrono::minutes kWholeRun{15};  // on a machine that does other t
 class CalibrateRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<Folder>();
+    folder_ = std::make_unique<tests::Folder>();
     Program run{"trivela",
                 {"calibrate", "run", "--in", "simulation", "--robot", "newcomer", "--out-dir", "drives", "--json"},
                 folder_->path()};
@@ -47,7 +47,7 @@ class CalibrateRun : public testing::Test {
     return 0.0;
   }
 
-  inline static std::unique_ptr<Folder> folder_;
+  inline static std::unique_ptr<tests::Folder> folder_;
   inline static int exit_code_ = -1;
   inline static std::string errors_;
   inline static nlohmann::json report_;
@@ -165,7 +165,7 @@ class RunningCalibration {
   }
 
  private:
-  Folder folder_;
+  tests::Folder folder_;
   Program program_{"trivela", {"calibrate", "run", "--in", "simulation", "--out-dir", "."}, folder_.path()};
   std::map<std::string, ProcessWatch> nodes_;
 };
@@ -189,7 +189,7 @@ TEST(CalibrateRunEnding, ANodeThatDiesIsNamed) {
 }
 
 TEST(CalibrateRunUsage, KnowsNoWorldButTheSimulation) {
-  const Folder folder;
+  const tests::Folder folder;
   Program run{"trivela", {"calibrate", "run", "--in", "reality"}, folder.path()};
   EXPECT_EQ(run.wait(), 2);
   EXPECT_THAT(run.errors(), HasSubstr("simulation"));

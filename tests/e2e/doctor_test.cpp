@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 class Doctor : public testing::Test {
  protected:
-  Folder folder_;
+  tests::Folder folder_;
 
   void SetUp() override {
     if (std::system("unshare -rn ip link set lo up 2>/dev/null") != 0)
@@ -104,7 +104,7 @@ TEST_F(Doctor, FindsAFirewallThatSwallows) {
 }
 
 TEST_F(Doctor, WantsToKnowWhatToExamine) {
-  const Folder folder;
+  const tests::Folder folder;
   Program program("trivela", {"doctor"}, folder.path());
   EXPECT_EQ(program.wait(), 2);
   EXPECT_THAT(program.errors(), HasSubstr("--network"));

@@ -12,8 +12,8 @@
 #include "hal/ioboard/io_board.hpp"
 #include "hal/mti/mti.hpp"
 #include "hal/rekick/rekick.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -32,7 +32,7 @@ class Emulate : public testing::Test {
                            [&] { return program.output().find(text) != std::string::npos; });
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 };
 
 TEST_F(Emulate, AnIoBoardIsFoundAtTheAddressThatItPrintsAndSaysItsPulses) {

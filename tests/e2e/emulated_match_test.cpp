@@ -12,9 +12,9 @@
 #include <regex>
 
 #include "config/scenario/scenario.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -79,7 +79,7 @@ class EmulatedMatch : public testing::TestWithParam<Devices> {
     std::string said;
   };
   struct Played {
-    Folder folder;
+    tests::Folder folder;
     std::map<std::string, Match> matches;
   };
 
@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Over, EmulatedMatch, testing::Values(ioboard(), rekick_
                          [](const auto& of) { return of.param.name; });
 
 TEST(EmulatedMatchUsage, ABoxHasNoWordsForAFifthHalf) {
-  const Folder folder;
+  const tests::Folder folder;
   std::vector<std::string> words{"match", "--devices", "emulated", "--minutes", "0.01", "--out", "match.db"};
   for (int half = 0; half < 5; ++half) words.insert(words.end(), {"--half", "moving"});
   Program match{"trivela", words, folder.path()};
@@ -249,7 +249,7 @@ TEST(EmulatedMatchUsage, ABoxHasNoWordsForAFifthHalf) {
 }
 
 TEST(EmulatedMatchUsage, WhatTheFlagSaysIsNotSaidAgain) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", {"match", "--half", "moving", "--set", "simulator.devices=\"emulated\""}, folder.path()};
   EXPECT_EQ(match.wait(), 2);
   EXPECT_THAT(match.errors(), HasSubstr("--devices says it"));

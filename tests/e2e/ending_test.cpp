@@ -68,7 +68,7 @@ TEST(Ending, ASimulatorThatIsAskedToStopDoesNotMakeTheMatchWhole) {
 }
 
 TEST(Ending, CtrlCBeforeTheFirstCycleLeavesNoProcess) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
   // The recorder, which is the first node, makes the log.
   ASSERT_TRUE(wait_for_change(folder.path(), match.watch(), [&] { return children_of(match.id()).size() >= 1; }));
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Ending, KilledNode,
                          [](const auto& test) { return std::string{test.param}; });
 
 TEST(Ending, ANodeThatDiesAtTheStartDoesNotKeepTheOthers) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
   // The recorder is the first child; the simulator waits for every other one.
   ASSERT_TRUE(wait_for_change(folder.path(), match.watch(), [&] { return !children_of(match.id()).empty(); }));
@@ -128,7 +128,7 @@ TEST(Ending, AKilledMatchLeavesNoNodeBehind) {
 TEST(Ending, AKilledMatchLeavesNoFileAndNoProcessWheneverThatHappens) {
   std::mt19937 random{20261122};
   for (int kill = 0; kill < 24; ++kill) {
-    const Folder folder;
+    const tests::Folder folder;
     Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
     // Most of what may be left behind is made in the first tenth of a second.
     const std::chrono::milliseconds moment{random() % (kill % 2 == 0 ? 100 : 1000)};

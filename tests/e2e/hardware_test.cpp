@@ -21,9 +21,9 @@
 #include "emulators/rekick/emulated_board.hpp"
 #include "emulators/scip/emulator.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/e2e/typed_terminal.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -65,7 +65,7 @@ class Hardware : public testing::Test {
     return count;
   }
 
-  Folder folder_;
+  tests::Folder folder_;
   TypedTerminal person_;
   hal::ioboard::Emulator board_;
 };

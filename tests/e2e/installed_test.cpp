@@ -10,8 +10,8 @@
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
 #include "log/read/reader.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -25,7 +25,7 @@ const std::vector<std::string> kOneMatch{"simulate",      "--arms", "moving", "-
 class Installed : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    prefix_ = std::make_unique<Folder>();
+    prefix_ = std::make_unique<tests::Folder>();
     Program install{TRIVELA_CMAKE, {"--install", TRIVELA_BINARY_DIR, "--prefix", prefix_->path()}, prefix_->path()};
     ASSERT_EQ(install.wait(), 0) << install.output() << install.errors();
   }
@@ -42,10 +42,10 @@ class Installed : public testing::Test {
     return process.output();
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 
  private:
-  inline static std::unique_ptr<Folder> prefix_;
+  inline static std::unique_ptr<tests::Folder> prefix_;
 };
 
 TEST_F(Installed, EveryProgramFindsTheInstalledConfiguration) {

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <random>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -54,7 +54,7 @@ class Limits : public testing::Test {
     return code;
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 };
 
 /// With fewer than 7 the dynamic linker may not find the libraries, if the test has descriptors open itself, and says

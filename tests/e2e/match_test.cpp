@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -25,7 +25,7 @@ constexpr double kHalf_min = 2.5;
 class Match : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<Folder>();
+    folder_ = std::make_unique<tests::Folder>();
     Program match{"trivela",
                   {"match", "--half", "stopped", "--half", "moving", "--minutes", fmt::format("{}", kHalf_min),
                    "--seed", "1", "--out", "match.db"},
@@ -49,7 +49,7 @@ class Match : public testing::Test {
     return nlohmann::json::parse(report.output());
   }
 
-  inline static std::unique_ptr<Folder> folder_;
+  inline static std::unique_ptr<tests::Folder> folder_;
   inline static std::unique_ptr<Reader> log_;
   inline static int exit_code_ = -1;
   inline static std::string output_;
@@ -138,7 +138,7 @@ TEST_F(Match, SaysHowLongItWasToLast) {
 }
 
 TEST(PairedMatch, BothHalvesMeetTheSamePossessionsAndAreComparedAsPairs) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela",
                 {"match", "--half", "stopped", "--half", "moving", "--paired-halves", "--minutes",
                  fmt::format("{}", kHalf_min), "--seed", "3", "--out", "match.db"},

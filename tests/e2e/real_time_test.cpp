@@ -9,16 +9,16 @@
 #include <random>
 
 #include "config/settings.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
 
 using testing::IsEmpty;
 
-config::Settings settings_for(const Folder& folder) {
+config::Settings settings_for(const tests::Folder& folder) {
   const std::filesystem::path shipped = std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml";
   config::Settings settings = config::load_settings(shipped);
   std::random_device random;
@@ -69,7 +69,7 @@ class RealTime : public testing::Test {
   }
 
   const std::vector<std::string> kArguments{"--config", "nodes.toml"};
-  const Folder folder_;
+  const tests::Folder folder_;
   config::Settings settings_;
   std::optional<Program> recorder_;
   std::deque<Program> nodes_;

@@ -15,9 +15,9 @@
 #include "bus/writer.hpp"
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -29,7 +29,7 @@ using testing::HasSubstr;
 constexpr Milliseconds kSpan{100};  // recorder.group_commit_s
 constexpr int kKills = 8;
 
-config::Settings settings_for(const Folder& folder, int kill) {
+config::Settings settings_for(const tests::Folder& folder, int kill) {
   config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;
@@ -99,7 +99,7 @@ struct Loss {
 /// Kills a recorder at a seeded moment of its work on a disk whose synchronisations take `disk_ms` longer.
 Loss loss_of_a_kill(int kill, int disk_ms) {
   std::mt19937 random{static_cast<unsigned>(1000 * disk_ms + kill)};
-  const Folder folder;
+  const tests::Folder folder;
   const config::Settings settings = settings_for(folder, kill);
   std::ofstream{folder / "nodes.toml"} << config::to_toml_text(settings);
   Program recorder{"trivela-recorder", {"--config", "nodes.toml"}, folder.path(), [&] {
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Disk, RecorderLoss, testing::Values(0, 20, 45),
                          [](const auto& test) { return fmt::format("{}msSlower", test.param); });
 
 TEST(RecorderLossWarning, ADiskThatIsSlowerThanTheSpanIsSaid) {
-  const Folder folder;
+  const tests::Folder folder;
   const config::Settings settings = settings_for(folder, 0);
   std::ofstream{folder / "nodes.toml"} << config::to_toml_text(settings);
   Program recorder{"trivela-recorder", {"--config", "nodes.toml"}, folder.path(), [] {

@@ -2,9 +2,9 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -20,13 +20,13 @@ std::vector<std::string> arguments(int seed, const std::string& out, const std::
   return all;
 }
 
-void play(const Folder& folder, int seed, const std::string& out, const std::vector<std::string>& more = {}) {
+void play(const tests::Folder& folder, int seed, const std::string& out, const std::vector<std::string>& more = {}) {
   Program match{"trivela", arguments(seed, out, more), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
 }
 
 TEST(Repeat, TheSameSeedGivesTheSameRowsAloneAndBesideAnotherMatch) {
-  const Folder folder;
+  const tests::Folder folder;
   play(folder, 1, "first.db");
   play(folder, 1, "again.db");
   play(folder, 2, "other.db");
@@ -46,7 +46,7 @@ TEST(Repeat, TheSameSeedGivesTheSameRowsAloneAndBesideAnotherMatch) {
 }
 
 TEST(Repeat, TheDecisionPathInOneProcessSaysTheSameWithKeysAndWithout) {
-  const Folder folder;
+  const tests::Folder folder;
   play(folder, 1, "apart.db");
   play(folder, 1, "together.db", {"--set", "run.one_process=true"});
   play(folder, 1, "secured.db", {"--set", "run.one_process=true", "--secure"});

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 }
 
 /// What is not alike of the rows that both a match and its replay have.
-std::vector<std::string> decided_otherwise(const Folder& folder, const char* one, const char* other) {
+std::vector<std::string> decided_otherwise(const tests::Folder& folder, const char* one, const char* other) {
   std::vector<std::string> tables;
   for (const std::string& difference : differences_of(Reader{folder / one}, Reader{folder / other})) {
     const std::string table = difference.substr(0, difference.find(','));
@@ -38,14 +38,14 @@ std::vector<std::string> decided_otherwise(const Folder& folder, const char* one
   return tables;
 }
 
-std::string replay(const Folder& folder, const std::vector<std::string>& more, int code = 0) {
+std::string replay(const tests::Folder& folder, const std::vector<std::string>& more, int code = 0) {
   Program program{"trivela", with({"replay"}, more), folder.path()};
   EXPECT_EQ(program.wait(), code) << program.errors();
   return program.output() + program.errors();
 }
 
 TEST(Replay, GivesTheRowsOfALockstepMatchAgainAndOtherOrdersWithAnotherPolicy) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
   EXPECT_THAT(replay(folder, {"match.db", "--out", "same.db"}), HasSubstr("the same decisions: "));
@@ -75,7 +75,7 @@ TEST(Replay, GivesTheRowsOfALockstepMatchAgainAndOtherOrdersWithAnotherPolicy) {
 }
 
 TEST(Replay, GivesTheDecisionsOfAMatchInRealTimeAgain) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela",
                 {"match", "--devices", "emulated", "--half", "moving", "--half", "predictive", "--minutes", "0.15",
                  "--out", "match.db"},
@@ -96,7 +96,7 @@ TEST(Replay, GivesTheDecisionsOfAMatchInRealTimeAgain) {
 }
 
 TEST(Replay, DecidesTheSessionThatIsNamed) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const char* const seed : {"7", "8"}) {
     const std::string log = fmt::format("match_{}.db", seed);
     Program match{
@@ -142,7 +142,7 @@ void add_a_second_robot(const std::filesystem::path& log) {
 }
 
 TEST(Replay, DecidesEachRobotOfASessionByItsOwnRows) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
   add_a_second_robot(folder / "match.db");
@@ -165,7 +165,7 @@ TEST(Replay, DecidesEachRobotOfASessionByItsOwnRows) {
 }
 
 TEST(Replay, KeepsAndSaysWhatItDecidedWhereItIsStopped) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", with(kMatch, {"match.db"}), folder.path()};
   ASSERT_EQ(match.wait(), 0) << match.errors();
   Program stopped{"trivela", {"replay", "match.db", "--out", "part.db"}, folder.path(), [] {
@@ -186,7 +186,7 @@ TEST(Replay, KeepsAndSaysWhatItDecidedWhereItIsStopped) {
 }
 
 TEST(Replay, RefusesWhatItCannotDecideAgain) {
-  const Folder folder;
+  const tests::Folder folder;
   Program simulate{"trivela", {"simulate", "--arms", "moving", "--matches", "1", "--out", "sim.db"}, folder.path()};
   ASSERT_EQ(simulate.wait(), 0) << simulate.errors();
   EXPECT_THAT(replay(folder, {"sim.db", "--out", "out.db"}, 1),
@@ -201,7 +201,7 @@ TEST(Replay, RefusesWhatItCannotDecideAgain) {
 }
 
 TEST(Match, WaitsForADiskThatDoesNotKeepUp) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{
       "trivela",
       with(kMatch, {"match.db", "--set", "recorder.queue_capacity=300", "--set", "recorder.group_commit_s=1"}),

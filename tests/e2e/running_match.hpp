@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 
@@ -18,7 +18,7 @@ class RunningMatch {
   bool wait_until_recorded(std::uintmax_t bytes) const;
 
   Program& program() { return program_; }
-  const Folder& folder() const { return folder_; }
+  const tests::Folder& folder() const { return folder_; }
   std::filesystem::path log() const { return folder_ / "match.db"; }
 
   /// The configuration that all nodes read, while the recorder lives.
@@ -32,7 +32,7 @@ class RunningMatch {
   std::vector<std::string> nodes_left(std::chrono::milliseconds timeout) const;
 
  private:
-  Folder folder_;
+  tests::Folder folder_;
   Program program_;
   std::map<std::string, ProcessWatch> nodes_;
 };

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "log/write/scan_log.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -36,7 +36,7 @@ class Scan : public testing::Test {
     return program.output().substr(0, program.output().find('\n'));
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 };
 
 TEST_F(Scan, SyntheticScansHoldWhatWasKickedAndSayThatTheyAreSynthetic) {

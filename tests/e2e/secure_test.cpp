@@ -1,9 +1,9 @@
 // A match whose nodes hold keys, and nodes that do not.
 #include <gmock/gmock.h>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -21,7 +21,7 @@ std::vector<std::string> with(std::vector<std::string> some, const std::vector<s
 }
 
 TEST(Secure, AMatchWithKeysHasTheRowsOfOneWithoutAndLeavesNoKeys) {
-  const Folder folder;
+  const tests::Folder folder;
   Program plain{"trivela", short_match("plain.db"), folder.path()};
   ASSERT_EQ(plain.wait(), 0) << plain.errors();
   Program secured{"trivela", with(short_match("secured.db"), {"--secure"}), folder.path()};
@@ -35,7 +35,7 @@ TEST(Secure, AMatchWithKeysHasTheRowsOfOneWithoutAndLeavesNoKeys) {
 }
 
 TEST(Secure, AMatchPlaysWithATeamsKeysAndSaysWhatIsWrongWithThem) {
-  const Folder folder;
+  const tests::Folder folder;
   Program made{"trivela", {"keys", "init", "--dir", "keys", "--robot", "1"}, folder.path()};
   ASSERT_EQ(made.wait(), 0) << made.errors();
   Program world{"trivela", {"keys", "issue", "--dir", "keys", "--robot", "1", "--node", "simulator"}, folder.path()};

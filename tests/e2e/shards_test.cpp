@@ -17,7 +17,7 @@ constexpr int kMatches = 7;
 
 std::string shard_file(int number) { return fmt::format("shard_{}.db", number); }
 
-void play_shards(const Folder& folder, int count, const std::vector<std::string>& more = {}) {
+void play_shards(const tests::Folder& folder, int count, const std::vector<std::string>& more = {}) {
   for (int number = 1; number <= count; ++number) {
     std::vector<std::string> flags{"--shard", fmt::format("{}/{}", number, count)};
     flags.insert(flags.end(), more.begin(), more.end());
@@ -26,14 +26,14 @@ void play_shards(const Folder& folder, int count, const std::vector<std::string>
 }
 
 /// What a verb that fails says.
-std::string refusal(const Folder& folder, const std::vector<std::string>& arguments, int exit_code = 1) {
+std::string refusal(const tests::Folder& folder, const std::vector<std::string>& arguments, int exit_code = 1) {
   Program program{"trivela", arguments, folder.path()};
   EXPECT_EQ(program.wait(), exit_code);
   return program.errors();
 }
 
 TEST(Shards, MergeToTheRowsOfOneRun) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::vector<std::string> calibrations{"simulate",      "--arms", "moving,stopped@old", "--matches", "7",
                                               "--possessions", "20",     "--calibrations",     "2"};
   const auto play = [&](std::vector<std::string> more) {
@@ -52,7 +52,7 @@ TEST(Shards, MergeToTheRowsOfOneRun) {
 }
 
 TEST(Shards, ThatAreThereTwiceOrBesideTheWholeSayNothingNew) {
-  const Folder folder;
+  const tests::Folder folder;
   play_shards(folder, 2);
   run(folder, simulate("whole.db", kMatches));
   std::filesystem::copy_file(folder / "shard_2.db", folder / "again.db");
@@ -68,7 +68,7 @@ TEST(Shards, ThatAreThereTwiceOrBesideTheWholeSayNothingNew) {
 }
 
 TEST(Shards, ThatLackOrAreForeignAreNamed) {
-  const Folder folder;
+  const tests::Folder folder;
   play_shards(folder, 3);
   EXPECT_THAT(refusal(folder, {"merge", "out.db", "shard_1.db", "shard_3.db"}), HasSubstr("missing: 2/3"));
   run(folder, simulate("foreign.db", kMatches, {"--shard", "2/3", "--seed", "2"}));
@@ -81,7 +81,7 @@ TEST(Shards, ThatLackOrAreForeignAreNamed) {
 }
 
 TEST(Shards, DoNotMergeOverAFileThatIsThere) {
-  const Folder folder;
+  const tests::Folder folder;
   play_shards(folder, 1);
   run(folder, simulate("whole.db", kMatches));
   EXPECT_THAT(refusal(folder, {"merge", "whole.db", "shard_1.db"}, 2), HasSubstr("whole.db"));
@@ -89,7 +89,7 @@ TEST(Shards, DoNotMergeOverAFileThatIsThere) {
 }
 
 TEST(Shards, ThatWereStoppedAreRefusedAndGoOn) {
-  const Folder folder;
+  const tests::Folder folder;
   constexpr int kMany = 1000;
   {
     Program program{"trivela", simulate("shard_1.db", kMany, {"--shard", "1/2"}), folder.path()};
@@ -114,7 +114,7 @@ TEST(Shards, ThatWereStoppedAreRefusedAndGoOn) {
 }
 
 TEST(Shards, AreWrittenAsKOfN) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::string text : {"0/3", "4/3", "3", "1/2/3", "-1/3", "a/b"})
     EXPECT_THAT(refusal(folder, simulate("ab.db", 7, {"--shard", text}), 2), HasSubstr("is not K/N")) << text;
   EXPECT_THAT(refusal(folder, simulate("ab.db", 7, {"--shard", "1/8"}), 2), HasSubstr("more parts than --matches 7"));

@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "config/scenario/scenario.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -35,7 +35,7 @@ class ShortMatch : public testing::Test {
     return Reader{folder_ / "match.db"};
   }
 
-  Folder folder_;
+  tests::Folder folder_;
 };
 
 // Nobody writes team_drive: whatever moves the base while the ball is in the handler is kick_decision.

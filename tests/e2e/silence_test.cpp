@@ -19,9 +19,9 @@
 #include "bus/reader.hpp"
 #include "config/settings.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -32,7 +32,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-config::Settings settings_for(const Folder& folder) {
+config::Settings settings_for(const tests::Folder& folder) {
   const std::filesystem::path shipped = std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml";
   config::Settings settings = config::load_settings(shipped);
   std::random_device random;
@@ -134,7 +134,7 @@ class Match {
     return nlohmann::json::parse(report.output());
   }
 
-  Folder folder;
+  tests::Folder folder;
   config::Settings settings = settings_for(folder);
   Witness witness{settings.domain};
 
@@ -172,7 +172,7 @@ TEST(Silence, ANodeThatStandsStillIsWarnedOfLoggedAndReported) {
   for (int attempt = 0; attempt < 5 && length_ns(longest_gap(witness.odometry_t_ns)) <= 1'000'000'000; ++attempt) {
     match.node("odometry").signal(SIGSTOP);
     const std::int64_t stopped_t_ns = witness.referee_t_ns;
-    // The rest of the match goes on; not until 0.5 or 1.5 s, when readers that hear nothing are made anew.
+    // The rest of the match goes on; not until 0.5 or 1.5 s, when readers that hear nothing are made again.
     ASSERT_TRUE(witness.hears_until([&] { return witness.referee_t_ns > stopped_t_ns + 1'250'000'000; }));
     const std::size_t before = witness.odometry_t_ns.size();
     match.node("odometry").signal(SIGCONT);

@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 TEST(SimulateArms, NamesWhatIsNoArm) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto complaint = [&](const std::string& arms) {
     Program program{"trivela", {"simulate", "--arms", arms, "--matches", "1"}, folder.path()};
     EXPECT_EQ(program.wait(), 2) << arms;
@@ -29,7 +29,7 @@ TEST(SimulateArms, NamesWhatIsNoArm) {
 }
 
 /// What a refused command says. It leaves no file behind.
-std::string refusal(const Folder& folder, const std::vector<std::string>& more, int exit_code = 2) {
+std::string refusal(const tests::Folder& folder, const std::vector<std::string>& more, int exit_code = 2) {
   std::vector<std::string> arguments{"simulate", "--matches", "1", "--possessions", "3", "--out", "no.db"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   Program program{"trivela", arguments, folder.path()};
@@ -39,7 +39,7 @@ std::string refusal(const Folder& folder, const std::vector<std::string>& more, 
 }
 
 TEST(SimulateArms, ARefusedCommandDoesNotBlockTheCorrectedOne) {
-  const Folder folder;
+  const tests::Folder folder;
   EXPECT_THAT(refusal(folder, {"--arms", "stopped", "--set", "run.cycle_s=0.01"}, 1),
               HasSubstr("arm stopped: run.cycle_s = 0.01 differs from the scenario's"));
   EXPECT_THAT(
@@ -51,7 +51,7 @@ TEST(SimulateArms, ARefusedCommandDoesNotBlockTheCorrectedOne) {
 }
 
 TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto said = [&](const std::string& line) { return refusal(folder, {"--arms", "moving", "--set", line}); };
   EXPECT_THAT(said("kick_decision.shadows=true"), HasSubstr("--set kick_decision.shadows=true: kick_decision.shadows "
                                                             "plays no part in process: trivela simulate --shadows"));
@@ -68,7 +68,7 @@ TEST(SimulateArms, RefusesSettingsThatPlayNoPart) {
 }
 
 TEST(SimulateArms, OneOfArmAndSettingsSaysWhoPlays) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto said = [&](const std::string& line) { return refusal(folder, {"--arms", "moving", "--set", line}); };
   EXPECT_THAT(
       said("kick_decision.random=['stopped','moving']"),
@@ -116,7 +116,7 @@ auto policies_of(const Reader& log, const std::string& arm) {
 }
 
 TEST(SimulateArms, AnArmWithoutPolicyPlaysWhatItsSettingsSay) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "arms.toml"} << kArmsWithoutPolicy;
   run(folder, {"simulate", "--arms", "arms.toml", "--matches", "2", "--possessions", "20", "--scenario",
                std::string{TRIVELA_SOURCE_DIR} + "/config/scenarios/team.toml", "--out", "team.db"});
@@ -146,7 +146,7 @@ TEST(SimulateArms, AnArmWithoutPolicyPlaysWhatItsSettingsSay) {
 }
 
 TEST(SimulateArms, SaysWhereATeamSharesARobotFile) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto said = [&](const std::string& out, std::vector<std::string> more) {
     more.insert(more.begin(), {"simulate", "--arms", "stopped", "--matches", "1", "--possessions", "2", "--out", out});
     Program program{"trivela", more, folder.path()};

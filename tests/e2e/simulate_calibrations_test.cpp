@@ -36,7 +36,7 @@ const std::string kRows =
     "SELECT match_id, arm, calibration_id, config_sha256, seed FROM sessions ORDER BY match_id, arm";
 
 TEST(SimulateCalibrations, EveryMatchHasItsCalibrationInEveryArm) {
-  const Folder folder;
+  const tests::Folder folder;
   Program program{"trivela", calibrations("one.db", 7), folder.path()};
   ASSERT_EQ(program.wait(), 0) << program.errors();
   EXPECT_THAT(program.output(), HasSubstr("3 calibrations, match m has calibration m mod 3"));
@@ -57,7 +57,7 @@ TEST(SimulateCalibrations, EveryMatchHasItsCalibrationInEveryArm) {
 }
 
 TEST(SimulateCalibrations, AStoppedRunGoesOnWithTheSameCalibrations) {
-  const Folder folder;
+  const tests::Folder folder;
   constexpr int kMatches = 1500;
   {
     Program program{"trivela", calibrations("ab.db", kMatches), folder.path()};
@@ -78,7 +78,7 @@ TEST(SimulateCalibrations, AStoppedRunGoesOnWithTheSameCalibrations) {
 }
 
 TEST(SimulateCalibrations, RefusesWhatMakesNoSense) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto refusal = [&](const std::vector<std::string>& arguments, int code) {
     Program program{"trivela", arguments, folder.path()};
     EXPECT_EQ(program.wait(), code) << program.errors();
@@ -101,7 +101,7 @@ std::vector<std::string> tune(const std::string& policy, const std::string& out,
 }
 
 TEST(Tune, WritesSettingsThatOtherVerbsTakeAndSaysNothingInAPipe) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::string policy : {"stopped", "moving", "predictive"}) {
     const std::string out = policy + ".toml";
     Program program{
@@ -132,7 +132,7 @@ TEST(Tune, WritesSettingsThatOtherVerbsTakeAndSaysNothingInAPipe) {
 }
 
 TEST(Tune, KeepsTheBestSoFarWhenItIsInterrupted) {
-  const Folder folder;
+  const tests::Folder folder;
   Program program{"trivela", tune("moving", "best.toml", {"--jobs", "2"}, "3000"), folder.path()};
   // Each time that matches are played there is a new thread beside the first; the third belongs to the search.
   std::set<std::string> threads;
@@ -150,7 +150,7 @@ TEST(Tune, KeepsTheBestSoFarWhenItIsInterrupted) {
 }
 
 TEST(Arms, MayHaveSettingsOfAFileOfTheirOwn) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "own.toml"} << "[policy]\nsettle_s = 0.5\n";
   std::ofstream{folder / "arms.toml"} << "[[arm]]\nname = \"a\"\npolicy = \"stopped\"\nconfig = \"own.toml\"\n"
                                          "[[arm]]\nname = \"b\"\npolicy = \"stopped\"\n";

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 
@@ -32,14 +32,15 @@ inline std::vector<std::string> simulate(const std::string& out, int matches, st
 }
 
 /// Runs trivela, which must succeed.
-inline void run(const Folder& folder, const std::vector<std::string>& arguments) {
+inline void run(const tests::Folder& folder, const std::vector<std::string>& arguments) {
   Program program{"trivela", arguments, folder.path()};
   ASSERT_EQ(program.wait(), 0) << program.errors();
 }
 
 /// Tables of which a cell of one log is another in the other; not SQLite's own counts of rows, which it makes where it
 /// likes.
-inline std::vector<std::string> other_rows(const Folder& folder, const std::string& one, const std::string& other) {
+inline std::vector<std::string> other_rows(const tests::Folder& folder, const std::string& one,
+                                           const std::string& other) {
   const Reader a{folder / one};
   const Reader b{folder / other};
   std::vector<std::string> differing;

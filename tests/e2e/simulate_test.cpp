@@ -15,7 +15,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
-  const Folder folder;
+  const tests::Folder folder;
   run(folder, simulate("one.db", 5));
   run(folder, simulate("two.db", 5, {"--jobs", "2"}));
   const Reader log{folder / "one.db"};
@@ -29,7 +29,7 @@ TEST(Simulate, TheRowsDoNotDependOnTheNumberOfJobs) {
 }
 
 TEST(Simulate, SaysBelowTheTableWhereTheLabelsAreWrong) {
-  const Folder folder;
+  const tests::Folder folder;
   Program late{"trivela", simulate("late.db", 10, {"--world", "kicker.delay_s=0.2"}), folder.path()};
   ASSERT_EQ(late.wait(), 0) << late.errors();
   EXPECT_THAT(late.output(), HasSubstr("moving@old: the observer's labels are wrong: 0.0000 (0.0000 to "));
@@ -40,7 +40,7 @@ TEST(Simulate, SaysBelowTheTableWhereTheLabelsAreWrong) {
 
 // The starts are the same situations; what the arms did with them is not.
 TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
-  const Folder folder;
+  const tests::Folder folder;
   run(folder, simulate("ab.db", 3));
   const Reader log{folder / "ab.db"};
   const std::string starts =
@@ -54,7 +54,7 @@ TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
 }
 
 TEST(Simulate, AStoppedRunGoesOnToTheSameFile) {
-  const Folder folder;
+  const tests::Folder folder;
   constexpr int kMatches = 1000;  // some seconds, of which a commit holds tenths
   run(folder, simulate("whole.db", kMatches, {"--jobs", "2"}));
   for (const int signal : {SIGINT, SIGKILL}) {
@@ -87,7 +87,7 @@ TEST(Simulate, AStoppedRunGoesOnToTheSameFile) {
 }
 
 TEST(Simulate, RefusesToGoOnWithOtherArguments) {
-  const Folder folder;
+  const tests::Folder folder;
   run(folder, simulate("ab.db", 2));
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"--seed", "2"}, std::vector<std::string>{"--set", "policy.settle_s=0.5"}}) {
@@ -105,7 +105,7 @@ TEST(Simulate, RefusesToGoOnWithOtherArguments) {
 }
 
 TEST(Simulate, OfTwoThatStartAtOnceTheSecondSaysWhy) {
-  const Folder folder;
+  const tests::Folder folder;
   for (int round = 0; round < 8; ++round) {
     const std::string out = fmt::format("both_{}.db", round);
     Program one{"trivela", simulate(out, 30), folder.path()};
@@ -123,7 +123,7 @@ TEST(Simulate, OfTwoThatStartAtOnceTheSecondSaysWhy) {
 }
 
 TEST(Simulate, AReportReadsTheExperiment) {
-  const Folder folder;
+  const tests::Folder folder;
   run(folder, simulate("ab.db", 3));
   Program report{"trivela", {"report", "ab.db"}, folder.path()};
   EXPECT_EQ(report.wait(), 0) << report.errors();
@@ -132,7 +132,7 @@ TEST(Simulate, AReportReadsTheExperiment) {
 }
 
 /// The match with the seed of the log's only session on the bus, and the streams in which the two differ.
-std::vector<std::string> differing_on_the_bus(const Folder& folder, const std::vector<std::string>& policies) {
+std::vector<std::string> differing_on_the_bus(const tests::Folder& folder, const std::vector<std::string>& policies) {
   const Reader in_process{folder / "in.db"};
   std::vector<std::string> arguments{"match",
                                      "--minutes",
@@ -160,7 +160,7 @@ std::vector<std::string> differing_on_the_bus(const Folder& folder, const std::v
 
 TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
   for (const std::string policy : {"stopped", "moving", "predictive"}) {
-    const Folder folder;
+    const tests::Folder folder;
     run(folder, {"simulate", "--arms", policy, "--matches", "1", "--possessions", "8", "--robot", kRobot, "--shadows",
                  "--every-cycle", "--out", "in.db"});
     EXPECT_THAT(differing_on_the_bus(folder, {"--half", policy}), IsEmpty()) << policy;
@@ -168,7 +168,7 @@ TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
 }
 
 TEST(Simulate, ReadsAHeightTableByTheSettingsLikeTheNodesOnTheBus) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "hand.toml"} << "[height_table]\ndistances_m = [3.0, 4.0, 5.0, 6.0, 7.0, 8.0]\n"
                                          "powers = [17.0, 19.0, 22.0, 25.0, 29.0, 33.0]\n";
   const std::vector<std::string> settings{"--set", "policy.height_law='paper'", "--set", "policy.motion_law='paper'",
@@ -190,7 +190,7 @@ TEST(Simulate, ReadsAHeightTableByTheSettingsLikeTheNodesOnTheBus) {
 }
 
 TEST(Simulate, PlaysARobotsOwnPolicyLikeTheNodesOnTheBus) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::string own = "kick_decision.policy_by_robot=['stopped']";
   std::ofstream{folder / "arms.toml"} << fmt::format("[[arm]]\nname = \"own\"\nset = [\"{}\"]\n", own);
   run(folder, {"simulate", "--arms", "arms.toml", "--matches", "1", "--possessions", "8", "--robot", kRobot,
@@ -200,7 +200,7 @@ TEST(Simulate, PlaysARobotsOwnPolicyLikeTheNodesOnTheBus) {
 }
 
 TEST(Simulate, DrawsThePoliciesLikeTheNodesOnTheBus) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "arms.toml"} << fmt::format(
       "[[arm]]\nname = \"drawn\"\nrandom = [\"stopped\", \"moving\", \"predictive\"]\nrobots = [\"{}\"]\n", kRobot);
   run(folder, {"simulate", "--arms", "arms.toml", "--matches", "1", "--possessions", "8", "--shadows", "--every-cycle",

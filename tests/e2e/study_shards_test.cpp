@@ -27,7 +27,7 @@ struct Ran {
   std::string output, errors;
 };
 
-Ran ran(const Folder& folder, Words words, const Words& more) {
+Ran ran(const tests::Folder& folder, Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
   Program program{"trivela", words, folder.path()};
   Ran result{.exit_code = program.wait(), .output = {}, .errors = {}};
@@ -37,7 +37,7 @@ Ran ran(const Folder& folder, Words words, const Words& more) {
 }
 
 /// Every row of every table of a results file, as text.
-std::vector<std::string> rows_of(const Folder& folder, const std::string& file) {
+std::vector<std::string> rows_of(const tests::Folder& folder, const std::string& file) {
   SQLite::Database database((folder / file).string());
   std::vector<std::string> lines;
   for (const std::string table : {"studies", "arms", "tallies"}) {
@@ -59,7 +59,7 @@ std::string text_of(const std::filesystem::path& file) {
 
 /// The three shards of a study, put together in another order, have the rows of one run, and its report.
 void expect_the_rows_of_one_run(const Words& study) {
-  const Folder folder;
+  const tests::Folder folder;
   const Ran whole = ran(folder, study, {"--results", "whole.db", "--csv", "whole.csv"});
   ASSERT_EQ(whole.exit_code, 0) << whole.errors;
   for (int shard = 1; shard <= 3; ++shard) {
@@ -93,7 +93,7 @@ TEST(StudyShards, OfArmsHaveTheRowsOfOneRun) {
 }
 
 TEST(StudyShards, OfATuneTakeTheSearchStepByStep) {
-  const Folder folder;
+  const tests::Folder folder;
   Words with;
   int steps = 0;
   for (int exit_code = 3; exit_code == 3 && steps < 20; ++steps) {
@@ -118,7 +118,7 @@ TEST(StudyShards, OfATuneTakeTheSearchStepByStep) {
 }
 
 TEST(StudyShards, ThatAreForeignOrSaySomethingElseAreNamed) {
-  const Folder folder;
+  const tests::Folder folder;
   const Words study{"study", "arms", "--arms", "stopped", "--matches", "4", "--possessions", "3"};
   for (int shard = 1; shard <= 2; ++shard)
     ran(folder, study, {"--shard", fmt::format("{}/2", shard), "--results", fmt::format("{}.db", shard)});
@@ -144,7 +144,7 @@ TEST(StudyShards, ThatAreForeignOrSaySomethingElseAreNamed) {
 }
 
 /// Stops a study of many matches when its file has some of them, by a signal.
-Ran stopped(const Folder& folder, const Words& study, const std::string& file) {
+Ran stopped(const tests::Folder& folder, const Words& study, const std::string& file) {
   Words words = study;
   words.insert(words.end(), {"--results", file});
   Program program{"trivela", words, folder.path()};
@@ -158,7 +158,7 @@ Ran stopped(const Folder& folder, const Words& study, const std::string& file) {
 }
 
 TEST(StudyShards, OfArmsHaveTheCountsOfALogOfTheSameMatches) {
-  const Folder folder;
+  const tests::Folder folder;
   const Words arms{"--arms", "stopped,moving@old", "--matches", "6", "--possessions", "8"};
   Words simulation{"simulate", "--out", "log.db"}, study{"study", "arms", "--results", "results.db"};
   simulation.insert(simulation.end(), arms.begin(), arms.end());
@@ -193,7 +193,7 @@ TEST(StudyShards, OfArmsHaveTheCountsOfALogOfTheSameMatches) {
 }
 
 TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
-  const Folder folder;
+  const tests::Folder folder;
   const Words study{"study", "factorial", "--matches", "300", "--possessions", "6", "--no-sweep", "--jobs", "1"};
   const Ran first = stopped(folder, study, "results.db");
   EXPECT_EQ(first.exit_code, 1);
@@ -212,7 +212,7 @@ TEST(StudyShards, ThatAreStoppedKeepWhatTheyHaveAndGoOn) {
 }
 
 TEST(StudyShards, SayWhatIsMissingBeforeTheyPlay) {
-  const Folder folder;
+  const tests::Folder folder;
   const Ran without = ran(folder, kFactorial, {"--shard", "1/2"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.errors, HasSubstr("--results"));

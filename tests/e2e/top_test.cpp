@@ -11,8 +11,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -60,7 +60,7 @@ class Robot {
     return std::make_unique<Program>("trivela", arguments, folder.path());
   }
 
-  Folder folder;
+  tests::Folder folder;
   std::map<std::string, std::unique_ptr<Program>> nodes;
 
  private:
@@ -186,7 +186,7 @@ TEST(Top, ListensBetweenTheMachinesWithCyclonesFileOfTheTeam) {
 }
 
 TEST(Top, RefusesARobotThatTheTeamHasNotAndKeysBetweenTheMachines) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::string team = TRIVELA_SOURCE_DIR "/config/teams/example.toml";
   Program nobody{"trivela", {"top", "--team", team, "--robot", "9"}, folder.path()};
   EXPECT_EQ(nobody.wait(), 2);
@@ -197,7 +197,7 @@ TEST(Top, RefusesARobotThatTheTeamHasNotAndKeysBetweenTheMachines) {
 }
 
 TEST(Top, RefusesADomainThatThereCannotBe) {
-  const Folder folder;
+  const tests::Folder folder;
   Program top("trivela", {"top", "--domain", "101"}, folder.path());
   EXPECT_EQ(top.wait(), 2);
   EXPECT_THAT(top.errors(), HasSubstr("--domain"));

@@ -10,8 +10,8 @@
 #include <regex>
 #include <sstream>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -29,7 +29,7 @@ class Usage : public testing::TestWithParam<Mistake> {};
 
 TEST_P(Usage, IsRefusedInOneSentenceAndLeavesNothing) {
   const Mistake& mistake = GetParam();
-  const Folder folder;
+  const tests::Folder folder;
   std::vector<std::string> arguments{"match"};
   arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());
   Program match{"trivela", arguments, folder.path()};
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(Usage, ARecordedMatchIsNeverOverwritten) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "match.db"} << "a match";
   Program match{"trivela", {"match", "--half", "moving", "--out", "match.db"}, folder.path()};
   EXPECT_EQ(match.wait(), 2);
@@ -109,7 +109,7 @@ TEST(Usage, ARecordedMatchIsNeverOverwritten) {
 }
 
 TEST(Usage, ALearnedModelIsFoundFromTheWorkingFolder) {
-  const Folder folder;
+  const tests::Folder folder;
   std::filesystem::copy_file(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/learned.toml", folder / "mine.toml");
   Program match{"trivela",
                 {"match", "--half", "learned", "--minutes", "0.02", "--set", "kick_decision.learned_model='mine.toml'"},
@@ -124,7 +124,7 @@ struct BadNumber {
 };
 
 TEST(Usage, NumbersThatAreNoneAreRefusedWithFlagAndValue) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const auto& [arguments, says] : std::vector<BadNumber>{
            {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "nan"}, "--smallest-effect: nan is not"},
            {{"compare", "--counts", "a=1/2", "b=1/2", "--smallest-effect", "inf"}, "--smallest-effect: inf is not"},
@@ -150,7 +150,7 @@ TEST(Usage, NumbersThatAreNoneAreRefusedWithFlagAndValue) {
 }
 
 TEST(Usage, AVerbThatIsNoneIsNamed) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"dance"},
                                                     {"dance", "--help"},
                                                     {"calibrate", "dance"},
@@ -174,7 +174,7 @@ TEST(Usage, AVerbThatIsNoneIsNamed) {
 }
 
 TEST(Usage, AnOptionThatIsNoneNamesTheNearestOfItsVerb) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const auto& [arguments, meant] : std::vector<BadNumber>{{{"match", "--minuts", "1"}, "--minutes"},
                                                                {{"match", "--minuts=1"}, "--minutes"},
                                                                {{"report", "x.db", "--jsno"}, "--json"},
@@ -193,7 +193,7 @@ TEST(Usage, AnOptionThatIsNoneNamesTheNearestOfItsVerb) {
 }
 
 TEST(Usage, TheHelpGroupsEveryVerbByWhatAPersonWantsWithALineEach) {
-  const Folder folder;
+  const tests::Folder folder;
   Program help{"trivela", {"--help"}, folder.path()};
   EXPECT_EQ(help.wait(), 0);
   std::istringstream lines{help.output()};
@@ -218,7 +218,7 @@ TEST(Usage, TheHelpGroupsEveryVerbByWhatAPersonWantsWithALineEach) {
 }
 
 TEST(Usage, OneKickIsDrawnAndTwoAreNot) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::vector<std::string> kick{"solve", "--theta-deg", "36.78", "--d-m", "5.73", "--h-rel-m", "0.59", "--svg"};
   std::vector<std::string> drawn = kick;
   drawn.push_back("kick.svg");
@@ -241,7 +241,7 @@ TEST(Usage, OneKickIsDrawnAndTwoAreNot) {
 }
 
 TEST(Usage, EveryProgramSaysItsVersionAndItsConfiguration) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::string name : {"trivela", "trivela-recorder", "trivela-kicker_driver", "trivela-simulator"}) {
     Program program{name, {"--version"}, folder.path()};
     EXPECT_EQ(program.wait(), 0) << program.errors();
@@ -251,7 +251,7 @@ TEST(Usage, EveryProgramSaysItsVersionAndItsConfiguration) {
 }
 
 TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "match.db"} << "nothing that anybody could learn from";
   for (const auto& [arguments, says] : std::vector<BadNumber>{
            {{"study", "factorial", "--matches", "1000000", "--csv", "no/f.csv"},
@@ -281,7 +281,7 @@ TEST(Usage, FilesThatCannotBeWrittenAreSaidBeforeAnythingIsComputed) {
 }
 
 TEST(Usage, FoldersInPlaceOfFilesAreSaidSo) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"simulate", "--arms", "moving", "--config", "."},
                                              {"simulate", "--arms", "moving", "--scenario", "."},
@@ -307,7 +307,7 @@ TEST(Usage, FoldersInPlaceOfFilesAreSaidSo) {
 }
 
 /// What a program writes to a terminal of so many columns.
-std::string on_terminal(const Folder& folder, const std::string& term, int columns, const std::string& command) {
+std::string on_terminal(const tests::Folder& folder, const std::string& term, int columns, const std::string& command) {
   const auto tests = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string all = fmt::format("cd {} && TERM={} script -qec 'stty cols {}; {}/{}' typescript > /dev/null 2>&1",
                                       folder.path().string(), term, columns, tests.parent_path().string(), command);
@@ -317,7 +317,7 @@ std::string on_terminal(const Folder& folder, const std::string& term, int colum
 }
 
 TEST(Usage, AFileThatCannotBeReadIsNoBadUsageWhateverTheFlag) {
-  const Folder folder;
+  const tests::Folder folder;
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"simulate", "--arms", "moving", "--scenario", "no.toml"},
                                              {"simulate", "--arms", "moving", "--robot", "no.toml"},
@@ -330,7 +330,7 @@ TEST(Usage, AFileThatCannotBeReadIsNoBadUsageWhateverTheFlag) {
 }
 
 TEST(Usage, ATeamThatPlaysWithoutKeysIsToldWhatThatMeans) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::string team = TRIVELA_SOURCE_DIR "/config/teams/example.toml";
   Program check{"trivela", {"team", "check", team}, folder.path()};
   EXPECT_EQ(check.wait(), 0) << check.errors();
@@ -338,7 +338,7 @@ TEST(Usage, ATeamThatPlaysWithoutKeysIsToldWhatThatMeans) {
 }
 
 TEST(Usage, ADumbTerminalGetsNoEscapesAndNoLineThatIsDrawnOver) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::string simulate = "trivela simulate --arms moving --matches 2 --possessions 2 --out log.db";
   const std::string said = on_terminal(folder, "dumb", 40, simulate);
   EXPECT_THAT(said, testing::Not(HasSubstr("\x1b")));
@@ -354,7 +354,7 @@ TEST(Usage, ADumbTerminalGetsNoEscapesAndNoLineThatIsDrawnOver) {
 }
 
 TEST(Usage, AFullDiskIsSaid) {
-  const Folder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "kicks.csv"} << "policy,on_target\na,1\nb,0\n";
   const auto tests = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::string program = (tests.parent_path() / "trivela").string();

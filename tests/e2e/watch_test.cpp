@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/pages/viewer.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::e2e {
 namespace {
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// The port of the address that it printed first; 0: it printed none.
-int port_of(const Folder& folder, const Program& program) {
+int port_of(const tests::Folder& folder, const Program& program) {
   wait_for_change(folder.path(), program.watch(), [&] { return program.output().find('\n') != std::string::npos; });
   const std::string text = program.output();
   const auto colon = text.find(':', text.find("//"));
@@ -41,7 +41,7 @@ bool is_over(const Viewer& viewer) {
 }
 
 TEST(Watch, APacedAndWatchedMatchHasTheRowsOfAnyOtherAndItsPageItsCounts) {
-  const Folder folder;
+  const tests::Folder folder;
   Program plain{"trivela", match_of("plain.db"), folder.path()};
   ASSERT_EQ(plain.wait(), 0) << plain.errors();
   Program watched{"trivela", match_of("watched.db", {"--watch", "--pace", "4"}), folder.path()};
@@ -74,7 +74,7 @@ TEST(Watch, APacedAndWatchedMatchHasTheRowsOfAnyOtherAndItsPageItsCounts) {
 }
 
 TEST(Watch, CtrlCDuringTheMatchEndsMatchAndPage) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", match_of("match.db", {"--watch"}), folder.path()};
   const int port = port_of(folder, match);
   ASSERT_GT(port, 0) << match.errors();
@@ -89,7 +89,7 @@ TEST(Watch, CtrlCDuringTheMatchEndsMatchAndPage) {
 }
 
 TEST(Watch, ASecuredMatchIsWatchedByTheMonitorsIdentity) {
-  const Folder folder;
+  const tests::Folder folder;
   Program match{"trivela", match_of("match.db", {"--watch", "--pace", "0", "--secure"}), folder.path()};
   const int port = port_of(folder, match);
   ASSERT_GT(port, 0) << match.errors();
@@ -102,7 +102,7 @@ TEST(Watch, ASecuredMatchIsWatchedByTheMonitorsIdentity) {
 
 /// A match that is paced, on a domain that is known to others.
 TEST(Monitor, WritesNothingThatTrivelaTopWouldSee) {
-  const Folder folder;
+  const tests::Folder folder;
   const std::string domain = std::to_string(1 + std::random_device{}() % 100);
   const std::string tag = fmt::format("monitor-{}-{:08x}", getpid(), std::random_device{}());
   Program monitor{"trivela", {"monitor", "--domain", domain, "--tag", tag}, folder.path()};
@@ -125,7 +125,7 @@ TEST(Monitor, WritesNothingThatTrivelaTopWouldSee) {
 }
 
 TEST(Monitor, DrawsATokenWhereOthersMayReachIt) {
-  const Folder folder;
+  const tests::Folder folder;
   Program monitor{"trivela",
                   {"monitor", "--domain", "99", "--tag", fmt::format("token-{}", getpid()), "--listen", "0.0.0.0"},
                   folder.path()};
@@ -134,7 +134,7 @@ TEST(Monitor, DrawsATokenWhereOthersMayReachIt) {
 }
 
 TEST(Watch, SaysWhatIsWrongWithItsFlags) {
-  const Folder folder;
+  const tests::Folder folder;
   const auto refused = [&](std::vector<std::string> arguments, int code, const std::string& sentence) {
     Program program{"trivela", std::move(arguments), folder.path()};
     EXPECT_EQ(program.wait(), code);

@@ -83,11 +83,11 @@ TEST(ClockAlignment, ARobotsSessionsOfOneStartOfItsMachineAreByOneClock) {
   const Alignment alignment = align_clocks(sessions, {{2, 2, 1, 50 * kSecond, 7, kMs}}, 1);
   EXPECT_EQ(utc_offset_at(of(alignment, 3).segments, 150 * kSecond), 7);
   EXPECT_GT(of(alignment, 3).error_ns, of(alignment, 2).error_ns) << "nobody measured it there";
-  EXPECT_FALSE(has(alignment, 4)) << "its clock began anew";
+  EXPECT_FALSE(has(alignment, 4)) << "its clock began again";
 }
 
 TEST(ClockAlignment, AMeasurementOfAMachineStartedAnewIsOfTheSessionThatRanThen) {
-  // Robot 2 ran for 100 s, was started anew and has a clock that is 200 s behind.
+  // Robot 2 ran for 100 s, was started again and has a clock that is 200 s behind.
   const std::vector<ClockedSession> sessions{session(1, 1, 0, 0, 400), session(2, 2, 0, 0, 100),
                                              session(3, 2, 200 * kSecond, 0, 100)};
   const Alignment alignment =

@@ -48,8 +48,8 @@ class ComparedAlike : public LogTest {
     std::vector<std::filesystem::path> logs;
     for (const std::string& file : files) logs.push_back(path(file));
     std::string by;
-    KickDataset book = read_log_kicks(logs, options, by);
-    return compare_policies(std::move(book), by);
+    KickDataset dataset = read_log_kicks(logs, options, by);
+    return compare_policies(std::move(dataset), by);
   }
 
   std::string message_of(LogKicks options, const std::vector<std::string>& files = {"match.db"}) const {
@@ -72,7 +72,8 @@ TEST_F(ComparedAlike, TablesAreComparedUnderThePoliciesThatBothHad) {
   EXPECT_NEAR(result.pairs[0].headline->difference, 0.1, 1e-12) << "moving had the new table alone";
   EXPECT_EQ(result.groups[1].opportunities, 60);
   EXPECT_NEAR(*result.groups[1].minutes, 60.0, 1e-9);
-  EXPECT_THAT(result.book.remarks, Contains(HasSubstr("60 opportunities of 'new' left out: their policy or settings")));
+  EXPECT_THAT(result.dataset.remarks,
+              Contains(HasSubstr("60 opportunities of 'new' left out: their policy or settings")));
 }
 
 TEST_F(ComparedAlike, PoliciesAreComparedWithTheTablesThatAllHad) {
@@ -82,7 +83,7 @@ TEST_F(ComparedAlike, PoliciesAreComparedWithTheTablesThatAllHad) {
   const auto result = compared({.by = "policy"});
   EXPECT_NEAR(result.pairs[0].headline->difference, 0.6, 1e-12);
   EXPECT_EQ(result.groups[0].opportunities, 60);
-  EXPECT_THAT(result.book.remarks, Contains(HasSubstr("60 opportunities of 'stopped' left out: their table")));
+  EXPECT_THAT(result.dataset.remarks, Contains(HasSubstr("60 opportunities of 'stopped' left out: their table")));
 }
 
 TEST_F(ComparedAlike, PoliciesWithOtherSettingsAreNotCalledTheCause) {
@@ -114,7 +115,7 @@ TEST_F(ComparedAlike, AMatchThatWasPlayedAgainCountsOnce) {
   const auto result = compared({.by = "arm"}, {"a.db", "b.db"});
   EXPECT_EQ(result.groups[1].opportunities, 60);
   EXPECT_NEAR(*result.groups[1].minutes, 60.0, 1e-9);
-  EXPECT_THAT(result.book.remarks, Contains(HasSubstr("6 of its matches were played before with the same seed")));
+  EXPECT_THAT(result.dataset.remarks, Contains(HasSubstr("6 of its matches were played before with the same seed")));
 }
 
 TEST_F(ComparedAlike, AnotherWorldOfTheSameNameHasOtherOpportunities) {
@@ -123,7 +124,7 @@ TEST_F(ComparedAlike, AnotherWorldOfTheSameNameHasOtherOpportunities) {
   const auto result = compared({.by = "arm"}, {"a.db", "b.db"});
   EXPECT_EQ(result.pairs[0].design, Design::kBeforeAfter);
   EXPECT_FALSE(result.pairs[0].pairs);
-  EXPECT_THAT(result.book.remarks, Contains(HasSubstr("scenario 'empty_field' is not the same in all sessions")));
+  EXPECT_THAT(result.dataset.remarks, Contains(HasSubstr("scenario 'empty_field' is not the same in all sessions")));
 }
 
 TEST_F(ComparedAlike, DrawsWithOtherProbabilitiesArePooledByNobody) {
@@ -143,23 +144,23 @@ TEST_F(ComparedAlike, DrawsWithOtherProbabilitiesArePooledByNobody) {
   experiment.finish();
   const auto pooled = compared({.by = "policy"});
   EXPECT_EQ(pooled.pairs[0].design, Design::kBeforeAfter);
-  EXPECT_THAT(pooled.book.design_reason, HasSubstr("not everywhere with the same probability"));
+  EXPECT_THAT(pooled.dataset.design_reason, HasSubstr("not everywhere with the same probability"));
   const auto within = compared({.by = "policy", .stratify = "arm"});
   EXPECT_EQ(within.pairs[0].design, Design::kRandomised);
   EXPECT_TRUE(within.pairs[0].headline->adjusted);
 }
 
 TEST(SetupIndex, TellsWorldsAndSettingsApartButNotWhoPlays) {
-  SetupIndex book;
+  SetupIndex dataset;
   const auto of = [&](const std::string& charge, const std::string& gain, const std::string& world) {
-    return book.of("### settings\n" + charge + gain + "\n### scenario\n" + world);
+    return dataset.of("### settings\n" + charge + gain + "\n### scenario\n" + world);
   };
   const SessionSetup first = of("policy_by_half = [\"moving\"]\n", "gain = 1\n", "far = 2\n");
   EXPECT_EQ(of("random = [\"moving\", \"stopped\"]\n", "gain = 1\n", "far = 2\n").settings, first.settings);
   EXPECT_NE(of("", "gain = 2\n", "far = 2\n").settings, first.settings);
   EXPECT_EQ(of("", "gain = 2\n", "far = 2\n").world, first.world);
   EXPECT_NE(of("", "gain = 1\n", "far = 3\n").world, first.world);
-  EXPECT_EQ(book.of("").world, book.of("### settings\na = 1\n").world) << "no scenario is one world";
+  EXPECT_EQ(dataset.of("").world, dataset.of("### settings\na = 1\n").world) << "no scenario is one world";
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ class ComparedCalibrationsTest : public LogTest {
  protected:
   PolicyComparison compared() const {
     std::string by;
-    KickDataset book = read_log_kicks({path()}, {}, by);
-    return compare_policies(std::move(book), by);
+    KickDataset dataset = read_log_kicks({path()}, {}, by);
+    return compare_policies(std::move(dataset), by);
   }
 
   // Matches on several calibrations; what the newer arm hits depends on the calibration most.

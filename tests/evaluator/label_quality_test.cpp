@@ -21,17 +21,19 @@ class LabelQualityOfALog : public LogTest {
  protected:
   LabelQualityOfALog()
       : match(path(), session(), options()),
-        outcomes(match.writer().table("kick_outcomes", {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target",
-                                                        "observations", "p_on_target", "p_wide_left", "p_wide_right",
-                                                        "p_over", "p_short", "p_post", "p_bar", "p_blocked"})),
+        outcomes(match.writer().table(
+            "kick_outcomes",
+            {"robot_id", "seq", "t_ns", "kick_id", "outcome", "on_target", "observations", "p_on_target", "p_wide_left",
+             "p_wide_right", "p_over", "p_short", "p_post", "p_bar", "p_blocked", "release_late_s"})),
         frames(match.writer().table("flight_frames", {"robot_id", "seq", "t_ns", "t_exposure_ns", "ball_seen",
                                                       "ball_x_m", "ball_y_m", "ball_z_m"})) {}
 
   /// Of a kick that is on target with `p_on_target`, otherwise blocked or nothing of all.
-  void kick(Int half, const std::string& label, double p_on_target, double p_blocked, Int sightings = 30) {
+  void kick(Int half, const std::string& label, double p_on_target, double p_blocked, Int sightings = 30,
+            log::Value release_late_s = {}) {
     const Int kick_id = match.kick(half, "unknown");
     match.writer().push(outcomes, {Int{1}, 1'000'000 + kick_id, Int{0}, kick_id, label, Int{label == "on_target"},
-                                   sightings, p_on_target, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, p_blocked});
+                                   sightings, p_on_target, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, p_blocked, release_late_s});
     kicks = kick_id;
   }
 
@@ -94,6 +96,23 @@ TEST_F(LabelQualityOfALog, CompareBoundsWhatTheLabelsGetWrong) {
   EXPECT_NEAR(comparison.pairs[0].bounds.lo, 0.2, 1e-12);
   EXPECT_NEAR(comparison.pairs[0].bounds.hi, 0.4, 1e-12);
   EXPECT_THAT(to_text(comparison), HasSubstr("0.4 labels are expected to be wrong"));
+}
+
+TEST_F(LabelQualityOfALog, SaysThatTheBallLeavesLaterThanTheRobotsFileSays) {
+  for (int i = 0; i < 7; ++i) kick(1, "on_target", 1.0, 0.0, 30, 0.08 + 0.01 * (i % 3));
+  kick(1, "on_target", 1.0, 0.0, 30, -3.0);  // one track that means nothing
+  kick(1, "on_target", 1.0, 0.0);            // not seen to leave
+  const LabelQuality quality = read();
+  EXPECT_THAT(
+      quality.release_warnings(),
+      testing::ElementsAre("robot 1: the ball leaves 0.09 s later than its file says (median of 8 kicks): measure "
+                           "kicker.delay_s (trivela calibrate run)"));
+  EXPECT_THAT(make_report(log::Reader(path())).warnings, testing::Contains(HasSubstr("leaves 0.09 s later")));
+}
+
+TEST_F(LabelQualityOfALog, SaysNothingOfFewReleasesOrOfThoseInTime) {
+  for (int i = 0; i < 7; ++i) kick(1, "on_target", 1.0, 0.0, 30, -0.1);
+  EXPECT_THAT(read().release_warnings(), IsEmpty()) << "seven kicks";
 }
 
 TEST_F(LabelQualityOfALog, BallsThatComeBackFromTheGoalLineContradictNothing) {

@@ -12,18 +12,13 @@
 #include "log/read/reader.hpp"
 #include "log/write/writer.hpp"
 #include "tests/evaluator/referee_row.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::evaluator {
 
 /// A directory of its own for each test, with what most of them need.
 class LogTest : public testing::Test {
  protected:
-  LogTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_log_XXXXXX").string();
-    directory_ = ::mkdtemp(pattern.data());
-  }
-  ~LogTest() override { std::filesystem::remove_all(directory_); }
-
   std::filesystem::path path(const std::string& name = "match.db") const { return directory_ / name; }
 
   static log::Session session() {
@@ -79,7 +74,7 @@ class LogTest : public testing::Test {
     return {};
   }
 
-  std::filesystem::path directory_;
+  tests::Folder directory_;
   std::mutex mutex_;
   std::vector<std::string> warnings_;
 };

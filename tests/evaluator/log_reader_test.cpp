@@ -1,4 +1,5 @@
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -10,6 +11,7 @@
 namespace trivela::evaluator {
 namespace {
 
+using log::NamedCells;
 using log::Reader;
 using log::Value;
 using log::Writer;
@@ -125,20 +127,45 @@ std::string message_of(const std::function<void()>& read) {
 TEST_F(LogReader, GivesTheColumnsOfARowByTypeAndName) {
   write_log(2);
   const Reader reader(path());
+  for (const char* const columns : {"seq, 0.5 AS number, 3 AS whole, 'on' AS text, NULL AS nothing, 1 AS yes",
+                                    "1 AS yes, NULL AS nothing, 'on' AS text, seq, 3 AS whole, 0.5 AS number"}) {
+    int rows = 0;
+    reader.query(fmt::format("SELECT {} FROM referee ORDER BY seq", columns), [&](const NamedCells& row) {
+      EXPECT_EQ(row.get<std::int64_t>("seq"), rows++);
+      EXPECT_EQ(row.get<double>("number"), 0.5);
+      EXPECT_EQ(row.get<double>("whole"), 3.0);
+      EXPECT_EQ(row.get<std::string>("text"), "on");
+      EXPECT_FALSE(row.find<double>("nothing"));
+      EXPECT_FALSE(row.find<std::string>("nothing"));
+      EXPECT_EQ(row.find<int>("whole"), 3);
+      EXPECT_TRUE(row.get<bool>("yes"));
+      EXPECT_THROW(row.get<int>("whistle"), std::logic_error);
+    });
+    EXPECT_EQ(rows, 2) << columns;
+  }
+}
+
+TEST_F(LogReader, GivesAFewColumnsInTheirOrder) {
+  write_log(2);
   int rows = 0;
-  reader.query("SELECT seq, 0.5, 3, 'on', NULL, NULL, 7, 1 FROM referee ORDER BY seq",
-               [&](std::int64_t seq, double number, double whole, const std::string& text, std::optional<double> none,
-                   std::optional<std::string> no_text, std::optional<int> some, bool yes) {
-                 EXPECT_EQ(seq, rows++);
-                 EXPECT_EQ(number, 0.5);
-                 EXPECT_EQ(whole, 3.0);
-                 EXPECT_EQ(text, "on");
-                 EXPECT_FALSE(none);
-                 EXPECT_FALSE(no_text);
-                 EXPECT_EQ(some, 7);
-                 EXPECT_TRUE(yes);
-               });
+  Reader(path()).query("SELECT seq, 0.5, NULL FROM referee ORDER BY seq",
+                       [&](std::int64_t seq, double number, std::optional<int> nothing) {
+                         EXPECT_EQ(seq, rows++);
+                         EXPECT_EQ(number, 0.5);
+                         EXPECT_FALSE(nothing);
+                       });
   EXPECT_EQ(rows, 2);
+}
+
+TEST_F(LogReader, NamesTheColumnOfACellOfAnotherType) {
+  write_log(1);
+  const Reader reader(path());
+  try {
+    reader.query("SELECT 'on' AS power FROM referee", [](const NamedCells& row) { row.get<double>("power"); });
+    FAIL() << "a text is no number";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("column power"));
+  }
 }
 
 TEST_F(LogReader, GivesRowsAsStructs) {

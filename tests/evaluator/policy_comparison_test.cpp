@@ -21,8 +21,8 @@ class PolicyComparisonTest : public LogTest {
     std::vector<std::filesystem::path> logs;
     for (const std::string& file : files) logs.push_back(path(file));
     std::string by;
-    KickDataset book = read_log_kicks(logs, options, by);
-    return compare_policies(std::move(book), by);
+    KickDataset dataset = read_log_kicks(logs, options, by);
+    return compare_policies(std::move(dataset), by);
   }
 
   std::string message_of(LogKicks options = {}) const {
@@ -303,20 +303,20 @@ TEST_F(PolicyComparisonTest, ARecordedMatchOfKicksAloneIsComparedByItsKicks) {
 
 // The interval of the pair alone is clear of 0; of as many comparisons one like it comes by chance.
 TEST_F(PolicyComparisonTest, AmongSeveralGroupsTheVerdictIsHolms) {
-  const auto book_of = [](const std::vector<int>& inside_of_40) {
-    KickDataset book;
+  const auto dataset_of = [](const std::vector<int>& inside_of_40) {
+    KickDataset dataset;
     for (std::uint32_t group = 0; group < inside_of_40.size(); ++group) {
-      book.groups.push_back(std::string(1, static_cast<char>('a' + group)));
+      dataset.groups.push_back(std::string(1, static_cast<char>('a' + group)));
       for (int i = 0; i < 40; ++i)
-        book.opportunities.push_back(
+        dataset.opportunities.push_back(
             {.group = group, .ending = i < inside_of_40[group] ? Ending::kInside : Ending::kOutside});
     }
-    return book;
+    return dataset;
   };
-  const auto alone = compare_policies(book_of({16, 26}), "policy");
+  const auto alone = compare_policies(dataset_of({16, 26}), "policy");
   EXPECT_LT(alone.pairs[0].headline->p_holm, 0.05);
   EXPECT_EQ(alone.pairs[0].headline->verdict, stats::Verdict::kBetterMaybeTooSmall);
-  const auto one_of_three = compare_policies(book_of({16, 26, 17, 18}), "policy");
+  const auto one_of_three = compare_policies(dataset_of({16, 26, 17, 18}), "policy");
   EXPECT_GT(one_of_three.pairs[0].headline->ci.lo, 0.0);
   EXPECT_GT(one_of_three.pairs[0].headline->p_holm, 0.05);
   EXPECT_EQ(one_of_three.pairs[0].headline->verdict, stats::Verdict::kNotEnoughData);

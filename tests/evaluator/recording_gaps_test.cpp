@@ -210,7 +210,7 @@ TEST_F(RecordingGaps, ADriverThatWasStartedAnewBetweenTwoLogsMayHaveKickedMore) 
   EXPECT_EQ(is.unrecorded_orders[0].orders_before, 2);
   EXPECT_EQ(is.unrecorded_orders[0].kicks_before, 0);
   EXPECT_TRUE(is.data_lost());
-  EXPECT_THAT(to_text(is), HasSubstr("handled at least 2 orders, 0 of them kicks: in no log; it was started anew"));
+  EXPECT_THAT(to_text(is), HasSubstr("handled at least 2 orders, 0 of them kicks: in no log; it was started again"));
 }
 
 TEST_F(RecordingGaps, WhatADriverDidBeforeALogThatContinuesNoneIsSaidAndNoLoss) {

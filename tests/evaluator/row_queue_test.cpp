@@ -24,7 +24,7 @@ TEST(RowQueue, RowsThatCameDuringACommitHaveWaitedAlready) {
   group.clear();
   const auto committed = Clock::now();
   const auto first = queue.take(group, 1s);
-  EXPECT_LT(Clock::now() - committed, 900ms) << "the wait began anew";
+  EXPECT_LT(Clock::now() - committed, 900ms) << "the wait began again";
   ASSERT_TRUE(first);
   EXPECT_GE(*first, before);
   EXPECT_LE(*first, after);

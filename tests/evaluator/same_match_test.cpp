@@ -43,8 +43,8 @@ class OnePlay : public LogTest {
     std::vector<std::filesystem::path> logs;
     for (const std::string& name : names) logs.push_back(path(name));
     std::string by;
-    KickDataset book = read_log_kicks(logs, {}, by);
-    return compare_policies(std::move(book), by);
+    KickDataset dataset = read_log_kicks(logs, {}, by);
+    return compare_policies(std::move(dataset), by);
   }
 
   void write(const std::string& name, const log::Session& of, const std::function<void(MatchLog&)>& rows) {
@@ -63,7 +63,8 @@ TEST_F(OnePlay, TwoRecordersOfOneMatchGiveTheNumbersOfOne) {
   EXPECT_EQ(both.groups[0].matches, 1u);
   EXPECT_EQ(both.pairs[0].headline->ci.lo, one.pairs[0].headline->ci.lo);
   EXPECT_EQ(both.pairs[0].headline->ci.hi, one.pairs[0].headline->ci.hi);
-  EXPECT_THAT(both.book.remarks, Contains(HasSubstr("197 of its kicks stand in another recording of the same match")));
+  EXPECT_THAT(both.dataset.remarks,
+              Contains(HasSubstr("197 of its kicks stand in another recording of the same match")));
 }
 
 TEST_F(OnePlay, TheRecordingThatKnowsMoreOfAKickSpeaks) {
@@ -142,7 +143,7 @@ TEST_F(OnePlay, AReplayIsLeftOutAndShownAlone) {
   write("again.db", replay, [](MatchLog& match) { match.kicks(2, "over", 40); });
   const auto both = compared({"match.db", "again.db"});
   EXPECT_EQ(both.groups[1].outside, 32);
-  EXPECT_THAT(both.book.remarks, Contains(HasSubstr("again.db: 1 of its sessions replays another one")));
+  EXPECT_THAT(both.dataset.remarks, Contains(HasSubstr("again.db: 1 of its sessions replays another one")));
   const Report alone = make_report(log::Reader(path("again.db")));
   EXPECT_EQ(alone.policies[1].kicks() + alone.policies[0].kicks(), 40);
   EXPECT_THAT(to_text(alone), AllOf(HasSubstr("is a replay of match.db"), Not(HasSubstr("How sure"))));
@@ -229,7 +230,7 @@ TEST_F(PairedHalves, AreComparedAsPairs) {
   write_halves("stopped", true);
   const auto result = compared({"match.db"});
   EXPECT_EQ(result.pairs[0].design, Design::kPaired);
-  EXPECT_THAT(result.book.design_reason, HasSubstr("the halves of each match have the same possessions"));
+  EXPECT_THAT(result.dataset.design_reason, HasSubstr("the halves of each match have the same possessions"));
   ASSERT_TRUE(result.pairs[0].pairs);
   EXPECT_EQ(result.pairs[0].pairs->n(), 20);
   EXPECT_EQ(result.pairs[0].unpaired, 0);

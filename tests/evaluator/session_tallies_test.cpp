@@ -29,7 +29,7 @@ class SessionTallies : public LogTest {
     match.status(3, 1);
     match.kicks(1, "on_target", 4);
     match.status(5, 1);
-    match.status(2, 1);  // the driver was started anew
+    match.status(2, 1);  // the driver was started again
     match.referee(6.0, 1, false);
     match.referee(7.0, 2, true);
     match.kicks(2, "over", 3);
@@ -61,7 +61,8 @@ TEST_F(SessionTallies, AreWrittenWhenASessionEnds) {
   EXPECT_EQ(number("SELECT sum(played_ns) FROM possession_tallies WHERE counted_by = 'referee'"), 8'500'000'000)
       << "6 s of the first half and 2.5 s of the second";
   EXPECT_EQ(number("SELECT first_handled FROM order_tallies"), 3);
-  EXPECT_EQ(number("SELECT handled_within FROM order_tallies"), 4) << "2 more, and 2 since the driver was started anew";
+  EXPECT_EQ(number("SELECT handled_within FROM order_tallies"), 4)
+      << "2 more, and 2 since the driver was started again";
   EXPECT_EQ(number("SELECT last_t_ns FROM referee_tallies WHERE half = 2"), 9'500'000'000);
 }
 

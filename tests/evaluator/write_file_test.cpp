@@ -1,4 +1,5 @@
 #include "evaluator/render/write_file.hpp"
+#include "tests/support/folder.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -16,12 +17,6 @@ using testing::ThrowsMessage;
 
 class WriteFile : public testing::Test {
  protected:
-  WriteFile() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_write_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~WriteFile() override { fs::remove_all(folder_); }
-
   fs::path path(const std::string& name) const { return folder_ / name; }
   std::string text_of(const std::string& name) const {
     std::ifstream in{path(name)};
@@ -30,7 +25,7 @@ class WriteFile : public testing::Test {
   std::ptrdiff_t files() const { return std::distance(fs::directory_iterator{folder_}, {}); }
 
  private:
-  fs::path folder_;
+  tests::Folder folder_;
 };
 
 TEST_F(WriteFile, ReplacesWhatWasThere) {

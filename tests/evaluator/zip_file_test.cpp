@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "tests/evaluator/zip_writing.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::evaluator::imports {
 namespace {
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 
 class ZipFile : public testing::Test {
  protected:
-  ZipFile() {
-    std::string pattern = (fs::temp_directory_path() / "trivela_zip_XXXXXX").string();
-    directory_ = ::mkdtemp(pattern.data());
-  }
-  ~ZipFile() override { fs::remove_all(directory_); }
-
   fs::path write(const std::string& bytes) const {
     std::ofstream(path(), std::ios::binary) << bytes;
     return path();
@@ -36,7 +31,7 @@ class ZipFile : public testing::Test {
     return {std::move(text), in.fault()};
   }
 
-  fs::path directory_;
+  tests::Folder directory_;
 };
 
 std::string long_text() {

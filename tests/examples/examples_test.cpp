@@ -11,7 +11,7 @@
 
 #include "kicking/policy/policy.hpp"
 #include "tests/nodes/spawned.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela {
 namespace {
@@ -52,13 +52,13 @@ TEST(Examples, TheKickIsWhatKickingJudges) {
   state.twist.vy_mps = 1.0;
   state.playing = state.possession = state.kicker_ready = true;
   kicking::PolicyMemory memory;
-  const auto judgement = kicking::judge(kicking::PolicyName::kMoving, {}, {}, {}, state, memory);
-  ASSERT_TRUE(judgement.fire);
+  const auto output = kicking::evaluate(kicking::PolicyName::kMoving, {}, {}, {}, state, memory);
+  ASSERT_TRUE(output.fire);
   EXPECT_EQ(output_of(TRIVELA_BINARY_DIR "/examples/solve_a_kick"),
             fmt::format("fire: fire, {:.2f} m from the target\npower {:.3f} for {:.3f} m/s\n"
                         "crosses the goal line at x = {:.3f} m, z = {:.3f} m\n",
-                        judgement.distance_m, judgement.power.value(), judgement.v_kick_mps.value(),
-                        judgement.predicted.value().x_m, judgement.predicted.value().z_m));
+                        output.distance_m, output.power.value(), output.v_kick_mps.value(),
+                        output.predicted.value().x_m, output.predicted.value().z_m));
 }
 
 TEST(Examples, WhatTheHeaderAndReadmeShowIsInTheProgram) {
@@ -77,7 +77,7 @@ TEST(Examples, WhatTheHeaderAndReadmeShowIsInTheProgram) {
 }
 
 TEST(Examples, TheMatchHasTheTableOfSimulate) {
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const std::string log = (folder / "ab.db").string();
   const std::string trivela = TRIVELA_BINARY_DIR "/trivela";
   output_of(trivela, {"simulate", "--arms", "stopped,moving", "--matches", "1", "--possessions", "200", "--seed", "1",

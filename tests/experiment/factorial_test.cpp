@@ -25,8 +25,8 @@ ArmTally matches_of(std::int64_t on_target, std::int64_t kicks = 20) {
 std::vector<PlayedCell> played() {
   std::vector<PlayedCell> cells;
   for (const Cell& cell : factorial_cells()) {
-    const bool anew = cell.table == "new", moves = cell.policy != PolicyName::kStopped;
-    const int on_target = 8 + (anew ? 2 : 0) + (moves ? 4 : 0) + (anew && moves ? 1 : 0) +
+    const bool again = cell.table == "new", moves = cell.policy != PolicyName::kStopped;
+    const int on_target = 8 + (again ? 2 : 0) + (moves ? 4 : 0) + (again && moves ? 1 : 0) +
                           (cell.policy == PolicyName::kPredictive ? 2 : 0);
     cells.push_back({cell, matches_of(on_target)});
   }

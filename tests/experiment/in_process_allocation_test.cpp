@@ -49,7 +49,7 @@ TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
       const robot::CycleDecision* decision = chain.cycle(sensors, referee, std::nullopt, nullptr);
       inside += allocations - before;
       ASSERT_NE(decision, nullptr);
-      sim::Commands commands{decision->judgement.drive, std::nullopt};
+      sim::Commands commands{decision->output.drive, std::nullopt};
       if (const auto& receipt = chain.receipt(); receipt && receipt->accepted) {
         commands.fire = sim::Fire{receipt->fired_t_ns, receipt->kick_id, receipt->power};
         ++orders;

@@ -32,13 +32,50 @@ struct LabelCounts {
   int unknown() const { return kicks - given; }
 };
 
+/// A world that is not what robot and observer believe.
+struct OtherWorld {
+  const char* what = "";
+  void (*change)(sim::Scenario&) = [](sim::Scenario&) {};
+};
+
+/// Each belief by some three times of what is plausible, and several at once.
+inline constexpr OtherWorld kOtherWorlds[] = {
+    {"as believed", [](sim::Scenario&) {}},
+    {"no delay", [](sim::Scenario& w) { w.kicker.delay_s = w.kicker.delay_sd_s = 0.0; }},
+    {"delay 0.14 s longer", [](sim::Scenario& w) { w.kicker.delay_s += 0.14; }},
+    {"delay 0.15 +- 0.06 s", [](sim::Scenario& w) { w.kicker.delay_s = 0.15, w.kicker.delay_sd_s = 0.06; }},
+    {"30 % faster", [](sim::Scenario& w) { w.kicker.speed_scale_ratio = 1.3; }},
+    {"30 % slower", [](sim::Scenario& w) { w.kicker.speed_scale_ratio = 0.7; }},
+    {"6 degrees steeper",
+     [](sim::Scenario& w) {
+       for (double& e : w.kicker.exit_elevations_rad) e += 0.105;
+     }},
+    {"6 degrees flatter",
+     [](sim::Scenario& w) {
+       for (double& e : w.kicker.exit_elevations_rad) e -= 0.105;
+     }},
+    {"direction +- 5 degrees", [](sim::Scenario& w) { w.kicker.direction_sd_rad = 0.087; }},
+    {"no drag", [](sim::Scenario& w) { w.ball.drag_coefficient = 0.0; }},
+    {"three times the drag", [](sim::Scenario& w) { w.ball.drag_coefficient *= 3.0; }},
+    {"bounces keep 0.45", [](sim::Scenario& w) { w.ball.restitution_ratio = 0.45; }},
+    {"bounces keep 0.85", [](sim::Scenario& w) { w.ball.restitution_ratio = 0.85; }},
+    {"camera 0.16 s later", [](sim::Scenario& w) { w.flight_camera.latency_s += 0.16; }},
+    {"0.2 s later, 15 % faster, twice the drag, 4 degrees, 6 cm, 20 % dropouts",
+     [](sim::Scenario& w) {
+       w.kicker.delay_s = 0.2, w.kicker.delay_sd_s = 0.06, w.kicker.speed_scale_ratio = 1.15;
+       w.ball.drag_coefficient *= 2.0, w.kicker.direction_sd_rad = 0.07;
+       w.flight_camera.position_sd_m = 0.06, w.flight_camera.dropout_ratio = 0.2;
+     }},
+};
+
 /// Adds one match of `possessions` possessions; odd matches are played by moving, even ones by predictive.
 inline void add_match(const GoalCamera& camera, std::uint64_t seed, std::uint32_t match_id, std::uint32_t possessions,
-                      LabelCounts& counts) {
+                      LabelCounts& counts, const OtherWorld& world = {}) {
   sim::Scenario scenario;
   scenario.flight_camera.position_sd_m = camera.sd_m;
   scenario.flight_camera.period_s = 1.0 / camera.frames_per_s;
   scenario.flight_camera.dropout_ratio = camera.dropout_ratio;
+  world.change(scenario);
   Arm arm;
   arm.policy = match_id % 2 == 0 ? kicking::PolicyName::kPredictive : kicking::PolicyName::kMoving;
   if (camera.frames_per_s > 50.0) scenario.cycle_s = arm.settings.run.cycle_s = 1.0 / camera.frames_per_s;

@@ -37,6 +37,19 @@ TEST(LabelSweep, LabelsAreRightAndTheBoundsHoldWhateverTheCamera) {
   }
 }
 
+// The robot's file, the ball and the camera are not what the observer believes.
+TEST(LabelSweep, LabelsAreRightAndTheBoundsHoldWhereBeliefsAreWrong) {
+  for (const OtherWorld& world : kOtherWorlds) {
+    LabelCounts counts;
+    for (std::uint32_t match = 0; match < 16; ++match) add_match({}, 1, match, 40, counts, world);
+    ASSERT_GT(counts.given, 100) << world.what;
+    EXPECT_GE(clopper_pearson({counts.right, counts.given}, kAlmostCertain).hi, 0.97)
+        << world.what << ": " << counts.right << " of " << counts.given;
+    EXPECT_GE(clopper_pearson({counts.covered, counts.matches}, kAlmostCertain).hi, 0.95)
+        << world.what << ": " << counts.covered << " of " << counts.matches;
+  }
+}
+
 TEST(LabelSweep, FewAreUnknownAtThreeCentimetresAndThirtyFrames) {
   for (const double dropout_ratio : {0.0, 0.2}) {
     const LabelCounts counts = played({0.03, 30.0, dropout_ratio}, 30);

@@ -8,7 +8,7 @@
 #include "experiment/replay/replay_match.hpp"
 #include "log/write/writer.hpp"
 #include "robot/recording/message_row.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::experiment {
 namespace {
@@ -60,7 +60,7 @@ class Generator {
     for (int i = 0; i < kCycles; ++i) cycle(logic, kStart_ns + i * 20 * kMillisecond + jitter(), draw() < stalled);
   }
 
-  std::filesystem::path write(const nodes::TemporaryFolder& folder) const {
+  std::filesystem::path write(const tests::Folder& folder) const {
     const auto path = folder / "match.db";
     log::Writer log{path, session()};
     write(log, odometry_);
@@ -177,20 +177,20 @@ class Generator {
   std::int64_t crossings_ = 0;
 };
 
-RobotReplay decide_again(const Generator& made, const nodes::TemporaryFolder& folder,
-                         const std::optional<RobotSetup>& anew = {}) {
+RobotReplay decide_again(const Generator& made, const tests::Folder& folder,
+                         const std::optional<RobotSetup>& again = {}) {
   const log::Reader reader{made.write(folder)};
   log::Session session = reader.sessions().front();
   session.replays_uuid = std::exchange(session.uuid, "");
   session.config_toml = "### settings\n";
   log::Writer log{folder / "again.db", session};
-  const auto replay = replay_robot({reader, reader.sessions().front().session_id, 1}, made.setup(), anew, log, 65536);
+  const auto replay = replay_robot({reader, reader.sessions().front().session_id, 1}, made.setup(), again, log, 65536);
   log.finalise();
   return replay;
 }
 
 TEST(ReplayRobot, WithoutCrossingsEveryDecisionIsTheSame) {
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const Generator made{1, 0.0, 0.0};
   ASSERT_GT(made.fires(), 0);
   const RobotReplay replay = decide_again(made, folder);
@@ -202,7 +202,7 @@ TEST(ReplayRobot, WithoutCrossingsEveryDecisionIsTheSame) {
 
 TEST(ReplayRobot, FindsOutWhichInputsCrossed) {
   for (const std::uint32_t seed : {1u, 2u, 3u, 4u, 5u}) {
-    const nodes::TemporaryFolder folder;
+    const tests::Folder folder;
     const Generator made{seed, 0.5, 0.0};
     const RobotReplay replay = decide_again(made, folder);
     EXPECT_EQ(replay.check.beliefs_same, replay.check.beliefs) << seed;
@@ -214,7 +214,7 @@ TEST(ReplayRobot, FindsOutWhichInputsCrossed) {
 }
 
 TEST(ReplayRobot, KnowsTheCyclesThatWereDecidedTooLate) {
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const Generator made{1, 0.2, 0.05};
   const RobotReplay replay = decide_again(made, folder);
   EXPECT_EQ(replay.check.decisions_exact, replay.check.decisions);
@@ -222,7 +222,7 @@ TEST(ReplayRobot, KnowsTheCyclesThatWereDecidedTooLate) {
 }
 
 TEST(ReplayRobot, AnotherPolicyOrdersElsewhereAndTheCheckStaysThatOfTheLog) {
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const Generator made{1, 0.5, 0.0};
   RobotSetup moving = made.setup();
   moving.settings.kick_decision.policy_by_half = {kicking::PolicyName::kMoving};
@@ -236,7 +236,7 @@ TEST(ReplayRobot, AnotherPolicyOrdersElsewhereAndTheCheckStaysThatOfTheLog) {
 }
 
 TEST(ReplayRobot, RefusesABaseThatTheSamplesAreNotOf) {
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   const Generator made{1, 0.0, 0.0};
   RobotSetup four = made.setup();
   four.robot.base.wheel_angles_rad = {0.5, 2.5, 3.7, 5.6};

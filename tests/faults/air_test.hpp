@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/faults/team_on_air.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 
@@ -50,7 +50,7 @@ class AirTest : public testing::Test {
     return plan;
   }
 
-  e2e::Folder folder;
+  tests::Folder folder;
 };
 
 }  // namespace trivela::faults

@@ -261,7 +261,7 @@ TEST_F(Attackers, StrangersWhoWantToBeRememberedForEverGetNoMoreOfTheMemoryThanA
   if (!long_one) {
     EXPECT_THAT(said, testing::HasSubstr("more than run.memory_limit_mb = 48: ends, to be started again"));
   }
-  for (const std::size_t robot : {1u, 2u}) {  // who starts anew is let in
+  for (const std::size_t robot : {1u, 2u}) {  // who starts again is let in
     links.back_after_crash(robot);
     const std::int64_t after = number_in(team->logs(robot), "SELECT max(t_ns) FROM referee");
     const std::string words =

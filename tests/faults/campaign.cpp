@@ -241,7 +241,7 @@ class Campaign {
     try {
       start();
     } catch (const std::runtime_error& error) {
-      trial.complaint += fmt::format("; started anew, {}", error.what());
+      trial.complaint += fmt::format("; started again, {}", error.what());
       over_ = true;
     }
   }

@@ -12,9 +12,9 @@
 #include "emulators/cia402/emulated_drives.hpp"
 #include "hal/can/frame.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/faults/device_rounds.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -154,7 +154,7 @@ class DrivesCampaign : public testing::Test {
   config::Settings settings_ = settings_of_campaign();
   bus::Participant participant_{
       bus::loopback(static_cast<std::uint32_t>(settings_.domain.domain_id), settings_.domain.tag)};
-  e2e::Folder folder_;
+  tests::Folder folder_;
   cia402::Emulator drives_{std::uint8_t{3}};
   bus::Writer<msg::DriveCommand> drive_{participant_, own_decision()};
   std::optional<e2e::Program> odometry_;

@@ -15,7 +15,7 @@ namespace trivela::faults {
 /// What the way from one host to another does to frames.
 struct Way {
   std::chrono::microseconds delay{0};
-  std::chrono::microseconds jitter{0};  ///< at most so much more, drawn anew for each frame: they overtake each other
+  std::chrono::microseconds jitter{0};  ///< at most so much more, drawn again for each frame: they overtake each other
   double drop = 0.0;                    ///< share of frames that never arrive; 1: cut
   double garble = 0.0;                  ///< share of UDP datagrams with bits turned over
 };

@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr std::size_t kPowers = 25;  // told apart by the length of their pulse
 constexpr milliseconds kBetweenOrders{50};
 
-config::Settings with_board(config::Settings settings, const TroubledBoard& board, const e2e::Folder& folder) {
+config::Settings with_board(config::Settings settings, const TroubledBoard& board, const tests::Folder& folder) {
   settings.hal.kicker = board.host();
   settings.recorder.log = folder / "match.db";
   return settings;

@@ -9,10 +9,10 @@
 
 #include "bus/writer.hpp"
 #include "idl/messages.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/faults/device_rounds.hpp"
 #include "tests/faults/kicker_timeline.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 
@@ -45,7 +45,7 @@ class KickerRig {
 
   TroubledBoard& board() { return *board_; }
   const bus::Participant& participant() const { return participant_; }
-  const e2e::Folder& folder() const { return folder_; }
+  const tests::Folder& folder() const { return folder_; }
   std::filesystem::path log() const { return folder_ / "match.db"; }
   std::string driver_errors() const { return driver_->errors(); }
 
@@ -65,7 +65,7 @@ class KickerRig {
   void signal_amid_a_kick(int signal);
 
   std::unique_ptr<TroubledBoard> board_;
-  e2e::Folder folder_;
+  tests::Folder folder_;
   config::Settings settings_;
   bus::Participant participant_;
   std::optional<bus::Writer<msg::Referee>> referee_;

@@ -75,7 +75,7 @@ class LockstepOnAir : public AirTest, public testing::WithParamInterface<Fault> 
  protected:
   /// The decisions of the one match there is, under a fault or none.
   std::vector<std::string> played(const Fault* fault) {
-    const e2e::Folder own;
+    const tests::Folder own;
     TeamPlan plan = this->plan();
     plan.folder = own.path();
     plan.robots = {Plays::kInLockstep};

@@ -8,10 +8,10 @@
 
 #include "cli/launch/progress_bar.hpp"
 #include "cli/launch/signal_inbox.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/faults/drivers_words.hpp"
 #include "tests/faults/forged_orders.hpp"
 #include "tests/faults/verdict.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -33,7 +33,7 @@ struct Arguments {
   bool arrivals_only = false;
 };
 
-fs::path prepared(const fs::path& log_dir, const e2e::Folder& temporary) {
+fs::path prepared(const fs::path& log_dir, const tests::Folder& temporary) {
   if (log_dir.empty()) return temporary.path();
   fs::create_directories(log_dir);
   if (!fs::is_empty(log_dir)) throw std::runtime_error{fmt::format("{} is not empty", log_dir.string())};
@@ -109,7 +109,7 @@ Verdict campaign(const Arguments& arguments, const fs::path& folder, bool with_l
 int run(const Arguments& arguments) {
   const std::string obstacle = arguments.loopback ? "--loopback" : NetworkHost::obstacle();
   if (!obstacle.empty()) fmt::print("faults of links are left out ({}): the nodes share the loopback\n", obstacle);
-  const e2e::Folder temporary;
+  const tests::Folder temporary;
   const Verdict verdict = campaign(arguments, prepared(arguments.log_dir, temporary), obstacle.empty());
   fmt::print("{}", text(verdict));
   if (!arguments.json.empty()) std::ofstream{arguments.json} << json(verdict).dump(2) << "\n";

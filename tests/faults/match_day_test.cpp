@@ -7,11 +7,11 @@
 #include <regex>
 #include <sstream>
 
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/program.hpp"
 #include "tests/faults/launched_team.hpp"
 #include "tests/faults/team_on_air.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -84,7 +84,7 @@ class MatchDay : public testing::Test {
     return trivela(arguments);
   }
 
-  e2e::Folder folder;
+  tests::Folder folder;
   std::string said;
   std::size_t robots = static_cast<std::size_t>(by_hand("TRIVELA_TEAM_ROBOTS", 2));
 };

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "evaluator/table2/table2.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/faults/stack.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 namespace {
@@ -31,7 +31,7 @@ bool has_silence(const evaluator::Report& report, const std::string& stream, dou
 
 TEST(Outage, OfFourteenSecondsIsInTheReportWithItsKicks) {
   if (const std::string obstacle = NetworkHost::obstacle(); !obstacle.empty()) GTEST_SKIP() << obstacle;
-  const e2e::Folder folder;
+  const tests::Folder folder;
   StackPlan plan;
   plan.programs = TRIVELA_BINARY_DIR;
   plan.own = std::filesystem::path{TRIVELA_BINARY_DIR} / "tests";

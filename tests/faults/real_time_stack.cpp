@@ -12,7 +12,7 @@
 namespace trivela::faults {
 namespace {
 
-config::Settings settings_for(const e2e::Folder& folder, double minutes, StackOptions options) {
+config::Settings settings_for(const tests::Folder& folder, double minutes, StackOptions options) {
   config::Settings settings = config::load_settings(std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/default.toml");
   std::random_device random;
   settings.run.lockstep = false;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "config/settings.hpp"
-#include "tests/e2e/folder.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::faults {
 
@@ -42,7 +42,7 @@ class RealTimeStack {
   /// Sends a program a signal.
   void signal(const std::string& program, int number) const;
 
-  /// Starts a program anew that has ended.
+  /// Starts a program again that has ended.
   void restart(const std::string& program);
 
   /// Those that have ended, with how and what they said last.
@@ -62,7 +62,7 @@ class RealTimeStack {
   std::unique_ptr<e2e::Program> new_program(const std::string& node) const;
   const e2e::Program& program(const std::string& name) const;
 
-  e2e::Folder folder_;
+  tests::Folder folder_;
   config::Settings settings_;
   std::vector<std::pair<std::string, std::unique_ptr<e2e::Program>>> programs_;
 };

@@ -2,7 +2,7 @@
 // writer of its own, so that the referee can be killed, paused and cut off while the rest of the world goes on. On
 // standard output: "writer GUID" for each writer of the simulator's words, in hexadecimal digits, for the hub that
 // keeps those words from everybody else. SIGRTMIN with a value: 1 silent from now on, 0 no longer. SIGTERM: deletes its
-// writer and ends. Where it hears no word for long it joins the bus anew, as a node of ours does: garbled packets leave
+// writer and ends. Where it hears no word for long it joins the bus again, as a node of ours does: garbled packets leave
 // readers deaf.
 #include <dds/dds.h>
 #include <signal.h>

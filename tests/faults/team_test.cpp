@@ -116,13 +116,13 @@ TEST_F(TeamOnAirTest, ARobotWhoseRefereeCrossesTheNetworkStandsInItsSilenceAndPl
   without(
       "the interface", 0.0, [&] { team.lose_interface(1); }, [&] { team.give_interface(1); });
 
-  // The robot that plays is started anew, but for its world and its record, as a robot does whose computer is quick.
+  // The robot that plays is started again, but for its world and its record, as a robot does whose computer is quick.
   const std::int64_t as_before = last_instant(one());
   for (const std::string& node : kChain) team.process(1, node).signal(SIGKILL);
   for (const std::string& node : kChain) team.restart(1, node);
-  EXPECT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), true, as_before) > 50; })) << "started anew";
+  EXPECT_TRUE(team.wait_for(kTimeout, [&] { return cycles(one(), true, as_before) > 50; })) << "started again";
 
-  // Another is started anew, its recorder late.
+  // Another is started again, its recorder late.
   for (const char* const node : {"trivela-team_link", "trivela-recorder"}) team.process(2, node).signal(SIGKILL);
   team.restart(2, "trivela-team_link");
   team.pass(milliseconds{500});

@@ -29,7 +29,7 @@ struct Verdict {
 };
 
 /// In how many seconds after the fault's end every periodic topic has to be heard again: 2; after forged packets 4, in
-/// which a reader that they made deaf is made anew (docs/decisions/0017-mutated-packets.md).
+/// which a reader that they made deaf is made again (docs/decisions/0017-mutated-packets.md).
 double time_for_streams_s(const Fault& fault);
 
 /// Median and worst of times, NaN where there are none.

@@ -18,7 +18,7 @@
 #include "idl/messages.hpp"
 #include "tests/interop/value_text.hpp"
 #include "tests/nodes/spawned.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 /// Of our types, which lie where C has them.
 template <class F>
@@ -131,7 +131,7 @@ TEST_F(Interop, ADecisionAsItIsIsMatchedWhateverItsRepresentation) {
 
 TEST_F(Interop, TheNodeDecidesOnAWorldOfAnotherVendorAndIsReadByIt) {
   start_others();
-  const nodes::TemporaryFolder folder;
+  const tests::Folder folder;
   std::ofstream{folder / "node.toml"} << "[domain]\ndomain_id = " << domain << "\ndds_file = \"" << kBus << "\"\n"
                                       << "[run]\nlockstep = false\nrobot = \"" TRIVELA_SOURCE_DIR
                                          "/config/robots/cambada_1.toml\"\n";

@@ -49,8 +49,8 @@ void expect_decisions_without_allocation(const RobotModel& robot) {
             input.opponent_distance_m = 2.0 - 0.02 * i;
             input.possession_id = static_cast<std::uint32_t>(i / 10);
             input.last_kick = SeenKick{i, input.possession_id - 1, 0.1};
-            const Judgement judgement = judge(policy, config, robot, {}, input, memory);
-            sum += judgement.distance_m + p_inside({8, 0.6, 1, 6}, {0.02, 0.01, 0.05, 0.25}, 0, {}).p_inside;
+            const PolicyOutput output = evaluate(policy, config, robot, {}, input, memory);
+            sum += output.distance_m + p_inside({8, 0.6, 1, 6}, {0.02, 0.01, 0.05, 0.25}, 0, {}).p_inside;
           }
         }
       }

@@ -67,12 +67,12 @@ TEST_P(RuledPolicy, HoldsInItsOwnHalfAndSaysSo) {
   PolicyMemory memory;
   const RobotModel robot;
   // The ball lies 0.27 m before the robot: 0.2 m beyond the line is less than the margin.
-  Judgement judgement = judge(GetParam(), config, robot, {}, ready_at({0, -0.07, 0}), memory);
-  EXPECT_FALSE(judgement.fire);
-  EXPECT_EQ(judgement.reason, Reason::kOwnHalf);
-  EXPECT_STREQ(name(judgement.reason), "own_half");
-  judgement = judge(GetParam(), config, robot, {}, ready_at({0, 3, 0}), memory);
-  EXPECT_NE(judgement.reason, Reason::kOwnHalf);
+  PolicyOutput output = evaluate(GetParam(), config, robot, {}, ready_at({0, -0.07, 0}), memory);
+  EXPECT_FALSE(output.fire);
+  EXPECT_EQ(output.reason, Reason::kOwnHalf);
+  EXPECT_STREQ(name(output.reason), "own_half");
+  output = evaluate(GetParam(), config, robot, {}, ready_at({0, 3, 0}), memory);
+  EXPECT_NE(output.reason, Reason::kOwnHalf);
 }
 
 TEST_P(RuledPolicy, KicksFromTheOpponentsHalfAsWithoutTheRule) {
@@ -98,7 +98,7 @@ TEST_P(RuledPolicy, CarriesTheBallNoFartherThanTheLimitWhereverItTurns) {
     const Eigen::Vector2d taken = held_ball(input.pose, robot);
     double farthest_m = 0.0;
     for (int cycle = 0; cycle < 400; ++cycle) {
-      input.twist = judge(GetParam(), config, robot, {}, input, memory).drive;
+      input.twist = evaluate(GetParam(), config, robot, {}, input, memory).drive;
       input.pose = advance(input.pose, input.twist, config.cycle_s);
       input.t_ns += 20'000'000;
       farthest_m = std::max(farthest_m, (held_ball(input.pose, robot) - taken).norm());
@@ -113,7 +113,7 @@ TEST_P(RuledPolicy, HasANewReachWithANewPossession) {
   PolicyMemory memory;
   PolicyInput input = ready_at({0.0, -6.0, 0.0}, {0.0, 1.0, 0.0});
   input.kicker_ready = false;
-  const auto drive = [&] { return judge(GetParam(), config, {}, {}, input, memory).drive; };
+  const auto drive = [&] { return evaluate(GetParam(), config, {}, {}, input, memory).drive; };
   drive();
   input.pose.y_m += 2.0;
   EXPECT_NEAR(std::hypot(drive().vx_mps, drive().vy_mps), 0.0, 1e-9);
@@ -133,13 +133,13 @@ tests::Played set_piece(std::optional<double> left_s, const PolicyInput& from, s
     } else {
       input.set_piece_left_s = std::nullopt;
     }
-    const Judgement judgement = judge(PolicyName::kPredictive, config, {}, {}, input, memory);
-    if (reasons != nullptr) reasons->push_back(judgement.reason);
-    if (judgement.fire) {
-      played.fired = judgement;
+    const PolicyOutput output = evaluate(PolicyName::kPredictive, config, {}, {}, input, memory);
+    if (reasons != nullptr) reasons->push_back(output.reason);
+    if (output.fire) {
+      played.fired = output;
       return played;
     }
-    input.twist = judgement.drive;
+    input.twist = output.drive;
     input.pose = advance(input.pose, input.twist, config.cycle_s);
     input.t_ns += 20'000'000;
   }

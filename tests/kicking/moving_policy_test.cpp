@@ -13,14 +13,14 @@ using tests::play;
 using tests::ready_at;
 using tests::strict_config;
 
-Judgement once(const PolicyInput& input, const PolicyConfig& config = strict_config()) {
+PolicyOutput once(const PolicyInput& input, const PolicyConfig& config = strict_config()) {
   PolicyMemory memory;
-  return judge(PolicyName::kMoving, config, {}, {}, input, memory);
+  return evaluate(PolicyName::kMoving, config, {}, {}, input, memory);
 }
 
 TEST(MovingPolicy, FiresInMotionWhenTheDeflectedLineMeetsTheTarget) {
   // 1 m/s to the right deflects the ball by 8.62 degrees to the right.
-  const Judgement aimed = once(ready_at({0, 3, radians(8.617644)}, {1, 0, 0}));
+  const PolicyOutput aimed = once(ready_at({0, 3, radians(8.617644)}, {1, 0, 0}));
   EXPECT_EQ(aimed.reason, Reason::kFire);
   EXPECT_NEAR(aimed.alpha_rad, radians(8.617644), 1e-12);
   EXPECT_NEAR(*aimed.offset_right_m, 0.0, 1e-9);
@@ -35,7 +35,7 @@ TEST(MovingPolicy, FiresOnEnteringTheExtendedSegmentAndNotInItsMiddle) {
     return input;
   };
   const auto reason = [&](const PolicyInput& input) {
-    return judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason;
+    return evaluate(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason;
   };
   EXPECT_EQ(reason(turning_at(-8.0, 0.00)), Reason::kNotAligned);
   PolicyInput charging = turning_at(-6.5, 0.02);
@@ -50,27 +50,27 @@ TEST(MovingPolicy, FiresLateWhereTheSegmentIsNotExtended) {
   PolicyMemory memory;
   PolicyInput input = ready_at({0, 3, 0});
   input.kicker_ready = false;
-  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kKickerNotReady);
+  EXPECT_EQ(evaluate(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kKickerNotReady);
   input.kicker_ready = true;
-  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kFire);
+  EXPECT_EQ(evaluate(PolicyName::kMoving, strict_config(), {}, {}, input, memory).reason, Reason::kFire);
 }
 
 TEST(MovingPolicy, TakesTheRobotsSpeedOffTheKick) {
   for (const MotionLaw law : {MotionLaw::kPaper, MotionLaw::kExact}) {
     PolicyConfig config = strict_config();
     config.motion_law = law;
-    const Judgement still = once(ready_at({0, 3, 0}), config);
-    const Judgement forward = once(ready_at({0, 3, 0}, {0, 1, 0}), config);
-    const Judgement backward = once(ready_at({0, 3, 0}, {0, -1, 0}), config);
+    const PolicyOutput still = once(ready_at({0, 3, 0}), config);
+    const PolicyOutput forward = once(ready_at({0, 3, 0}, {0, 1, 0}), config);
+    const PolicyOutput backward = once(ready_at({0, 3, 0}, {0, -1, 0}), config);
     EXPECT_NEAR(*still.v_kick_mps, *still.v0_mps, 1e-9);
     EXPECT_LT(*forward.v_kick_mps, *still.v_kick_mps - 0.4);
     EXPECT_GT(*backward.v_kick_mps, *still.v_kick_mps + 0.2);
   }
   PolicyConfig paper = strict_config();
   paper.motion_law = MotionLaw::kPaper;
-  const Judgement forward = once(ready_at({0, 3, 0}, {0, 1, 0}), paper);
+  const PolicyOutput forward = once(ready_at({0, 3, 0}, {0, 1, 0}), paper);
   EXPECT_NEAR(*forward.v_kick_mps, *forward.v0_mps - 0.70 * std::cos(radians(36.78)), 1e-12);
-  const Judgement backward = once(ready_at({0, 3, 0}, {0, -1, 0}), paper);
+  const PolicyOutput backward = once(ready_at({0, 3, 0}, {0, -1, 0}), paper);
   EXPECT_NEAR(*backward.v_kick_mps, *backward.v0_mps + 0.35 * std::cos(radians(36.78)), 1e-12);
 }
 
@@ -92,15 +92,15 @@ TEST(MovingPolicy, NeverKicksBeyondItsRangeNorOverTheBarFromClose) {
   RobotModel strong;
   strong.table = EffectiveTable{{1, 8.0}, {2, 12.0}};
   PolicyMemory memory;
-  EXPECT_EQ(judge(PolicyName::kMoving, strict_config(), strong, {}, ready_at({0, 6, 0}), memory).reason,
+  EXPECT_EQ(evaluate(PolicyName::kMoving, strict_config(), strong, {}, ready_at({0, 6, 0}), memory).reason,
             Reason::kOutOfRange);
 }
 
 TEST(MovingPolicy, KeepsDrivingToTheGoalWhileItTurns) {
-  const Judgement judgement = once(ready_at({0, 3, 0.5}, {0, 1, 0}));
-  EXPECT_EQ(judgement.reason, Reason::kNotAligned);
-  EXPECT_GT(judgement.drive.vy_mps, 0.9);
-  EXPECT_LT(judgement.drive.omega_radps, -1.0);
+  const PolicyOutput output = once(ready_at({0, 3, 0.5}, {0, 1, 0}));
+  EXPECT_EQ(output.reason, Reason::kNotAligned);
+  EXPECT_GT(output.drive.vy_mps, 0.9);
+  EXPECT_LT(output.drive.omega_radps, -1.0);
 }
 
 TEST(MovingPolicy, MirrorsLeftAndRight) {
@@ -112,8 +112,8 @@ TEST(MovingPolicy, MirrorsLeftAndRight) {
     for (int i = 0; i < 200; ++i) {
       const Pose pose{3 * unit(random), 3 + 2 * unit(random), unit(random)};
       const Twist twist{unit(random), unit(random), 2 * unit(random)};
-      const Judgement a = once(ready_at(pose, twist), config);
-      const Judgement b =
+      const PolicyOutput a = once(ready_at(pose, twist), config);
+      const PolicyOutput b =
           once(ready_at({-pose.x_m, pose.y_m, -pose.heading_rad}, {-twist.vx_mps, twist.vy_mps, -twist.omega_radps}),
                config);
       EXPECT_EQ(a.reason, b.reason);

@@ -34,7 +34,7 @@ inline PolicyConfig strict_config() {
 
 /// What became of a possession.
 struct Played {
-  std::optional<Judgement> fired;
+  std::optional<PolicyOutput> fired;
   PolicyInput at;  ///< of the order, or the last cycle
   double seconds = 0.0;
 };
@@ -45,10 +45,10 @@ inline Played play(PolicyName policy, const PolicyConfig& config, const RobotMod
                    PolicyMemory& memory, double limit_s = 8.0) {
   Played played;
   for (; played.seconds < limit_s; played.seconds += config.cycle_s) {
-    const Judgement judgement = judge(policy, config, robot, {}, input, memory);
+    const PolicyOutput output = evaluate(policy, config, robot, {}, input, memory);
     played.at = input;
-    if (judgement.fire) {
-      played.fired = judgement;
+    if (output.fire) {
+      played.fired = output;
       break;
     }
     const auto follow = [](double now, double wanted, double change) {
@@ -56,9 +56,9 @@ inline Played play(PolicyName policy, const PolicyConfig& config, const RobotMod
     };
     const double dv = config.max_brake_mps2 * config.cycle_s;
     const double dw = config.max_turn_acceleration_radps2 * config.cycle_s;
-    input.twist = {follow(input.twist.vx_mps, judgement.drive.vx_mps, dv),
-                   follow(input.twist.vy_mps, judgement.drive.vy_mps, dv),
-                   follow(input.twist.omega_radps, judgement.drive.omega_radps, dw)};
+    input.twist = {follow(input.twist.vx_mps, output.drive.vx_mps, dv),
+                   follow(input.twist.vy_mps, output.drive.vy_mps, dv),
+                   follow(input.twist.omega_radps, output.drive.omega_radps, dw)};
     input.pose = advance(input.pose, input.twist, config.cycle_s);
     input.t_ns += nanoseconds(config.cycle_s);
   }

@@ -14,9 +14,9 @@ using tests::ready_at;
 
 constexpr PolicyName kPredictive = PolicyName::kPredictive;
 
-Judgement once(const PolicyInput& input, const PolicyConfig& config = {}, const RobotModel& robot = {}) {
+PolicyOutput once(const PolicyInput& input, const PolicyConfig& config = {}, const RobotModel& robot = {}) {
   PolicyMemory memory;
-  return judge(kPredictive, config, robot, {}, input, memory);
+  return evaluate(kPredictive, config, robot, {}, input, memory);
 }
 
 const PredictiveMemory& own(const PolicyMemory& memory) { return std::get<PredictiveMemory>(memory); }
@@ -30,21 +30,21 @@ PolicyInput threatened(const Pose& pose, const Twist& twist, double opponent_m, 
 }
 
 TEST(PredictivePolicy, FiresAtOnceWhereNothingGetsBetter) {
-  const Judgement judgement = once(ready_at({0, 4, 0}, {0, 1.2, 0}));
-  EXPECT_TRUE(judgement.fire);
-  ASSERT_TRUE(judgement.p_on_target);
-  EXPECT_GT(*judgement.p_on_target, 0.9);
-  ASSERT_TRUE(judgement.predicted);
-  EXPECT_NEAR(judgement.predicted->x_m, 0.0, 0.05);
+  const PolicyOutput output = once(ready_at({0, 4, 0}, {0, 1.2, 0}));
+  EXPECT_TRUE(output.fire);
+  ASSERT_TRUE(output.p_on_target);
+  EXPECT_GT(*output.p_on_target, 0.9);
+  ASSERT_TRUE(output.predicted);
+  EXPECT_NEAR(output.predicted->x_m, 0.0, 0.05);
 }
 
 TEST(PredictivePolicy, AimsBelowTheFixedHeightAndAboveTheFloor) {
   for (const double y : {0.5, 2.0, 4.0, 5.5}) {
-    const Judgement judgement = once(ready_at({0, y, 0}));
-    ASSERT_TRUE(judgement.predicted) << y;
-    EXPECT_NEAR(judgement.predicted->z_m, judgement.target_z_m, 0.03) << y;
-    EXPECT_GT(judgement.target_z_m, 0.15) << y;
-    EXPECT_LT(judgement.target_z_m, 0.6) << y;
+    const PolicyOutput output = once(ready_at({0, y, 0}));
+    ASSERT_TRUE(output.predicted) << y;
+    EXPECT_NEAR(output.predicted->z_m, output.target_z_m, 0.03) << y;
+    EXPECT_GT(output.target_z_m, 0.15) << y;
+    EXPECT_LT(output.target_z_m, 0.6) << y;
   }
 }
 
@@ -70,19 +70,19 @@ TEST(PredictivePolicy, PowerIsTheBestOverASweep) {
 }
 
 TEST(PredictivePolicy, WaitsWhileTurningOntoTheGoalGetsBetter) {
-  const Judgement judgement = once(threatened({0, 3, 0.45}, {0, 0, -1.5}, 4.0, 1.0));
-  EXPECT_FALSE(judgement.fire);
-  EXPECT_EQ(judgement.reason, Reason::kWaiting);
-  EXPECT_LT(judgement.drive.omega_radps, 0.0);
+  const PolicyOutput output = once(threatened({0, 3, 0.45}, {0, 0, -1.5}, 4.0, 1.0));
+  EXPECT_FALSE(output.fire);
+  EXPECT_EQ(output.reason, Reason::kWaiting);
+  EXPECT_LT(output.drive.omega_radps, 0.0);
 }
 
 TEST(PredictivePolicy, FiresAPoorShotWhereTheBallWouldBeLost) {
   // Aimed at the post; the opponent is there in 20 ms, and would not be for seconds.
   const Pose pose{0, 3, 0.15};
-  const Judgement lost = once(threatened(pose, {}, 0.52, 1.0));
+  const PolicyOutput lost = once(threatened(pose, {}, 0.52, 1.0));
   EXPECT_TRUE(lost.fire);
   EXPECT_LT(*lost.p_on_target, 0.8);
-  const Judgement safe = once(threatened(pose, {}, 4.0, 1.0));
+  const PolicyOutput safe = once(threatened(pose, {}, 4.0, 1.0));
   EXPECT_EQ(safe.reason, Reason::kWaiting);
 }
 
@@ -92,9 +92,9 @@ TEST(PredictivePolicy, NeverFiresBelowItsThreshold) {
     config.predictive.threshold = threshold;
     for (double heading = -1.0; heading <= 1.0; heading += 0.05) {
       for (const double opponent : {0.55, 0.8, 3.0}) {
-        const Judgement judgement = once(threatened({1.0, 2.0, heading}, {0.3, 0.8, -1.0}, opponent, 1.4), config);
-        if (!judgement.fire) continue;
-        EXPECT_GE(*judgement.p_on_target, threshold);
+        const PolicyOutput output = once(threatened({1.0, 2.0, heading}, {0.3, 0.8, -1.0}, opponent, 1.4), config);
+        if (!output.fire) continue;
+        EXPECT_GE(*output.p_on_target, threshold);
       }
     }
   }
@@ -105,10 +105,10 @@ TEST(PredictivePolicy, NeverFiresBelowItsThreshold) {
 TEST(PredictivePolicy, SchedulesTheReleaseWithinTheCycle) {
   bool inside = false;
   for (double heading = -0.8; heading <= 0.8; heading += 0.004) {
-    const Judgement judgement = once(threatened({0, 3.0, heading}, {0, 1.0, 2.5}, 1.2, 1.5));
-    EXPECT_GE(judgement.fire_after_s, 0.0);
-    EXPECT_LT(judgement.fire_after_s, PolicyConfig{}.cycle_s);
-    inside = inside || (judgement.fire && judgement.fire_after_s > 0.001 && judgement.fire_after_s < 0.019);
+    const PolicyOutput output = once(threatened({0, 3.0, heading}, {0, 1.0, 2.5}, 1.2, 1.5));
+    EXPECT_GE(output.fire_after_s, 0.0);
+    EXPECT_LT(output.fire_after_s, PolicyConfig{}.cycle_s);
+    inside = inside || (output.fire && output.fire_after_s > 0.001 && output.fire_after_s < 0.019);
   }
   EXPECT_TRUE(inside);
 }
@@ -136,8 +136,8 @@ TEST(PredictivePolicy, IsFasterThanMoving) {
 
 TEST(PredictivePolicy, MirroredInputGivesTheMirroredDecision) {
   for (double heading = -3.0; heading <= 3.0; heading += 0.13) {
-    const Judgement a = once(threatened({1.2, 2.0, heading}, {0.5, 0.9, -1.2}, 1.3, 1.5));
-    const Judgement b = once(threatened({-1.2, 2.0, -heading}, {-0.5, 0.9, 1.2}, 1.3, 1.5));
+    const PolicyOutput a = once(threatened({1.2, 2.0, heading}, {0.5, 0.9, -1.2}, 1.3, 1.5));
+    const PolicyOutput b = once(threatened({-1.2, 2.0, -heading}, {-0.5, 0.9, 1.2}, 1.3, 1.5));
     EXPECT_EQ(a.fire, b.fire) << heading;
     EXPECT_EQ(a.reason, b.reason) << heading;
     EXPECT_NEAR(a.fire_after_s, b.fire_after_s, 1e-9);
@@ -182,7 +182,7 @@ TEST(PredictivePolicy, HoldsUnderEveryHindrance) {
 }
 
 TEST(PredictivePolicy, OutOfRangeIsWhereFullPowerFallsShort) {
-  const Judgement far = once(ready_at({0, -6.0, 0}));
+  const PolicyOutput far = once(ready_at({0, -6.0, 0}));
   EXPECT_FALSE(far.fire);
   EXPECT_EQ(far.reason, Reason::kOutOfRange);
   EXPECT_GT(far.drive.vy_mps, 0.5);
@@ -193,12 +193,12 @@ TEST(PredictivePolicy, DrivesOnAsReckonedUntilTheBallHasLeft) {
   PolicyInput input = threatened({0, 3, 0.25}, {0, 0.8, -2.5}, 0.9, 2.0);
   bool fired = false;
   for (int i = 0; i < 20 && !fired; ++i) {
-    fired = judge(kPredictive, {}, {}, {}, input, memory).fire;
+    fired = evaluate(kPredictive, {}, {}, {}, input, memory).fire;
     input.t_ns += 20'000'000;
   }
   ASSERT_TRUE(fired);
   const DrivePlan plan = own(memory).plan;
-  const Judgement pending = judge(kPredictive, {}, {}, {}, input, memory);
+  const PolicyOutput pending = evaluate(kPredictive, {}, {}, {}, input, memory);
   EXPECT_FALSE(pending.fire);
   EXPECT_EQ(pending.reason, Reason::kOrderPending);
   EXPECT_EQ(own(memory).plan, plan);
@@ -209,8 +209,8 @@ TEST(LearnedPolicy, WithAnEmptyModelDecidesByThePhysicalProbability) {
   config.learned.emplace();
   PolicyMemory memory;
   const PolicyInput input = ready_at({0, 3, 0.05});
-  const Judgement learned = judge(PolicyName::kLearned, config, {}, {}, input, memory);
-  const Judgement physical = once(input);
+  const PolicyOutput learned = evaluate(PolicyName::kLearned, config, {}, {}, input, memory);
+  const PolicyOutput physical = once(input);
   EXPECT_EQ(learned.fire, physical.fire);
   EXPECT_NEAR(*learned.p_on_target, *physical.p_on_target, 1e-6);
 }

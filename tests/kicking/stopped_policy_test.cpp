@@ -17,7 +17,7 @@ const PolicyConfig kStrict = tests::strict_config();
 Reason after(PolicyInput input, double seconds, PolicyMemory& memory) {
   Reason reason = Reason::kFire;
   for (int i = 0; i <= std::lround(seconds / 0.02); ++i) {
-    reason = judge(PolicyName::kStopped, kStrict, {}, {}, input, memory).reason;
+    reason = evaluate(PolicyName::kStopped, kStrict, {}, {}, input, memory).reason;
     input.t_ns += 20'000'000;
   }
   return reason;
@@ -25,18 +25,18 @@ Reason after(PolicyInput input, double seconds, PolicyMemory& memory) {
 
 TEST(StoppedPolicy, BrakesBeforeItTurns) {
   PolicyMemory memory;
-  const Judgement judgement = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}, {0, 1, 0}), memory);
-  EXPECT_EQ(judgement.reason, Reason::kApproaching);
-  EXPECT_EQ(judgement.drive.vy_mps, 0.0);
-  EXPECT_EQ(judgement.drive.omega_radps, 0.0);
+  const PolicyOutput output = evaluate(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}, {0, 1, 0}), memory);
+  EXPECT_EQ(output.reason, Reason::kApproaching);
+  EXPECT_EQ(output.drive.vy_mps, 0.0);
+  EXPECT_EQ(output.drive.omega_radps, 0.0);
 }
 
 TEST(StoppedPolicy, TurnsOnTheSpotTowardsTheTarget) {
   PolicyMemory memory;
-  const Judgement judgement = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}), memory);
-  EXPECT_EQ(judgement.reason, Reason::kTurning);
-  EXPECT_EQ(judgement.drive.vy_mps, 0.0);
-  EXPECT_LT(judgement.drive.omega_radps, 0.0);
+  const PolicyOutput output = evaluate(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, 4, 0.5}), memory);
+  EXPECT_EQ(output.reason, Reason::kTurning);
+  EXPECT_EQ(output.drive.vy_mps, 0.0);
+  EXPECT_LT(output.drive.omega_radps, 0.0);
 }
 
 TEST(StoppedPolicy, SettlesAQuarterOfASecondBeforeItFires) {
@@ -68,12 +68,12 @@ TEST(StoppedPolicy, DoesNotFireOutsideTheToleranceHoweverLongItSettles) {
 
 TEST(StoppedPolicy, DrivesTowardsATargetOutOfRangeAndGivesUpWhereItMayNotGo) {
   PolicyMemory memory;
-  const Judgement far = judge(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, -5, 0}), memory);
+  const PolicyOutput far = evaluate(PolicyName::kStopped, kStrict, {}, {}, ready_at({0, -5, 0}), memory);
   EXPECT_EQ(far.reason, Reason::kApproaching);
   EXPECT_GT(far.drive.vy_mps, 0.5);
   RobotModel weak;
   weak.table = EffectiveTable{{1, 1.0}, {2, 2.0}};
-  const Judgement hopeless = judge(PolicyName::kStopped, kStrict, weak, {}, ready_at({0, 7, 0}), memory);
+  const PolicyOutput hopeless = evaluate(PolicyName::kStopped, kStrict, weak, {}, ready_at({0, 7, 0}), memory);
   EXPECT_EQ(hopeless.reason, Reason::kOutOfRange);
   EXPECT_EQ(hopeless.drive.vy_mps, 0.0);
 }
@@ -99,7 +99,7 @@ TEST(StoppedPolicy, WithItsDefaultsFiresAtRestWithinItsToleranceWithoutWaiting) 
   PolicyMemory memory;
   const auto reason = [&](double heading_deg, const Twist& twist) {
     memory = {};
-    return judge(PolicyName::kStopped, {}, {}, {}, ready_at({0, 4, radians(heading_deg)}, twist), memory).reason;
+    return evaluate(PolicyName::kStopped, {}, {}, {}, ready_at({0, 4, radians(heading_deg)}, twist), memory).reason;
   };
   EXPECT_EQ(reason(4.9, {}), Reason::kFire);
   EXPECT_EQ(reason(-4.9, {0, 0.29, 0.49}), Reason::kFire);

@@ -69,7 +69,7 @@ TEST(StandingDrive, WaitsUntilItHasBeenAtRestForAWhile) {
   const auto reason = [&](double seconds, const Twist& twist) {
     PolicyInput input = ready_at({0, 0, 0}, twist);
     input.t_ns = nanoseconds(seconds);
-    return judge(PolicyName::kStandingDrive, {}, {}, {}, input, memory).reason;
+    return evaluate(PolicyName::kStandingDrive, {}, {}, {}, input, memory).reason;
   };
   EXPECT_EQ(reason(0.0, {0.0, 1.0, 0.0}), Reason::kApproaching);
   EXPECT_EQ(reason(0.1, {}), Reason::kSettling);
@@ -159,25 +159,26 @@ TEST(PassDrive, StartsOverWhenTheKickerWasNotReadyAtThePlaceOfTheKick) {
   PolicyMemory memory;
   PolicyConfig config;
   PolicyInput input = ready_at({-1.6, 3.0, 0.0});
-  EXPECT_EQ(judge(PolicyName::kLateralDrive, config, {}, {}, input, memory).drive.vx_mps, 0.5)
+  EXPECT_EQ(evaluate(PolicyName::kLateralDrive, config, {}, {}, input, memory).drive.vx_mps, 0.5)
       << "at the mark: it goes";
   input.pose.x_m = 0.001;
   input.twist.vx_mps = 0.5;
   input.kicker_ready = false;
-  EXPECT_EQ(judge(PolicyName::kLateralDrive, config, {}, {}, input, memory).reason, Reason::kKickerNotReady);
+  EXPECT_EQ(evaluate(PolicyName::kLateralDrive, config, {}, {}, input, memory).reason, Reason::kKickerNotReady);
   input.kicker_ready = true;
   input.pose.x_m = 0.1;
-  EXPECT_EQ(judge(PolicyName::kLateralDrive, config, {}, {}, input, memory).reason, Reason::kNotAligned) << "too late";
+  EXPECT_EQ(evaluate(PolicyName::kLateralDrive, config, {}, {}, input, memory).reason, Reason::kNotAligned)
+      << "too late";
   input.pose.x_m = 0.6;
-  judge(PolicyName::kLateralDrive, config, {}, {}, input, memory);
-  EXPECT_LT(judge(PolicyName::kLateralDrive, config, {}, {}, input, memory).drive.vx_mps, 0.0) << "back to the mark";
+  evaluate(PolicyName::kLateralDrive, config, {}, {}, input, memory);
+  EXPECT_LT(evaluate(PolicyName::kLateralDrive, config, {}, {}, input, memory).drive.vx_mps, 0.0) << "back to the mark";
 }
 
 TEST(PassDrive, DoesNotKickWhereSomebodyPushedIt) {
   const auto reason = [](const Pose& at, double vx_mps) {
     PolicyMemory memory;
-    EXPECT_EQ(judge(PolicyName::kLateralDrive, {}, {}, {}, ready_at({-1.6, 3.0, 0.0}), memory).drive.vx_mps, 0.5);
-    return judge(PolicyName::kLateralDrive, {}, {}, {}, ready_at(at, {vx_mps, 0.0, 0.0}), memory).reason;
+    EXPECT_EQ(evaluate(PolicyName::kLateralDrive, {}, {}, {}, ready_at({-1.6, 3.0, 0.0}), memory).drive.vx_mps, 0.5);
+    return evaluate(PolicyName::kLateralDrive, {}, {}, {}, ready_at(at, {vx_mps, 0.0, 0.0}), memory).reason;
   };
   EXPECT_EQ(reason({0.001, 3.0, 0.0}, 0.5), Reason::kFire);
   EXPECT_EQ(reason({0.001, 3.0, radians(30.0)}, 0.5), Reason::kNotAligned) << "turned";
@@ -289,13 +290,13 @@ TEST_P(AnyDrive, NeverFiresAgainstTheConditionsOfEveryPolicy) {
       {spoiled([](PolicyInput& in) { in.pose.x_m = NAN; }), Reason::kStaleState}};
   for (const auto& [input, reason] : cases) {
     PolicyMemory memory;
-    judge(GetParam(), {}, {}, {}, ready_at({0.0, 3.0, 0.0}), memory);
+    evaluate(GetParam(), {}, {}, {}, ready_at({0.0, 3.0, 0.0}), memory);
     drive_of(memory).passing = true;
     drive_of(memory).settling_since_t_ns = -1'000'000'000;
-    const Judgement judgement = judge(GetParam(), {}, {}, {}, input, memory);
-    EXPECT_FALSE(judgement.fire);
-    EXPECT_EQ(judgement.reason, reason);
-    EXPECT_EQ(judgement.drive.vx_mps, 0.0);
+    const PolicyOutput output = evaluate(GetParam(), {}, {}, {}, input, memory);
+    EXPECT_FALSE(output.fire);
+    EXPECT_EQ(output.reason, reason);
+    EXPECT_EQ(output.drive.vx_mps, 0.0);
     EXPECT_FALSE(drive_of(memory).passing) << "a pass that was interrupted starts over";
   }
 }
@@ -319,11 +320,11 @@ TEST_P(AnyDrive, GoesOnAsItDidUntilTheBallHasLeft) {
   PolicyInput input = played.at;
   for (int i = 1; i <= 5; ++i) {
     input.t_ns += 20'000'000;
-    const Judgement judgement = judge(GetParam(), config, {}, {}, input, memory);
-    EXPECT_EQ(judgement.reason, Reason::kOrderPending);
-    EXPECT_EQ(judgement.drive.vx_mps, played.fired->drive.vx_mps);
-    EXPECT_EQ(judgement.drive.vy_mps, played.fired->drive.vy_mps);
-    EXPECT_EQ(judgement.drive.omega_radps, played.fired->drive.omega_radps);
+    const PolicyOutput output = evaluate(GetParam(), config, {}, {}, input, memory);
+    EXPECT_EQ(output.reason, Reason::kOrderPending);
+    EXPECT_EQ(output.drive.vx_mps, played.fired->drive.vx_mps);
+    EXPECT_EQ(output.drive.vy_mps, played.fired->drive.vy_mps);
+    EXPECT_EQ(output.drive.omega_radps, played.fired->drive.omega_radps);
   }
 }
 
@@ -332,8 +333,8 @@ TEST_P(AnyDrive, WithAnEmptyListKicksNothing) {
   config.test_drive.powers = config.test_drive.lateral_mps = config.test_drive.straight_mps =
       config.test_drive.turn_radps = {};
   PolicyMemory memory;
-  const Judgement judgement = judge(GetParam(), config, {}, {}, ready_at({0, 3, 0}), memory);
-  EXPECT_EQ(judgement.reason, Reason::kDriveFinished);
+  const PolicyOutput output = evaluate(GetParam(), config, {}, {}, ready_at({0, 3, 0}), memory);
+  EXPECT_EQ(output.reason, Reason::kDriveFinished);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, AnyDrive,

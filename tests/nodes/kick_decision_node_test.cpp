@@ -85,9 +85,9 @@ TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
   input.playing = input.possession = input.kicker_ready = true;
   input.possession_id = 1;
   kicking::PolicyMemory memory;
-  const auto judgement = kicking::judge(kicking::PolicyName::kMoving, context.settings.policy, context.robot.model,
+  const auto output = kicking::evaluate(kicking::PolicyName::kMoving, context.settings.policy, context.robot.model,
                                         context.settings.goal, input, memory);
-  EXPECT_EQ(sent.power, judgement.power);
+  EXPECT_EQ(sent.power, output.power);
   const auto record = decision.nth(1);
   EXPECT_TRUE(record.fire);
   EXPECT_EQ(record.reason, msg::REASON_FIRE);

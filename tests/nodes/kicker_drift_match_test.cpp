@@ -9,7 +9,7 @@
 #include "experiment/run/experiment.hpp"
 #include "nodes/kicker_drift/kicker_drift_node.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -56,7 +56,7 @@ class KickerDriftMatchTest : public NodeTest {
     return heard.now();
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   bus::Writer<msg::KickDecision> decisions{participant};
   bus::Writer<msg::KickReceipt> receipts{participant};
   bus::Writer<msg::KickOutcome> outcomes{participant};

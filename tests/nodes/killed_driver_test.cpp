@@ -11,7 +11,7 @@
 #include "idl/messages.hpp"
 #include "nodes/kicker_driver/pending_kick.hpp"
 #include "tests/nodes/spawned.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -88,7 +88,7 @@ class KilledDriver : public testing::Test {
     return n;
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   hal::ioboard::Emulator emulator;
   config::Domain config;
   std::optional<bus::Participant> participant;

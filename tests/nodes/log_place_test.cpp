@@ -10,7 +10,7 @@
 #include "nodes/runtime/node_context.hpp"
 #include "robot/recording/predecessor.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -46,7 +46,7 @@ class LogPlaceTest : public NodeTest {
     return Reader{path}.sessions().at(0).uuid;
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
 };
 
 TEST_F(LogPlaceTest, AFreeNameIsTakenAndContinuesNothing) {

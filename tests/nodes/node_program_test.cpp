@@ -17,7 +17,7 @@
 #include "tests/bus/test_domain.hpp"
 #include "tests/nodes/notify_socket.hpp"
 #include "tests/nodes/spawned.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -54,7 +54,7 @@ class NodeProgramTest : public testing::Test {
     EXPECT_THAT(node.said(), AllOf(HasSubstr("robot 1 (cambada_1) in domain 17"), HasSubstr("stopped")));
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   std::string tag = "program-test-" + std::to_string(getpid());
   bus::Participant participant{bus::loopback(17, tag)};
 };

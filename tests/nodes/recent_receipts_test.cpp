@@ -8,34 +8,34 @@ namespace trivela::nodes {
 namespace {
 
 TEST(RecentReceipts, APulseIsTheKickWhoseReceiptIsTheNearest) {
-  RecentReceipts book;
-  book.accepted(7, 1000 * kMs);
-  book.accepted(8, 1600 * kMs);
-  EXPECT_EQ(book.take(1001 * kMs), 7);
-  EXPECT_EQ(book.take(1598 * kMs), 8);
+  RecentReceipts recent;
+  recent.accepted(7, 1000 * kMs);
+  recent.accepted(8, 1600 * kMs);
+  EXPECT_EQ(recent.take(1001 * kMs), 7);
+  EXPECT_EQ(recent.take(1598 * kMs), 8);
 }
 
 TEST(RecentReceipts, AReceiptIsOfOnePulse) {
-  RecentReceipts book;
-  book.accepted(7, 1000 * kMs);
-  EXPECT_EQ(book.take(1000 * kMs), 7);
-  EXPECT_EQ(book.take(1001 * kMs), std::nullopt);
+  RecentReceipts recent;
+  recent.accepted(7, 1000 * kMs);
+  EXPECT_EQ(recent.take(1000 * kMs), 7);
+  EXPECT_EQ(recent.take(1001 * kMs), std::nullopt);
 }
 
 TEST(RecentReceipts, AKickThatWasCalledOffIsNoPulses) {
-  RecentReceipts book;
-  book.accepted(7, 1000 * kMs);  // of which no pulse came
-  book.accepted(8, 1600 * kMs);
-  EXPECT_EQ(book.take(1610 * kMs), 8);
-  EXPECT_EQ(book.take(1000 * kMs), std::nullopt);
+  RecentReceipts recent;
+  recent.accepted(7, 1000 * kMs);  // of which no pulse came
+  recent.accepted(8, 1600 * kMs);
+  EXPECT_EQ(recent.take(1610 * kMs), 8);
+  EXPECT_EQ(recent.take(1000 * kMs), std::nullopt);
 }
 
 TEST(RecentReceipts, APulseThatIsFarFromAnyReceiptIsNobodys) {
-  RecentReceipts book;
-  EXPECT_EQ(book.take(1000 * kMs), std::nullopt);
-  book.accepted(7, 1000 * kMs);
-  EXPECT_EQ(book.take(1000 * kMs + RecentReceipts::kFarthest_ns + 1), std::nullopt);
-  EXPECT_EQ(book.take(1000 * kMs + RecentReceipts::kFarthest_ns), 7);
+  RecentReceipts recent;
+  EXPECT_EQ(recent.take(1000 * kMs), std::nullopt);
+  recent.accepted(7, 1000 * kMs);
+  EXPECT_EQ(recent.take(1000 * kMs + RecentReceipts::kFarthest_ns + 1), std::nullopt);
+  EXPECT_EQ(recent.take(1000 * kMs + RecentReceipts::kFarthest_ns), 7);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "config/settings.hpp"
 #include "log/read/reader.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -51,7 +51,7 @@ class RecorderNodeTest : public NodeTest {
     return {};
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   std::optional<log::Writer> log;
   std::optional<RecorderNode> node;
   std::optional<Running> running;

@@ -4,7 +4,7 @@
 #include "hal/bus/sim_range_finder.hpp"
 #include "hal/open.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -54,7 +54,7 @@ class ScanRecorderNodeTest : public NodeTest {
     return ScanReader{folder / "scans.db"};
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   Says<msg::SimScan> scans{participant};
   Says<msg::KickReceipt> receipts{participant};
   Heard<msg::StepDone> done{participant};

@@ -7,7 +7,7 @@
 #include "nodes/recorder/recorder_node.hpp"
 #include "tests/evaluator/referee_row.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {

@@ -79,6 +79,7 @@ TEST_F(ShotObserverNodeTest, SaysWhatBecameOfAKick) {
   EXPECT_GT(said.t_ns, in_goal.truth.t_ns);
   EXPECT_NEAR(said.exit_speed_mps, 7.6, 1.0);
   EXPECT_NEAR(said.exit_elevation_rad, 0.61, 0.1);
+  EXPECT_NEAR(said.release_late_s, 0.0, 0.02);
   EXPECT_TRUE(log_lines->wait_for("kick 11: on_target"));
 }
 
@@ -106,8 +107,9 @@ TEST_F(ShotObserverNodeTest, AShotWithoutNumbersIsToldWithNaN) {
   show(unseen);
   const auto said = outcome.nth(1);
   EXPECT_EQ(said.outcome, msg::OUTCOME_UNKNOWN);
-  for (const double number : {said.x_cross_m, said.z_cross_m, said.sd_cross_m, said.exit_speed_mps,
-                              said.exit_elevation_rad, said.p_on_target, said.p_blocked, said.residual_sd_m})
+  for (const double number :
+       {said.x_cross_m, said.z_cross_m, said.sd_cross_m, said.exit_speed_mps, said.exit_elevation_rad, said.p_on_target,
+        said.p_blocked, said.residual_sd_m, said.release_late_s})
     EXPECT_TRUE(std::isnan(number));
 }
 

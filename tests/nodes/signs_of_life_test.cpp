@@ -2,14 +2,14 @@
 #include "nodes/runtime/supervisor.hpp"
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/nodes/notify_socket.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
 
 struct SignsOfLife : NodeTest {
   SignsOfLife() { context.supervisor = std::make_shared<Supervisor>(path, std::chrono::milliseconds{200}); }
-  TemporaryFolder folder;
+  tests::Folder folder;
   std::string path = (folder / "notify").string();
   NotifySocket manager{path};
   bus::Node node{participant, "node", 1};

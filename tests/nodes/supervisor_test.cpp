@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "tests/nodes/notify_socket.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -20,7 +20,7 @@ struct SupervisorTest : testing::Test {
   ~SupervisorTest() override {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) unsetenv(name);
   }
-  TemporaryFolder folder;
+  tests::Folder folder;
   std::string path = (folder / "notify").string();
   NotifySocket socket{path};
   Supervisor::Clock::time_point start{std::chrono::hours{1}};

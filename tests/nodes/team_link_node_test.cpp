@@ -143,7 +143,7 @@ TEST_F(TeamLinkTest, TwoOfOneNumberAreToldApart) {
   Machine one{base_bus, team_of_base, false, 2, false}, two{robot_bus, team_of_robot, false, 2, false};
   one.start();
   two.start();
-  EXPECT_TRUE(one.log_lines->wait_for("somebody else says on the team's bus that he is robot 2"));
+  EXPECT_TRUE(one.log_lines->wait_for("somebody else says on the team's bus that it is robot 2"));
 }
 
 TEST_F(TeamLinkTest, ATeamsBusThatCannotBeJoinedIsNoErrorOfTheNode) {

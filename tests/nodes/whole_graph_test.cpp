@@ -16,7 +16,7 @@
 #include "security/rights.hpp"
 #include "tests/instants.hpp"
 #include "tests/nodes/node_fixture.hpp"
-#include "tests/nodes/temporary_folder.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -46,7 +46,7 @@ class WholeGraphTest : public NodeTest {
     return nodes;
   }
 
-  TemporaryFolder folder;
+  tests::Folder folder;
   std::optional<log::Writer> log;
   std::optional<OdometryNode> odometry;
   std::optional<WorldStateNode> world_state;

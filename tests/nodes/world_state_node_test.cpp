@@ -186,7 +186,7 @@ TEST_F(WorldStateNodeTest, NobodyPlaysByTheWordOfARefereeWhoIsSilentOrGone) {
   };
   EXPECT_TRUE(playing_at(1'000'000'000));
   EXPECT_FALSE(playing_at(1'000'000'001)) << "run.referee_timeout_s";
-  EXPECT_TRUE(log_lines->wait_for("the referee is silent, his last word is of 1.00 s ago"));
+  EXPECT_TRUE(log_lines->wait_for("the referee is silent, its last command is of 1.00 s ago"));
   auto word = referee();
   word.t_ns = 5'000'000'000;
   referee_says(word);

@@ -92,8 +92,8 @@ comes_back() {
   local node=$1 struck began=$EPOCHREALTIME
   struck=$(pid "$node")
   there sh -c "kill -$2 $struck"
-  anew() { local now; now=$(pid "$node"); [[ $now != 0 && $now != "$struck" ]] && there systemctl is-active --quiet "trivela@$node"; }
-  until_ok "$node stayed away after $2" anew
+  again() { local now; now=$(pid "$node"); [[ $now != 0 && $now != "$struck" ]] && there systemctl is-active --quiet "trivela@$node"; }
+  until_ok "$node stayed away after $2" again
   say "$node is back after $2: $(awk "BEGIN {printf \"%.1f\", $EPOCHREALTIME - $began}") s"
 }
 start_nodes

@@ -35,36 +35,36 @@ LobRecord lob_at(int second, double speed_mps, double angle_deg = 36.78) {
   return lob;
 }
 
-LobSession book_of_three() {
-  LobSession book({.powers = {15, 20}, .trials = 2},
-                  {{.t_ns = 0, .power = 15}, {.t_ns = 25 * kSecond_ns, .power = 20}});
-  book.add(lob_at(10, 6.0), 100);
-  book.add(lob_at(20, 6.2), 200);
-  book.add(lob_at(30, 7.3), 300);
-  return book;
+LobSession session_of_three() {
+  LobSession lob_session({.powers = {15, 20}, .trials = 2},
+                         {{.t_ns = 0, .power = 15}, {.t_ns = 25 * kSecond_ns, .power = 20}});
+  lob_session.add(lob_at(10, 6.0), 100);
+  lob_session.add(lob_at(20, 6.2), 200);
+  lob_session.add(lob_at(30, 7.3), 300);
+  return lob_session;
 }
 
 TEST(LobSession, ShowsTheLobsThatHadEndedByAScan) {
-  const LobSession book = book_of_three();
-  EXPECT_EQ(book.count(99), 0u);
-  EXPECT_EQ(book.count(100), 1u);
-  EXPECT_EQ(book.count(299), 2u);
-  EXPECT_EQ(book.count(1000), 3u);
-  EXPECT_EQ(book.to_json(1, 0)["lobs"].size(), 1u);
-  EXPECT_EQ(book.to_json(3, 0)["lobs"][2]["power"], 20.0);
-  EXPECT_EQ(book.to_json(3, 0)["lobs"][2]["end"], 300);
+  const LobSession lob_session = session_of_three();
+  EXPECT_EQ(lob_session.count(99), 0u);
+  EXPECT_EQ(lob_session.count(100), 1u);
+  EXPECT_EQ(lob_session.count(299), 2u);
+  EXPECT_EQ(lob_session.count(1000), 3u);
+  EXPECT_EQ(lob_session.to_json(1, 0)["lobs"].size(), 1u);
+  EXPECT_EQ(lob_session.to_json(3, 0)["lobs"][2]["power"], 20.0);
+  EXPECT_EQ(lob_session.to_json(3, 0)["lobs"][2]["end"], 300);
 }
 
 TEST(LobSession, KnowsThePowerOfAnInstant) {
-  const LobSession book = book_of_three();
-  EXPECT_EQ(book.power_at(-1), std::nullopt);
-  EXPECT_EQ(book.power_at(0), 15.0);
-  EXPECT_EQ(book.power_at(25 * kSecond_ns - 1), 15.0);
-  EXPECT_EQ(book.power_at(25 * kSecond_ns), 20.0);
+  const LobSession lob_session = session_of_three();
+  EXPECT_EQ(lob_session.power_at(-1), std::nullopt);
+  EXPECT_EQ(lob_session.power_at(0), 15.0);
+  EXPECT_EQ(lob_session.power_at(25 * kSecond_ns - 1), 15.0);
+  EXPECT_EQ(lob_session.power_at(25 * kSecond_ns), 20.0);
 }
 
 TEST(LobSession, AveragesTheAcceptedLobsOfAPower) {
-  const json table = book_of_three().to_json(3, 0)["table"];
+  const json table = session_of_three().to_json(3, 0)["table"];
   ASSERT_EQ(table.size(), 2u);
   EXPECT_EQ(table[0]["power"], 15.0);
   EXPECT_EQ(table[0]["trials"], 2);
@@ -76,35 +76,35 @@ TEST(LobSession, AveragesTheAcceptedLobsOfAPower) {
 }
 
 TEST(LobSession, ARejectedLobLeavesTableAndPlanAndMayComeBack) {
-  LobSession book = book_of_three();
-  const auto verdict = book.judge(1, false, "touched a foot");
+  LobSession lob_session = session_of_three();
+  const auto verdict = lob_session.judge(1, false, "touched a foot");
   EXPECT_EQ(verdict.launch_t_ns, 20 * kSecond_ns);
-  json now = book.to_json(3, 0);
+  json now = lob_session.to_json(3, 0);
   EXPECT_EQ(now["lobs"][1]["accepted"], false);
   EXPECT_EQ(now["lobs"][1]["refusal"], "operator");
   EXPECT_EQ(now["lobs"][1]["why"], "rejected by the operator: touched a foot");
   EXPECT_EQ(now["table"][0]["trials"], 1);
   EXPECT_EQ(now["table"][0]["exit_speed_mps"], 6.0);
   EXPECT_EQ(now["plan"]["powers"][0]["done"], 1);
-  book.judge(1, true, "");
-  now = book.to_json(3, 0);
+  lob_session.judge(1, true, "");
+  now = lob_session.to_json(3, 0);
   EXPECT_EQ(now["lobs"][1]["accepted"], true);
   EXPECT_EQ(now["table"][0]["trials"], 2);
 }
 
 TEST(LobSession, ARefusedLobIsAcceptedOnlyWhereThereIsAFit) {
-  LobSession book({});
+  LobSession lob_session({});
   LobRecord with_fit = lob_at(10, 6.0);
   with_fit.refusal = Refusal::kPlaneMisaligned;
   with_fit.why = "misaligned";
   LobRecord without = with_fit;
   without.launch_t_ns = 20 * kSecond_ns;
   without.effective.reset();
-  book.add(with_fit, 1);
-  book.add(without, 2);
-  book.judge(0, true, "");
-  book.judge(1, true, "");
-  const json lobs = book.to_json(2, 0)["lobs"];
+  lob_session.add(with_fit, 1);
+  lob_session.add(without, 2);
+  lob_session.judge(0, true, "");
+  lob_session.judge(1, true, "");
+  const json lobs = lob_session.to_json(2, 0)["lobs"];
   EXPECT_EQ(lobs[0]["accepted"], true);
   EXPECT_EQ(lobs[0]["why"], "");
   EXPECT_EQ(lobs[1]["accepted"], false);
@@ -112,13 +112,13 @@ TEST(LobSession, ARefusedLobIsAcceptedOnlyWhereThereIsAFit) {
 }
 
 TEST(LobSession, ThereIsNoVerdictOnALobThatIsNotThere) {
-  EXPECT_THROW(book_of_three().judge(3, false, ""), std::out_of_range);
+  EXPECT_THROW(session_of_three().judge(3, false, ""), std::out_of_range);
 }
 
 TEST(LobSession, TheCsvHoldsAcceptedLobsOfKnownPower) {
-  LobSession book = book_of_three();
-  book.judge(0, false, "");
-  const std::string csv = book.table_csv(3);
+  LobSession lob_session = session_of_three();
+  lob_session.judge(0, false, "");
+  const std::string csv = lob_session.table_csv(3);
   EXPECT_THAT(csv, testing::StartsWith("power,height_m,distance_m\n15,"));
   EXPECT_THAT(csv, testing::HasSubstr("\n20,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);

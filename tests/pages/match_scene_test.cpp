@@ -150,7 +150,7 @@ TEST_F(Scene, AKickerThatChangedIsAnAlarmThatSaysByHowMuchAndWhatToDo) {
   EXPECT_THAT(
       alarms(),
       ElementsAre("robot 1: its kicker changed at kick 61: exit speed fell by 5.0 % (standard error 0.8); multiply "
-                  "exit_speeds_mps of its [table] by 0.950, or measure it anew: trivela calibrate table"))
+                  "exit_speeds_mps of its [table] by 0.950, or measure it again: trivela calibrate table"))
       << "it holds without being said again";
   msg::KickerDrift taken_back{};
   taken_back.robot_id = 1;
@@ -165,7 +165,7 @@ TEST_F(Scene, AnAngleThatChangedIsSaidInMetres) {
   scene.hear(drift(0.95, msg::DRIFT_ELEVATION), 4, now);
   play(200);
   EXPECT_THAT(alarms(),
-              ElementsAre(AllOf(HasSubstr("balls cross 0.42 m lower"), HasSubstr("measure exit_angle_deg anew"))));
+              ElementsAre(AllOf(HasSubstr("balls cross 0.42 m lower"), HasSubstr("measure exit_angle_deg again"))));
 }
 
 TEST_F(Scene, AChangeWithoutASizeIsAnAlarmAllTheSame) {
@@ -248,7 +248,7 @@ TEST_F(Scene, SaysWhyARobotHoldsOrFires) {
   msg::KickDecision next = decision(1, 0, msg::POLICY_MOVING, 4);
   next.possession_id = 1;
   scene.hear(next, 5, now + 40 * kMs);
-  EXPECT_EQ(robot()["fires"], false) << "it has the ball anew";
+  EXPECT_EQ(robot()["fires"], false) << "it has the ball again";
   playing = possession = false;
   play(1200);
   EXPECT_EQ(robot()["fires"], false);

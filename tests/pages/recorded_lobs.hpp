@@ -10,6 +10,7 @@
 #include "kicking/model/power_table.hpp"
 #include "log/write/scan_log.hpp"
 #include "sim/laser/record.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::pages {
 
@@ -17,8 +18,6 @@ namespace trivela::pages {
 class RecordedLobs {
  public:
   explicit RecordedLobs(const std::vector<kicking::SetPoint>& kicks) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_lobs_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
     sim::LaserModel laser;
     sim::RecordPlan plan{.kicks = {}, .background_s = 1.2, .lie_s = 0.4, .fly_s = 1.8, .pause_s = 0.3};
     for (const kicking::SetPoint& kick : kicks) {
@@ -40,16 +39,13 @@ class RecordedLobs {
     for (const kicking::lob::Scan& scan : made_.scans) writer.push(scan);
     writer.finalise();
   }
-  RecordedLobs(const RecordedLobs&) = delete;
-  RecordedLobs& operator=(const RecordedLobs&) = delete;
-  ~RecordedLobs() { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path path(const std::string& name = "lobs.db") const { return folder_ / name; }
   const std::vector<kicking::lob::Scan>& scans() const { return made_.scans; }
   const log::ScanSession& session() const { return session_; }
 
  private:
-  std::filesystem::path folder_;
+  tests::Folder folder_;
   sim::SyntheticRecord made_;
   log::ScanSession session_;
 };

@@ -73,11 +73,11 @@ TEST(ClockExchange, WhatIsNoInstantIsPassedOver) {
   EXPECT_FALSE(clocks.estimate(kMs));
 }
 
-/// A participant with its book and clock: reading = rate * true time + ahead.
+/// A participant with its peers and clock: reading = rate * true time + ahead.
 struct Participant {
   double rate;
   std::int64_t ahead_ns;
-  PeerTable book;
+  PeerTable peers;
   std::int64_t reads(std::int64_t true_ns) const {
     return static_cast<std::int64_t>(std::llround(rate * static_cast<double>(true_ns))) + ahead_ns;
   }
@@ -100,13 +100,13 @@ std::int64_t worst_offset(std::vector<Participant>& participants, double loss, s
     std::erase_if(air, [&](const Flying& message) {
       if (message.arrives_ns > t) return false;
       Participant& to = participants[message.to];
-      to.book.heard(message.state, to.reads(message.arrives_ns));
+      to.peers.heard(message.state, to.reads(message.arrives_ns));
       return true;
     });
     for (std::size_t i = 0; i < participants.size(); ++i) {
       if ((t / (5 * kMs) + static_cast<std::int64_t>(3 * i)) % 20 != 0) continue;  // 10 Hz each
       msg::TeamState state{};
-      participants[i].book.fill(state, participants[i].reads(t));
+      participants[i].peers.fill(state, participants[i].reads(t));
       for (std::size_t to = 0; to < participants.size(); ++to) {
         const double taken = 0.2 * kMs + share(random) * static_cast<double>(jitter_ns);
         if (to != i && share(random) >= loss) air.push_back({t + std::llround(taken), to, state});
@@ -117,7 +117,7 @@ std::int64_t worst_offset(std::vector<Participant>& participants, double loss, s
       for (std::size_t k = 0; k < participants.size(); ++k) {
         Participant& other = participants[k];
         if (&one == &other) continue;
-        const auto estimate = one.book.offset(static_cast<std::uint8_t>(k), one.reads(t));
+        const auto estimate = one.peers.offset(static_cast<std::uint8_t>(k), one.reads(t));
         if (!estimate) continue;
         const std::int64_t off_ns = std::abs(estimate->offset_ns - (other.reads(t) - one.reads(t)));
         EXPECT_LE(off_ns, estimate->error_ns) << "at " << t << " from clock to clock " << k;

@@ -59,7 +59,7 @@ TEST(Decider, AKickThatTheOtherNodeOrderedIsUnderWayForThisOneToo) {
   robot.driver_accepts(kick_of_the_other_node());
   const CycleDecision& decision = robot.cycle();
   EXPECT_FALSE(decision.order);
-  EXPECT_EQ(decision.judgement.reason, kicking::Reason::kKickerNotReady);
+  EXPECT_EQ(decision.output.reason, kicking::Reason::kKickerNotReady);
 }
 
 TEST(Decider, WhatIsNotCommittedIsDecidedAgainWithTheSameNumber) {

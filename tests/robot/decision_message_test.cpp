@@ -103,8 +103,8 @@ double number_of(const std::optional<double>& value) { return *value; }
 double number_of(kicking::Reason reason) { return to_wire(reason); }
 
 /// Every part is there, each with a number of its own.
-kicking::Judgement whole_judgement() {
-  kicking::Judgement j;
+kicking::PolicyOutput whole_output() {
+  kicking::PolicyOutput j;
   double next = 100.0;
   const auto set = [&]<class Of, class Part>(Part Of::*part) {
     if constexpr (std::is_same_v<Part, bool>) j.*part = true;
@@ -130,21 +130,21 @@ std::map<std::string_view, double> numbers_of(const Message& message) {
   return numbers;
 }
 
-std::map<std::string_view, double> numbers_of(const kicking::Judgement& judgement) {
+std::map<std::string_view, double> numbers_of(const kicking::PolicyOutput& output) {
   std::map<std::string_view, double> numbers;
-  const auto add = [&](const auto& field) { numbers[field.name] = number_of(std::invoke(field.get, judgement)); };
+  const auto add = [&](const auto& field) { numbers[field.name] = number_of(std::invoke(field.get, output)); };
   std::apply([&](const auto&... field) { (add(field), ...); }, kicking::kRecordedFields);
   return numbers;
 }
 
 TEST(DecisionMessage, HasEveryNumberOfTheJudgement) {
-  const kicking::Judgement judgement = whole_judgement();
+  const kicking::PolicyOutput output = whole_output();
   msg::KickerStatus kicker{};
   kicker.charge = 0.75;
   auto state = world();
   state.opponent_distance_m = 1.5;
-  const auto numbers = numbers_of(decision_message(state, &kicker, kicking::PolicyName::kMoving, judgement));
-  for (const auto& [name, number] : numbers_of(judgement)) EXPECT_EQ(numbers.at(name), number) << name;
+  const auto numbers = numbers_of(decision_message(state, &kicker, kicking::PolicyName::kMoving, output));
+  for (const auto& [name, number] : numbers_of(output)) EXPECT_EQ(numbers.at(name), number) << name;
   for (const auto& [name, number] : numbers_of(state)) {
     const bool of_the_node = name == "robot_id" || name == "seq";
     if (!numbers.contains(name) || of_the_node) continue;
@@ -159,10 +159,10 @@ TEST(DecisionMessage, HasEveryNumberOfTheJudgement) {
 }
 
 TEST(DecisionMessage, AShadowHasWhatItsFieldsSayOfTheJudgement) {
-  const kicking::Judgement judgement = whole_judgement();
-  const auto of_judgement = numbers_of(judgement);
-  for (const auto& [name, number] : numbers_of(shadow_message(kicking::PolicyName::kMoving, judgement))) {
-    EXPECT_EQ(number, name == "policy" ? double{msg::POLICY_MOVING} : of_judgement.at(name)) << name;
+  const kicking::PolicyOutput output = whole_output();
+  const auto of_output = numbers_of(output);
+  for (const auto& [name, number] : numbers_of(shadow_message(kicking::PolicyName::kMoving, output))) {
+    EXPECT_EQ(number, name == "policy" ? double{msg::POLICY_MOVING} : of_output.at(name)) << name;
   }
 }
 

@@ -86,7 +86,7 @@ TEST(RefereeWatch, TellsEachEdgeOnce) {
   watch.heard(word(10 * kSecond_ns, true), 10 * kSecond_ns);
   EXPECT_FALSE(watch.news(11 * kSecond_ns));
   EXPECT_EQ(watch.news(12 * kSecond_ns),
-            "the referee is silent, his last word is of 2.00 s ago: the game counts as stopped");
+            "the referee is silent, its last command is of 2.00 s ago: the game counts as stopped");
   EXPECT_FALSE(watch.news(13 * kSecond_ns));
   watch.heard(word(14 * kSecond_ns, true), 14 * kSecond_ns);
   EXPECT_EQ(watch.news(14 * kSecond_ns), "the referee is heard again");

@@ -58,10 +58,10 @@ TEST(SequenceWatch, KeepsRobotsApart) {
 TEST(SequenceWatch, AWriterThatStartsAgainGoesOnCountingUp) {
   SequenceWatch watch;
   for (std::uint64_t seq = 1; seq <= 10; ++seq) watch.see(1, seq, 7);
-  const auto anew = watch.see(1, 1, 8);
-  EXPECT_EQ(anew.seq, 11);
-  EXPECT_EQ(anew.gap, 0);
-  EXPECT_FALSE(anew.out_of_order);
+  const auto again = watch.see(1, 1, 8);
+  EXPECT_EQ(again.seq, 11);
+  EXPECT_EQ(again.gap, 0);
+  EXPECT_FALSE(again.out_of_order);
   EXPECT_EQ(watch.see(1, 4, 8).gap, 2) << "the new writer's gaps count";
   EXPECT_EQ(watch.see(1, 5, 8).seq, 15);
   EXPECT_EQ(watch.see(1, 1, 9).seq, 16);
@@ -122,9 +122,9 @@ TEST(SequenceWatch, ANodeThatIsStartedAnewDuringAnOutageIsNoGap) {
   SequenceWatch watch;
   double now_s = 100.0;
   for (std::uint64_t seq = 1; seq <= 50; ++seq) watch.see(1, seq, 7, now_s += 0.02);
-  const auto anew = watch.see(1, 3, 8, now_s += 14.0);
-  EXPECT_EQ(anew.gap, 0);
-  EXPECT_EQ(anew.seq, 53);
+  const auto again = watch.see(1, 3, 8, now_s += 14.0);
+  EXPECT_EQ(again.gap, 0);
+  EXPECT_EQ(again.seq, 53);
 }
 
 TEST(SequenceWatch, WhatComesLateFillsItsGapAndWhatComesAgainDoesNot) {
@@ -206,7 +206,7 @@ TEST(SequenceWatch, OfVeryManyWritersTheOneNotHeardForLongestIsForgotten) {
   for (std::uint64_t forged = 100; forged < 115; ++forged) watch.see(1, 1, forged);
   EXPECT_EQ(watch.see(1, 3, 7).gap, 1) << "sixteen are known";
   for (std::uint64_t forged = 200; forged < 216; ++forged) watch.see(1, 1, forged);
-  EXPECT_EQ(watch.see(1, 6, 7).gap, 0) << "it began anew";
+  EXPECT_EQ(watch.see(1, 6, 7).gap, 0) << "it began again";
 }
 
 }  // namespace

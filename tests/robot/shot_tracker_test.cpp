@@ -139,6 +139,40 @@ TEST(ShotTracker, ABallTurnedAwayByAnOpponentIsBlocked) {
   }
 }
 
+/// The file's delay is wrong by so much: the tracker expects the release earlier, or later, than it is.
+FlownShot expected_early(FlownShot shot, double early_s) {
+  shot.release_t_ns -= kicking::nanoseconds(early_s);
+  return shot;
+}
+
+TEST(ShotTracker, ABallThatLeavesAtAnotherInstantThanTheFileSaysIsJudgedAsItFlies) {
+  for (const double late_s : {-0.06, -0.03, 0.04, 0.08, 0.14, 0.2}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      for (const Aim& aim : {Aim{"in", 0.3, 0.5, Outcome::kOnTarget}, Aim{"over", 0.0, 1.6, Outcome::kOver}}) {
+        const auto tracked = watched(expected_early(fly(aimed(aim.x_m, aim.z_m), airless(), seed), late_s));
+        EXPECT_EQ(tracked.verdict.outcome, aim.outcome) << late_s << " s, seed " << seed;
+        ASSERT_TRUE(tracked.verdict.release_late_s) << late_s;
+        EXPECT_NEAR(*tracked.verdict.release_late_s, late_s, 0.025) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(ShotTracker, ABallTurnedAwayAtOnceIsBlockedWhateverDelayTheFileHas) {
+  int blocked = 0;
+  for (const double late_s : {0.0, 0.08, 0.14, 0.2}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      Kick kick = aimed(0.0, 0.5);
+      kick.opponent = {0.15, 4.6};
+      const auto shot = fly(kick, airless(), seed);
+      if (shot.truth.outcome != Outcome::kBlocked) continue;
+      ++blocked;
+      EXPECT_EQ(watched(expected_early(shot, late_s)).verdict.outcome, Outcome::kBlocked) << late_s << " s, " << seed;
+    }
+  }
+  EXPECT_GT(blocked, 20);
+}
+
 // Nobody stops the game, and the ball flies on past the post with most of its speed. It was seen flying straight
 // before.
 TEST(ShotTracker, ABallThatGlancesOffAnOpponentAndPassesTheLineIsBlocked) {

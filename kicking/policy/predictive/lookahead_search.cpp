@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/shot.hpp"
 
 namespace trivela::kicking {

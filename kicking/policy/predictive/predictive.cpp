@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kicking/ballistics/crossing.hpp"
-#include "kicking/policy/judgement.hpp"
+#include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/predictive/lookahead_search.hpp"
 
 namespace trivela::kicking {
@@ -21,25 +21,25 @@ double speed_jump(const PolicyConfig& config, const PolicyInput& input, const Pr
   return std::max(0.0, change - possible);
 }
 
-void describe_shot(Judgement& judgement, const PlannedShot& now, const RobotModel& robot, const Goal& goal) {
+void describe_shot(PolicyOutput& output, const PlannedShot& now, const RobotModel& robot, const Goal& goal) {
   if (!(now.shot.exit.v_kick_mps > 0.0)) return;
   const CrossingSpread& crossing = now.shot.crossing;
-  judgement.target_z_m = now.shot.aim_height_m;
-  judgement.v_kick_mps = now.shot.exit.v_kick_mps;
-  judgement.power = now.shot.power;
-  judgement.v0_mps = crossing_speed({judgement.distance_m, now.shot.aim_height_m - robot.ball.radius_m},
-                                    now.shot.exit.exit_angle.angle_rad);
-  judgement.p_on_target = now.p_on_target;
-  judgement.fire_after_s = now.fire_after_s;
+  output.target_z_m = now.shot.aim_height_m;
+  output.v_kick_mps = now.shot.exit.v_kick_mps;
+  output.power = now.shot.power;
+  output.v0_mps = crossing_speed({output.distance_m, now.shot.aim_height_m - robot.ball.radius_m},
+                                 now.shot.exit.exit_angle.angle_rad);
+  output.p_on_target = now.p_on_target;
+  output.fire_after_s = now.fire_after_s;
   if (!std::isfinite(crossing.x_m)) return;
-  judgement.predicted =
+  output.predicted =
       PredictedCrossing{.x_m = crossing.x_m,
                         .z_m = crossing.z_m,
                         .t_flight_s = crossing.t_flight_s,
                         .release_m = now.release.ball_m,
                         .release_heading_rad = std::atan2(-now.release.forward.x(), now.release.forward.y())};
-  judgement.offset_right_m = crossing.x_m - judgement.target_x_m;
-  judgement.aligned = std::abs(crossing.x_m) < goal.clean_half_width_m(robot.ball);
+  output.offset_right_m = crossing.x_m - output.target_x_m;
+  output.aligned = std::abs(crossing.x_m) < goal.clean_half_width_m(robot.ball);
 }
 
 Reason reason_of(const CandidatePlan& best) {
@@ -48,8 +48,8 @@ Reason reason_of(const CandidatePlan& best) {
   return best.value_later > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
 }
 
-Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                   const PolicyInput& input, PredictiveMemory& own) {
+PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot,
+                         const Goal& goal, const PolicyInput& input, PredictiveMemory& own) {
   LookaheadSearch search(config, robot, goal, input, own, learned);
   const bool pending = order_pending(config, input, own);
   CandidatePlan best{};
@@ -59,14 +59,14 @@ Judgement judge_by(const LearnedModel* learned, const PolicyConfig& config, cons
     best = search.best();
     own.plan = best.plan;
   }
-  Judgement judgement = describe(config, goal, {});
-  judgement.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
-  judgement.left_m = judgement.right_m = goal.clean_half_width_m(robot.ball);
-  describe_shot(judgement, best.now, robot, goal);
-  judgement.drive = search.command(best.plan);
-  own.command = judgement.drive;
-  judgement.reason = pending ? Reason::kOrderPending : reason_of(best);
-  return judgement;
+  PolicyOutput output = describe(config, goal, {});
+  output.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  output.left_m = output.right_m = goal.clean_half_width_m(robot.ball);
+  describe_shot(output, best.now, robot, goal);
+  output.drive = search.command(best.plan);
+  own.command = output.drive;
+  output.reason = pending ? Reason::kOrderPending : reason_of(best);
+  return output;
 }
 
 }  // namespace
@@ -77,14 +77,14 @@ void PredictiveMemory::watch(const PolicyConfig& config, const PolicyInput& inpu
   twist = input.twist;
 }
 
-Judgement judge_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, PredictiveMemory& memory) {
-  return judge_by(nullptr, config, robot, goal, input, memory);
+PolicyOutput evaluate_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                 const PolicyInput& input, PredictiveMemory& memory) {
+  return evaluate_by(nullptr, config, robot, goal, input, memory);
 }
 
-Judgement judge_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        PredictiveMemory& memory) {
-  return judge_by(config.learned ? &*config.learned : nullptr, config, robot, goal, input, memory);
+PolicyOutput evaluate_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                              const PolicyInput& input, PredictiveMemory& memory) {
+  return evaluate_by(config.learned ? &*config.learned : nullptr, config, robot, goal, input, memory);
 }
 
 }  // namespace trivela::kicking

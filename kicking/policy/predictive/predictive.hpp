@@ -19,11 +19,11 @@ struct PredictiveMemory : PossessionMemory {
 
 /// Fires where the probability of a ball on target now is worth more than any later moment's, weighed with keeping the
 /// ball until then (docs/policies.md).
-Judgement judge_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                           const PolicyInput& input, PredictiveMemory& memory);
+PolicyOutput evaluate_predictive(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                                 const PolicyInput& input, PredictiveMemory& memory);
 
 /// The same with the probability corrected by config.learned, where there is one.
-Judgement judge_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
-                        PredictiveMemory& memory);
+PolicyOutput evaluate_learned(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                              const PolicyInput& input, PredictiveMemory& memory);
 
 }  // namespace trivela::kicking

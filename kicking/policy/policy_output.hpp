@@ -8,14 +8,14 @@
 
 namespace trivela::kicking {
 
-/// A judgement with the target and the numbers of the shot; nothing decided yet.
-inline Judgement describe(const PolicyConfig& config, const Goal& goal, const ShotNumbers& shot) {
-  Judgement judgement;
-  judgement.target_x_m = config.target_x_m;
-  judgement.target_y_m = goal.y_m;
-  judgement.target_z_m = config.target_height_m;
-  judgement.shot() = shot;
-  return judgement;
+/// A output with the target and the numbers of the shot; nothing decided yet.
+inline PolicyOutput describe(const PolicyConfig& config, const Goal& goal, const ShotNumbers& shot) {
+  PolicyOutput output;
+  output.target_x_m = config.target_x_m;
+  output.target_y_m = goal.y_m;
+  output.target_z_m = config.target_height_m;
+  output.shot() = shot;
+  return output;
 }
 
 /// How far the robot may still go with the ball that it took at memory.taken_m. However it turns, the ball is at most
@@ -33,10 +33,10 @@ inline bool may_shoot_from(const PolicyConfig& config, double ball_y_m) {
 
 /// The same of the ball that is held, now and where an order that goes out now releases it.
 inline bool may_shoot(const PolicyConfig& config, const RobotModel& robot, const PolicyInput& input,
-                      const Judgement& judgement) {
+                      const PolicyOutput& output) {
   if (!config.rules.opponents_half_only) return true;
   return may_shoot_from(config, held_ball(input.pose, robot).y()) &&
-         (!judgement.predicted || may_shoot_from(config, judgement.predicted->release_m.y()));
+         (!output.predicted || may_shoot_from(config, output.predicted->release_m.y()));
 }
 
 /// The last instant of a coil that takes our set piece in time [s from now]; infinite where there is none to take, or

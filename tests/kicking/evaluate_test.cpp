@@ -14,30 +14,30 @@ const PolicyConfig kStrict = tests::strict_config();
 class EveryPolicy : public testing::TestWithParam<PolicyName> {
  protected:
   /// Cycles until the settling time of the stopped policy is over as well.
-  Judgement settled(PolicyInput input) {
+  PolicyOutput settled(PolicyInput input) {
     for (int i = 0; i < 14; ++i) {
       PolicyInput waiting = input;
       waiting.kicker_ready = false;
       waiting.t_ns += i * 20'000'000;
-      judge(GetParam(), kStrict, {}, {}, waiting, memory_);
+      evaluate(GetParam(), kStrict, {}, {}, waiting, memory_);
     }
     input.t_ns += 14 * 20'000'000;
-    return judge(GetParam(), kStrict, {}, {}, input, memory_);
+    return evaluate(GetParam(), kStrict, {}, {}, input, memory_);
   }
-  Judgement now(const PolicyInput& input) { return judge(GetParam(), kStrict, {}, {}, input, memory_); }
+  PolicyOutput now(const PolicyInput& input) { return evaluate(GetParam(), kStrict, {}, {}, input, memory_); }
   PolicyMemory memory_;
 };
 
 TEST_P(EveryPolicy, FiresWhenEveryConditionHolds) {
-  const Judgement judgement = settled(ready_at({0, 3, 0}));
-  EXPECT_TRUE(judgement.fire);
-  EXPECT_EQ(judgement.reason, Reason::kFire);
-  EXPECT_TRUE(judgement.aligned);
-  EXPECT_DOUBLE_EQ(judgement.distance_m, 5.73);
-  EXPECT_NEAR(*judgement.v0_mps, 8.244355, 1e-6);
-  EXPECT_NEAR(*judgement.power, 20 + 5 * (8.244355 - 7.33) / (8.39 - 7.33), 1e-5);
-  EXPECT_NEAR(judgement.predicted->z_m, judgement.target_z_m, 1e-9);
-  EXPECT_EQ(judgement.target_y_m, 9.0);
+  const PolicyOutput output = settled(ready_at({0, 3, 0}));
+  EXPECT_TRUE(output.fire);
+  EXPECT_EQ(output.reason, Reason::kFire);
+  EXPECT_TRUE(output.aligned);
+  EXPECT_DOUBLE_EQ(output.distance_m, 5.73);
+  EXPECT_NEAR(*output.v0_mps, 8.244355, 1e-6);
+  EXPECT_NEAR(*output.power, 20 + 5 * (8.244355 - 7.33) / (8.39 - 7.33), 1e-5);
+  EXPECT_NEAR(output.predicted->z_m, output.target_z_m, 1e-9);
+  EXPECT_EQ(output.target_y_m, 9.0);
 }
 
 TEST_P(EveryPolicy, HoldsForEachConditionThatFails) {
@@ -45,9 +45,9 @@ TEST_P(EveryPolicy, HoldsForEachConditionThatFails) {
     memory_ = {};
     PolicyInput input = ready_at({0, 3, 0});
     spoil(input);
-    const Judgement judgement = settled(input);
-    EXPECT_FALSE(judgement.fire);
-    return judgement.reason;
+    const PolicyOutput output = settled(input);
+    EXPECT_FALSE(output.fire);
+    return output.reason;
   };
   EXPECT_EQ(reason([](PolicyInput& i) { i.playing = false; }), Reason::kNotPlaying);
   EXPECT_EQ(reason([](PolicyInput& i) { i.possession = false; }), Reason::kNoBall);
@@ -93,8 +93,8 @@ TEST_P(EveryPolicy, StartsAfreshWithANewPossession) {
 TEST_P(EveryPolicy, GivesTheSameAnswerToTheSameQuestion) {
   const PolicyInput input = ready_at({1, 4, 0.1}, {0.2, 1.0, -0.3});
   PolicyMemory other;
-  const Judgement a = now(input);
-  const Judgement b = judge(GetParam(), kStrict, {}, {}, input, other);
+  const PolicyOutput a = now(input);
+  const PolicyOutput b = evaluate(GetParam(), kStrict, {}, {}, input, other);
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.v_kick_mps, b.v_kick_mps);
   EXPECT_EQ(a.drive.omega_radps, b.drive.omega_radps);

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-namespace trivela::e2e {
+namespace trivela::tests {
 
-/// A temporary folder that goes with the object.
+/// A temporary folder that goes with the object. Throws std::runtime_error where it cannot be made.
 class Folder {
  public:
   Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_e2e_XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "trivela_test_XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"cannot make the folder " + pattern};
     path_ = pattern;
   }
@@ -25,6 +25,7 @@ class Folder {
   }
 
   const std::filesystem::path& path() const { return path_; }
+  operator const std::filesystem::path&() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
   /// Names of the files whose name ends in `ending`.
@@ -41,4 +42,4 @@ class Folder {
   std::filesystem::path path_;
 };
 
-}  // namespace trivela::e2e
+}  // namespace trivela::tests
