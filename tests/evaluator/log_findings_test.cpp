@@ -72,7 +72,7 @@ TEST_F(LogFindings, OfASoundLogSayThatEachCheckIsWell) {
     checks.push_back(found.check);
   }
   EXPECT_THAT(checks, testing::ElementsAre("file", "integrity", "-wal", "sessions", "rows", "silences", "orders",
-                                           "length", "goal line", "clock"));
+                                           "length", "goal line", "release", "clock"));
   EXPECT_EQ(bytes_of(path()), before) << "it is only read";
 }
 

@@ -127,16 +127,16 @@ std::string message_of(const std::function<void()>& read) {
 TEST_F(LogReader, GivesTheColumnsOfARowByTypeAndName) {
   write_log(2);
   const Reader reader(path());
-  for (const char* const columns : {"seq, 0.5 AS number, 3 AS whole, 'on' AS text, NULL AS nothing, 1 AS yes",
-                                    "1 AS yes, NULL AS nothing, 'on' AS text, seq, 3 AS whole, 0.5 AS number"}) {
+  for (const char* const columns : {"seq, 0.5 AS number, 3 AS whole, 'on' AS text, NULL AS missing, 1 AS yes",
+                                    "1 AS yes, NULL AS missing, 'on' AS text, seq, 3 AS whole, 0.5 AS number"}) {
     int rows = 0;
     reader.query(fmt::format("SELECT {} FROM referee ORDER BY seq", columns), [&](const NamedCells& row) {
       EXPECT_EQ(row.get<std::int64_t>("seq"), rows++);
       EXPECT_EQ(row.get<double>("number"), 0.5);
       EXPECT_EQ(row.get<double>("whole"), 3.0);
       EXPECT_EQ(row.get<std::string>("text"), "on");
-      EXPECT_FALSE(row.find<double>("nothing"));
-      EXPECT_FALSE(row.find<std::string>("nothing"));
+      EXPECT_FALSE(row.find<double>("missing"));
+      EXPECT_FALSE(row.find<std::string>("missing"));
       EXPECT_EQ(row.find<int>("whole"), 3);
       EXPECT_TRUE(row.get<bool>("yes"));
       EXPECT_THROW(row.get<int>("whistle"), std::logic_error);
