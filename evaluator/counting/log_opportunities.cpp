@@ -51,23 +51,30 @@ struct SeenRows {
   HeardPlay play;
 };
 
+// The possession of a row by its robot's own count, in the simulator's count where that has one; none: a session that
+// is left out.
+std::optional<PossessionKey> possession_of(const log::NamedCells& row, const SessionPlaces& sessions,
+                                           const TruthCount& truths) {
+  const auto session_id = row.get<std::int64_t>("session_id");
+  const auto session = sessions.find(session_id);
+  if (session == sessions.end()) return std::nullopt;
+  const auto robot_id = row.get<int>("robot_id"), half = row.get<int>("half");
+  const auto own = row.get<std::int64_t>("possession_id");
+  return PossessionKey{session->second, robot_id, half, truths.number(session_id, robot_id, half, own)};
+}
+
 // Who was in charge of the simulator's possessions, and possessions that the robots alone counted.
 void see_assigned(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths,
                   PossessionPlaces& places, std::vector<LoggedOpportunity>& opportunities) {
   reader.query(kAssignedPossessionsSql, [&](const log::NamedCells& row) {
-    const auto session_id = row.get<std::int64_t>("session_id");
-    const auto robot_id = row.get<int>("robot_id");
-    const auto half = row.get<int>("half");
-    const auto session = sessions.find(session_id);
-    if (session == sessions.end()) return;
-    const std::int64_t id = truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id"));
-    const PossessionKey key{session->second, robot_id, half, id};
-    const bool alone = id != 0 && !truths.has(session_id);
-    if (alone && places.try_emplace(key, opportunities.size()).second) {
+    const auto key = possession_of(row, sessions, truths);
+    if (!key) return;
+    const bool alone = std::get<3>(*key) != 0 && !truths.has(row.get<std::int64_t>("session_id"));
+    if (alone && places.try_emplace(*key, opportunities.size()).second) {
       LoggedOpportunity& o = opportunities.emplace_back();
-      std::tie(o.session, o.robot_id, o.half, o.possession_id) = key;
+      std::tie(o.session, o.robot_id, o.half, o.possession_id) = *key;
     }
-    const auto place = places.find(key);
+    const auto place = places.find(*key);
     if (place == places.end()) return;
     LoggedOpportunity& o = opportunities[place->second];
     if (o.probability) return;  // the robot took one possession for two: chance decided with the first
@@ -99,13 +106,9 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
   });
   see_assigned(reader, sessions, truths, places, seen.opportunities);
   reader.query(kFirstDecisionsSql, [&](const log::NamedCells& row) {
-    const auto session_id = row.get<std::int64_t>("session_id");
-    const auto robot_id = row.get<int>("robot_id");
-    const auto half = row.get<int>("half");
-    const auto session = sessions.find(session_id);
-    if (session == sessions.end()) return;
-    const std::int64_t id = truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id"));
-    const auto place = places.find({session->second, robot_id, half, id});
+    const auto key = possession_of(row, sessions, truths);
+    if (!key) return;
+    const auto place = places.find(*key);
     if (place == places.end() || seen.opportunities[place->second].first) return;
     seen.opportunities[place->second].first = {row.get<double>("distance_m"), row.get<double>("x_m"),
                                                row.find<double>("opponent_distance_m")};
@@ -115,30 +118,25 @@ void see_opportunities(const log::Reader& reader, const SessionPlaces& sessions,
 void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const TruthCount& truths, bool truth,
                SeenRows& seen) {
   reader.query(kComparedKicksSql, [&](const log::NamedCells& row) {
-    const auto session_id = row.get<std::int64_t>("session_id");
-    const auto robot_id = row.get<int>("robot_id");
-    const auto half = row.get<int>("half");
-    const auto true_id = row.find<std::int64_t>("true_possession_id");
+    const auto key = possession_of(row, sessions, truths);
+    if (!key) return;
+    const auto& [session, robot_id, half, own_id] = *key;
     const auto truth_outcome = row.find<std::string>("truth_outcome");
-    const auto session = sessions.find(session_id);
-    if (session == sessions.end()) return;
     const bool saved = row.find<bool>("truth_saved").value_or(false);
     const bool goal = truth_outcome == "on_target" && !saved;
-    seen.kicks.push_back(
-        {.session = session->second,
-         .robot_id = robot_id,
-         .half = half,
-         .possession_id =
-             true_id ? *true_id : truths.number(session_id, robot_id, half, row.get<std::int64_t>("possession_id")),
-         .policy = row.get<std::string>("policy"),
-         .outcome = std::move(truth ? truth_outcome : row.find<std::string>("outcome")).value_or(""),
-         .distance_m = row.find<double>("distance_m"),
-         .kick_id = row.get<std::int64_t>("kick_id"),
-         .p_inside = truth ? std::nullopt : row.find<double>("observed_p_on_target"),
-         .bounced = row.find<bool>("bounced"),
-         .truth_bounced = row.find<bool>("truth_bounced"),
-         .saved = saved,
-         .goal = goal});
+    seen.kicks.push_back({.session = session,
+                          .robot_id = robot_id,
+                          .half = half,
+                          .possession_id = row.find<std::int64_t>("true_possession_id").value_or(own_id),
+                          .policy = row.get<std::string>("policy"),
+                          .outcome = std::move(truth ? truth_outcome : row.find<std::string>("outcome")).value_or(""),
+                          .distance_m = row.find<double>("distance_m"),
+                          .kick_id = row.get<std::int64_t>("kick_id"),
+                          .p_inside = truth ? std::nullopt : row.find<double>("observed_p_on_target"),
+                          .bounced = row.find<bool>("bounced"),
+                          .truth_bounced = row.find<bool>("truth_bounced"),
+                          .saved = saved,
+                          .goal = goal});
   });
 }
 

@@ -27,7 +27,7 @@ struct Arm {
   std::string table = kNewTable;  ///< height tables: kNewTable or kOldTable
   config::Settings settings{};
   std::vector<config::Robot> robots{config::Robot{}};  ///< robot n's at n - 1; a team may have more, its rest the last
-  std::vector<robot::PolicyChance> random;             ///< drawn for each possession again
+  std::vector<robot::PolicyChance> random;             ///< drawn for each possession
   bool own_robots = false;                             ///< calibrations of an experiment leave `robots` as they are
 };
 

@@ -113,7 +113,7 @@ void TeamLinkNode::hear(const TeamMember::ReceivedMessage& heard) {
 }
 
 void TeamLinkNode::hear(const msg::TeamState& state, std::int64_t t_ns) {
-  if (peers_.is_duplicate(state)) return note_twin();
+  if (peers_.is_duplicate(state)) return report_duplicate();
   const auto news = peers_.heard(state, t_ns);
   if (!news) return;
   if (base_) note_alarms(news->other_robot_id, news->summary.alarms);
@@ -136,11 +136,11 @@ void TeamLinkNode::note_alarms(std::uint8_t other, std::uint32_t alarms) {
   }
 }
 
-void TeamLinkNode::note_twin() {
+void TeamLinkNode::report_duplicate() {
   constexpr std::int64_t kPause_ns = 10'000'000'000;
   const std::int64_t now = context_.steady_ns();
-  if (twin_told_ns_ != 0 && now - twin_told_ns_ < kPause_ns) return;
-  twin_told_ns_ = now;
+  if (duplicate_told_ns_ != 0 && now - duplicate_told_ns_ < kPause_ns) return;
+  duplicate_told_ns_ = now;
   context_.logger->error("somebody else says on the team's bus that it is {}: one of the two is configured wrongly",
                          name_of(own_));
 }

@@ -47,7 +47,7 @@ class TeamLinkNode {
   void hear(const msg::TeamState& state, std::int64_t t_ns);
   void hear(const msg::Referee& word, std::int64_t t_ns);
   void note_alarms(std::uint8_t other, std::uint32_t alarms);
-  void note_twin();
+  void report_duplicate();
 
   NodeContext& context_;
   const bool base_;
@@ -60,7 +60,7 @@ class TeamLinkNode {
   robot::PeerTable peers_;
   robot::LatestSample<msg::Referee> referee_;  // of the base
   std::array<std::uint32_t, 256> alarms_{};
-  std::int64_t twin_told_ns_ = 0;
+  std::int64_t duplicate_told_ns_ = 0;
   std::optional<TeamMember> member_;
 };
 

@@ -27,10 +27,10 @@ class WorldModel {
 
   /// The belief at the instant of `odometry`. `frame` is the newest vision frame, nullptr where there is none, and
   /// counts once; `referee` its latest command: pictures older than odometry correct the past, so that the pose holds
-  /// now. A robot that has not localised itself yet does not play, nor does one in a cycle whose odometry is not finite
-  /// or farther off than any robot drives, which changes no belief. Where no frame came for longer, the ball is
-  /// forgotten as if it had not been seen. The possessions are the robot's own count, whatever the referee numbers;
-  /// `kicker` says which kick ended one (nullptr: none).
+  /// now. A robot that has not localised itself yet does not play. Odometry that is not finite, or farther off than any
+  /// robot drives, changes no belief, and the robot does not play in that cycle. Where no frame came for longer, the
+  /// ball is forgotten as if it had not been seen. The possessions are the robot's own count, whatever the referee
+  /// numbers; `kicker` says which kick ended one (nullptr: none).
   msg::WorldState update(const msg::Odometry& odometry, const msg::VisionFrame* frame, const msg::Referee* referee,
                          const msg::KickerStatus* kicker = nullptr);
 

@@ -15,7 +15,6 @@ namespace {
 constexpr double kReleaseDoubt_s = 0.04;   // until then the ball may be in the handler still
 constexpr double kLatestRelease_s = 0.25;  // after the expected one: of a robot whose delay nobody measured
 constexpr double kLateRelease = 0.05;      // how often, before anything is seen, the ball leaves as late as that
-constexpr double kTurnedAtAll = 0.05;      // how often something turns it, before anything is seen
 constexpr double kCarried_mps = 2.5;       // as fast as a robot carries the ball, along either axis
 constexpr std::size_t kFewestInFlight = 3;
 constexpr double kOnFloorBelow_m = 0.25;  // a ball that never was higher rolls
@@ -75,23 +74,23 @@ class Hypotheses {
 
   FlightHypotheses tell() {
     free_flight();
-    FlightHypotheses stories{.crossing = crossing_,
-                             .seen_after_crossing = before_line_ < seen_.size(),
-                             .turns = {},
-                             .last = free_.back(),
-                             .last_t_s = time_s(before_line_ - 1),
-                             .residual_sd_m = residual_sd_m()};
-    if (!stories.crossing) stories.crossing = meets_plane(free_.back(), stories.last_t_s, goal_y_m_, kFar_s);
+    FlightHypotheses told{.crossing = crossing_,
+                          .seen_after_crossing = before_line_ < seen_.size(),
+                          .turns = {},
+                          .last = free_.back(),
+                          .last_t_s = time_s(before_line_ - 1),
+                          .residual_sd_m = residual_sd_m()};
+    if (!told.crossing) told.crossing = meets_plane(free_.back(), told.last_t_s, goal_y_m_, kFar_s);
     if (crossing_) {
-      stories.log_passed = std::max(continued(free_.back(), before_line_ - 1, true), held_by_the_net());
+      told.log_passed = std::max(continued(free_.back(), before_line_ - 1, true), held_by_the_net());
       FlightFilter back = crossing_->ball;
       back.throw_back(goal_y_m_, kFrameKeeps, kFrameKeepsSd);
-      stories.log_thrown_back = thrown_back(back);
+      told.log_thrown_back = thrown_back(back);
     }
     for (std::size_t i = 0; i < before_line_; ++i) {
-      if (may_turn_after(i)) stories.turns.push_back(turn_after(i));
+      if (may_turn_after(i)) told.turns.push_back(turn_after(i));
     }
-    return stories;
+    return told;
   }
 
   /// ln of the likelihood of all sightings but the first, by the best of the hypotheses that tell() gave.
@@ -109,7 +108,7 @@ class Hypotheses {
   }
   static double log_turned(const FlightHypotheses& told) {
     double best = -HUGE_VAL;
-    for (const Turn& turn : told.turns) best = std::max(best, turn.log_likelihood + std::log(kTurnedAtAll));
+    for (const Turn& turn : told.turns) best = std::max(best, turn.log_likelihood + std::log(kTurned));
     return best;
   }
 

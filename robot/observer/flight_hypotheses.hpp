@@ -24,7 +24,10 @@ struct Turn {
   double log_likelihood = 0.0;
 };
 
-/// The sightings as free flight explains them, and as other stories do.
+/// How often an opponent turns a kick on its way, before anything is seen; assumption.
+inline constexpr double kTurned = 0.05;
+
+/// The sightings as free flight explains them, and as other hypotheses do.
 struct FlightHypotheses {
   std::optional<PlaneCrossing> crossing;
   bool seen_after_crossing = false;

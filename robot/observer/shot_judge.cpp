@@ -20,7 +20,6 @@ constexpr std::size_t kWindow = 7;         // sightings that the exit is taken f
 constexpr double kNearFloor_m = 0.25;      // a minimum of z below it is a bounce
 constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by a kick
 // What happens how often, before anything is seen.
-constexpr double kBlocked = 0.05;         // an opponent turns a kick on its way
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
 constexpr double kSaved = 0.005;          // a ball between posts and bar comes back
 constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
@@ -65,7 +64,7 @@ void describe_exit(std::span<const kicking::Sighting> airborne, std::int64_t rel
 
 double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }
 
-/// Shares of the stories, their sum not yet 1; `nothing` is that of none of the outcomes.
+/// Shares of the hypotheses, their sum not yet 1; `nothing` is that of none of the outcomes.
 struct Weights {
   OutcomeProbabilities outcome{};
   double nothing = 0.0;
@@ -84,47 +83,47 @@ void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log
 }
 
 /// Probability that the ball had come to the line when the sightings ended.
-double reached(const FlightHypotheses& stories, const ShotTrack& track) {
-  if (!stories.crossing) return 0.0;
-  if (stories.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
+double reached(const FlightHypotheses& told, const ShotTrack& track) {
+  if (!told.crossing) return 0.0;
+  if (told.seen_after_crossing || track.end == FlightEnd::kBeyondLine || track.end == FlightEnd::kThrownBack)
     return 1.0;
   const double end_s = kicking::seconds(track.end_t_ns - track.release_t_ns);
-  return kicking::normal_below(end_s - stories.crossing->t_s, stories.crossing->sd_t_s);
+  return kicking::normal_below(end_s - told.crossing->t_s, told.crossing->sd_t_s);
 }
 
-Weights weigh(const FlightHypotheses& stories, const ShotTrack& track, const kicking::Goal& goal,
+Weights weigh(const FlightHypotheses& told, const ShotTrack& track, const kicking::Goal& goal,
               const config::ShotObserver& settings) {
   Weights weights;
   const double end_s = kicking::seconds(track.end_t_ns - track.release_t_ns);
-  const double there = reached(stories, track);
-  double log_passed = stories.log_passed, log_back = stories.log_thrown_back;
+  const double there = reached(told, track);
+  double log_passed = told.log_passed, log_back = told.log_thrown_back;
   if (track.end == FlightEnd::kBeyondLine) log_back += std::log(kAgainstTheEnd);
   if (track.end == FlightEnd::kThrownBack) log_passed += std::log(kAgainstTheEnd);
-  // The best story has the likelihood 1, so that nothing overflows.
-  double best = stories.seen_after_crossing ? std::max(log_passed, log_back) : 0.0;
-  for (const Turn& turn : stories.turns) best = std::max(best, turn.log_likelihood);
+  // The best hypothesis has the likelihood 1, so that nothing overflows.
+  double best = told.seen_after_crossing ? std::max(log_passed, log_back) : 0.0;
+  for (const Turn& turn : told.turns) best = std::max(best, turn.log_likelihood);
   const double free = std::exp(-best);
-  if (there > 0.0) weigh_crossing(*stories.crossing, log_passed - best, log_back - best, there, goal, weights);
+  if (there > 0.0) weigh_crossing(*told.crossing, log_passed - best, log_back - best, there, goal, weights);
 
-  const bool ended_free = !stories.seen_after_crossing && there < 1.0;
+  const bool ended_free = !told.seen_after_crossing && there < 1.0;
   if (ended_free && track.end == FlightEnd::kAtRest) of(weights.outcome, Outcome::kShort) = (1.0 - there) * free;
   if (ended_free && track.end == FlightEnd::kTakenAway) {
-    FlightFilter ball = stories.last;
-    ball.advance(std::max(0.0, end_s - stories.last_t_s));
+    FlightFilter ball = told.last;
+    ball.advance(std::max(0.0, end_s - told.last_t_s));
     const double sd_mps = std::hypot(kRestDoubt_mps, std::sqrt(ball.y().var_v_m2ps2));
     const double lies = kicking::normal_below(3.0 * settings.rest_speed_mps - ball.speed_mps(), sd_mps);
     of(weights.outcome, Outcome::kShort) = (1.0 - there) * free * lies;
     weights.nothing = (1.0 - there) * free * (1.0 - lies) * kStopped_per_s * end_s;
   }
   double& blocked = of(weights.outcome, Outcome::kBlocked);
-  const double whole_s = std::max(stories.last_t_s, 0.1);
-  for (std::size_t i = 0; i < stories.turns.size(); ++i) {
-    const Turn& turn = stories.turns[i];
+  const double whole_s = std::max(told.last_t_s, 0.1);
+  for (std::size_t i = 0; i < told.turns.size(); ++i) {
+    const Turn& turn = told.turns[i];
     const double share = i == 0 ? kBlockedAtOnce : (1.0 - kBlockedAtOnce) * turn.within_s / whole_s;
-    blocked += kBlocked * share * std::exp(turn.log_likelihood - best);
+    blocked += kTurned * share * std::exp(turn.log_likelihood - best);
   }
   if (ended_free && track.end == FlightEnd::kTakenAway)
-    blocked += kBlocked * (1.0 - kBlockedAtOnce) * std::max(0.0, end_s - stories.last_t_s) / whole_s * free;
+    blocked += kTurned * (1.0 - kBlockedAtOnce) * std::max(0.0, end_s - told.last_t_s) / whole_s * free;
   return weights;
 }
 
@@ -133,13 +132,13 @@ Weights weigh(const FlightHypotheses& stories, const ShotTrack& track, const kic
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
   describe_exit(in_the_air(track.sightings), track.release_t_ns, verdict);
-  const auto stories = flight_hypotheses(track, goal.y_m);
-  if (!stories) return verdict;
-  verdict.residual_sd_m = stories->residual_sd_m;
-  verdict.bounced = stories->crossing ? stories->crossing->ball.bounced() : stories->last.bounced();
-  if (track.end == FlightEnd::kLost && !stories->seen_after_crossing) return verdict;
+  const auto told = flight_hypotheses(track, goal.y_m);
+  if (!told) return verdict;
+  verdict.residual_sd_m = told->residual_sd_m;
+  verdict.bounced = told->crossing ? told->crossing->ball.bounced() : told->last.bounced();
+  if (track.end == FlightEnd::kLost && !told->seen_after_crossing) return verdict;
 
-  Weights weights = weigh(*stories, track, goal, settings);
+  Weights weights = weigh(*told, track, goal, settings);
   const double sum = std::accumulate(weights.outcome.begin(), weights.outcome.end(), weights.nothing);
   if (!(sum > 0.0)) return verdict;
   for (double& p : weights.outcome) p /= sum;
@@ -150,10 +149,10 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
     verdict.outcome = static_cast<Outcome>(likeliest - weights.outcome.begin());
   const double not_there =
       of(weights.outcome, Outcome::kBlocked) + of(weights.outcome, Outcome::kShort) + weights.nothing / sum;
-  if (stories->crossing && not_there < 0.5) {
-    verdict.x_cross_m = stories->crossing->x_m;
-    verdict.z_cross_m = stories->crossing->z_m;
-    verdict.sd_cross_m = std::max(stories->crossing->sd_x_m, stories->crossing->sd_z_m);
+  if (told->crossing && not_there < 0.5) {
+    verdict.x_cross_m = told->crossing->x_m;
+    verdict.z_cross_m = told->crossing->z_m;
+    verdict.sd_cross_m = std::max(told->crossing->sd_x_m, told->crossing->sd_z_m);
   }
   verdict.probabilities = weights.outcome;
   return verdict;

@@ -23,9 +23,9 @@ struct Passage {
 
 /// Compares this machine's clock with another's, by messages in both directions of which each takes its own time.
 ///
-/// Where the other's clock is ahead by o, one of its messages that took d seems to take f = heard - sent = d - o, and
-/// one of ours g = d' + o. So o = (g - f) / 2 + (d - d') / 2, and since no message takes less than nothing, the second
-/// term is at most (d + d') / 2 = (g + f) / 2: half the round trip. Of all messages of a window those that took least
+/// The other's clock is ahead by o. One of its messages that took d seems to take f = heard - sent = d - o, one of ours
+/// g = d' + o. So o = (g - f) / 2 + (d - d') / 2. The second term is at most (d + d') / 2 = (g + f) / 2, half the round
+/// trip, since no message takes less than nothing. Of all messages of a window those that took least
 /// are the best, each direction by itself. The two clocks part by kLargestDrift, so an older message is worth less by
 /// what they may have parted since, and so much is added to the error. As NTP's clock filter (RFC 5905, section 10),
 /// which looks at round trips where this looks at single ways.

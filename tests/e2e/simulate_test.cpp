@@ -39,6 +39,16 @@ TEST(Simulate, SaysBelowTheTableWhereTheLabelsAreWrong) {
   EXPECT_THAT(right.output(), Not(HasSubstr("labels are wrong")));
 }
 
+TEST(Simulate, TheReportOfALateKickerHasRightLabelsAndSaysThatItIsLate) {
+  const tests::Folder folder;
+  Program late{"trivela", simulate("late.db", 10, {"--world", "kicker.delay_s=0.2"}), folder.path()};
+  ASSERT_EQ(late.wait(), 0) << late.errors();
+  EXPECT_THAT(late.output(), Not(HasSubstr("labels are wrong")));
+  Program report{"trivela", {"report", "late.db"}, folder.path()};
+  ASSERT_EQ(report.wait(), 0) << report.errors();
+  EXPECT_THAT(report.output(), HasSubstr("robot 1: the ball leaves 0.14 s later than its file says (median of "));
+}
+
 // The starts are the same situations; what the arms did with them is not.
 TEST(Simulate, EveryArmMeetsTheSameOpportunities) {
   const tests::Folder folder;

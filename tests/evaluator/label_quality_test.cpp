@@ -110,9 +110,17 @@ TEST_F(LabelQualityOfALog, SaysThatTheBallLeavesLaterThanTheRobotsFileSays) {
   EXPECT_THAT(make_report(log::Reader(path())).warnings, testing::Contains(HasSubstr("leaves 0.09 s later")));
 }
 
-TEST_F(LabelQualityOfALog, SaysNothingOfFewReleasesOrOfThoseInTime) {
+TEST_F(LabelQualityOfALog, SaysNothingOfFewReleases) {
   for (int i = 0; i < 7; ++i) kick(1, "on_target", 1.0, 0.0, 30, -0.1);
   EXPECT_THAT(read().release_warnings(), IsEmpty()) << "seven kicks";
+}
+
+TEST_F(LabelQualityOfALog, SaysNothingOfReleasesInTime) {
+  for (int i = 0; i < 20; ++i) kick(1, "on_target", 1.0, 0.0, 30, i % 2 == 0 ? -0.029 : 0.029);
+  const LabelQuality quality = read();
+  ASSERT_THAT(quality.releases, SizeIs(1));
+  EXPECT_EQ(quality.releases[0].kicks, 20);
+  EXPECT_THAT(quality.release_warnings(), IsEmpty());
 }
 
 TEST_F(LabelQualityOfALog, BallsThatComeBackFromTheGoalLineContradictNothing) {
