@@ -121,7 +121,7 @@ void see_kicks(const log::Reader& reader, const SessionPlaces& sessions, const T
     const auto key = possession_of(row, sessions, truths);
     if (!key) return;
     const auto& [session, robot_id, half, own_id] = *key;
-    const auto truth_outcome = row.find<std::string>("truth_outcome");
+    auto truth_outcome = row.find<std::string>("truth_outcome");
     const bool saved = row.find<bool>("truth_saved").value_or(false);
     const bool goal = truth_outcome == "on_target" && !saved;
     seen.kicks.push_back({.session = session,
