@@ -44,6 +44,9 @@ class Output {
   [[nodiscard]] bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const {
     return writer_->wait_for_readers(n, timeout);
   }
+  [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout) const {
+    return writer_->wait_until_received(timeout);
+  }
 
   /// Whether another node of the same name and robot writes T.
   [[nodiscard]] bool other_writer_exists() const { return writer_->other_writer_exists(); }

@@ -71,6 +71,13 @@ bool AnyWriter::wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout
   return true;
 }
 
+bool AnyWriter::wait_until_received(std::chrono::nanoseconds timeout) const {
+  const dds_return_t rc = dds_wait_for_acks(writer_.handle(), timeout.count());
+  if (rc == DDS_RETCODE_TIMEOUT) return false;
+  checked(rc, "dds_wait_for_acks", topic_);
+  return true;
+}
+
 bool AnyWriter::other_writer_exists(std::chrono::nanoseconds since_joining) const {
   return writer_exists(since_joining, [](std::int64_t, std::int64_t) { return true; });
 }

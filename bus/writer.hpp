@@ -25,6 +25,9 @@ class AnyWriter {
   /// Waits until at least n readers are matched; false if the timeout came first.
   [[nodiscard]] bool wait_for_readers(std::size_t n, std::chrono::nanoseconds timeout) const;
 
+  /// Waits until every reader that is reliable has received all that was written; false if the timeout came first.
+  [[nodiscard]] bool wait_until_received(std::chrono::nanoseconds timeout) const;
+
   /// Whether another writer of this topic carries the same WriterOptions::owner. Looks until this member has been
   /// in the domain for so long, and for 50 ms at least: what others write is known by then. One that is heard of counts
   /// once it has stayed for 200 ms: a process that is leaving is none.

@@ -27,6 +27,7 @@ void fields(V& v, KickSpreads& s) {
 template <class V>
 void fields(V& v, RobotModel& m) {
   v("exit_angle_deg", config::Degrees{m.exit_angle_rad}, config::Range{5.0, 80.0});
+  v("direction_deg", config::Degrees{m.direction_rad}, config::Range{-20.0, 20.0});
   v("delay_s", m.delay_s, config::Range{0.0, 0.5});
   v("ball_offset_m", m.ball_offset_m, config::Range{0.1, 0.6});
   v("alpha_slope_deg_per_mps", config::Degrees{m.alpha_slope_rad_per_mps}, config::Range{-45.0, 45.0});

@@ -9,6 +9,7 @@
 #include "config/devices.hpp"
 #include "config/text/field_types.hpp"
 #include "kicking/geometry/goal.hpp"
+#include "kicking/learning/kicker_estimate.hpp"
 #include "kicking/policy/policy.hpp"
 
 namespace trivela::config {
@@ -113,6 +114,18 @@ struct ShotObserver {
   double rest_speed_mps = 0.3;      ///< slower is at rest
 };
 
+/// What becomes of what the kicks show of the kicker: nothing is learned, it is learned and recorded, or decisions go
+/// by it, too.
+enum class SelfCalibrationMode : std::uint8_t { kOff, kShadow, kOn };
+
+/// Learning of the kicker in play.
+struct SelfCalibration {
+  SelfCalibrationMode mode = SelfCalibrationMode::kShadow;
+  kicking::KickerChange change{};  ///< how far it may be from its file
+  std::string state_file;          ///< the last estimate, with which the next match begins; empty: none
+  double state_max_age_h = 24.0;   ///< an older one is not used
+};
+
 /// What the simulated robot's devices are to its nodes.
 enum class SimulatedDevices : std::uint8_t {
   kBus,      ///< topics, and the simulator writes `referee`
@@ -189,6 +202,7 @@ struct Settings {
   KickDecision kick_decision;
   KickerDriver kicker_driver;
   ShotObserver shot_observer;
+  SelfCalibration self_calibration;
   Simulator simulator;
   Recorder recorder;
   ScanRecorder scan_recorder;

@@ -50,6 +50,12 @@ struct Names<Capability> {
 };
 
 template <>
+struct Names<SelfCalibrationMode> {
+  static constexpr std::array<std::pair<std::string_view, SelfCalibrationMode>, 3> entries{
+      {{"off", SelfCalibrationMode::kOff}, {"shadow", SelfCalibrationMode::kShadow}, {"on", SelfCalibrationMode::kOn}}};
+};
+
+template <>
 struct Names<DriveMode> {
   static constexpr std::array<std::pair<std::string_view, DriveMode>, 3> entries{
       {{"always", DriveMode::kAlways}, {"with_ball", DriveMode::kWithBall}, {"advice", DriveMode::kAdvice}}};
@@ -120,6 +126,17 @@ void fields(V& v, PredictiveConfig& p) {
   v("hazard_per_s", p.hazard_per_s, Range{0.0, 10.0});
   v("opponent_radius_m", p.opponent_radius_m, Range{0.0, 2.0});
   v("opponent_height_m", p.opponent_height_m, Range{0.0, 3.0});
+}
+
+template <class V>
+void fields(V& v, KickerChange& c) {
+  using config::Degrees, config::Range;
+  v("speed_sd_ratio", c.speed_sd_ratio, Range{0.001, 0.5});
+  v("elevation_sd_deg", Degrees{c.elevation_sd_rad}, Range{0.01, 20.0});
+  v("direction_sd_deg", Degrees{c.direction_sd_rad}, Range{0.01, 20.0});
+  v("delay_sd_s", c.delay_sd_s, Range{0.0005, 0.2});
+  v("transfer_sd_ratio", c.transfer_sd_ratio, Range{0.001, 1.0});
+  v("jump_chance", c.jump_chance, Range{1e-6, 0.5});
 }
 
 template <class V>
@@ -297,6 +314,14 @@ struct Names<SimulatedDevices> {
 };
 
 template <class V>
+void fields(V& v, SelfCalibration& s) {
+  v("mode", s.mode);
+  v("state_file", s.state_file);
+  v("state_max_age_h", s.state_max_age_h, Range{0.0, 87600.0});
+  v("change", s.change);
+}
+
+template <class V>
 void fields(V& v, Simulator& s) {
   v("seed", s.seed, Range{0, 9e15});
   v("halves", s.halves, Range{1, 255});
@@ -369,6 +394,7 @@ void fields(V& v, Settings& s) {
   v("kick_decision", s.kick_decision);
   v("kicker_driver", s.kicker_driver);
   v("shot_observer", s.shot_observer);
+  v("self_calibration", s.self_calibration);
   v("simulator", s.simulator);
   v("recorder", s.recorder);
   v("scan_recorder", s.scan_recorder);

@@ -27,6 +27,9 @@ class InProcessRobot {
   /// The referee's word before the first cycle, as a robot hears it that has no ball.
   void hear(const msg::Referee& word) { model_.hear(word); }
 
+  /// What its kicker is by its kicks, from the next cycle on.
+  void learn(const msg::KickerEstimate& estimate) { decider_.learn(estimate); }
+
   /// Decides the cycle of `sensors`. nullptr: its wheel sample is not newer than the last one.
   /// `truth`: of the same instant, where the oracle may be in charge.
   const robot::CycleDecision* cycle(const sim::Sensors& sensors, const msg::Referee& referee,

@@ -25,6 +25,7 @@ struct MatchRecord {
   std::vector<msg::KickOrder> orders;
   std::vector<msg::KickReceipt> receipts;
   std::vector<msg::KickOutcome> outcomes;
+  std::vector<msg::KickerEstimate> estimates;
   std::vector<msg::KickTruth> kick_truths;
   std::vector<msg::PossessionTruth> possession_truths;
   std::vector<Assignment> assignments;

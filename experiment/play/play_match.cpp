@@ -12,6 +12,7 @@
 #include "experiment/play/oracle.hpp"
 #include "kicking/kick_id.hpp"
 #include "kicking/random/draws.hpp"
+#include "robot/observer/kick_learning.hpp"
 #include "robot/observer/observer.hpp"
 #include "sim/match.hpp"
 
@@ -87,7 +88,21 @@ class Game {
         record_->decisions.push_back(chain.record());
       if (decision->order) commands.fire = send(*decision, chain);
     }
+    learn(sensors.t_ns);
     settle(match_.step(commands));
+  }
+
+  /// From what was seen in this cycle, for the decisions of the next ones, as over the bus.
+  void learn(std::int64_t t_ns) {
+    for (const msg::KickOutcome& outcome : seen_) {
+      Player& player = player_of(robot_of(outcome.kick_id));
+      if (!player.learning) continue;
+      const auto estimate = player.learning->seen(outcome, t_ns);
+      if (!estimate) continue;
+      if (record_) record_->estimates.push_back(*estimate);
+      if (estimate->used) player.chain.learn(*estimate);
+    }
+    seen_.clear();
   }
 
   /// The referee's word, as everybody hears it. A new possession begins where the simulator counts one: what is paired
@@ -124,6 +139,7 @@ class Game {
     outcome.robot_id = robot_of(outcome.kick_id);
     outcome.seq = ++outcomes_;
     outcome_ = outcome;
+    seen_.push_back(outcome);
     if (record_) record_->outcomes.push_back(outcome);
     if (PlayedPossession* of = possession_of(outcome.kick_id))
       of->kick->observed = static_cast<kicking::Outcome>(outcome.outcome);
@@ -138,6 +154,10 @@ class Game {
     }
     if (!receipt.accepted) return std::nullopt;
     for (const msg::KickOutcome& outcome : observer_.receipt(receipt, chain.robot().model)) take(outcome);
+    if (auto& learning = player_of(robot_id_).learning) {
+      learning->hear(chain.record());
+      learning->hear(receipt);
+    }
     const kicking::PolicyOutput& output = decision.output;
     const msg::WorldState& world = chain.world();
     PlayedKick kick;
@@ -200,16 +220,30 @@ class Game {
     }
   }
 
-  InProcessRobot& chain_of(std::uint8_t robot_id) {
+  /// A robot and what it learns of its kicker.
+  struct Player {
+    InProcessRobot chain;
+    std::optional<robot::KickLearning> learning;
+  };
+
+  Player& player_of(std::uint8_t robot_id) {
     const std::size_t index = robot_id - 1u;
-    if (chains_.size() <= index) chains_.resize(index + 1);
-    if (!chains_[index]) {
-      chains_[index] = std::make_unique<InProcessRobot>(
-          settings_, robot_of(scenario_, arm_, seed_, match_id_, robot_id), robot_id, session_, seat(robot_id));
-      chains_[index]->hear(*first_word_);
-    }
-    return *chains_[index];
+    if (players_.size() <= index) players_.resize(index + 1);
+    if (players_[index]) return *players_[index];
+    config::Robot robot = robot_of(scenario_, arm_, seed_, match_id_, robot_id);
+    players_[index].reset(
+        new Player{.chain{settings_, std::move(robot), robot_id, session_, seat(robot_id)}, .learning = std::nullopt});
+    Player& player = *players_[index];
+    player.chain.hear(*first_word_);
+    if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return player;
+    player.learning.emplace(settings_.self_calibration, player.chain.robot().model, robot_id);
+    const msg::KickerEstimate& first = player.learning->first();
+    if (record_) record_->estimates.push_back(first);
+    if (first.used) player.chain.learn(first);
+    return player;
   }
+
+  InProcessRobot& chain_of(std::uint8_t robot_id) { return player_of(robot_id).chain; }
 
   std::optional<robot::GroundTruthPolicy> seat(std::uint8_t robot_id) const {
     if (!knows_the_truth(settings_.kick_decision, robot_id)) return std::nullopt;
@@ -236,7 +270,8 @@ class Game {
   bool oracle_;
   sim::Match match_;
   robot::Observer observer_;
-  std::vector<std::unique_ptr<InProcessRobot>> chains_;  // by robot, made when it first has the ball
+  std::vector<std::unique_ptr<Player>> players_;  // by robot, made when it first has the ball
+  std::vector<msg::KickOutcome> seen_;            // in this cycle
   PlayedMatch played_;
   std::vector<std::int64_t> kick_ids_;  // by possession; 0: none
   std::optional<msg::KickOutcome> outcome_;

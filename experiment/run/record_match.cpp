@@ -20,6 +20,7 @@ MatchTables::MatchTables(log::ExperimentLog& log)
       orders_(add_table<msg::KickOrder>(log)),
       receipts_(add_table<msg::KickReceipt>(log)),
       outcomes_(add_table<msg::KickOutcome>(log)),
+      estimates_(add_table<msg::KickerEstimate>(log)),
       kick_truths_(add_table<msg::KickTruth>(log)),
       possession_truths_(add_table<msg::PossessionTruth>(log)),
       assignments_(log.table("assignments", robot::assignment_columns())) {}
@@ -47,6 +48,7 @@ void MatchTables::write(const MatchRecord& record, std::int64_t session_id) {
   write(orders_, record.orders, session_id);
   write(receipts_, record.receipts, session_id);
   write(outcomes_, record.outcomes, session_id);
+  write(estimates_, record.estimates, session_id);
   write(kick_truths_, record.kick_truths, session_id);
   write(possession_truths_, record.possession_truths, session_id);
   for (const Assignment& assignment : record.assignments) {

@@ -21,8 +21,8 @@ class MatchTables {
   void write_shadows(const msg::KickDecision& decision, std::int64_t session_id);
 
   log::ExperimentLog& log_;
-  std::size_t referee_, decisions_, shadows_, orders_, receipts_, outcomes_, kick_truths_, possession_truths_,
-      assignments_;
+  std::size_t referee_, decisions_, shadows_, orders_, receipts_, outcomes_, estimates_, kick_truths_,
+      possession_truths_, assignments_;
 };
 
 }  // namespace trivela::experiment

@@ -30,6 +30,8 @@ struct RobotModel {
   double exit_angle_rad = radians(36.78);
   /// Where they were calibrated apart: an angle for each power, which then holds instead.
   std::optional<AngleTable> exit_angles{};
+  /// Of the kick from the robot's heading, left positive.
+  double direction_rad = 0.0;
   /// For the paper's V_kick law: k of kicker.map forward; the released code halves it when the robot reverses; lateral
   /// is unused.
   Transfer transfer_paper{0.70, 0.35, 1.0};

@@ -97,6 +97,12 @@ PolicyOutput evaluate_row(const PolicyConfig& config, const RobotModel& robot, c
   return output;
 }
 
+/// The motion with its velocity turned counter-clockwise by the angle.
+Twist turned_twist(const Twist& twist, double angle_rad) {
+  const Eigen::Vector2d velocity_mps = rotate({twist.vx_mps, twist.vy_mps}, angle_rad);
+  return {velocity_mps.x(), velocity_mps.y(), twist.omega_radps};
+}
+
 constexpr std::array kEvaluators = []<std::size_t... kRow>(std::index_sequence<kRow...>) {
   return std::array{evaluate_row<kRow>...};
 }
@@ -106,7 +112,15 @@ constexpr std::array kEvaluators = []<std::size_t... kRow>(std::index_sequence<k
 
 PolicyOutput evaluate(PolicyName policy, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                       const PolicyInput& input, PolicyMemory& memory) {
-  return kEvaluators[static_cast<std::size_t>(policy)](config, robot, goal, input, memory);
+  const auto& of_policy = kEvaluators[static_cast<std::size_t>(policy)];
+  if (robot.direction_rad == 0.0) return of_policy(config, robot, goal, input, memory);
+  // A robot that faces where its ball goes kicks straight; the ball's place in its arms is off by some millimetres.
+  PolicyInput turned = input;
+  turned.pose.heading_rad += robot.direction_rad;
+  turned.twist = turned_twist(input.twist, -robot.direction_rad);
+  PolicyOutput output = of_policy(config, robot, goal, turned, memory);
+  output.drive = turned_twist(output.drive, robot.direction_rad);
+  return output;
 }
 
 }  // namespace trivela::kicking

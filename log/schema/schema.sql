@@ -269,6 +269,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
   shadow_count INTEGER NOT NULL,           -- rows in shadow_decisions
+  estimate INTEGER NOT NULL,               -- kicker_estimates.seq of the kicker that it decided by; 0: the robot's file
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -349,6 +350,10 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
   observations INTEGER NOT NULL,           -- frames with the ball behind it
   exit_speed_mps REAL,                     -- of the observed flight, over ground, m/s
   exit_elevation_rad REAL,                 -- of the observed flight, rad
+  flight_speed_mps REAL,                   -- exit speed of the drag-free parabola through the whole flight, m/s
+  flight_elevation_rad REAL,               -- of that parabola where it leaves the floor, rad
+  flight_direction_rad REAL,               -- of that parabola, as a heading in F, rad
+  flight_sd_mps REAL,                      -- standard deviation of a component of its velocity, m/s
   p_on_target REAL,                        -- probability of on_target in the light of the sightings; NULL: not computed
   p_wide_left REAL,                        -- the same of wide_left
   p_wide_right REAL,                       -- of wide_right
@@ -364,6 +369,35 @@ CREATE TABLE kick_outcomes (               -- what became of a kick, as seen by 
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX kick_outcomes_kick ON kick_outcomes (session_id, robot_id, kick_id);
+
+CREATE TABLE kicker_estimates (            -- what the kicks seen so far say of the kicker, to be added to its file
+  session_id INTEGER NOT NULL,             -- sessions.session_id
+  robot_id INTEGER NOT NULL,               -- robot
+  seq INTEGER NOT NULL,                    -- sequence number of the stream; 1: before the first kick
+  t_ns INTEGER NOT NULL,                   -- cycle of the frame that settled the kick; decisions of later cycles use it
+  kick_id INTEGER NOT NULL,                -- of the kick that changed it; 0: none yet
+  kicks INTEGER NOT NULL,                  -- that it has learned from
+  used INTEGER NOT NULL CHECK (used IN (0, 1)), -- 1: decisions go by it
+  speed_ln REAL NOT NULL,                  -- ln of the exit speed by that of the file
+  elevation_rad REAL NOT NULL,             -- exit angle, rad
+  direction_rad REAL NOT NULL,             -- of the kick from the robot's heading, left positive, rad
+  delay_s REAL NOT NULL,                   -- from order to release, s
+  along_ratio REAL NOT NULL,               -- transfer forward and backward
+  sideways_ratio REAL NOT NULL,            -- transfer sideways
+  speed_ln_se REAL NOT NULL,               -- standard error of speed_ln
+  elevation_se_rad REAL NOT NULL,          -- standard error, rad
+  direction_se_rad REAL NOT NULL,          -- standard error, rad
+  delay_se_s REAL NOT NULL,                -- standard error, s
+  along_se_ratio REAL NOT NULL,            -- standard error
+  sideways_se_ratio REAL NOT NULL,         -- standard error
+  speed_sd_ratio REAL NOT NULL,            -- exit speed from kick to kick, standard deviation
+  elevation_sd_rad REAL NOT NULL,          -- elevation from kick to kick, standard deviation, rad
+  direction_sd_rad REAL NOT NULL,          -- direction from kick to kick, standard deviation, rad
+  delay_sd_s REAL NOT NULL,                -- delay from kick to kick, standard deviation, s
+  p_mistaken REAL NOT NULL,                -- probability that the sightings of the last kick say nothing of the kicker
+  p_jump REAL NOT NULL,                    -- probability that the kicker changed at the last kick
+  PRIMARY KEY (session_id, robot_id, seq)
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE kick_truths (                 -- the simulator's truth of a kick; no robot ever sees it
   session_id INTEGER NOT NULL,             -- sessions.session_id

@@ -68,6 +68,7 @@ KickDecisionNode::KickDecisionNode(NodeContext& context, DecisionNode which)
       kicker_(node_.stores<msg::KickerStatus>()),
       outcome_(node_.stores<msg::KickOutcome>(count_observers())),
       referee_(node_.stores<msg::Referee>()),
+      estimate_(node_.stores<msg::KickerEstimate>()),
       first_(context.settings.run.lockstep) {
   refuse_oracle(decider_.assignment());
   refuse_second(context_, which_);
@@ -90,6 +91,7 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
   });
   stay_alive();
   if (!context_.participant.believes(world.t_ns)) return;
+  learn(world.t_ns);
   const auto status = input_of_cycle(context_, *kicker_, world.t_ns);
   const msg::KickerStatus* kicker = status ? &*status : nullptr;
   if (context_.settings.policy.rules.set_piece_s > 0.0) {
@@ -101,6 +103,14 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
     say(world, kicker, decision);
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+}
+
+/// Goes by what the observer has learned up to the cycle before; in lockstep the first estimate has to be there.
+void KickDecisionNode::learn(std::int64_t t_ns) {
+  if (context_.settings.self_calibration.mode != config::SelfCalibrationMode::kOn) return;
+  const auto estimate = decider_.estimate() == 0 ? input_of_cycle(context_, *estimate_, 0) : estimate_->latest();
+  if (!estimate || !estimate->used || estimate->seq == decider_.estimate() || estimate->t_ns >= t_ns) return;
+  if (context_.participant.believes(estimate->t_ns)) decider_.learn(*estimate);
 }
 
 /// The second node is where the first has fallen silent.

@@ -24,6 +24,7 @@ class KickDecisionNode {
 
  private:
   void on_world(const msg::WorldState& world);
+  void learn(std::int64_t t_ns);
   bool in_charge();
   void say(const msg::WorldState& world, const msg::KickerStatus* kicker, const robot::CycleDecision& decision);
   double age_s(const msg::WorldState& world) const;
@@ -46,6 +47,7 @@ class KickDecisionNode {
   bool unobserved_said_ = false;
   std::shared_ptr<bus::Mailbox<msg::KickOutcome>> outcome_;
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;  // looked up where the rules know set pieces
+  std::shared_ptr<bus::Mailbox<msg::KickerEstimate>> estimate_;
   FirstCycle first_;
   robot::StandbyWatch first_node_;  // of the second node
   bool waits_ = true;               // for the first one to fall silent

@@ -21,9 +21,10 @@ struct Inputs {
 
 using OdometryInputs = Inputs<msg::DeviceWheels, msg::DriveCommand, msg::TeamDrive, msg::WorldState>;
 using WorldStateInputs = Inputs<msg::Odometry, msg::VisionFrame, msg::Referee, msg::KickerStatus>;
-using KickDecisionInputs = Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome, msg::Referee>;
+using KickDecisionInputs =
+    Inputs<msg::WorldState, msg::KickerStatus, msg::KickOutcome, msg::Referee, msg::KickerEstimate>;
 using KickerDriverInputs = Inputs<msg::DeviceKicker, msg::KickOrder, msg::Referee, msg::DriveCommand>;
-using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee>;
+using ShotObserverInputs = Inputs<msg::KickReceipt, msg::FlightFrame, msg::Referee, msg::KickDecision>;
 using ScanRecorderInputs = Inputs<msg::SimScan, msg::KickReceipt>;  // where it is enabled
 
 /// Looked on at: nobody waits for the node that watches the kicker.

@@ -1,5 +1,7 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 
+#include <stdexcept>
+
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
 #include "nodes/runtime/step_done.hpp"
@@ -14,16 +16,30 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   reject_duplicate_node(context_, outcome_out_, "shot_observer");
+  const config::SelfCalibration& settings = context.settings.self_calibration;
+  if (settings.mode != config::SelfCalibrationMode::kOff) {
+    learning_.emplace(settings, context.robot.model, context.robot_id());
+    estimate_out_.emplace(node_.writer<msg::KickerEstimate>());
+  }
+  node_.on<msg::KickDecision>([this](const msg::KickDecision& decision) { on_decision(decision); });
   node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); },
-                             bus::writes<msg::KickOutcome>());
+                             bus::writes<msg::KickOutcome, msg::KickerEstimate>());
   node_.on<msg::FlightFrame>([this](const msg::FlightFrame& frame) { on_frame(frame); },
-                             bus::writes<msg::KickOutcome, msg::StepDone>());
+                             bus::writes<msg::KickOutcome, msg::KickerEstimate, msg::StepDone>());
+  if (learning_) say(learning_->first());
+}
+
+void ShotObserverNode::on_decision(const msg::KickDecision& decision) {
+  if (!learning_ || !decision.fire || !context_.participant.believes(decision.t_ns)) return;
+  const std::lock_guard lock{mutex_};
+  learning_->hear(decision);
 }
 
 void ShotObserverNode::on_receipt(const msg::KickReceipt& receipt) {
   if (!context_.participant.believes(receipt.release_t_ns)) return;
   const std::lock_guard lock{mutex_};
-  publish(observer_.receipt(receipt, context_.robot.model));
+  publish(observer_.receipt(receipt, context_.robot.model), receipt.order_t_ns);
+  if (learning_) learning_->hear(receipt);
 }
 
 void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
@@ -33,18 +49,27 @@ void ShotObserverNode::on_frame(const msg::FlightFrame& frame) {
   if (referee && !context_.participant.believes(referee->t_ns)) referee.reset();
   {
     const std::lock_guard lock{mutex_};
-    publish(observer_.frame(frame, referee));
+    publish(observer_.frame(frame, referee), frame.t_ns);
   }
   step_done(step_done_, context_.robot_id(), msg::STEP_SHOT_OBSERVER, frame.t_ns);
 }
 
-void ShotObserverNode::publish(std::vector<msg::KickOutcome> settled) {
+void ShotObserverNode::publish(std::vector<msg::KickOutcome> settled, std::int64_t t_ns) {
   for (msg::KickOutcome& outcome : settled) {
     outcome.robot_id = context_.robot_id();
     outcome.seq = ++seq_;
     outcome_out_.write(outcome);
     context_.logger->info("kick {}: {}", outcome.kick_id, bus::label(outcome.outcome));
+    if (!learning_) continue;
+    if (const auto estimate = learning_->seen(outcome, t_ns)) say(*estimate);
   }
+}
+
+/// In lockstep the cycle ends when everybody has it, so that the next decision goes by it on every machine.
+void ShotObserverNode::say(const msg::KickerEstimate& estimate) {
+  estimate_out_->write(estimate);
+  if (context_.settings.run.lockstep && !estimate_out_->wait_until_received(kLockstepTimeout))
+    throw std::runtime_error{"kicker_estimate was not received within 20 s"};
 }
 
 int shot_observer_main(int argc, char** argv) {

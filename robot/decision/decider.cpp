@@ -8,6 +8,7 @@
 #include "kicking/geometry/time.hpp"
 #include "kicking/in_place.hpp"
 #include "robot/decision/decision_message.hpp"
+#include "robot/observer/kick_learning.hpp"
 
 namespace trivela::robot {
 namespace {
@@ -84,7 +85,7 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   const bool told = facts(policy).needs_truth();
   assert(!told || (oracle_ && truth != nullptr));
   kicking::make_in_place(decision_.output, [&] {
-    return kicking::evaluate(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_, goal_,
+    return kicking::evaluate(policy, told ? oracle_->policy : policy_, told ? oracle_->model : model_of(policy), goal_,
                              told ? *truth : input, memory(policy));
   });
   judge_shadows(input);
@@ -105,12 +106,19 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   return decision_;
 }
 
+void Decider::learn(const msg::KickerEstimate& estimate) {
+  const kicking::KickerEstimate learned = estimate_of(estimate);
+  if (!kicking::sound(learned)) return;
+  corrected_ = kicking::corrected(model_, learned);
+  estimate_ = static_cast<std::uint32_t>(estimate.seq);
+}
+
 void Decider::judge_shadows(const kicking::PolicyInput& input) {
   decision_.shadow_count = 0;
   for (const PolicyName shadow : shadows_) {
     if (shadow == decision_.in_charge.policy) continue;
     kicking::make_in_place(decision_.shadows[decision_.shadow_count++], [&] {
-      return Shadow{shadow, kicking::evaluate(shadow, policy_, model_, goal_, input, memory(shadow))};
+      return Shadow{shadow, kicking::evaluate(shadow, policy_, model_of(shadow), goal_, input, memory(shadow))};
     });
   }
 }
@@ -136,6 +144,7 @@ msg::KickDecision Decider::record(const msg::WorldState& world, const msg::Kicke
   out.seq = decisions_;
   out.kick_id = decision_.order ? decision_.order->kick_id : 0;
   out.assignment_probability = decision_.in_charge.probability;
+  out.estimate = estimate_;
   for (std::size_t i = 0; i < decision_.shadow_count; ++i)
     out.shadows[i] = shadow_message(decision_.shadows[i].policy, decision_.shadows[i].output);
   out.shadow_count = static_cast<std::uint8_t>(decision_.shadow_count);

@@ -54,6 +54,12 @@ class Decider {
   /// What the referee says, before the cycle that hears it: when a set piece of ours is to be taken.
   void hear(const msg::Referee& word) { set_piece_.hear(word); }
 
+  /// Goes by what was learned of the kicker from the next cycle on, where it is sound().
+  /// Test drives, which measure the kicker, do not.
+  void learn(const msg::KickerEstimate& estimate);
+  /// KickerEstimate.seq that it goes by; 0: the robot's file.
+  std::uint32_t estimate() const { return estimate_; }
+
   /// Judges the cycle of `world`. `kicker`: status of the cycle, nullptr where none came. `outcome`: the latest that
   /// was seen, if any. `truth`: what the oracle is told where it may be in charge. `world_age_s`: how long ago `world`
   /// held, in real time. The reference holds until the next call.
@@ -83,7 +89,13 @@ class Decider {
   kicking::PolicyMemory& memory(kicking::PolicyName policy) { return memory_[static_cast<std::size_t>(policy)]; }
   std::optional<std::int64_t>& last_fire(kicking::PolicyName policy);
 
+  const kicking::RobotModel& model_of(kicking::PolicyName policy) const {
+    return facts(policy).plays() && corrected_ ? *corrected_ : model_;
+  }
+
   const kicking::RobotModel& model_;
+  std::optional<kicking::RobotModel> corrected_;
+  std::uint32_t estimate_ = 0;  // by which
   kicking::PolicyConfig policy_;
   kicking::Goal goal_;
   std::optional<GroundTruthPolicy> oracle_;

@@ -23,6 +23,11 @@ msg::KickOutcome message(const TrackedShot& shot) {
   out.observations = static_cast<std::uint32_t>(shot.sightings);
   out.exit_speed_mps = shot.verdict.exit_speed_mps.wire();
   out.exit_elevation_rad = shot.verdict.exit_elevation_rad.wire();
+  const auto& parabola = shot.verdict.parabola;
+  out.flight_speed_mps = parabola ? parabola->speed_mps : msg::kNone;
+  out.flight_elevation_rad = parabola ? parabola->elevation_rad : msg::kNone;
+  out.flight_direction_rad = parabola ? parabola->direction_rad : msg::kNone;
+  out.flight_sd_mps = parabola ? parabola->sd_mps : msg::kNone;
   double* const probabilities[] = {&out.p_on_target, &out.p_wide_left, &out.p_wide_right, &out.p_over,
                                    &out.p_short,     &out.p_post,      &out.p_bar,        &out.p_blocked};
   static_assert(std::size(probabilities) == std::tuple_size_v<kicking::OutcomeProbabilities>);

@@ -18,6 +18,7 @@ using kicking::OutcomeProbabilities;
 constexpr std::size_t kFewest = 5;         // sightings that tell of more than a turn
 constexpr std::size_t kWindow = 7;         // sightings that the exit is taken from
 constexpr double kNearFloor_m = 0.25;      // a minimum of z below it is a bounce
+constexpr double kBeforeFrame_m = 0.15;    // the frame and the net turn a ball behind it
 constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by a kick
 // What happens how often, before anything is seen.
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
@@ -26,6 +27,7 @@ constexpr double kStopped_per_s = 0.004;  // the referee stops the game for some
 constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
 constexpr double kSystematic_m = 0.01;    // of the crossing: goal, camera and ball are not known better
 constexpr double kRestDoubt_mps = 0.15;
+constexpr double kUntouched = 0.9;  // probability from which on a flight tells of the kicker
 
 /// The sightings of the flight up to the first bounce: the release is only expected, so that the first ones may show
 /// the ball in the handler still.
@@ -44,13 +46,18 @@ std::span<const kicking::Sighting> in_the_air(std::span<const kicking::Sighting>
   return sightings;
 }
 
-/// How long before this state a ball that climbs was on the floor, t of z - r - v_z t - g t^2 / 2 = 0; none: it was not
-/// kicked from there.
-kicking::Maybe climbed_for_s(const kicking::FlightState& state) {
+/// How a ball left the floor that is in this state later on.
+struct FloorExit {
+  double climb_mps = 0.0;  ///< upwards
+  double before_s = 0.0;   ///< before the state
+};
+
+/// t of z - r - v_z t - g t^2 / 2 = 0; none: it was not kicked from there.
+std::optional<FloorExit> floor_exit(const kicking::FlightState& state) {
   const double v = state.velocity_mps.z(), above_m = state.position_m.z() - kicking::Ball{}.radius_m;
   const double at_floor_mps = std::sqrt(v * v + 2.0 * kicking::kGravity_mps2 * above_m);
-  if (!(at_floor_mps > kSlowestClimb_mps) || v < -0.5 * at_floor_mps) return {};
-  return (at_floor_mps - v) / kicking::kGravity_mps2;
+  if (!(at_floor_mps > kSlowestClimb_mps) || v < -0.5 * at_floor_mps) return std::nullopt;
+  return FloorExit{at_floor_mps, (at_floor_mps - v) / kicking::kGravity_mps2};
 }
 
 void describe_exit(std::span<const kicking::Sighting> airborne, std::int64_t release_t_ns, ShotVerdict& verdict) {
@@ -58,8 +65,29 @@ void describe_exit(std::span<const kicking::Sighting> airborne, std::int64_t rel
   if (!start || airborne.size() < kWindow) return;
   verdict.exit_speed_mps = start->velocity_mps.norm();
   verdict.exit_elevation_rad = std::atan2(start->velocity_mps.z(), start->velocity_mps.head<2>().norm());
-  if (const kicking::Maybe climbed_s = climbed_for_s(*start))
-    verdict.release_late_s = kicking::seconds(airborne.front().t_ns - release_t_ns) - *climbed_s;
+  if (const auto floor = floor_exit(*start))
+    verdict.release_late_s = kicking::seconds(airborne.front().t_ns - release_t_ns) - floor->before_s;
+}
+
+std::optional<FlightParabola> parabola_of(std::span<const kicking::Sighting> airborne, double ball_sd_m,
+                                          double goal_y_m) {
+  std::size_t before_line = 0;
+  while (before_line < airborne.size() && airborne[before_line].ball_m.y() < goal_y_m - kBeforeFrame_m) ++before_line;
+  airborne = airborne.first(before_line);
+  if (airborne.size() < kWindow) return std::nullopt;
+  const auto start = kicking::fit_flight(airborne, kicking::kGravity_mps2);
+  if (!start) return std::nullopt;
+  const auto floor = floor_exit(*start);
+  if (!floor) return std::nullopt;
+  const Eigen::Vector2d over_floor_mps = start->velocity_mps.head<2>();
+  double mean_s = 0.0, spread_s2 = 0.0;
+  const auto time_s = [&](const kicking::Sighting& s) { return kicking::seconds(s.t_ns - airborne.front().t_ns); };
+  for (const kicking::Sighting& s : airborne) mean_s += time_s(s) / static_cast<double>(airborne.size());
+  for (const kicking::Sighting& s : airborne) spread_s2 += (time_s(s) - mean_s) * (time_s(s) - mean_s);
+  return FlightParabola{.speed_mps = std::hypot(over_floor_mps.norm(), floor->climb_mps),
+                        .elevation_rad = std::atan2(floor->climb_mps, over_floor_mps.norm()),
+                        .direction_rad = std::atan2(-over_floor_mps.x(), over_floor_mps.y()),
+                        .sd_mps = ball_sd_m / std::sqrt(spread_s2)};
 }
 
 double& of(OutcomeProbabilities& p, Outcome outcome) { return p[static_cast<std::size_t>(outcome)]; }
@@ -131,7 +159,8 @@ Weights weigh(const FlightHypotheses& told, const ShotTrack& track, const kickin
 
 ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const config::ShotObserver& settings) {
   ShotVerdict verdict;
-  describe_exit(in_the_air(track.sightings), track.release_t_ns, verdict);
+  const auto airborne = in_the_air(track.sightings);
+  describe_exit(airborne, track.release_t_ns, verdict);
   const auto told = flight_hypotheses(track, goal.y_m);
   if (!told) return verdict;
   verdict.residual_sd_m = told->residual_sd_m;
@@ -155,6 +184,8 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
     verdict.sd_cross_m = std::max(told->crossing->sd_x_m, told->crossing->sd_z_m);
   }
   verdict.probabilities = weights.outcome;
+  if (of(weights.outcome, Outcome::kBlocked) < 1.0 - kUntouched)
+    verdict.parabola = parabola_of(airborne, track.ball_sd_m, goal.y_m);
   return verdict;
 }
 

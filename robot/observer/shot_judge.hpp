@@ -13,6 +13,15 @@
 
 namespace trivela::robot {
 
+/// The drag-free parabola through a flight, from the floor to the goal line or to its first bounce: least squares over
+/// all of it, so that its speed and elevation are what a table of effective speeds has.
+struct FlightParabola {
+  double speed_mps = 0.0;      ///< where it leaves the floor
+  double elevation_rad = 0.0;  ///< the same
+  double direction_rad = 0.0;  ///< heading in F
+  double sd_mps = 0.0;         ///< standard deviation of a component of the velocity
+};
+
 /// What the sightings of a shot say about it.
 struct ShotVerdict {
   kicking::Outcome outcome = kicking::Outcome::kUnknown;
@@ -22,7 +31,8 @@ struct ShotVerdict {
   kicking::Maybe sd_cross_m;      ///< the larger one of both
   kicking::Maybe exit_speed_mps;  ///< over ground, of the first sightings
   kicking::Maybe exit_elevation_rad;
-  bool bounced = false;  ///< it touched the floor before the line, or before it was seen last
+  std::optional<FlightParabola> parabola;  ///< none: it was touched on its way, or not seen long enough
+  bool bounced = false;                    ///< it touched the floor before the line, or before it was seen last
   kicking::Maybe residual_sd_m;
   kicking::Maybe release_late_s;  ///< after release_t_ns of the track, by the flight
 };

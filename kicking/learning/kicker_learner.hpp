@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kicking/learning/kick_flight.hpp"
+#include "kicking/learning/kicker_estimate.hpp"
+
+namespace trivela::kicking {
+
+/// Learns from kick to kick in what a kicker differs from its file.
+///
+/// The belief is a mixture of normal distributions of the six differences, one for each instant at which the kicker may
+/// have jumped last (Adams and MacKay 2007, with the likeliest instants alone). Before the first kick it is N(0, file's
+/// error^2 + KickerChange^2). A kick moves each of them as a Kalman filter does; the sightings may also say nothing of
+/// the kicker (a ball that somebody touched, a wrong track), with a probability that the likelihood decides. Between
+/// kicks it forgets slowly. The spreads from kick to kick are learned from what is left of the residuals; the file's
+/// count as many kicks. Nothing but flights moves it.
+class KickerLearner {
+ public:
+  /// `file` must outlive the learner.
+  KickerLearner(const RobotModel& file, const KickerChange& change);
+
+  const KickerEstimate& estimate() const { return estimate_; }
+
+  /// Takes in one flight; one that is not finite or has no speed changes nothing. True: the estimate is another one.
+  bool learn(const KickFlight& flight);
+
+  /// Begins with an earlier estimate of the same robot: its means and errors, to which a day's change is added, and its
+  /// spreads.
+  void begin_with(const KickerEstimate& earlier);
+
+ private:
+  struct Belief {
+    KickerVector mean = KickerVector::Zero();
+    KickerMatrix covariance = KickerMatrix::Zero();
+    double weight = 1.0;
+    double log_likelihood = 0.0;  // of the last flight
+    double says_something = 1.0;  // probability that the last flight says something of the kicker
+  };
+
+  void move(Belief& belief, const KickFlight& flight) const;
+  void learn_spreads(const Belief& before, const KickFlight& flight, double weight);
+  Belief all_in_one() const;
+  void describe();
+
+  const RobotModel& file_;
+  KickerChange change_;
+  KickerMatrix day_ = KickerMatrix::Zero();  // covariance of a change
+  std::vector<Belief> beliefs_;              // the likeliest first
+  double spread_weight_ = 0.0;
+  KickerEstimate estimate_;
+};
+
+}  // namespace trivela::kicking
