@@ -17,8 +17,9 @@ constexpr double kForgotten = 0.03;       // from kick to kick it changes by thi
 constexpr double kRobotSpeed_mps = 0.05;  // of the robot's own velocity, each axis; assumption
 constexpr double kHeading_rad = 0.014;    // of the robot's heading at the release; assumption
 constexpr double kSeenLate_s = 0.01;      // of the release that a flight shows; assumption
-constexpr double kFileKicks = 20.0;       // kicks that the file's spreads count as ...
-constexpr double kMostKicks = 60.0;       // ... and those of the learned ones, so that they can change
+constexpr double kTilt_rad = 0.005;       // a parabola's elevation varies so much with the flight's length
+constexpr double kFileKicks = 40.0;       // kicks that the file's spreads count as ...
+constexpr double kMostKicks = 100.0;      // ... and those of the learned ones, so that they can change
 constexpr double kFarthest_sd = 3.0;      // a residual tells no more of the spread than this
 constexpr double kLeastSpread = 0.5;      // of the file's
 constexpr double kNotSeen_s = 10.0;       // standard deviation of a release that was not seen
@@ -28,7 +29,7 @@ using Matrix4 = Eigen::Matrix4d;
 /// Covariance of what one flight shows, beside what is not known of the kicker.
 Matrix4 noise_of(const KickFlight& flight, const LinearFlight& linear, const KickerEstimate& spread) {
   const double v = linear.speed_mps, c = linear.cosine, s = linear.sine;
-  const double speed = v * spread.speed_sd_ratio, tilt = v * spread.elevation_sd_rad;
+  const double speed = v * spread.speed_sd_ratio, tilt = v * std::hypot(spread.elevation_sd_rad, kTilt_rad);
   const double turn =
       v * c * std::hypot(spread.direction_sd_rad, kHeading_rad, flight.twist.omega_radps * spread.delay_sd_s);
   const double seen = flight.sd_mps * flight.sd_mps, own = seen + kRobotSpeed_mps * kRobotSpeed_mps;
@@ -137,7 +138,8 @@ void KickerLearner::learn_spreads(const Belief& before, const KickFlight& flight
   towards(estimate_.speed_sd_ratio, file.speed_sd_ratio, (c * r[0] + s * r[2]) / v,
           (c * c * (known(0, 0) + own) + s * s * (known(2, 2) + seen) + 2.0 * s * c * known(0, 2)) / (v * v));
   towards(estimate_.elevation_sd_rad, file.exit_angle_sd_rad, (c * r[2] - s * r[0]) / v,
-          (s * s * (known(0, 0) + own) + c * c * (known(2, 2) + seen) - 2.0 * s * c * known(0, 2)) / (v * v));
+          (s * s * (known(0, 0) + own) + c * c * (known(2, 2) + seen) - 2.0 * s * c * known(0, 2)) / (v * v) +
+              square(kTilt_rad));
   towards(estimate_.direction_sd_rad, file.direction_sd_rad, r[1] / (v * c),
           (known(1, 1) + own) / square(v * c) + square(kHeading_rad) +
               square(flight.twist.omega_radps * estimate_.delay_sd_s));
