@@ -38,11 +38,13 @@ std::vector<std::string> measured(const config::Calibration& c) {
   add("transfer", c.transfer);
   add("delay", c.delay);
   add("direction", c.direction);
+  add("all of it in play", c.play);
   return names;
 }
 
 std::vector<std::string> not_measured(const config::Calibration& c) {
   std::vector<std::string> names;
+  if (c.play) return {"ball", "wheels"};
   if (!c.table) names.emplace_back("table");
   if (!c.exit_angle) names.emplace_back("exit angle");
   if (!c.deflection) names.emplace_back("alpha");
@@ -75,6 +77,7 @@ std::uint32_t kicks_behind(const config::Calibration& c) {
   add(c.deflection);
   add(c.rotation);
   add(c.transfer);
+  add(c.play);
   return delay_apart ? kicks + c.delay->kicks : kicks;
 }
 
@@ -248,6 +251,49 @@ void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std:
   changed("kicker.spreads.delay_sd_s", robot_.model.spreads.delay_sd_s, fit.sd_s, fmt::format("{} kicks", kicks));
   robot_.model.spreads.delay_sd_s = figure(fit.sd_s);
   calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
+}
+
+void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::vector<std::string>& files) {
+  const kicking::RobotModel before = robot_.model;
+  kicking::RobotModel& model = robot_.model;
+  model = kicking::corrected(before, estimate);
+  std::vector<kicking::SetPoint> points(model.table.set_points().begin(), model.table.set_points().end());
+  for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
+  model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
+  robot_.height_table.reset();
+  const kicking::KickerVector& se = estimate.se;
+  const auto set = [&](const char* key, double kicking::RobotModel::*figure_of, double unit, double error_of) {
+    model.*figure_of = figure(model.*figure_of / unit) * unit;
+    changed(fmt::format("kicker.{}", key), before.*figure_of / unit, model.*figure_of / unit,
+            certainty(error_of / unit, estimate.kicks));
+  };
+  const double degree = kicking::radians(1.0);
+  changes_.push_back(fmt::format("table: exit speeds times {:.4f} ({})", std::exp(estimate.mean[kicking::kSpeedPart]),
+                                 certainty(se[kicking::kSpeedPart], estimate.kicks)));
+  set("exit_angle_deg", &kicking::RobotModel::exit_angle_rad, degree, se[kicking::kElevationPart]);
+  set("direction_deg", &kicking::RobotModel::direction_rad, degree, se[kicking::kDirectionPart]);
+  set("delay_s", &kicking::RobotModel::delay_s, 1.0, se[kicking::kDelayPart]);
+  set("alpha_slope_deg_per_mps", &kicking::RobotModel::alpha_slope_rad_per_mps, degree, se[kicking::kSidewaysPart]);
+  set("beta_slope_s", &kicking::RobotModel::beta_slope_s, 1.0, se[kicking::kDelayPart]);
+  const auto share = [&](const char* key, double kicking::Transfer::*of, double error_of) {
+    model.transfer_exact.*of = figure(model.transfer_exact.*of);
+    model.transfer_paper.*of = figure(model.transfer_paper.*of);
+    changed(fmt::format("kicker.transfer_exact.{}", key), before.transfer_exact.*of, model.transfer_exact.*of,
+            certainty(error_of, estimate.kicks));
+  };
+  share("forward_ratio", &kicking::Transfer::forward, se[kicking::kAlongPart]);
+  share("backward_ratio", &kicking::Transfer::backward, se[kicking::kAlongPart]);
+  share("lateral_ratio", &kicking::Transfer::lateral, se[kicking::kSidewaysPart]);
+  kicking::KickSpreads& spreads = model.spreads;
+  for (double* const ratio : {&spreads.speed_sd_ratio, &spreads.table_sd_ratio, &spreads.transfer_sd_ratio})
+    *ratio = figure(*ratio);
+  spreads.exit_angle_sd_rad = figure_deg(estimate.elevation_sd_rad);
+  spreads.direction_sd_rad = figure_deg(estimate.direction_sd_rad);
+  spreads.delay_sd_s = figure(estimate.delay_sd_s);
+  calibration().play = {origin(estimate.kicks, files),          error(se[kicking::kSpeedPart]),
+                        error_deg(se[kicking::kElevationPart]), error_deg(se[kicking::kDirectionPart]),
+                        error(se[kicking::kDelayPart]),         error(se[kicking::kAlongPart]),
+                        error(se[kicking::kSidewaysPart])};
 }
 
 std::string RobotUpdate::text() const {

@@ -11,6 +11,7 @@
 #include "kicking/fit/rotation_fit.hpp"
 #include "kicking/fit/table_fit.hpp"
 #include "kicking/fit/transfer_fit.hpp"
+#include "kicking/learning/kicker_estimate.hpp"
 
 namespace trivela::calibration {
 
@@ -47,6 +48,9 @@ class RobotUpdate {
 
   /// kicker.spreads.direction_sd_deg, which stays where the kicks do not show it.
   void set_direction(const kicking::DirectionFit& fit, std::size_t kicks, const std::vector<std::string>& files);
+
+  /// Table, angles, direction, delay, transfer, the lines of the paper and all spreads, as kicks in play show them.
+  void set_play(const kicking::KickerEstimate& estimate, const std::vector<std::string>& files);
 
   const config::Robot& robot() const { return robot_; }
 

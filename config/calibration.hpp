@@ -62,6 +62,16 @@ struct DirectionOrigin : FigureOrigin {
   double observer_sd_rad = 0.0;  ///< of the camera's tracks, taken out
 };
 
+/// Of all that kicks in play show (trivela calibrate from-log): standard errors. Sections beside it are of before.
+struct PlayOrigin : FigureOrigin {
+  double speed_se_ratio = 0.0;
+  double exit_angle_se_rad = 0.0;
+  double direction_se_rad = 0.0;
+  double delay_se_s = 0.0;
+  double along_se_ratio = 0.0;
+  double sideways_se_ratio = 0.0;
+};
+
 /// Where a calibrated robot's figures come from; a figure without a section here was not measured.
 struct Calibration {
   std::string source;       ///< the tool that wrote the file last
@@ -74,6 +84,7 @@ struct Calibration {
   std::optional<TransferOrigin> transfer;
   std::optional<DelayOrigin> delay;
   std::optional<DirectionOrigin> direction;
+  std::optional<PlayOrigin> play;
 };
 
 }  // namespace trivela::config

@@ -71,6 +71,17 @@ void fields(V& v, DirectionOrigin& o) {
 }
 
 template <class V>
+void fields(V& v, PlayOrigin& o) {
+  fields_of_origin(v, o);
+  v("speed_se_ratio", o.speed_se_ratio, kErrors);
+  v("exit_angle_se_deg", Degrees{o.exit_angle_se_rad}, kErrors);
+  v("direction_se_deg", Degrees{o.direction_se_rad}, kErrors);
+  v("delay_se_s", o.delay_se_s, kErrors);
+  v("along_se_ratio", o.along_se_ratio, kErrors);
+  v("sideways_se_ratio", o.sideways_se_ratio, kErrors);
+}
+
+template <class V>
 void fields(V& v, Calibration& c) {
   v("source", c.source);
   v("date", c.date);
@@ -82,6 +93,7 @@ void fields(V& v, Calibration& c) {
   v("transfer", c.transfer);
   v("delay", c.delay);
   v("direction", c.direction);
+  v("play", c.play);
 }
 
 }  // namespace trivela::config

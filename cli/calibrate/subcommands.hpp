@@ -11,6 +11,7 @@ void add_calibrate_deflection(CLI::App& calibrate, int& exit_code);
 void add_calibrate_rotation(CLI::App& calibrate, int& exit_code);
 void add_calibrate_transfer(CLI::App& calibrate, int& exit_code);
 void add_calibrate_delay(CLI::App& calibrate, int& exit_code);
+void add_calibrate_from_log(CLI::App& calibrate, int& exit_code);
 void add_calibrate_plot(CLI::App& calibrate, int& exit_code);
 
 /// `trivela calibrate run --in simulation`: every test drive through the real nodes, from an uncalibrated robot to a

@@ -125,8 +125,8 @@ std::vector<double> sorted(std::vector<double> values) {
 void add_study(CLI::App& app, int& exit_code) {
   auto* const verb = app.add_subcommand("study", "Compare arms, worlds and settings in many simulated matches");
   verb->require_subcommand(1);
-  for (const auto add : {add_study_arms, add_study_factorial, add_study_frontier, add_study_sensitivity, add_study_tune,
-                         add_evaluate_policy, add_learn})
+  for (const auto add : {add_study_arms, add_study_factorial, add_study_frontier, add_study_robustness,
+                         add_study_sensitivity, add_study_tune, add_evaluate_policy, add_learn})
     add(*verb, exit_code);
 }
 

@@ -88,6 +88,7 @@ void give(const Study& study, const Report& report) {
 void add_study_arms(CLI::App& study, int& exit_code);
 void add_study_factorial(CLI::App& study, int& exit_code);
 void add_study_frontier(CLI::App& study, int& exit_code);
+void add_study_robustness(CLI::App& study, int& exit_code);
 void add_study_sensitivity(CLI::App& study, int& exit_code);
 void add_study_tune(CLI::App& study, int& exit_code);
 void add_evaluate_policy(CLI::App& study, int& exit_code);

@@ -20,7 +20,7 @@ struct PagePart {
   std::string (*make)(const PageView&);
   bool (*is_there)(const PageData&) = [](const PageData&) { return true; };
 };
-constexpr std::array<PagePart, 13> kParts{
+constexpr std::array<PagePart, 14> kParts{
     {{"verdict", "Verdict", verdict_section},
      {"table2", "Table 2", table2_section},
      {"forest", "How often on target", forest_section},
@@ -29,6 +29,7 @@ constexpr std::array<PagePart, 13> kParts{
      {"rates", "How often a minute", rates_section},
      {"predictions", "Predicted and observed", prediction_section},
      {"drift", "Is a kicker drifting?", drift_section},
+     {"learning", "What kicks show of the kickers", learning_section},
      {"again", "Decided again", decided_again_section, [](const PageData& data) { return !data.again.empty(); }},
      {"changes", "What changed since the log before", changes_section,
       [](const PageData& data) { return data.logs.size() > 1; }},

@@ -36,6 +36,8 @@ std::string rates_section(const PageView& view);
 std::string prediction_section(const PageView& view);
 /// By robot: whether its kicker changed, at which kick, by how much, and what to do.
 std::string drift_section(const PageView& view);
+/// What kicks have shown of each robot's kicker, kick by kick, and whether it may be believed.
+std::string learning_section(const PageView& view);
 /// What differs between each log and the one before it.
 std::string changes_section(const PageView& view);
 /// What a replay ordered, beside what was ordered.

@@ -97,6 +97,25 @@ Json unrecorded_json(const UnrecordedOrders& orders) {
           {"counts", orders.counts()}};
 }
 
+Json kicker_json(const LearnedKicker& kicker) {
+  const auto part = [](const LearnedPart& of) { return Json{{"value", of.value}, {"se", of.se}}; };
+  const KickerStep& last = kicker.steps.back();
+  return {{"session_id", kicker.session_id},
+          {"robot_id", kicker.robot_id},
+          {"used", kicker.used},
+          {"kicks", kicker.kicks()},
+          {"mistaken", kicker.mistaken()},
+          {"mean_chi_square", kicker.mean_chi_square()},
+          {"sound", kicker.sound()},
+          {"higher_m", json_of(kicker.higher_m())},
+          {"speed_ln", part(last.speed_ln)},
+          {"elevation_rad", part(last.elevation_rad)},
+          {"direction_rad", part(last.direction_rad)},
+          {"delay_s", part(last.delay_s)},
+          {"along_ratio", part(last.along)},
+          {"sideways_ratio", part(last.sideways)}};
+}
+
 Json labels_json(const LabelQuality& labels, const std::vector<std::string>& goal_warnings) {
   Json rows = Json::array();
   for (const SightingsRow& row : labels.rows) {
@@ -177,6 +196,8 @@ std::string to_json(const Report& report) {
   json["said"] = Json::array();
   for (const SessionNote& note : report.notes)
     json["said"].push_back({{"kind", note.kind}, {"text", *note.text}, {"who", note.who}, {"utc_ns", note.utc_ns}});
+  json["kickers"] = Json::array();
+  for (const LearnedKicker& kicker : report.kickers) json["kickers"].push_back(kicker_json(kicker));
   json["data_quality"] = quality_json(report);
   if (!report.gates.empty()) json["gates"] = gates_json(report.gates);
   json["notes"] = {"inside: between the posts and below the bar, saves included; it is not goals scored",

@@ -8,6 +8,7 @@
 #include "evaluator/render/text_table.hpp"
 #include "evaluator/sessions/no_goal.hpp"
 #include "evaluator/table2/report_sentences.hpp"
+#include "kicking/geometry/angle.hpp"
 #include "kicking/geometry/time.hpp"
 #include "kicking/text/printable.hpp"
 
@@ -122,6 +123,35 @@ ReportPart label_quality_part(const LabelQuality& labels) {
   return part;
 }
 
+std::string with_error(const LearnedPart& part, double unit, int digits) {
+  return fmt::format("{:+.{}f} ({:.{}f})", part.value / unit, digits, part.se / unit, digits);
+}
+
+constexpr std::size_t kMostKickers = 12;
+
+// What robots learned of their kickers.
+ReportPart kickers_part(const Report& report) {
+  ReportPart part{"What kicks show of the kickers",
+                  {{"robot", "kicks seen", "exit speed, %", "exit angle, deg", "direction, deg", "delay, ms",
+                    "transfer along", "sideways"}},
+                  {"differences from the robot's file after the last kick, standard errors in brackets"}};
+  for (std::size_t i = 0; i < std::min(kMostKickers, report.kickers.size()); ++i) {
+    const LearnedKicker& kicker = report.kickers[i];
+    const KickerStep& last = kicker.steps.back();
+    const double degree = kicking::radians(1.0);
+    part.table.push_back({shown(kicker.robot_id), shown(kicker.kicks()), with_error(last.speed_ln, 0.01, 1),
+                          with_error(last.elevation_rad, degree, 1), with_error(last.direction_rad, degree, 1),
+                          with_error(last.delay_s, 0.001, 0), with_error(last.along, 1.0, 2),
+                          with_error(last.sideways, 1.0, 2)});
+    const auto sentences = kicker.sentences();
+    part.notes.insert(part.notes.end(), sentences.begin(), sentences.end());
+  }
+  if (report.kickers.size() > kMostKickers)
+    part.notes.push_back(
+        fmt::format("and {} more: trivela query LOG --metric kicker_updates", report.kickers.size() - kMostKickers));
+  return part;
+}
+
 // Nobody counts the sightings of somebody who watched a video.
 bool imported_alone(const Report& report) { return report.imports.size() == report.sessions.size(); }
 
@@ -195,6 +225,7 @@ ReportParts parts_of(const Report& report) {
     if (!report.robots.empty()) result.parts.push_back(by_robot_part(report));
     result.parts.push_back(misses_part(report));
     if (!imported_alone(report)) result.parts.push_back(label_quality_part(report.labels));
+    if (!report.kickers.empty()) result.parts.push_back(kickers_part(report));
   } else {
     result.parts.back().notes.emplace_back("there are no kicks");
   }

@@ -78,6 +78,14 @@ void add_refused_orders(std::vector<RefusedOrders>& refused, const log::Reader& 
                });
 }
 
+// Matches of an experiment begin anew with every session, and are not named one by one.
+void add_kickers(Report& report, const log::Reader& reader, const std::set<std::int64_t>& own) {
+  std::set<std::int64_t> alone;
+  for (const log::RecordedSession& session : reader.sessions())
+    if (!session.arm && own.contains(session.session_id)) alone.insert(session.session_id);
+  if (!alone.empty()) append(report.kickers, learned_kickers_of(reader), alone);
+}
+
 // Adds everything but tables and lengths. `named`: several logs, whose sentences name them.
 void add_log(Report& report, std::map<std::string, log::Loss>& losses, const OpenLog& log,
              const std::set<std::int64_t>& own, bool named) {
@@ -91,6 +99,7 @@ void add_log(Report& report, std::map<std::string, log::Loss>& losses, const Ope
   add_losses(losses, reader, own);
   add_refused_orders(report.refused_orders, reader);
   append(report.notes, session_notes(reader), own);
+  add_kickers(report, reader, own);
   report.hand_labels.add(hand_labels_of(reader, own));
   const LabelQuality labels = label_quality_of(reader);
   report.labels.add(labels);

@@ -12,6 +12,7 @@
 #include "evaluator/counting/log_opportunities.hpp"
 #include "evaluator/render/gate.hpp"
 #include "evaluator/sessions/hand_labels.hpp"
+#include "evaluator/sessions/kicker_learning.hpp"
 #include "evaluator/sessions/label_quality.hpp"
 #include "evaluator/sessions/played_length.hpp"
 #include "evaluator/sessions/recording_gaps.hpp"
@@ -99,6 +100,7 @@ struct Report {
   std::vector<RecordedSilence> silences;
   std::vector<UnrecordedOrders> unrecorded_orders;
   LabelQuality labels;
+  std::vector<LearnedKicker> kickers;  ///< what robots learned of their kickers
   HandLabels hand_labels;
   std::vector<std::string> goal_warnings;  ///< sentences on where the goal is, also among `warnings`
   std::vector<std::string> warnings;       ///< sentences on unclosed sessions, lost rows, unfinished experiments

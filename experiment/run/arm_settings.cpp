@@ -32,6 +32,8 @@ constexpr IdleKey kIdleKeys[] = {
     {"policy.test_drive", "drives calibrate a robot (trivela calibrate run)"},
     {"kick_decision.assignment_seed", "each match draws by its own seed, which follows from --seed"},
     {"kick_decision.shadows", "trivela simulate --shadows records what other policies would have done"},
+    {"self_calibration.state_file", "each match begins with the robots' files"},
+    {"self_calibration.state_max_age_h", "each match begins with the robots' files"},
     {"simulator.seed", "--seed says which matches are played"},
     {"simulator.max_possessions", "--possessions says how long a match is"},
     {"simulator", "a match is one half, and --possessions says how long"},

@@ -44,8 +44,8 @@ Matrix4 noise_of(const KickFlight& flight, const LinearFlight& linear, const Kic
 }
 
 /// ln of the normal density, without its constant.
-double log_density(const FlightResidual& residual, const Matrix4& covariance, const Matrix4& inverse) {
-  return -0.5 * (residual.dot(inverse * residual) + std::log(covariance.determinant()));
+double log_density(double chi_square, const Matrix4& covariance) {
+  return -0.5 * (chi_square + std::log(covariance.determinant()));
 }
 
 bool usable(const KickFlight& flight) {
@@ -84,7 +84,7 @@ void KickerLearner::begin_with(const KickerEstimate& earlier) {
   beliefs_ = {belief};
   estimate_ = earlier;
   estimate_.kicks = 0;
-  estimate_.p_mistaken = estimate_.p_jump = 0.0;
+  estimate_.p_mistaken = estimate_.p_jump = estimate_.chi_square = 0.0;
   describe();
 }
 
@@ -107,8 +107,9 @@ void KickerLearner::move(Belief& belief, const KickFlight& flight) const {
   Matrix4 wide = covariance;
   wide.diagonal().array() += Eigen::Array4d(square(kMistakenSpeed_mps), square(kMistakenSpeed_mps),
                                             square(kMistakenSpeed_mps), square(kMistakenLate_s));
-  const double right = std::log1p(-kMistaken) + log_density(linear.residual, covariance, inverse);
-  const double wrong = std::log(kMistaken) + log_density(linear.residual, wide, wide.inverse());
+  belief.chi_square = linear.residual.dot(inverse * linear.residual);
+  const double right = std::log1p(-kMistaken) + log_density(belief.chi_square, covariance);
+  const double wrong = std::log(kMistaken) + log_density(linear.residual.dot(wide.inverse() * linear.residual), wide);
   const double best = std::max(right, wrong);
   belief.log_likelihood = best + std::log(std::exp(right - best) + std::exp(wrong - best));
   const double says = std::exp(right - belief.log_likelihood);
@@ -170,6 +171,7 @@ bool KickerLearner::learn(const KickFlight& flight) {
   }
   estimate_.p_mistaken = mistaken;
   estimate_.p_jump = beliefs_.back().weight;
+  estimate_.chi_square = beliefs_.front().chi_square;
   ++estimate_.kicks;
   learn_spreads(before, flight, beliefs_.front().weight * beliefs_.front().says_something);
   std::ranges::stable_sort(beliefs_, std::ranges::greater{}, &Belief::weight);

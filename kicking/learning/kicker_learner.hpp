@@ -36,6 +36,7 @@ class KickerLearner {
     KickerMatrix covariance = KickerMatrix::Zero();
     double weight = 1.0;
     double log_likelihood = 0.0;  // of the last flight
+    double chi_square = 0.0;      // of its residuals
     double says_something = 1.0;  // probability that the last flight says something of the kicker
   };
 

@@ -269,7 +269,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
   shadow_count INTEGER NOT NULL,           -- rows in shadow_decisions
-  estimate INTEGER NOT NULL,               -- kicker_estimates.seq of the kicker that it decided by; 0: the robot's file
+  estimate INTEGER,                        -- kicker_estimates.seq of the kicker that it decided by; 0: the robot's file; NULL: not known
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -396,6 +396,7 @@ CREATE TABLE kicker_estimates (            -- what the kicks seen so far say of 
   delay_sd_s REAL NOT NULL,                -- delay from kick to kick, standard deviation, s
   p_mistaken REAL NOT NULL,                -- probability that the sightings of the last kick say nothing of the kicker
   p_jump REAL NOT NULL,                    -- probability that the kicker changed at the last kick
+  chi_square REAL NOT NULL,                -- of the last flight's four residuals; 4 on average where all of this is right
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 

@@ -129,9 +129,9 @@ void RecorderNode::record(const std::string& table) {
       if (writers.alive > 0) note_simulation(true);
     };
   }
-  // State streams have a sample a cycle.
+  // State streams that come regularly have a sample a cycle in lockstep.
   std::optional<std::size_t> cycle_stream;
-  if (bus::meta<T>::profile == bus::Profile::kState) cycle_stream = cycles_.add();
+  if (bus::meta<T>::profile == bus::Profile::kState && bus::meta<T>::period_s > 0.0) cycle_stream = cycles_.add();
   std::optional<std::size_t> place;
   state_->streams[table].events = state_->silences && bus::meta<T>::period_s <= 0.0;
   if (state_->silences && bus::meta<T>::period_s > 0.0) place = state_->silences->add(table, bus::meta<T>::period_s);

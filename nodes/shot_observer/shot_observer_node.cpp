@@ -1,6 +1,11 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 
+#include <chrono>
 #include <stdexcept>
+#include <utility>
+
+#include "config/kicker_state.hpp"
+#include "config/text/error.hpp"
 
 #include "nodes/runtime/node_main.hpp"
 #include "nodes/runtime/readers.hpp"
@@ -16,17 +21,29 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
       referee_(node_.stores<msg::Referee>()),
       first_(context.settings.run.lockstep) {
   reject_duplicate_node(context_, outcome_out_, "shot_observer");
-  const config::SelfCalibration& settings = context.settings.self_calibration;
-  if (settings.mode != config::SelfCalibrationMode::kOff) {
-    learning_.emplace(settings, context.robot.model, context.robot_id());
-    estimate_out_.emplace(node_.writer<msg::KickerEstimate>());
-  }
+  if (context.settings.self_calibration.mode != config::SelfCalibrationMode::kOff) begin_learning();
   node_.on<msg::KickDecision>([this](const msg::KickDecision& decision) { on_decision(decision); });
   node_.on<msg::KickReceipt>([this](const msg::KickReceipt& receipt) { on_receipt(receipt); },
                              bus::writes<msg::KickOutcome, msg::KickerEstimate>());
   node_.on<msg::FlightFrame>([this](const msg::FlightFrame& frame) { on_frame(frame); },
                              bus::writes<msg::KickOutcome, msg::KickerEstimate, msg::StepDone>());
   if (learning_) say(learning_->first());
+}
+
+/// With the robot's file, or with what an earlier match left.
+void ShotObserverNode::begin_learning() {
+  const config::SelfCalibration& settings = context_.settings.self_calibration;
+  learning_.emplace(settings, context_.robot.model, context_.robot_id());
+  estimate_out_.emplace(node_.writer<msg::KickerEstimate>());
+  if (settings.state_file.empty()) return;
+  try {
+    const auto earlier = config::load_kicker_state(settings.state_file, context_.robot, context_.settings.run.robot_id,
+                                                   settings.state_max_age_h, std::chrono::system_clock::now());
+    if (earlier) learning_->begin_with(*earlier);
+    context_.logger->info("self-calibration begins with {}", earlier ? settings.state_file : "the robot's file");
+  } catch (const config::Error& error) {
+    context_.logger->warn("self-calibration begins with the robot's file: {}", error.what());
+  }
 }
 
 void ShotObserverNode::on_decision(const msg::KickDecision& decision) {
@@ -70,6 +87,19 @@ void ShotObserverNode::say(const msg::KickerEstimate& estimate) {
   estimate_out_->write(estimate);
   if (context_.settings.run.lockstep && !estimate_out_->wait_until_received(kLockstepTimeout))
     throw std::runtime_error{"kicker_estimate was not received within 20 s"};
+  if (estimate.kick_id != 0) keep(estimate);
+}
+
+/// For the next match. A disk that is full ends no match.
+void ShotObserverNode::keep(const msg::KickerEstimate& estimate) {
+  const std::string& file = context_.settings.self_calibration.state_file;
+  if (file.empty()) return;
+  try {
+    config::save_kicker_state(file, robot::estimate_of(estimate), context_.robot, context_.settings.run.robot_id,
+                              std::chrono::system_clock::now());
+  } catch (const config::Error& error) {
+    if (!std::exchange(not_kept_said_, true)) context_.logger->warn("self-calibration is not kept: {}", error.what());
+  }
 }
 
 int shot_observer_main(int argc, char** argv) {

@@ -22,7 +22,9 @@ class ShotObserverNode {
   void on_receipt(const msg::KickReceipt& receipt);
   void on_frame(const msg::FlightFrame& frame);
   void publish(std::vector<msg::KickOutcome> settled, std::int64_t t_ns);
+  void begin_learning();
   void say(const msg::KickerEstimate& estimate);
+  void keep(const msg::KickerEstimate& estimate);
 
   NodeContext& context_;
   std::mutex mutex_;  // the two reactions share the observer
@@ -35,6 +37,7 @@ class ShotObserverNode {
   std::shared_ptr<bus::Mailbox<msg::Referee>> referee_;
   FirstCycle first_;
   std::uint64_t seq_ = 0;
+  bool not_kept_said_ = false;
 };
 
 }  // namespace trivela::nodes

@@ -24,7 +24,8 @@ std::int64_t clock_ns() { return std::chrono::nanoseconds{Clock::now().time_sinc
 // What holds until it is said otherwise, and is not repeated for who opens the page later.
 template <bus::Message T>
 constexpr bool is_said_once() {
-  return std::is_same_v<T, msg::DeviceEmulated> || std::is_same_v<T, msg::KickerDrift>;
+  return std::is_same_v<T, msg::DeviceEmulated> || std::is_same_v<T, msg::KickerDrift> ||
+         std::is_same_v<T, msg::KickerEstimate>;
 }
 
 bus::Participant join(const bus::DomainConfig& domain, bool lockstep) {

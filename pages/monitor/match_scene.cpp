@@ -62,6 +62,10 @@ void MatchScene::take(const msg::KickerDrift& drift, std::int64_t now_ns) {
   state_.robots[drift.robot_id].drift.hear(drift, now_ns);
 }
 
+void MatchScene::take(const msg::KickerEstimate& estimate, std::int64_t now_ns) {
+  state_.robots[estimate.robot_id].estimate.hear(estimate, now_ns);
+}
+
 void MatchScene::take(const msg::KickerStatus& status, std::int64_t now_ns) {
   state_.robots[status.robot_id].kicker.hear(status, now_ns);
 }

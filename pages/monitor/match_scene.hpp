@@ -84,6 +84,7 @@ class MatchScene {
   void take(const msg::KickReceipt& receipt, std::int64_t now_ns);
   void take(const msg::KickOutcome& outcome, std::int64_t now_ns);
   void take(const msg::KickerDrift& drift, std::int64_t now_ns);
+  void take(const msg::KickerEstimate& estimate, std::int64_t now_ns);
   void take(const msg::KickerStatus& status, std::int64_t now_ns);
   void take(const msg::DeviceKicker& device, std::int64_t now_ns);
   void take(const msg::DeviceWheels& device, std::int64_t now_ns);

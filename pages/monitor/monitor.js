@@ -53,7 +53,7 @@ function cardOf(id) {
   if (there) return there;
   const card = element('li', '', {id: `robot-${id}`});
   card.append(element('strong', '', {class: 'name'}), element('span', '', {class: 'does'}), element('span', '', {class: 'why'}),
-    element('span', '', {class: 'charge'}), element('span', '', {class: 'numbers'}));
+    element('span', '', {class: 'charge'}), element('span', '', {class: 'numbers'}), element('span', '', {class: 'learned'}));
   const bar = element('meter', '', {min: 0, max: 1, low: 0.5, high: 0.89, optimum: 1, 'aria-label': `charge of robot ${id}`});
   card.append(bar);
   $('robots').append(card);
@@ -76,6 +76,16 @@ function showRobot(robot) {
   setText(part('numbers'), robot.policy === undefined ? '' : [words(robot.policy), robot.segments ? fixed(robot.distance, 1, ' m') : '',
     robot.power === null ? '' : `power ${fixed(robot.power, 1)}`, robot.p === null ? '' : `chance ${percent(robot.p)}`,
     robot.segments ? robot.segments.meet ? 'segments meet' : 'segments apart' : ''].filter((text) => text).join(', '));
+  setText(part('learned'), learnedText(robot.learned));
+}
+
+// What its kicks have shown of its kicker, with standard errors.
+function learnedText(learned) {
+  if (!learned) return '';
+  const signed = (value, digits) => (value < 0 ? '−' : '+') + Math.abs(value).toFixed(digits);
+  return `${learned.kicks} kicks seen: exit speed ${signed(learned.speed_percent, 1)} % (±${fixed(learned.speed_se_percent, 1)}), ` +
+    `angle ${signed(learned.angle_deg, 1)}° (±${fixed(learned.angle_se_deg, 1)}) from its file, ` +
+    (learned.used ? 'decisions go by it' : 'decisions do not go by it');
 }
 
 // --- the rest

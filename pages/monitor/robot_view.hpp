@@ -33,6 +33,7 @@ struct RobotView {
   Latest<msg::DeviceKicker> device;
   Latest<msg::FlightFrame> flight;
   Latest<msg::KickerDrift> drift;
+  Latest<msg::KickerEstimate> estimate;
   std::int64_t unarmed_since_ns = 0;  ///< the game is played and the kicker is off; 0: it is not so
 };
 

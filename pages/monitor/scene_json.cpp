@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluator/story/decided_segments.hpp"
+#include "kicking/geometry/angle.hpp"
 #include "pages/monitor/running_table.hpp"
 
 namespace trivela::pages {
@@ -45,6 +46,17 @@ Json kicker_json(const msg::KickerStatus* kicker) {
           {"ready", kicker->ready}};
 }
 
+/// What its kicks say of its kicker: exit speed in per cent of its file, angle in degrees.
+Json estimate_json(const std::optional<msg::KickerEstimate>& estimate) {
+  if (!estimate || estimate->kicks == 0) return nullptr;
+  return {{"kicks", estimate->kicks},
+          {"used", estimate->used},
+          {"speed_percent", number(100.0 * std::expm1(estimate->speed_ln))},
+          {"speed_se_percent", number(100.0 * estimate->speed_ln_se)},
+          {"angle_deg", number(kicking::degrees(estimate->elevation_rad))},
+          {"angle_se_deg", number(kicking::degrees(estimate->elevation_se_rad))}};
+}
+
 /// The decision that is shown.
 const msg::KickDecision* shown_decision(const RobotView& robot, std::int64_t now_ns) {
   const auto* fired = recent_fire(robot, now_ns);
@@ -64,6 +76,7 @@ Json robot_json(std::uint8_t id, const RobotView& robot, std::int64_t now_ns) {
     if (world != nullptr && last->ball_known) shown["ball"] = {number(last->ball_x_m), number(last->ball_y_m)};
   }
   shown["kicker"] = kicker_json(robot.kicker.within(kFresh_ns, now_ns));
+  shown["learned"] = estimate_json(robot.estimate.sample);
   if (const auto* decision = shown_decision(robot, now_ns)) {
     shown["policy"] = msg::label(decision->policy);
     shown["distance"] = number(decision->distance_m);

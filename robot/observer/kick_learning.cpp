@@ -32,6 +32,7 @@ void copy(const kicking::KickerEstimate& from, msg::KickerEstimate& to) {
   to.kicks = from.kicks;
   to.p_mistaken = from.p_mistaken;
   to.p_jump = from.p_jump;
+  to.chi_square = from.chi_square;
 }
 
 }  // namespace
@@ -49,6 +50,7 @@ kicking::KickerEstimate estimate_of(const msg::KickerEstimate& message) {
   estimate.kicks = message.kicks;
   estimate.p_mistaken = message.p_mistaken;
   estimate.p_jump = message.p_jump;
+  estimate.chi_square = message.chi_square;
   return estimate;
 }
 
@@ -61,8 +63,8 @@ KickLearning::KickLearning(const config::SelfCalibration& settings, const kickin
   copy(learner_.estimate(), message_);
 }
 
-void KickLearning::begin_with(const msg::KickerEstimate& earlier) {
-  learner_.begin_with(estimate_of(earlier));
+void KickLearning::begin_with(const kicking::KickerEstimate& earlier) {
+  learner_.begin_with(earlier);
   copy(learner_.estimate(), message_);
 }
 

@@ -18,7 +18,7 @@ class KickLearning {
 
   /// Before the first kick: what the file, or an earlier estimate, says.
   const msg::KickerEstimate& first() const { return message_; }
-  void begin_with(const msg::KickerEstimate& earlier);
+  void begin_with(const kicking::KickerEstimate& earlier);
 
   /// Kept until the outcome is known, in whatever order they come.
   void hear(const msg::KickDecision& decision);

@@ -161,8 +161,9 @@ std::vector<std::string> differing_on_the_bus(const tests::Folder& folder, const
   EXPECT_GT(number_of(bus, "SELECT count(*) FROM kick_orders"), 0);
   std::vector<std::string> differing;
   for (const std::string& difference : differences_of(in_process, bus)) {
-    for (const char* const stream : {"kick_decisions,", "shadow_decisions,", "kick_orders,", "kick_receipts,",
-                                     "kick_outcomes,", "kick_truths,", "possession_truths,", "assignments,"}) {
+    for (const char* const stream :
+         {"kick_decisions,", "shadow_decisions,", "kick_orders,", "kick_receipts,", "kick_outcomes,",
+          "kicker_estimates,", "kick_truths,", "possession_truths,", "assignments,"}) {
       if (difference.starts_with(stream)) differing.push_back(difference);
     }
   }
@@ -176,6 +177,41 @@ TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
                  "--every-cycle", "--out", "in.db"});
     EXPECT_THAT(differing_on_the_bus(folder, {"--half", policy}), IsEmpty()) << policy;
   }
+}
+
+TEST(Simulate, LearnsAKickerAndDecidesByItLikeTheNodesOnTheBus) {
+  const tests::Folder folder;
+  const std::string on = "self_calibration.mode='on'";
+  run(folder, {"simulate", "--arms", "predictive", "--matches", "1", "--possessions", "8", "--robot", kRobot,
+               "--shadows", "--every-cycle", "--set", on, "--out", "in.db"});
+  const Reader log{folder / "in.db"};
+  EXPECT_GE(number_of(log, "SELECT max(kicks) FROM kicker_estimates"), 3);
+  EXPECT_GE(number_of(log, "SELECT count(DISTINCT estimate) FROM kick_decisions WHERE estimate > 0"), 3);
+  EXPECT_THAT(differing_on_the_bus(folder, {"--half", "predictive", "--set", on}), IsEmpty());
+}
+
+TEST(Simulate, ARobotsFileComesFromItsMatches) {
+  const tests::Folder folder;
+  run(folder, {"simulate", "--arms", "predictive", "--matches", "3", "--possessions", "25", "--robot", kRobot,
+               "--world", "kicker.speed_scale_ratio=1.1", "--out", "fast.db"});
+  run(folder, {"calibrate", "from-log", "fast.db", "--robot", "fast", "--base", kRobot, "--out", "fast.toml"});
+  const auto figure = [](const std::filesystem::path& file, const std::string& key) {
+    std::ifstream in{file};
+    for (std::string line; std::getline(in, line);)
+      if (line.starts_with(key + " = ")) return line.substr(key.size() + 3);
+    return std::string{"none"};
+  };
+  const double before = std::stod(figure(kRobot, "exit_speeds_mps").substr(1));
+  const double after = std::stod(figure(folder / "fast.toml", "exit_speeds_mps").substr(1));
+  EXPECT_NEAR(after / before, 1.1, 0.04);
+  EXPECT_NE(figure(folder / "fast.toml", "speed_se_ratio"), "none");
+  Program other{"trivela",
+                {"calibrate", "from-log", "fast.db", "--robot", "other", "--robot-id", "7", "--out", "other.toml"},
+                folder.path()};
+  EXPECT_EQ(other.wait(), 1);
+  EXPECT_THAT(other.errors(), HasSubstr("robot 7 has 0 kicks in 1 log(s), of which 0 were seen to fly, 5 are needed; "
+                                        "kicks of robot(s): 1. Nothing is written"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "other.toml"));
 }
 
 TEST(Simulate, ReadsAHeightTableByTheSettingsLikeTheNodesOnTheBus) {

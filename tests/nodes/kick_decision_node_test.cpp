@@ -97,6 +97,52 @@ TEST_F(KickDecisionNodeTest, OrdersAKickWhenTheRobotIsAligned) {
   EXPECT_EQ(record.charge, 0.97);
 }
 
+TEST_F(KickDecisionNodeTest, GoesByWhatTheObserverHasLearnedWhereItIsSwitchedOn) {
+  Says<msg::KickerEstimate> learned{participant};
+  const auto faster = [](double ratio, std::uint64_t seq) {
+    msg::KickerEstimate estimate{};
+    estimate.seq = seq;
+    estimate.t_ns = 500'000'000;
+    estimate.used = true;
+    estimate.speed_ln = std::log(ratio);
+    return estimate;
+  };
+  const auto power_of_kick = [&](std::size_t n, std::uint32_t possession) {
+    auto state = world();
+    state.possession_id = possession;
+    cycle(state);
+    return order.nth(n).power;
+  };
+  context.settings.self_calibration.mode = config::SelfCalibrationMode::kOn;
+  start();
+  learned.expect_reader();
+  const double by_file = power_of_kick(1, 1);
+  EXPECT_EQ(decision.nth(1).estimate, 0u) << "nobody has learned anything";
+  learned(faster(1.1, 2));
+  const double by_estimate = power_of_kick(2, 2);
+  EXPECT_LT(by_estimate, by_file);
+  EXPECT_EQ(decision.nth(2).estimate, 2u);
+  // Where an estimate makes no sense the last good one holds.
+  auto wrong = faster(1.1, 3);
+  wrong.delay_s = std::numeric_limits<double>::quiet_NaN();
+  learned(wrong);
+  EXPECT_EQ(power_of_kick(3, 3), by_estimate);
+  EXPECT_EQ(decision.nth(3).estimate, 2u);
+}
+
+TEST_F(KickDecisionNodeTest, GoesByTheRobotsFileWhereLearningIsAShadow) {
+  Says<msg::KickerEstimate> learned{participant};
+  start();
+  learned.expect_reader();
+  msg::KickerEstimate estimate{};
+  estimate.seq = 2;
+  estimate.used = true;  // whatever it says of itself
+  estimate.speed_ln = 0.1;
+  learned(estimate);
+  cycle(world());
+  EXPECT_EQ(decision.nth(1).estimate, 0u);
+}
+
 TEST_F(KickDecisionNodeTest, AWorldThatWaitedIsNotDecidedOnAndTheRobotStands) {
   start();
   world_age_ns = 141'000'000;  // policy.max_state_age_s 0.14

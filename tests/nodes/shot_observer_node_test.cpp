@@ -1,9 +1,11 @@
 #include "nodes/shot_observer/shot_observer_node.hpp"
 
 #include <cmath>
+#include <fstream>
 
 #include "tests/nodes/node_fixture.hpp"
 #include "tests/robot/flown_shot.hpp"
+#include "tests/support/folder.hpp"
 
 namespace trivela::nodes {
 namespace {
@@ -81,6 +83,83 @@ TEST_F(ShotObserverNodeTest, SaysWhatBecameOfAKick) {
   EXPECT_NEAR(said.exit_elevation_rad, 0.61, 0.1);
   EXPECT_NEAR(said.release_late_s, 0.0, 0.02);
   EXPECT_TRUE(log_lines->wait_for("kick 11: on_target"));
+}
+
+/// What the robot's own decision and the receipt say of the kick of `shot`.
+class LearningObserverTest : public ShotObserverNodeTest {
+ protected:
+  void decided(std::int64_t kick_id, const robot::FlownShot& shot) {
+    msg::KickDecision out{};
+    out.fire = true;
+    out.kick_id = kick_id;
+    out.t_ns = shot.release_t_ns - 60'000'000;
+    out.y_m = 4.0 - context.robot.model.ball_offset_m;
+    decision(out);
+  }
+  Heard<msg::KickerEstimate> estimate{participant};
+  Says<msg::KickDecision> decision{participant};
+  tests::Folder folder;
+};
+
+TEST_F(LearningObserverTest, SaysWhatAFlightShowsOfTheKicker) {
+  start();
+  decision.expect_reader();
+  const auto first = estimate.nth(1);
+  EXPECT_EQ(first.robot_id, 1);
+  EXPECT_EQ(first.seq, 1u);
+  EXPECT_EQ(first.kicks, 0u);
+  EXPECT_FALSE(first.used) << "a shadow, unless the team switches it on";
+  decided(11, in_goal);
+  kicked(11, in_goal);
+  show(in_goal);
+  const auto learned = estimate.nth(2);
+  EXPECT_EQ(learned.seq, 2u);
+  EXPECT_EQ(learned.kick_id, 11);
+  EXPECT_EQ(learned.kicks, 1u);
+  EXPECT_LT(learned.speed_ln_se, first.speed_ln_se);
+  // A witness of its own: the ball of `aimed(0.3, 0.5)` leaves with this speed, whatever the table says.
+  const auto kick = robot::aimed(0.3, 0.5);
+  EXPECT_NEAR(outcome.nth(1).flight_speed_mps, kick.velocity_mps.norm(), 0.15);
+  EXPECT_NEAR(outcome.nth(1).flight_direction_rad, std::atan2(-kick.velocity_mps.x(), kick.velocity_mps.y()), 0.01);
+  const double too_fast = kick.velocity_mps.norm() / context.robot.model.table.speed_for(25.0);
+  EXPECT_EQ(learned.speed_ln > 0.0, too_fast > 1.0);
+}
+
+TEST_F(LearningObserverTest, OffItSaysNothingOfTheKicker) {
+  context.settings.self_calibration.mode = config::SelfCalibrationMode::kOff;
+  start();
+  decision.expect_reader();
+  decided(11, in_goal);
+  kicked(11, in_goal);
+  show(in_goal);
+  EXPECT_EQ(outcome.nth(1).kick_id, 11);
+  EXPECT_TRUE(estimate.now().empty());
+}
+
+TEST_F(LearningObserverTest, LeavesAStateWithWhichTheNextMatchBegins) {
+  context.settings.self_calibration.state_file = (folder / "kicker.toml").string();
+  start();
+  decision.expect_reader();
+  decided(11, in_goal);
+  kicked(11, in_goal);
+  show(in_goal);
+  const auto learned = estimate.nth(2);
+  running.reset();
+  node.reset();
+  start();
+  const auto next = estimate.nth(3);
+  EXPECT_EQ(next.seq, 1u);
+  EXPECT_EQ(next.kicks, 0u);
+  EXPECT_EQ(next.speed_ln, learned.speed_ln);
+  EXPECT_GT(next.speed_ln_se, learned.speed_ln_se) << "a kicker changes from day to day";
+}
+
+TEST_F(LearningObserverTest, AStateOfAnotherRobotIsRefusedAndTheMatchGoesOn) {
+  context.settings.self_calibration.state_file = (folder / "kicker.toml").string();
+  std::ofstream(folder / "kicker.toml") << "robot = \"somebody\"\nrobot_id = 4\n";
+  start();
+  EXPECT_EQ(estimate.nth(1).speed_ln, 0.0);
+  EXPECT_TRUE(log_lines->wait_for("self-calibration begins with the robot's file"));
 }
 
 TEST_F(ShotObserverNodeTest, AMissIsNotOnTarget) {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "config/robot.hpp"
+#include "kicking/learning/kicker_estimate.hpp"
+
+namespace trivela::config {
+
+/// The estimate of a robot's kicker that an earlier match left at `path`; none: there is no such file. Throws Error in
+/// a sentence that names the file where it cannot be read, is older than `max_age_h` or of the future, is of another
+/// robot or of this robot with another file, or has numbers that no kicker has.
+std::optional<kicking::KickerEstimate> load_kicker_state(const std::filesystem::path& path, const Robot& robot,
+                                                         std::uint32_t robot_id, double max_age_h,
+                                                         std::chrono::system_clock::time_point now);
+
+/// Writes it, whole or not at all. Throws Error naming the file.
+void save_kicker_state(const std::filesystem::path& path, const kicking::KickerEstimate& estimate, const Robot& robot,
+                       std::uint32_t robot_id, std::chrono::system_clock::time_point now);
+
+}  // namespace trivela::config
