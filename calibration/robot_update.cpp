@@ -273,7 +273,9 @@ void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::v
   set("exit_angle_deg", &kicking::RobotModel::exit_angle_rad, degree, se[kicking::kElevationPart]);
   set("direction_deg", &kicking::RobotModel::direction_rad, degree, se[kicking::kDirectionPart]);
   set("delay_s", &kicking::RobotModel::delay_s, 1.0, se[kicking::kDelayPart]);
-  set("alpha_slope_deg_per_mps", &kicking::RobotModel::alpha_slope_rad_per_mps, degree, se[kicking::kSidewaysPart]);
+  const double middle_mps = 0.5 * (model.table.front().speed_mps + model.table.back().speed_mps);
+  set("alpha_slope_deg_per_mps", &kicking::RobotModel::alpha_slope_rad_per_mps, degree,
+      se[kicking::kSidewaysPart] / (middle_mps * std::cos(model.exit_angle_rad)));
   set("beta_slope_s", &kicking::RobotModel::beta_slope_s, 1.0, se[kicking::kDelayPart]);
   const auto share = [&](const char* key, double kicking::Transfer::*of, double error_of) {
     model.transfer_exact.*of = figure(model.transfer_exact.*of);

@@ -34,7 +34,9 @@ LinearFlight linear_flight(const KickFlight& flight, const RobotModel& file, con
   linear.design.col(kSpeedPart) << v * c, 0.0, v * s, 0.0;
   linear.design.col(kElevationPart) << -v * s, 0.0, v * c, 0.0;
   linear.design.col(kDirectionPart) << 0.0, v * c, 0.0, 0.0;
-  linear.design.col(kDelayPart) << 0.0, omega * v * c, 0.0, flight.late_s ? 1.0 : 0.0;
+  // What the ball takes along turns with the robot, too.
+  const Eigen::Vector2d turned = omega * (carried_side * forward - carried_front * right);
+  linear.design.col(kDelayPart) << turned.dot(kick), omega * v * c + turned.dot(left), 0.0, flight.late_s ? 1.0 : 0.0;
   linear.design.col(kAlongPart) << front_mps * forward.dot(kick), front_mps * forward.dot(left), 0.0, 0.0;
   linear.design.col(kSidewaysPart) << side_mps * right.dot(kick), side_mps * right.dot(left), 0.0, 0.0;
   return linear;

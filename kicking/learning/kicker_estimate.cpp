@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMost_ln = 0.5, kMostTransfer = 1.5, kLongestDelay_s = 0.5;
 constexpr double kFlattest_rad = radians(5.0), kSteepest_rad = radians(80.0);
+constexpr double kMostTurned_rad = radians(20.0);
 constexpr double kPaperPerExact = 0.7;  // k of kicker.map against the exact law's full transfer
 
 double elevation(double file_rad, double by_rad) { return std::clamp(file_rad + by_rad, kFlattest_rad, kSteepest_rad); }
@@ -51,7 +52,7 @@ RobotModel corrected(const RobotModel& file, const KickerEstimate& estimate) {
   model.table = faster(file.table, factor);
   model.exit_angle_rad = elevation(file.exit_angle_rad, mean[kElevationPart]);
   if (file.exit_angles) model.exit_angles = steeper(*file.exit_angles, mean[kElevationPart]);
-  model.direction_rad = file.direction_rad + mean[kDirectionPart];
+  model.direction_rad = std::clamp(file.direction_rad + mean[kDirectionPart], -kMostTurned_rad, kMostTurned_rad);
   model.delay_s = std::clamp(file.delay_s + mean[kDelayPart], 0.0, kLongestDelay_s);
   const double along = mean[kAlongPart], sideways = mean[kSidewaysPart];
   model.transfer_exact = {share(file.transfer_exact.forward, along), share(file.transfer_exact.backward, along),

@@ -27,7 +27,10 @@ ShotObserverNode::ShotObserverNode(NodeContext& context)
                              bus::writes<msg::KickOutcome, msg::KickerEstimate>());
   node_.on<msg::FlightFrame>([this](const msg::FlightFrame& frame) { on_frame(frame); },
                              bus::writes<msg::KickOutcome, msg::KickerEstimate, msg::StepDone>());
-  if (learning_) say(learning_->first());
+  if (!learning_) return;
+  msg::KickerEstimate first = learning_->first();
+  if (!context.settings.run.lockstep) first.t_ns = context.steady_ns();
+  say(first);
 }
 
 /// With the robot's file, or with what an earlier match left.

@@ -84,8 +84,7 @@ TEST(LinearFlight, TheDesignIsTheDerivative) {
     moved[i] = kStep;
     const FlightResidual slope = (at.residual - linear_flight(flight, kFile, moved).residual) / kStep;
     for (Eigen::Index row = 0; row < 4; ++row) {
-      // A flight that is seen as the believed one has turned by the belief: its residual's own axes turn with it.
-      EXPECT_NEAR(slope[row], at.design(row, i), 0.02 * std::max(1.0, std::abs(at.design(row, i)))) << row << " " << i;
+      EXPECT_NEAR(slope[row], at.design(row, i), 1e-4) << row << " " << i;
     }
   }
 }
@@ -117,9 +116,14 @@ TEST(KickerLearner, FindsEveryPartOfAKickerWithinItsErrors) {
 }
 
 TEST(KickerLearner, IsNearAfterThreeKicks) {
-  KickerLearner learner{kFile, {}};
-  kick(learner, differing(1.1, 0.0, 0.0, 0.0, 0.0, 0.0), 3);
-  EXPECT_NEAR(learner.estimate().mean[kSpeedPart], std::log(1.1), 0.03);
+  double sum = 0.0;
+  constexpr int kRuns = 20;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    KickerLearner learner{kFile, {}};
+    kick(learner, differing(1.1, 0.0, 0.0, 0.0, 0.0, 0.0), 3, seed);
+    sum += learner.estimate().mean[kSpeedPart];
+  }
+  EXPECT_NEAR(sum / kRuns, std::log(1.1), 0.015);
 }
 
 TEST(KickerLearner, ErrorsShrinkWithKicksAndStayAboveWhatItForgets) {

@@ -153,7 +153,8 @@ TEST(DecisionMessage, HasEveryNumberOfTheJudgement) {
   EXPECT_EQ(numbers.at("policy"), msg::POLICY_MOVING);
   EXPECT_EQ(numbers.at("charge"), 0.75);
   for (const auto& [name, number] : numbers) {
-    const bool of_the_node = name == "robot_id" || name == "seq" || name == "kick_id" || name == "shadow_count";
+    const bool of_the_node =
+        name == "robot_id" || name == "seq" || name == "kick_id" || name == "shadow_count" || name == "estimate";
     EXPECT_EQ(number == 0.0, of_the_node) << name << ": who fills it?";
   }
 }

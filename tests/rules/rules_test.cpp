@@ -116,7 +116,8 @@ TEST(Rules, ModulesIncludeOnlyWhatTheArchitectureAllows) {
 
 /// Folders of a module, each of which includes itself and those before it. What lies in the module itself is below all.
 const std::map<std::string, std::vector<std::string>> kLayers{
-    {"kicking", {"text", "geometry", "random", "ballistics", "model", "alignment", "outcome", "lob", "fit", "learning", "policy"}},
+    {"kicking",
+     {"text", "geometry", "random", "ballistics", "model", "alignment", "outcome", "lob", "fit", "learning", "policy"}},
     {"log", {"schema", "file", "write", "read", "merge", "shards"}},
     {"evaluator",
      {"stats", "metrics", "render", "sessions", "counting", "drift", "story", "table2", "compare", "value",
