@@ -144,6 +144,7 @@ void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& cho
   spread("speed_sd_ratio", spreads.speed_sd_ratio, fit.exit_speed_sd_ratio, 1.0);
   spread("exit_angle_sd_deg", spreads.exit_angle_sd_rad, fit.exit_angle_sd_rad, kicking::radians(1.0));
   spread("table_sd_ratio", spreads.table_sd_ratio, fit.exit_speed_se_ratio, 1.0);
+  spreads.exit_angle_se_rad = 0.0;  // far below what a kicker changes in a day
   calibration().table = std::move(table);
   calibration().exit_angle = {origin(fit.exit_angles, files), error_deg(fit.exit_angle_rad.se),
                               error_deg(fit.angle_spread_rad)};
@@ -250,6 +251,7 @@ void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std:
   robot_.model.delay_s = figure(fit.mean_s.value);
   changed("kicker.spreads.delay_sd_s", robot_.model.spreads.delay_sd_s, fit.sd_s, fmt::format("{} kicks", kicks));
   robot_.model.spreads.delay_sd_s = figure(fit.sd_s);
+  robot_.model.spreads.delay_se_s = 0.0;
   calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
 }
 
@@ -292,6 +294,9 @@ void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::v
   spreads.exit_angle_sd_rad = figure_deg(estimate.elevation_sd_rad);
   spreads.direction_sd_rad = figure_deg(estimate.direction_sd_rad);
   spreads.delay_sd_s = figure(estimate.delay_sd_s);
+  spreads.exit_angle_se_rad = figure_deg(se[kicking::kElevationPart]);
+  spreads.direction_se_rad = figure_deg(se[kicking::kDirectionPart]);
+  spreads.delay_se_s = figure(se[kicking::kDelayPart]);
   calibration().play = {origin(estimate.kicks, files),          error(se[kicking::kSpeedPart]),
                         error_deg(se[kicking::kElevationPart]), error_deg(se[kicking::kDirectionPart]),
                         error(se[kicking::kDelayPart]),         error(se[kicking::kAlongPart]),

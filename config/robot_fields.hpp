@@ -22,6 +22,9 @@ void fields(V& v, KickSpreads& s) {
   v("delay_sd_s", s.delay_sd_s, config::Range{0.0, 0.1});
   v("table_sd_ratio", s.table_sd_ratio, config::Range{0.0, 0.5});
   v("transfer_sd_ratio", s.transfer_sd_ratio, config::Range{0.0, 1.0});
+  v("exit_angle_se_deg", config::Degrees{s.exit_angle_se_rad}, config::Range{0.0, 20.0});
+  v("direction_se_deg", config::Degrees{s.direction_se_rad}, config::Range{0.0, 20.0});
+  v("delay_se_s", s.delay_se_s, config::Range{0.0, 0.2});
 }
 
 template <class V>

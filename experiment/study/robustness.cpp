@@ -68,7 +68,7 @@ std::string to_text(const RobustnessReport& report) {
   std::vector<std::vector<std::string>> rows{{"world"}};
   for (const std::string& arm : report.arms) rows[0].push_back(arm);
   for (const std::size_t arm : others(report)) rows[0].push_back(difference_name(report, arm));
-  std::size_t cells = 0, below = 0;
+  std::vector<std::size_t> below(report.arms.size());
   for (const PlayedWorld& world : report.worlds) {
     std::vector<std::string>& row = rows.emplace_back(std::vector<std::string>{world.name});
     for (const ArmTally& arm : world.arms)
@@ -76,12 +76,13 @@ std::string to_text(const RobustnessReport& report) {
     for (const std::size_t arm : others(report)) {
       const Effect effect = against_rival(report, world, arm);
       row.push_back(points_text(effect) + (below_zero(effect) ? " !" : ""));
-      ++cells;
-      below += below_zero(effect) ? 1 : 0;
+      below[arm] += below_zero(effect) ? 1 : 0;
     }
   }
-  text += evaluator::text_table(rows);
-  return text + fmt::format("\nIntervals that reach below 0: {} of {}.\n", below, cells);
+  text += evaluator::text_table(rows) + "\nWorlds where the interval reaches below 0:\n";
+  for (const std::size_t arm : others(report))
+    text += fmt::format("  {}: {} of {}\n", difference_name(report, arm), below[arm], report.worlds.size());
+  return text;
 }
 
 Json to_json(const RobustnessReport& report) {

@@ -71,6 +71,7 @@ RobotModel corrected(const RobotModel& file, const KickerEstimate& estimate) {
   spreads.direction_sd_rad = std::hypot(estimate.direction_sd_rad, se[kDirectionPart]);
   spreads.delay_sd_s = std::hypot(estimate.delay_sd_s, se[kDelayPart]);
   spreads.transfer_sd_ratio = std::max(se[kAlongPart], se[kSidewaysPart]);
+  spreads.exit_angle_se_rad = spreads.direction_se_rad = spreads.delay_se_s = 0.0;
   return model;
 }
 

@@ -21,8 +21,7 @@ enum KickerPart : Eigen::Index {
 using KickerVector = Eigen::Matrix<double, kKickerParts, 1>;
 using KickerMatrix = Eigen::Matrix<double, kKickerParts, kKickerParts>;
 
-/// How much a kicker changes from one day to another, and by a jump within a match: standard deviations. All assumed;
-/// published are 3 to 9 % of exit speed over the voltage of a match (docs/calibration.md).
+/// How much a kicker changes from one day to another, and by a jump within a match: standard deviations. All assumed.
 struct KickerChange {
   double speed_sd_ratio = 0.05;
   double elevation_sd_rad = radians(1.0);

@@ -10,6 +10,8 @@ namespace trivela::kicking {
 namespace {
 
 constexpr std::size_t kMostBeliefs = 8;
+constexpr double kWide = 0.05;              // weight of the belief that a file is worse than it says ...
+constexpr double kWider = 3.0;              // ... by this factor; assumptions
 constexpr double kMistaken = 0.02;          // how often the sightings say nothing of the kicker; assumption
 constexpr double kMistakenSpeed_mps = 2.0;  // by how much they are off then
 constexpr double kMistakenLate_s = 0.1;
@@ -67,25 +69,31 @@ KickerLearner::KickerLearner(const RobotModel& file, const KickerChange& change)
   estimate_.direction_sd_rad = spreads.direction_sd_rad;
   estimate_.delay_sd_s = spreads.delay_sd_s;
   spread_weight_ = kFileKicks;
-  Belief first;
-  first.covariance = day_;
-  first.covariance(kSpeedPart, kSpeedPart) += square(spreads.table_sd_ratio);
-  first.covariance(kAlongPart, kAlongPart) += square(spreads.transfer_sd_ratio);
-  first.covariance(kSidewaysPart, kSidewaysPart) += square(spreads.transfer_sd_ratio);
-  beliefs_ = {first};
+  KickerVector file_errors;
+  file_errors << spreads.table_sd_ratio, spreads.exit_angle_se_rad, spreads.direction_se_rad, spreads.delay_se_s,
+      spreads.transfer_sd_ratio, spreads.transfer_sd_ratio;
+  begin(KickerVector::Zero(), file_errors);
+}
+
+/// A file may be worse than it says: a part of the belief is wide.
+void KickerLearner::begin(const KickerVector& mean, const KickerVector& errors) {
+  Belief near;
+  near.mean = mean;
+  near.covariance = day_;
+  near.covariance.diagonal() += errors.cwiseAbs2();
+  near.weight = 1.0 - kWide;
+  Belief wide = near;
+  wide.covariance *= square(kWider);
+  wide.weight = kWide;
+  beliefs_ = {near, wide};
   describe();
 }
 
 void KickerLearner::begin_with(const KickerEstimate& earlier) {
-  Belief belief;
-  belief.mean = earlier.mean;
-  belief.covariance = day_;
-  belief.covariance.diagonal() += earlier.se.cwiseAbs2();
-  beliefs_ = {belief};
   estimate_ = earlier;
   estimate_.kicks = 0;
   estimate_.p_mistaken = estimate_.p_jump = estimate_.chi_square = 0.0;
-  describe();
+  begin(earlier.mean, earlier.se);
 }
 
 KickerLearner::Belief KickerLearner::all_in_one() const {

@@ -12,10 +12,10 @@ namespace trivela::kicking {
 ///
 /// The belief is a mixture of normal distributions of the six differences, one for each instant at which the kicker may
 /// have jumped last (Adams and MacKay 2007, with the likeliest instants alone). Before the first kick it is N(0, file's
-/// error^2 + KickerChange^2). A kick moves each of them as a Kalman filter does; the sightings may also say nothing of
-/// the kicker (a ball that somebody touched, a wrong track), with a probability that the likelihood decides. Between
-/// kicks it forgets slowly. The spreads from kick to kick are learned from what is left of the residuals; the file's
-/// count as many kicks. Nothing but flights moves it.
+/// error^2 + KickerChange^2), with a small part that is three times as wide. A kick moves each of them as a Kalman
+/// filter does; the sightings may also say nothing of the kicker (a ball that somebody touched, a wrong track), with a
+/// probability that the likelihood decides. Between kicks it forgets slowly. The spreads from kick to kick are learned
+/// from what is left of the residuals; the file's count as many kicks. Nothing but flights moves it.
 class KickerLearner {
  public:
   /// `file` must outlive the learner.
@@ -40,6 +40,7 @@ class KickerLearner {
     double says_something = 1.0;  // probability that the last flight says something of the kicker
   };
 
+  void begin(const KickerVector& mean, const KickerVector& errors);
   void move(Belief& belief, const KickFlight& flight) const;
   void learn_spreads(const Belief& before, const KickFlight& flight, double weight);
   Belief all_in_one() const;

@@ -18,6 +18,10 @@ struct KickSpreads {
   double delay_sd_s = 0.015;                ///< CAMBADA release 1.0: 50 ms mean, 80 ms max
   double table_sd_ratio = 0.01;             ///< of the calibrated exit speed itself (assumed)
   double transfer_sd_ratio = 0.1;           ///< of the calibrated transfer (assumed)
+  // Of the file's own figures, where nobody measured them well: what is learned in play begins with them.
+  double exit_angle_se_rad = 0.0;
+  double direction_se_rad = 0.0;
+  double delay_se_s = 0.0;
 };
 
 /// What a decision knows of its robot. The defaults are robot 1 of CAMBADA (release 1.0, config/kicker.map; laser

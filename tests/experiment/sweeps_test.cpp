@@ -8,6 +8,7 @@
 
 #include "config/text/error.hpp"
 #include "experiment/study/frontier.hpp"
+#include "experiment/study/robustness.hpp"
 #include "experiment/study/sensitivity.hpp"
 #include "experiment/study/tune/tune_space.hpp"
 #include "sim/scenario_fields.hpp"
@@ -308,6 +309,49 @@ TEST(Frontier, TablesAndChartSayWhereAPolicyStands) {
   for (const char* name : {"predictive", "moving", "stopped", "oracle"}) EXPECT_NE(svg.find(name), std::string::npos);
   EXPECT_TRUE(to_json(report)["rows"][3]["threshold"].is_null());
   EXPECT_EQ(to_json(report)["standings"].size(), 2U);
+}
+
+RobustnessReport two_worlds() {
+  RobustnessReport report{.played = {.scenario = "default", .seed = 1, .matches = 40, .possessions = 40},
+                          .arms = {"moving", "predictive"},
+                          .rival = 0};
+  std::mt19937 random{5};
+  report.worlds.push_back({"as it is", "", {random_arm(random, 40, 0.6, 0.8), random_arm(random, 40, 0.9, 0.9)}});
+  report.worlds.push_back({"worse <&>", "why", {random_arm(random, 40, 0.9, 0.9), random_arm(random, 40, 0.6, 0.5)}});
+  return report;
+}
+
+TEST(Robustness, ComparesEachArmWithTheRivalInEachWorld) {
+  const RobustnessReport report = two_worlds();
+  const auto rows = rows_of(report);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1].label("world"), "as it is");
+  EXPECT_EQ(rows[1].label("arm"), "predictive");
+  EXPECT_FALSE(rows[0].change) << "the rival itself";
+  ASSERT_TRUE(rows[1].change);
+  const Effect better = against_rival(report, report.worlds[0], 1);
+  EXPECT_EQ(rows[1].change->value, better.value);
+  EXPECT_NEAR(better.value, 0.81 - 0.48, 0.04);
+  EXPECT_GT(better.ci.lo, 0.0);
+  EXPECT_LT(against_rival(report, report.worlds[1], 1).ci.hi, 0.0);
+}
+
+TEST(Robustness, SaysWhereTheIntervalReachesBelowNothing) {
+  const std::string text = to_text(two_worlds());
+  EXPECT_NE(text.find("predictive - moving: 1 of 2\n"), std::string::npos) << text;
+  EXPECT_EQ(std::ranges::count(text, '!'), 2) << "the cell, and what it means";
+}
+
+TEST(Robustness, TheHeatMapHasEveryNumberAndFramesWhatIsWorse) {
+  const std::string svg = to_svg(two_worlds());
+  EXPECT_NE(svg.find("worse &lt;&amp;&gt;"), std::string::npos);
+  std::size_t frames = 0, cells = 0;
+  for (std::size_t at = svg.find("stroke-width=\"2.5\""); at != std::string::npos;
+       at = svg.find("stroke-width=\"2.5\"", at + 1))
+    ++frames;
+  for (std::size_t at = svg.find("fill=\"rgb("); at != std::string::npos; at = svg.find("fill=\"rgb(", at + 1)) ++cells;
+  EXPECT_EQ(frames, 1u);
+  EXPECT_EQ(cells, 6u);
 }
 
 }  // namespace
