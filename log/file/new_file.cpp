@@ -77,9 +77,10 @@ std::unique_ptr<SQLite::Database> new_file(const fs::path& path, const LogKind& 
     throw FileTaken(failed(error.what()));
   } catch (const std::exception& error) {
     const auto* const sqlite = dynamic_cast<const SQLite::Exception*>(&error);
-    // Who was quicker may be at the end already, and its -wal just gone.
-    const bool just_gone = !made_here && sqlite != nullptr && (sqlite->getErrorCode() & 0xFF) == SQLITE_CANTOPEN &&
-                           ::access(path.c_str(), W_OK) == 0;
+    // Who was quicker may be at the end already, and its -wal and -shm just gone, before they were opened or while.
+    const int code = sqlite != nullptr ? sqlite->getErrorCode() & 0xFF : SQLITE_OK;
+    const bool just_gone =
+        !made_here && (code == SQLITE_CANTOPEN || code == SQLITE_IOERR) && ::access(path.c_str(), W_OK) == 0;
     if (just_gone || (sqlite != nullptr && is_busy(*sqlite))) throw FileTaken(failed(error.what()));
     leave_nothing();
     throw std::runtime_error(failed(error.what()));

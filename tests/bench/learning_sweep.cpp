@@ -119,18 +119,37 @@ std::vector<OneRobot> calibrated(const std::vector<config::Robot>& files, double
 }
 
 /// Robots with nothing but a guessed file: speed +-15 %, elevation +-3 degrees, delay +-40 ms, drawn evenly.
-std::vector<OneRobot> uncalibrated(const Plan& plan) {
+/// `measured`: what an evening of calibration makes of each. A robot whose evening gives no file is left out.
+std::vector<OneRobot> uncalibrated(const Plan& plan, std::vector<config::Robot>& measured) {
   const config::Robot guessed = config::load_robot(config::shipped("robots/uncalibrated.toml"));
   const kicking::Draws draws{plan.seed, 34};
-  std::vector<OneRobot> robots;
-  for (int i = 0; i < plan.robots; ++i) {
+  const auto drawn = [&](std::size_t i) {
     const auto u = draws.uniforms(kicking::Role::kTeam, static_cast<std::uint32_t>(i));
-    OneRobot& one = robots.emplace_back(OneRobot{.world = {}, .file = guessed});
+    OneRobot one{.world = {}, .file = guessed};
     one.world.kicker.speed_scale_ratio = 0.85 + 0.3 * u[0];
     for (double& elevation_rad : one.world.kicker.exit_elevations_rad)
       elevation_rad += (u[1] - 0.5) * 6.0 * std::numbers::pi / 180.0;
     one.world.kicker.delay_s += 0.08 * (u[2] - 0.5);
+    return one;
+  };
+  std::vector<std::optional<config::Robot>> files(static_cast<std::size_t>(plan.robots));
+  experiment::in_threads(files.size(), plan.jobs, [&](std::size_t i) {
+    const auto seed = experiment::calibration_seed(plan.seed, static_cast<std::uint32_t>(i), 2);
+    try {
+      files[i] = experiment::calibrated_robot(drawn(i).world, static_cast<std::int64_t>(seed));
+    } catch (const std::exception&) {
+      files[i].reset();  // a drive that never hits
+    }
+  });
+  std::vector<OneRobot> robots;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!files[i]) continue;
+    robots.push_back(drawn(i));
+    measured.push_back(*files[i]);
   }
+  if (robots.size() < files.size())
+    fmt::print("{} of {} evenings of calibration gave no file: these robots are left out\n",
+               files.size() - robots.size(), files.size());
   return robots;
 }
 
@@ -211,12 +230,11 @@ int main(int argc, char** argv) {
            {"moving", moving, SelfCalibrationMode::kOff},
            {"moving, learns", moving, SelfCalibrationMode::kOn}});
   }
-  sweep(plan, fmt::format("{} drawn, a guessed file", plan.robots), uncalibrated(plan),
+  std::vector<config::Robot> measured;
+  const std::vector<OneRobot> drawn = uncalibrated(plan, measured);
+  sweep(plan, fmt::format("{} drawn, a guessed file", drawn.size()), drawn,
         {{"predictive, after an evening of calibration", predictive, SelfCalibrationMode::kOff,
-          [&](const OneRobot& one, int robot) {
-            return experiment::calibrated_robot(one.world, static_cast<std::int64_t>(experiment::calibration_seed(
-                                                               plan.seed, static_cast<std::uint32_t>(robot), 2)));
-          }},
+          [&](const OneRobot&, int robot) { return measured[static_cast<std::size_t>(robot)]; }},
          {"predictive", predictive, SelfCalibrationMode::kOff},
          {"predictive, learns", predictive, SelfCalibrationMode::kOn}});
   jumps(plan, files);

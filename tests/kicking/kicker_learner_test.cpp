@@ -202,7 +202,7 @@ TEST(KickerLearner, GoesOnWithWhatAnEarlierMatchLeftAndADaysChange) {
   kick(yesterday, differing(1.1, 0.0, 0.0, 0.0, 0.0, 0.0), 40);
   KickerLearner today{kFile, {}};
   today.begin_with(yesterday.estimate());
-  EXPECT_EQ(today.estimate().mean, yesterday.estimate().mean);
+  EXPECT_TRUE(today.estimate().mean.isApprox(yesterday.estimate().mean, 1e-12));
   EXPECT_EQ(today.estimate().kicks, 0u);
   EXPECT_GT(today.estimate().se[kSpeedPart], std::hypot(0.05, yesterday.estimate().se[kSpeedPart]));
   EXPECT_LT(today.estimate().se[kSpeedPart], 1.3 * std::hypot(0.05, yesterday.estimate().se[kSpeedPart]));
