@@ -121,7 +121,7 @@ std::string to_svg(const RobustnessReport& report) {
     for (std::size_t i = 0; i < compared.size(); ++i) {
       const Effect effect = against_rival(report, world, compared[i]);
       svg += heat_cell(shares + kCellWidth * static_cast<double>(i), y, 2.0 * effect.value,
-                       fmt::format("{:+.1f}", 100.0 * effect.value), below_zero(effect));
+                       fmt::format("{:+.1f}", std::round(1000.0 * effect.value) / 10.0 + 0.0), below_zero(effect));
     }
     y += kCellHeight;
   }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -116,6 +117,27 @@ TEST_F(Scene, AfterTheMatchSilenceIsNoAlarm) {
   play(5000);
   EXPECT_THAT(alarms(), IsEmpty());
   EXPECT_EQ(match()["over"], true);
+}
+
+TEST_F(Scene, ShowsWhatKicksHaveShownOfAKickerOnceThereIsOne) {
+  msg::KickerEstimate estimate{};
+  estimate.robot_id = 1;
+  estimate.seq = 1;
+  scene.hear(estimate, 4, now);
+  play(100);
+  EXPECT_TRUE(robot()["learned"].is_null()) << "before the first kick";
+  estimate.seq = 2;
+  estimate.kicks = 1;
+  estimate.used = true;
+  estimate.speed_ln = std::log(1.1);
+  estimate.speed_ln_se = 0.02;
+  scene.hear(estimate, 4, now);
+  play(60'000);
+  const json learned = robot()["learned"];
+  EXPECT_EQ(learned["kicks"], 1) << "it holds until there is another one";
+  EXPECT_EQ(learned["used"], true);
+  EXPECT_NEAR(learned["speed_percent"], 10.0, 0.01);
+  EXPECT_NEAR(learned["speed_se_percent"], 2.0, 0.01);
 }
 
 TEST_F(Scene, AFaultOfTheKickerIsAnAlarm) {
