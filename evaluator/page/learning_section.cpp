@@ -24,8 +24,8 @@ struct Course {
   double unit;
 };
 constexpr double kDegree_rad = kicking::radians(1.0);
-constexpr Course kCourses[] = {{"speed", "exit speed against the file [%]", &KickerStep::speed_ln, 0.01},
-                               {"angle", "exit angle against the file [deg]", &KickerStep::elevation_rad, kDegree_rad}};
+constexpr Course kCourses[] = {{"speed", "exit speed, difference [%]", &KickerStep::speed_ln, 0.01},
+                               {"angle", "exit angle, difference [deg]", &KickerStep::elevation_rad, kDegree_rad}};
 
 /// The estimate as a line, its 95 % as a band.
 std::string course_figure(const PageView& view, const LearnedKicker& kicker, const Course& course) {
@@ -47,12 +47,12 @@ std::string course_figure(const PageView& view, const LearnedKicker& kicker, con
   }
   const std::string kind = colour(static_cast<std::size_t>(kicker.robot_id));
   const std::string svg = axes(x, y) + svg_line("zero", kCourseLeft, y.scale.px(0.0), kCourseRight, y.scale.px(0.0)) +
-                          svg_polyline(kind + " thin d2", band) + svg_polyline(kind + " thin d2", below) +
-                          svg_polyline(kind, line);
+                          svg_polyline(kind + " course band", band) + svg_polyline(kind + " course band", below) +
+                          svg_polyline(kind + " course", line);
   return figure(
       {fmt::format("learning-{}-{}-{}", course.id, kicker.session_id, kicker.robot_id),
        fmt::format("robot {}: {} over the kicks", kicker.robot_id, course.name), kCourseHeight, view.simulated},
-      svg, fmt::format("Robot {}. Dotted: 95 % of the estimate.", kicker.robot_id));
+      svg, fmt::format("Robot {}. Difference from its file; dotted: 95 % of the estimate.", kicker.robot_id));
 }
 
 std::string with_error_text(const LearnedPart& part, double unit, int digits) {

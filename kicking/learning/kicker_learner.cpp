@@ -96,12 +96,21 @@ void KickerLearner::begin_with(const KickerEstimate& earlier) {
   begin(earlier.mean, earlier.se);
 }
 
-KickerLearner::Belief KickerLearner::all_in_one() const {
+/// Mean and covariance of the mixture, with the unconfirmed jump or without.
+KickerLearner::Belief KickerLearner::all_in_one(bool unconfirmed) const {
+  const auto weight = [&](const Belief& belief) { return unconfirmed || !belief.unconfirmed ? belief.weight : 0.0; };
   Belief all;
-  for (const Belief& belief : beliefs_) all.mean += belief.weight * belief.mean;
+  double sum = 0.0;
+  for (const Belief& belief : beliefs_) {
+    sum += weight(belief);
+    all.mean += weight(belief) * belief.mean;
+  }
+  constexpr double kNothing = 1e-9;  // no other belief explains the flights
+  if (sum < kNothing && !unconfirmed) return all_in_one(true);
+  all.mean /= sum;
   for (const Belief& belief : beliefs_) {
     const KickerVector off = belief.mean - all.mean;
-    all.covariance += belief.weight * (belief.covariance + off * off.transpose());
+    all.covariance += weight(belief) / sum * (belief.covariance + off * off.transpose());
   }
   return all;
 }
@@ -157,10 +166,12 @@ void KickerLearner::learn_spreads(const Belief& before, const KickFlight& flight
 
 bool KickerLearner::learn(const KickFlight& flight) {
   if (!usable(flight)) return false;
-  Belief jumped = all_in_one();
+  Belief jumped = all_in_one(true);
   jumped.weight = change_.jump_chance;
+  jumped.unconfirmed = true;
   jumped.covariance += day_;
   for (Belief& belief : beliefs_) {
+    belief.unconfirmed = false;
     belief.weight *= 1.0 - change_.jump_chance;
     belief.covariance += square(kForgotten) * day_;
   }
@@ -192,7 +203,7 @@ bool KickerLearner::learn(const KickFlight& flight) {
 }
 
 void KickerLearner::describe() {
-  const Belief all = all_in_one();
+  const Belief all = all_in_one(false);
   estimate_.mean = all.mean;
   estimate_.se = all.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }

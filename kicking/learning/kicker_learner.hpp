@@ -35,6 +35,7 @@ class KickerLearner {
     KickerVector mean = KickerVector::Zero();
     KickerMatrix covariance = KickerMatrix::Zero();
     double weight = 1.0;
+    bool unconfirmed = false;     // the kicker jumped at the last flight, which no other one confirms yet
     double log_likelihood = 0.0;  // of the last flight
     double chi_square = 0.0;      // of its residuals
     double says_something = 1.0;  // probability that the last flight says something of the kicker
@@ -43,7 +44,7 @@ class KickerLearner {
   void begin(const KickerVector& mean, const KickerVector& errors);
   void move(Belief& belief, const KickFlight& flight) const;
   void learn_spreads(const Belief& before, const KickFlight& flight, double weight);
-  Belief all_in_one() const;
+  Belief all_in_one(bool unconfirmed) const;
   void describe();
 
   const RobotModel& file_;
