@@ -63,6 +63,16 @@ bool same_occasions(const std::vector<std::string>& a, const std::vector<std::st
   return std::ranges::equal(a, b, {}, occasion, occasion);
 }
 
+config::PlayOrigin play_origin(config::FigureOrigin origin, const kicking::KickerVector& se) {
+  return {std::move(origin),
+          error(se[kicking::kSpeedPart]),
+          error_deg(se[kicking::kElevationPart]),
+          error_deg(se[kicking::kDirectionPart]),
+          error(se[kicking::kDelayPart]),
+          error(se[kicking::kAlongPart]),
+          error(se[kicking::kSidewaysPart])};
+}
+
 /// Kicks behind all figures. The exit angle comes from the table's; the delay may come from the kicks of the others.
 std::uint32_t kicks_behind(const config::Calibration& c) {
   std::uint32_t kicks = 0;
@@ -101,24 +111,28 @@ void RobotUpdate::unknown(const std::string& key, double before) {
   changes_.push_back(fmt::format("{} stays {}: the kicks do not show it", key, number(before)));
 }
 
-void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& choice,
-                            const std::vector<std::string>& files) {
-  std::vector<kicking::SetPoint> points = fit.table();
-  for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
-  const std::size_t kicks = fit.residual_mps.size();
-  if (choice.kind == kicking::TableKind::kTrue) {
+void RobotUpdate::set_speeds(std::span<const kicking::SetPoint> points, kicking::TableKind kind) {
+  if (kind == kicking::TableKind::kTrue) {
     if (calibration().table && !robot_.true_table) {
       throw config::BadArgument(
           fmt::format("robot {} has a calibrated effective table, which a true one would replace: give the "
                       "true table a robot name and a file of its own",
                       robot_.name));
     }
-    robot_.true_table.emplace(std::span<const kicking::SetPoint>(points));
+    robot_.true_table.emplace(points);
   } else {
     robot_.true_table.reset();
-    robot_.model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
+    robot_.model.table = kicking::EffectiveTable{points};
   }
   robot_.height_table.reset();
+}
+
+void RobotUpdate::set_table(const kicking::TableFit& fit, const TableChoice& choice,
+                            const std::vector<std::string>& files) {
+  std::vector<kicking::SetPoint> points = fit.table();
+  for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
+  const std::size_t kicks = fit.residual_mps.size();
+  set_speeds(points, choice.kind);
   config::TableOrigin table{origin(kicks, files), {}, {}, {}, fit.isotonic};
   const bool spreads_known = std::ranges::all_of(fit.set_points, [](const auto& point) { return point.trials > 1; });
   if (!std::isnan(fit.exit_speed_sd_mps)) table.exit_speed_sd_mps = error(fit.exit_speed_sd_mps);
@@ -261,8 +275,7 @@ void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::v
   model = kicking::corrected(before, estimate);
   std::vector<kicking::SetPoint> points(model.table.set_points().begin(), model.table.set_points().end());
   for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
-  model.table = kicking::EffectiveTable{std::span<const kicking::SetPoint>(points)};
-  robot_.height_table.reset();
+  set_speeds(points, kicking::TableKind::kEffective);
   const kicking::KickerVector& se = estimate.se;
   const auto set = [&](const char* key, double kicking::RobotModel::*figure_of, double unit, double error_of) {
     model.*figure_of = figure(model.*figure_of / unit) * unit;
@@ -297,10 +310,7 @@ void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::v
   spreads.exit_angle_se_rad = figure_deg(se[kicking::kElevationPart]);
   spreads.direction_se_rad = figure_deg(se[kicking::kDirectionPart]);
   spreads.delay_se_s = figure(se[kicking::kDelayPart]);
-  calibration().play = {origin(estimate.kicks, files),          error(se[kicking::kSpeedPart]),
-                        error_deg(se[kicking::kElevationPart]), error_deg(se[kicking::kDirectionPart]),
-                        error(se[kicking::kDelayPart]),         error(se[kicking::kAlongPart]),
-                        error(se[kicking::kSidewaysPart])};
+  calibration().play = play_origin(origin(estimate.kicks, files), se);
 }
 
 std::string RobotUpdate::text() const {

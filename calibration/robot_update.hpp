@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class RobotUpdate {
  private:
   config::FigureOrigin origin(std::size_t kicks, const std::vector<std::string>& files) const;
   config::Calibration& calibration();
+  void set_speeds(std::span<const kicking::SetPoint> points, kicking::TableKind kind);
   void set_transfer_spread();
   void unknown(const std::string& key, double before);
   void changed(const std::string& key, double before, double after, const std::string& certainty);

@@ -85,12 +85,9 @@ std::vector<std::string> LearnedKicker::sentences() const {
   std::vector<std::string> lines;
   const auto say = [&](const std::string& text) { lines.push_back(fmt::format("robot {}: {}", robot_id, text)); };
   if (const auto higher = higher_m()) {
-    const std::string by = fmt::format("{:.2f} m {}", std::abs(*higher), *higher > 0.0 ? "lower" : "higher");
-    say(used ? fmt::format("decisions went by what its kicks show: they aimed {} than by its file, on average", by)
-             : fmt::format(
-                   "decisions did not go by what its kicks show; self_calibration.mode = \"on\" would have aimed "
-                   "{}, on average",
-                   by));
+    const std::string by = fmt::format("the aim by {:+.2f} m in height, on average", -*higher);
+    say(used ? "decisions went by what its kicks show, which moved " + by
+             : "decisions did not go by what its kicks show; self_calibration.mode = \"on\" would have moved " + by);
   }
   if (mistaken() > 0) say(fmt::format("{} of {} flights said nothing of the kicker", mistaken(), kicks()));
   if (kicks() - mistaken() < kFewestFlights) {

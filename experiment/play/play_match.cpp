@@ -230,9 +230,9 @@ class Game {
     const std::size_t index = robot_id - 1u;
     if (players_.size() <= index) players_.resize(index + 1);
     if (players_[index]) return *players_[index];
-    config::Robot robot = robot_of(scenario_, arm_, seed_, match_id_, robot_id);
+    const config::Robot robot = robot_of(scenario_, arm_, seed_, match_id_, robot_id);
     players_[index].reset(
-        new Player{.chain{settings_, std::move(robot), robot_id, session_, seat(robot_id)}, .learning = std::nullopt});
+        new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id)}, .learning = std::nullopt});
     Player& player = *players_[index];
     player.chain.hear(*first_word_);
     if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return player;

@@ -193,7 +193,7 @@ bool KickerLearner::learn(const KickFlight& flight) {
   estimate_.chi_square = beliefs_.front().chi_square;
   ++estimate_.kicks;
   learn_spreads(before, flight, beliefs_.front().weight * beliefs_.front().says_something);
-  std::ranges::stable_sort(beliefs_, std::ranges::greater{}, &Belief::weight);
+  std::ranges::sort(beliefs_, std::ranges::greater{}, &Belief::weight);
   if (beliefs_.size() > kMostBeliefs) beliefs_.resize(kMostBeliefs);
   const double kept = std::accumulate(beliefs_.begin(), beliefs_.end(), 0.0,
                                       [](double weight, const Belief& belief) { return weight + belief.weight; });
