@@ -14,6 +14,7 @@ namespace {
 constexpr std::int64_t kFewestFlights = 5;  // kicks by which one can say how good an estimate is
 constexpr double kResiduals = 4.0;          // of a flight
 constexpr double kFarthestSquares = 2.0;    // times as far as it says, in squares
+constexpr double kWrongSpeed = 0.05;        // by which a file is wrong enough to say so
 constexpr double kSaysNothing = 0.5;
 
 /// dz of a ball at the line that is faster by d ln V and steeper by d theta, both drag-free and of a robot at rest:
@@ -89,6 +90,12 @@ std::vector<std::string> LearnedKicker::sentences() const {
     say(used ? "decisions went by what its kicks show, which moved " + by
              : "decisions did not go by what its kicks show; self_calibration.mode = \"on\" would have moved " + by);
   }
+  const LearnedPart& speed = steps.back().speed_ln;
+  if (!used && sound() && std::abs(speed.value) > std::max(kWrongSpeed, 3.0 * speed.se))
+    say(
+        fmt::format("warning: the ball is {:.0f} % {} than its file says: trivela calibrate from-log, or "
+                    "self_calibration.mode = \"on\"",
+                    100.0 * std::abs(std::expm1(speed.value)), speed.value > 0.0 ? "faster" : "slower"));
   if (mistaken() > 0) say(fmt::format("{} of {} flights said nothing of the kicker", mistaken(), kicks()));
   if (kicks() - mistaken() < kFewestFlights) {
     say(fmt::format("{} flights are too few to say whether this may be believed", kicks() - mistaken()));

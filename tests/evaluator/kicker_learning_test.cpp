@@ -96,6 +96,14 @@ TEST_F(KickerLearningOfALog, BelievesFlightsThatLieWhereItSays) {
   EXPECT_THAT(kickers[0].sentences().back(), HasSubstr("mean chi-square 4.2, expected 4): it may be believed"));
 }
 
+TEST_F(KickerLearningOfALog, WarnsOfAFileThatIsWrongWhereNobodyGoesByTheKicks) {
+  estimate(0, 0.0);
+  for (int i = 0; i < 6; ++i) estimate(match.kick(1, "over"), 0.095);
+  const auto kickers = read();
+  EXPECT_THAT(kickers.at(0).sentences(),
+              testing::Contains(HasSubstr("warning: the ball is 10 % faster than its file says: trivela calibrate")));
+}
+
 TEST_F(KickerLearningOfALog, DoesNotBelieveFlightsThatLieFartherThanItSays) {
   estimate(0, 0.0);
   for (int i = 0; i < 6; ++i) estimate(match.kick(1, "on_target"), 0.05, 15.0);

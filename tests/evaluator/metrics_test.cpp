@@ -79,6 +79,43 @@ void write_surroundings(MatchLog& match) {
   writer.push(writer.table("flight_frames", {"robot_id", "seq", "t_ns", "t_exposure_ns", "ball_seen", "ball_x_m",
                                              "ball_y_m", "ball_z_m"}),
               {Int{1}, Int{1}, 50 * kSecond_ns + 30, 50 * kSecond_ns + 10, Int{1}, 0.25, 6.0, 0.5});
+  const auto estimates = writer.table("kicker_estimates", {"robot_id",
+                                                           "seq",
+                                                           "t_ns",
+                                                           "kick_id",
+                                                           "kicks",
+                                                           "used",
+                                                           "speed_ln",
+                                                           "elevation_rad",
+                                                           "direction_rad",
+                                                           "delay_s",
+                                                           "along_ratio",
+                                                           "sideways_ratio",
+                                                           "speed_ln_se",
+                                                           "elevation_se_rad",
+                                                           "direction_se_rad",
+                                                           "delay_se_s",
+                                                           "along_se_ratio",
+                                                           "sideways_se_ratio",
+                                                           "speed_sd_ratio",
+                                                           "elevation_sd_rad",
+                                                           "direction_sd_rad",
+                                                           "delay_sd_s",
+                                                           "p_mistaken",
+                                                           "p_jump",
+                                                           "chi_square"});
+  writer.push(estimates,
+              {Int{1}, Int{1}, 1 * kSecond_ns, Int{0}, Int{0}, Int{0}, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5,
+               0.5,    0.5,    0.25,           0.25,   0.25,   0.25,   0.0, 0.0, 0.0});
+  writer.push(estimates, {Int{1},  Int{2}, 52 * kSecond_ns,
+                          Int{99}, Int{1}, Int{0},
+                          0.125,   0.25,   0.375,
+                          0.5,     0.625,  0.75,
+                          0.25,    0.25,   0.25,
+                          0.25,    0.25,   0.25,
+                          0.25,    0.25,   0.25,
+                          0.25,    0.125,  0.0625,
+                          4.5});
   writer.silence({"odometry", 1, 12 * kSecond_ns, 13 * kSecond_ns});
 }
 

@@ -121,13 +121,13 @@ TEST_F(KickDecisionNodeTest, GoesByWhatTheObserverHasLearnedWhereItIsSwitchedOn)
   learned(faster(1.1, 2));
   const double by_estimate = power_of_kick(2, 2);
   EXPECT_LT(by_estimate, by_file);
-  EXPECT_EQ(decision.nth(2).estimate, 2u);
+  EXPECT_EQ(decision.nth(2).estimate, 1u) << "the first one that was said";
   // Where an estimate makes no sense the last good one holds.
   auto wrong = faster(1.1, 3);
   wrong.delay_s = std::numeric_limits<double>::quiet_NaN();
   learned(wrong);
   EXPECT_EQ(power_of_kick(3, 3), by_estimate);
-  EXPECT_EQ(decision.nth(3).estimate, 2u);
+  EXPECT_EQ(decision.nth(3).estimate, 1u);
 }
 
 TEST_F(KickDecisionNodeTest, GoesByTheRobotsFileWhereLearningIsAShadow) {
