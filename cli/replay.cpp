@@ -41,8 +41,8 @@ struct ReplayFlags {
 };
 
 /// What a replay decides by; nothing else of the settings counts.
-constexpr std::string_view kSections[] = {"goal.",     "field.",       "rules.",        "policy.",
-                                          "odometry.", "world_state.", "kick_decision."};
+constexpr std::string_view kSections[] = {"goal.",     "field.",       "rules.",         "policy.",
+                                          "odometry.", "world_state.", "kick_decision.", "self_calibration."};
 
 bool counts(std::string_view key) {
   return std::ranges::any_of(kSections, [&](std::string_view section) { return key.starts_with(section); });
@@ -113,7 +113,7 @@ std::optional<RobotSetup> other_setup(const RobotSetup& recorded, const ReplayFl
     if ((was == before.end() || value != was->second) && !counts(key))
       throw UsageError{
           fmt::format("--set {} plays no part in a replay: it decides by [goal], [field], [rules], "
-                      "[policy], [odometry], [world_state] and [kick_decision]",
+                      "[policy], [odometry], [world_state], [kick_decision] and [self_calibration]",
                       key)};
   }
   const config::Robot robot = flags.robot.empty() ? recorded.robot : config::load_robot(flags.robot);

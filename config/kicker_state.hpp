@@ -9,9 +9,11 @@
 
 namespace trivela::config {
 
-/// The estimate of a robot's kicker that an earlier match left at `path`; none: there is no such file. Throws Error in
-/// a sentence that names the file where it cannot be read, is older than `max_age_h` or of the future, is of another
-/// robot or of this robot with another file, or has numbers that no kicker has.
+/// The estimate of a robot's kicker that an earlier match left at `path`; none: there is no such file. Throws Error
+/// that names the file where
+/// - it cannot be read, or has numbers that no kicker has;
+/// - it is older than `max_age_h`, or of the future;
+/// - it is of another robot, or of this robot with another file.
 std::optional<kicking::KickerEstimate> load_kicker_state(const std::filesystem::path& path, const Robot& robot,
                                                          std::uint32_t robot_id, double max_age_h,
                                                          std::chrono::system_clock::time_point now);

@@ -169,6 +169,9 @@ struct FlightCamera {
   double period_s = 0.02;       ///< between exposures; one a cycle at most; assumption: 50 frames a second
   double position_sd_m = 0.03;  ///< per axis and frame; assumption
   double dropout_ratio = 0.02;  ///< frames without a ball; assumption
+  double bias_x_m = 0.0;        ///< of every sighting, in F: the camera, or the goal that it is referred to, is ...
+  double bias_y_m = 0.0;        ///< ... elsewhere than it is taken to be
+  double bias_z_m = 0.0;
 };
 
 /// A laser range finder beside the field (sim/laser/). Off in a match: it is for the calibration.

@@ -163,6 +163,9 @@ void fields(V& v, FlightCamera& c) {
   v("period_s", c.period_s, Range{0.001, 1.0});
   v("position_sd_m", c.position_sd_m, Range{0.0, 5.0});
   v("dropout_ratio", c.dropout_ratio, kRatio);
+  v("bias_x_m", c.bias_x_m, Range{-1.0, 1.0});
+  v("bias_y_m", c.bias_y_m, Range{-1.0, 1.0});
+  v("bias_z_m", c.bias_z_m, Range{-1.0, 1.0});
 }
 
 template <class V>

@@ -154,8 +154,9 @@ FlightFrame SensorSuite::flight(const World& world) const {
   const auto seen = at(frame.t_exposure_ns);
   if (!seen || draws_.uniform(kicking::Role::kFlightDropout, cycle_) < c.dropout_ratio) return frame;
   const auto [x, y, z, spare] = draws_.normals(kicking::Role::kFlightNoise, cycle_);
-  frame.ball = FlightFrame::Point{seen->ball.x() + c.position_sd_m * x, seen->ball.y() + c.position_sd_m * y,
-                                  seen->ball.z() + c.position_sd_m * z};
+  frame.ball = FlightFrame::Point{seen->ball.x() + c.bias_x_m + c.position_sd_m * x,
+                                  seen->ball.y() + c.bias_y_m + c.position_sd_m * y,
+                                  seen->ball.z() + c.bias_z_m + c.position_sd_m * z};
   return frame;
 }
 

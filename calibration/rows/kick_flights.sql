@@ -11,6 +11,7 @@ JOIN kick_receipts AS r ON r.session_id = k.session_id AND r.robot_id = k.robot_
 JOIN sessions AS s ON s.session_id = k.session_id
 JOIN utc_offsets AS u ON u.session_id = k.session_id
 LEFT JOIN kick_outcomes AS c ON c.session_id = k.session_id AND c.robot_id = k.robot_id AND c.kick_id = k.kick_id
-  AND c.flight_speed_mps IS NOT NULL
+  AND c.seq = (SELECT max(seq) FROM kick_outcomes WHERE session_id = k.session_id AND robot_id = k.robot_id
+    AND kick_id = k.kick_id AND flight_speed_mps IS NOT NULL)
 WHERE k.accepted = 1
 ORDER BY k.session_id, k.robot_id, k.t_ns;

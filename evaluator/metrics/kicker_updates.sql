@@ -16,6 +16,7 @@ FROM kicker_estimates AS e
 LEFT JOIN kicks AS k ON k.session_id = e.session_id AND k.robot_id = e.robot_id AND k.kick_id = e.kick_id
 LEFT JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq
 LEFT JOIN kick_outcomes AS c ON c.session_id = e.session_id AND c.robot_id = e.robot_id AND c.kick_id = e.kick_id
-  AND c.flight_elevation_rad IS NOT NULL
+  AND c.seq = (SELECT max(seq) FROM kick_outcomes WHERE session_id = e.session_id AND robot_id = e.robot_id
+    AND kick_id = e.kick_id AND flight_elevation_rad IS NOT NULL)
 WINDOW series AS (PARTITION BY e.session_id, e.robot_id ORDER BY e.seq)
 ORDER BY e.session_id, e.robot_id, e.seq;

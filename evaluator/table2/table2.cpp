@@ -78,7 +78,7 @@ void add_refused_orders(std::vector<RefusedOrders>& refused, const log::Reader& 
                });
 }
 
-// Matches of an experiment begin anew with every session, and are not named one by one.
+// Each session of an experiment begins with the robot's file, and is not named.
 void add_kickers(Report& report, const log::Reader& reader, const std::set<std::int64_t>& own) {
   std::set<std::int64_t> alone;
   for (const log::RecordedSession& session : reader.sessions())

@@ -95,7 +95,8 @@ RecordedCycles::RecordedCycles(const RecordedRobot& recorded, const config::Sett
       decision_referee_(recorded),
       kicker_(recorded),
       decision_kicker_(recorded),
-      outcomes_(recorded) {}
+      outcomes_(recorded),
+      estimates_(recorded) {}
 
 bool RecordedCycles::next() {
   const auto odometry = odometries_.next();
@@ -162,6 +163,7 @@ void RecordedCycles::find_decision() {
   const auto kicker = possible_counts(decision_kicker_, t_ns, lockstep_);
   const auto referee = possible_counts(decision_referee_, t_ns, lockstep_);
   const auto outcomes = telling(possible_counts(outcomes_, t_ns, lockstep_), outcomes_, same_kick);
+  estimates_.take(estimates_.come_by(t_ns - 1));  // of the cycles before
   std::vector<Candidate> candidates;
   for (const std::size_t o : outcomes)
     for (const std::size_t k : kicker)
@@ -172,7 +174,7 @@ void RecordedCycles::find_decision() {
       nearest(logic_, candidates, decided_, recorded_decision_, [&](RobotLogic& logic, const Candidate& with) {
         std::optional<LogicDecision> said =
             logic.decide(world_, {decision_kicker_.after(with.kicker), decision_referee_.after(with.referee),
-                                  outcomes_.after(with.outcomes), with.late, kick_id});
+                                  outcomes_.after(with.outcomes), estimates_.after(0), with.late, kick_id});
         const double apart = recorded_decision_ ? distance(said->record, *recorded_decision_) : 0.0;
         return std::pair{said, apart};
       });
@@ -189,7 +191,11 @@ BeliefInputs RecordedCycles::belief_inputs() const {
 }
 
 DecisionInputs RecordedCycles::decision_inputs() const {
-  return {decision_kicker_.after(0), decision_referee_.after(0), outcomes_.after(0), late_,
+  return {decision_kicker_.after(0),
+          decision_referee_.after(0),
+          outcomes_.after(0),
+          estimates_.after(0),
+          late_,
           recorded_decision_ ? recorded_decision_->kick_id : 0};
 }
 

@@ -65,6 +65,7 @@ class RecordedCycles {
   InputStream<msg::Referee> referee_, decision_referee_;
   InputStream<msg::KickerStatus> kicker_, decision_kicker_;
   InputStream<msg::KickOutcome> outcomes_;
+  InputStream<msg::KickerEstimate> estimates_;
   msg::Odometry odometry_{};
   std::optional<msg::WorldState> recorded_world_;
   std::optional<msg::KickDecision> recorded_decision_;

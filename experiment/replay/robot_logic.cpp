@@ -10,6 +10,7 @@ constexpr double kOld_s = 1e3;  // older than any policy decides on
 RobotLogic::RobotLogic(const config::Settings& settings, const config::Robot& robot, std::uint8_t robot_id,
                        std::uint32_t session)
     : set_pieces_(settings.policy.rules.set_piece_s > 0.0),
+      learns_(settings.self_calibration.mode == config::SelfCalibrationMode::kOn),
       robot_id_(robot_id),
       model_(settings.world_state, robot.model.ball_offset_m),
       decider_({settings.kick_decision, settings.policy, settings.goal}, robot.model, robot_id, session) {}
@@ -40,6 +41,8 @@ LogicDecision RobotLogic::decide(const msg::WorldState& world, const DecisionInp
     outcome = *inputs.outcome;
     outcome->kick_id = own_kick_id(outcome->kick_id);
   }
+  if (learns_ && inputs.estimate != nullptr && decider_.is_news(*inputs.estimate, world.t_ns))
+    decider_.learn(*inputs.estimate);
   if (set_pieces_ && inputs.referee != nullptr) decider_.hear(*inputs.referee);
   const robot::CycleDecision& decision =
       decider_.decide(world, kicker ? &*kicker : nullptr, outcome, nullptr, inputs.late ? kOld_s : 0.0);

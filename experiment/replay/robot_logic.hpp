@@ -26,6 +26,7 @@ struct DecisionInputs {
   const msg::KickerStatus* kicker = nullptr;
   const msg::Referee* referee = nullptr;
   const msg::KickOutcome* outcome = nullptr;
+  const msg::KickerEstimate* estimate = nullptr;
   bool late = false;                  ///< the node came to the world state when that was old
   std::int64_t recorded_kick_id = 0;  ///< the kick that was ordered in this cycle; 0: none
 };
@@ -50,6 +51,7 @@ class RobotLogic {
 
  private:
   bool set_pieces_;
+  bool learns_;  // decisions go by what was learned of the kicker
   std::uint8_t robot_id_;
   robot::WorldModel model_;
   robot::Decider decider_;

@@ -28,8 +28,8 @@ using FlightResidual = Eigen::Vector4d;
 ///
 ///     velocity = V e^s (c' f + s' up) + (k + along) v_front f0 + (k + side) v_side r0
 ///
-/// f is the heading at the release turned by the direction and by omega times the delay, f0 and r0 are the robot's own
-/// axes, c' and s' belong to the angle of the file and its elevation.
+/// f0 and r0 are the robot's forward and right axes at the release, which omega turns during the delay; f is f0 turned
+/// by the direction. c' and s' are cosine and sine of the file's angle and the elevation together.
 struct LinearFlight {
   FlightResidual residual = FlightResidual::Zero();
   Eigen::Matrix<double, 4, kKickerParts> design = Eigen::Matrix<double, 4, kKickerParts>::Zero();

@@ -40,8 +40,10 @@ AngleTable steeper(const AngleTable& file, double by_rad) {
 bool sound(const KickerEstimate& estimate) {
   const double spreads[] = {estimate.speed_sd_ratio, estimate.elevation_sd_rad, estimate.direction_sd_rad,
                             estimate.delay_sd_s};
-  return estimate.mean.allFinite() && estimate.se.allFinite() && (estimate.se.array() >= 0.0).all() &&
-         std::ranges::all_of(spreads, [](double sd) { return std::isfinite(sd) && sd >= 0.0; });
+  constexpr double kMost = 2.0;
+  return (estimate.mean.array().abs() <= kMost).all() && (estimate.se.array() >= 0.0).all() &&
+         (estimate.se.array() <= kMost).all() &&
+         std::ranges::all_of(spreads, [](double sd) { return sd >= 0.0 && sd <= kMost; });
 }
 
 RobotModel corrected(const RobotModel& file, const KickerEstimate& estimate) {

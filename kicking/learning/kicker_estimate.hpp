@@ -46,12 +46,13 @@ struct KickerEstimate {
   double chi_square = 0.0;
 };
 
-/// Every number is finite and no error is below 0: what came over a bus or out of a file may be used.
+/// No difference or error is beyond 2 of its unit (e^2 of the speed, 2 rad, 2 s), no error below 0, all are finite:
+/// what came over a bus or out of a file may be used.
 bool sound(const KickerEstimate& estimate);
 
-/// The robot as the estimate has it: table, angles, direction, delay and transfer are moved by the means, the lines of
-/// the paper by what follows for them, and the spreads hold the standard errors, so that whatever is computed with them
-/// knows how well the kicker is known. Every figure stays in the range that a robot's file may have.
+/// The robot as the estimate has it. The means are added to table, angles, direction, delay and transfer; the lines of
+/// the paper follow. The spreads hold the standard errors, so that every probability allows for them. Every figure
+/// stays in the range that a robot's file may have.
 ///
 ///     alpha_slope' = alpha_slope e^-s + side / (V c),   beta_slope' = beta_slope + delay + side r / (V c)
 ///

@@ -10,12 +10,15 @@ namespace trivela::kicking {
 
 /// Learns from kick to kick in what a kicker differs from its file.
 ///
-/// The belief is a mixture of normal distributions of the six differences, one for each instant at which the kicker may
-/// have jumped last (Adams and MacKay 2007, with the likeliest instants alone). Before the first kick it is N(0, file's
-/// error^2 + KickerChange^2), with a small part that is three times as wide. A kick moves each of them as a Kalman
-/// filter does; the sightings may also say nothing of the kicker (a ball that somebody touched, a wrong track), with a
-/// probability that the likelihood decides. Between kicks it forgets slowly. The spreads from kick to kick are learned
-/// from what is left of the residuals; the file's count as many kicks. Nothing but flights moves it.
+/// - The belief is a mixture of normal distributions of the six differences. Each stands for an instant at which the
+///   kicker may have jumped last (Adams and MacKay 2007, with the likeliest instants alone).
+/// - Before the first kick it is N(0, file's error^2 + KickerChange^2); a small part is three times as wide.
+/// - A kick moves each of them as a Kalman filter does. Its sightings may also say nothing of the kicker: somebody
+///   touched the ball, or the track is wrong. The likelihood decides how probable that is.
+/// - A jump at the last kick counts once the next kick confirms it: one touched ball may feign it.
+/// - Between kicks it forgets slowly.
+/// - The spreads are learned from what is left of the residuals; the file's count as many kicks.
+/// - Nothing but flights moves it.
 class KickerLearner {
  public:
   /// `file` must outlive the learner.

@@ -109,8 +109,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
 void KickDecisionNode::learn(std::int64_t t_ns) {
   if (context_.settings.self_calibration.mode != config::SelfCalibrationMode::kOn) return;
   const auto estimate = decider_.estimate() == 0 ? input_of_cycle(context_, *estimate_, 0) : estimate_->latest();
-  if (!estimate || !estimate->used || estimate->seq == decider_.estimate() || estimate->t_ns >= t_ns) return;
-  if (context_.participant.believes(estimate->t_ns)) decider_.learn(*estimate);
+  if (estimate && decider_.is_news(*estimate, t_ns) && context_.participant.believes(estimate->t_ns))
+    decider_.learn(*estimate);
 }
 
 /// The second node is where the first has fallen silent.

@@ -57,6 +57,10 @@ class Decider {
   /// Goes by what was learned of the kicker from the next cycle on, where it is sound().
   /// Test drives, which measure the kicker, do not.
   void learn(const msg::KickerEstimate& estimate);
+  /// Whether it is another one than it goes by, and of a cycle before t_ns.
+  bool is_news(const msg::KickerEstimate& estimate, std::int64_t t_ns) const {
+    return estimate.seq != estimate_ && estimate.t_ns < t_ns;
+  }
   /// KickerEstimate.seq that it goes by; 0: the robot's file.
   std::uint32_t estimate() const { return estimate_; }
 

@@ -15,12 +15,12 @@ double percent(double part, int whole) { return whole > 0 ? 100.0 * part / whole
 
 void sweep_beliefs(std::uint32_t matches, std::uint32_t possessions, std::uint64_t seed) {
   fmt::print("SIMULATED: {} matches of {} possessions a world, seed {}\n", matches, possessions, seed);
-  fmt::print("{:<74} kicks  unknown  right of given  too good  too bad  bounds hold\n", "world");
+  fmt::print("{:<80} kicks  unknown  right of given  too good  too bad  bounds hold\n", "world");
   for (const experiment::OtherWorld& world : experiment::kOtherWorlds) {
     experiment::LabelCounts counts;
     for (std::uint32_t match = 0; match < matches; ++match)
       experiment::add_match({}, seed, match, possessions, counts, world);
-    fmt::print("{:<73} {:6d}  {:5.1f} %  {:12.2f} %  {:8d} {:8d}  {:9.1f} %\n", world.what, counts.kicks,
+    fmt::print("{:<79} {:6d}  {:5.1f} %  {:12.2f} %  {:8d} {:8d}  {:9.1f} %\n", world.what, counts.kicks,
                percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given), counts.too_good,
                counts.too_bad, percent(counts.covered, counts.matches));
   }

@@ -119,7 +119,7 @@ std::vector<OneRobot> calibrated(const std::vector<config::Robot>& files, double
 }
 
 /// Robots with nothing but a guessed file: speed +-15 %, elevation +-3 degrees, delay +-40 ms, drawn evenly.
-/// `measured`: what an evening of calibration makes of each. A robot whose evening gives no file is left out.
+/// `measured`: the file that a calibration gives each. A robot whose calibration gives none is left out.
 std::vector<OneRobot> uncalibrated(const Plan& plan, std::vector<config::Robot>& measured) {
   const config::Robot guessed = config::load_robot(config::shipped("robots/uncalibrated.toml"));
   const kicking::Draws draws{plan.seed, 34};
@@ -148,8 +148,8 @@ std::vector<OneRobot> uncalibrated(const Plan& plan, std::vector<config::Robot>&
     measured.push_back(*files[i]);
   }
   if (robots.size() < files.size())
-    fmt::print("{} of {} evenings of calibration gave no file: these robots are left out\n",
-               files.size() - robots.size(), files.size());
+    fmt::print("{} of {} calibrations gave no file: these robots are left out\n", files.size() - robots.size(),
+               files.size());
   return robots;
 }
 
@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
   std::vector<config::Robot> measured;
   const std::vector<OneRobot> drawn = uncalibrated(plan, measured);
   sweep(plan, fmt::format("{} drawn, a guessed file", drawn.size()), drawn,
-        {{"predictive, after an evening of calibration", predictive, SelfCalibrationMode::kOff,
+        {{"predictive, after a calibration", predictive, SelfCalibrationMode::kOff,
           [&](const OneRobot&, int robot) { return measured[static_cast<std::size_t>(robot)]; }},
          {"predictive", predictive, SelfCalibrationMode::kOff},
          {"predictive, learns", predictive, SelfCalibrationMode::kOn}});

@@ -74,6 +74,20 @@ TEST(Replay, GivesTheRowsOfALockstepMatchAgainAndOtherOrdersWithAnotherPolicy) {
   EXPECT_THAT(text_of(folder / "page.html"), HasSubstr("match.db, decided again in moving.db"));
 }
 
+TEST(Replay, GoesByWhatWasLearnedOfTheKickerInTheSameCycles) {
+  const tests::Folder folder;
+  Program match{"trivela",
+                {"match", "--half", "predictive", "--minutes", "0.5", "--seed", "7", "--set",
+                 "self_calibration.mode='on'", "--out", "match.db"},
+                folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  EXPECT_GT(number_of(Reader{folder / "match.db"}, "SELECT count(DISTINCT estimate) FROM kick_decisions"), 3);
+  replay(folder, {"match.db", "--out", "same.db"});
+  EXPECT_THAT(decided_otherwise(folder, "match.db", "same.db"), IsEmpty());
+  replay(folder, {"match.db", "--out", "file.db", "--set", "self_calibration.mode='off'"});
+  EXPECT_EQ(number_of(Reader{folder / "file.db"}, "SELECT count(*) FROM kick_decisions WHERE estimate <> 0"), 0);
+}
+
 TEST(Replay, GivesTheDecisionsOfAMatchInRealTimeAgain) {
   const tests::Folder folder;
   Program match{"trivela",

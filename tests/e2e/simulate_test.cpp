@@ -2,7 +2,9 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "tests/e2e/log_rows.hpp"
 #include "tests/e2e/simulate_runs.hpp"
@@ -188,6 +190,25 @@ TEST(Simulate, LearnsAKickerAndDecidesByItLikeTheNodesOnTheBus) {
   EXPECT_GE(number_of(log, "SELECT max(kicks) FROM kicker_estimates"), 3);
   EXPECT_GE(number_of(log, "SELECT count(DISTINCT estimate) FROM kick_decisions WHERE estimate > 0"), 3);
   EXPECT_THAT(differing_on_the_bus(folder, {"--half", "predictive", "--set", on}), IsEmpty());
+}
+
+TEST(Simulate, TheEstimateStandsAtAJumpWhenTheDriftWatchFindsIt) {
+  const tests::Folder folder;
+  run(folder, {"simulate", "--arms", "predictive", "--matches", "1", "--possessions", "200", "--seed", "7", "--world",
+               "kicker.drop_ratio=0.05", "--world", "kicker.drop_after_kicks=60", "--out", "worn.db"});
+  Program watch{"trivela", {"drift", "worn.db", "--json"}, folder.path()};
+  ASSERT_EQ(watch.wait(), 3) << watch.errors();
+  const nlohmann::json drift = nlohmann::json::parse(watch.output()).at("robots").at(0).at("drifts").at(0);
+  const Reader log{folder / "worn.db"};
+  // What was learned up to the kick with this number, from 1.
+  const auto learned_with = [&](int kick) {
+    return real_of(log, fmt::format("SELECT speed_ln FROM kicker_estimates WHERE kick_id <= (SELECT kick_id FROM kicks "
+                                    "WHERE accepted = 1 ORDER BY t_ns LIMIT 1 OFFSET {}) ORDER BY seq DESC LIMIT 1",
+                                    kick - 1));
+  };
+  const double before = learned_with(drift.at("kick").get<int>() - 1);
+  const double found = learned_with(drift.at("found_with_kick").get<int>());
+  EXPECT_NEAR(found - before, std::log(0.95), 0.026) << before << " before, " << found << " when it was certain";
 }
 
 TEST(Simulate, ARobotsFileComesFromItsMatches) {

@@ -20,33 +20,7 @@ using Int = std::int64_t;
 /// A match whose kicks teach the robot its kicker.
 class KickerLearningOfALog : public LogTest {
  protected:
-  KickerLearningOfALog()
-      : match(path(), session(), options()),
-        estimates(match.writer().table("kicker_estimates", {"robot_id",
-                                                            "seq",
-                                                            "t_ns",
-                                                            "kick_id",
-                                                            "kicks",
-                                                            "used",
-                                                            "speed_ln",
-                                                            "elevation_rad",
-                                                            "direction_rad",
-                                                            "delay_s",
-                                                            "along_ratio",
-                                                            "sideways_ratio",
-                                                            "speed_ln_se",
-                                                            "elevation_se_rad",
-                                                            "direction_se_rad",
-                                                            "delay_se_s",
-                                                            "along_se_ratio",
-                                                            "sideways_se_ratio",
-                                                            "speed_sd_ratio",
-                                                            "elevation_sd_rad",
-                                                            "direction_sd_rad",
-                                                            "delay_sd_s",
-                                                            "p_mistaken",
-                                                            "p_jump",
-                                                            "chi_square"})) {}
+  KickerLearningOfALog() : match(path(), session(), options()), estimates(kicker_estimates(match.writer())) {}
 
   void estimate(Int kick_id, double speed_ln, double chi_square = 4.0, double p_mistaken = 0.0, Int used = 0) {
     const Int kicks = seq++;

@@ -8,6 +8,35 @@
 
 namespace trivela::evaluator {
 
+/// The table of what robots learned of their kickers, every column.
+inline log::TableId kicker_estimates(log::Writer& writer) {
+  return writer.table("kicker_estimates", {"robot_id",
+                                           "seq",
+                                           "t_ns",
+                                           "kick_id",
+                                           "kicks",
+                                           "used",
+                                           "speed_ln",
+                                           "elevation_rad",
+                                           "direction_rad",
+                                           "delay_s",
+                                           "along_ratio",
+                                           "sideways_ratio",
+                                           "speed_ln_se",
+                                           "elevation_se_rad",
+                                           "direction_se_rad",
+                                           "delay_se_s",
+                                           "along_se_ratio",
+                                           "sideways_se_ratio",
+                                           "speed_sd_ratio",
+                                           "elevation_sd_rad",
+                                           "direction_sd_rad",
+                                           "delay_sd_s",
+                                           "p_mistaken",
+                                           "p_jump",
+                                           "chi_square"});
+}
+
 /// Writes kicks with everything that belongs to them, as a recorder would.
 class MatchLog {
  public:

@@ -59,12 +59,27 @@ inline constexpr OtherWorld kOtherWorlds[] = {
     {"three times the drag", [](sim::Scenario& w) { w.ball.drag_coefficient *= 3.0; }},
     {"bounces keep 0.45", [](sim::Scenario& w) { w.ball.restitution_ratio = 0.45; }},
     {"bounces keep 0.85", [](sim::Scenario& w) { w.ball.restitution_ratio = 0.85; }},
+    {"a ball of 0.105 m", [](sim::Scenario& w) { w.ball.radius_m = 0.105; }},
+    {"a ball of 0.115 m", [](sim::Scenario& w) { w.ball.radius_m = 0.115; }},
+    {"gravity of 9.73 m/s2", [](sim::Scenario& w) { w.ball.gravity_mps2 = 9.73; }},
+    {"gravity of 9.88 m/s2", [](sim::Scenario& w) { w.ball.gravity_mps2 = 9.88; }},
+    {"camera or goal 6 cm to one side", [](sim::Scenario& w) { w.flight_camera.bias_x_m = 0.06; }},
+    {"camera or goal 0.15 m before the line", [](sim::Scenario& w) { w.flight_camera.bias_y_m = -0.15; }},
+    {"camera or goal 0.15 m behind the line", [](sim::Scenario& w) { w.flight_camera.bias_y_m = 0.15; }},
+    {"camera or goal 6 cm too high", [](sim::Scenario& w) { w.flight_camera.bias_z_m = 0.06; }},
+    {"camera or goal 6 cm too low", [](sim::Scenario& w) { w.flight_camera.bias_z_m = -0.06; }},
     {"camera 0.16 s later", [](sim::Scenario& w) { w.flight_camera.latency_s += 0.16; }},
     {"0.2 s later, 15 % faster, twice the drag, 4 degrees, 6 cm, 20 % dropouts",
      [](sim::Scenario& w) {
        w.kicker.delay_s = 0.2, w.kicker.delay_sd_s = 0.06, w.kicker.speed_scale_ratio = 1.15;
        w.ball.drag_coefficient *= 2.0, w.kicker.direction_sd_rad = 0.07;
        w.flight_camera.position_sd_m = 0.06, w.flight_camera.dropout_ratio = 0.2;
+     }},
+    {"0.1 s later, 10 % faster, no drag, a ball of 0.108 m, camera 4 cm off each way",
+     [](sim::Scenario& w) {
+       w.kicker.delay_s = 0.16, w.kicker.speed_scale_ratio = 1.1, w.ball.drag_coefficient = 0.0,
+       w.ball.radius_m = 0.108;
+       w.flight_camera.bias_x_m = w.flight_camera.bias_y_m = w.flight_camera.bias_z_m = 0.04;
      }},
 };
 

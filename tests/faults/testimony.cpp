@@ -35,6 +35,8 @@ void Testimony::note(const std::string& line) {
     std::int64_t kick_id = 0;
     in >> kick_id;
     outcome_arrival_ns.try_emplace(kick_id, arrival_ns);
+  } else if (what == "estimate") {
+    last_sample_ns["kicker_estimate"] = arrival_ns;
   } else {
     in.setstate(std::ios::failbit);
   }

@@ -5,7 +5,8 @@
 //   ARRIVAL_NS decision T_NS KICK_ID FIRE_T_NS VALID_UNTIL_T_NS    what kick_decision says that it has ordered
 //   ARRIVAL_NS fire T_NS KICK_ID WITHDRAWN
 //   ARRIVAL_NS truth RELEASE_T_NS KICK_ID
-//   ARRIVAL_NS outcome KICK_ID
+//   ARRIVAL_NS outcome KICK_ID RELEASE_LATE_S
+//   ARRIVAL_NS estimate SEQ KICK_ID KICKS SPEED_LN DELAY_S
 //   ARRIVAL_NS referee PLAYING
 //   ARRIVAL_NS sample TOPIC                      a topic that is heard for its rhythm alone
 // It never takes the driver's word: kicker_status is a rhythm, kick_receipt is not read.
@@ -68,7 +69,14 @@ static int describe_truth(char* line, size_t size, const char* topic, const void
 static int describe_outcome(char* line, size_t size, const char* topic, const void* sample) {
   const trivela_msg_KickOutcome* outcome = sample;
   (void)topic;
-  return snprintf(line, size, "outcome %" PRId64, outcome->kick_id);
+  return snprintf(line, size, "outcome %" PRId64 " %.17g", outcome->kick_id, outcome->release_late_s);
+}
+
+static int describe_estimate(char* line, size_t size, const char* topic, const void* sample) {
+  const trivela_msg_KickerEstimate* estimate = sample;
+  (void)topic;
+  return snprintf(line, size, "estimate %" PRIu64 " %" PRId64 " %" PRIu32 " %.17g %.17g", estimate->seq,
+                  estimate->kick_id, estimate->kicks, estimate->speed_ln, estimate->delay_s);
 }
 
 static int describe_referee(char* line, size_t size, const char* topic, const void* sample) {
@@ -88,6 +96,7 @@ static const struct Stream kStreams[] = {
     {"device/fire", &trivela_msg_DeviceFire_desc, describe_fire, false},
     {"sim/kick_truth", &trivela_msg_KickTruth_desc, describe_truth, false},
     {"kick_outcome", &trivela_msg_KickOutcome_desc, describe_outcome, false},
+    {"kicker_estimate", &trivela_msg_KickerEstimate_desc, describe_estimate, false},
     {"referee", &trivela_msg_Referee_desc, describe_referee, false},
     {"vision", &trivela_msg_VisionFrame_desc, describe_rhythm, false},
     {"odometry", &trivela_msg_Odometry_desc, describe_rhythm, false},

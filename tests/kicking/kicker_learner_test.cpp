@@ -291,6 +291,12 @@ TEST(KickerEstimate, IsSoundWhereAllIsFiniteAndNoErrorNegative) {
   bad.se[kAlongPart] = -0.1;
   EXPECT_FALSE(sound(bad));
   bad = {};
+  bad.mean[kSpeedPart] = 1e300;
+  EXPECT_FALSE(sound(bad));
+  bad = {};
+  bad.se[kSpeedPart] = kNaN;
+  EXPECT_FALSE(sound(bad));
+  bad = {};
   bad.direction_sd_rad = kNaN;
   EXPECT_FALSE(sound(bad));
 }
