@@ -25,6 +25,12 @@ struct Names<kicking::HeightLaw> {
        {"exact", kicking::HeightLaw::kExact}}};
 };
 template <>
+struct Names<kicking::Objective> {
+  static constexpr std::array<std::pair<std::string_view, kicking::Objective>, 2> entries{
+      {{"on_target", kicking::Objective::kOnTarget}, {"goal", kicking::Objective::kGoal}}};
+};
+
+template <>
 struct Names<kicking::MotionLaw> {
   static constexpr std::array<std::pair<std::string_view, kicking::MotionLaw>, 2> entries{
       {{"paper", kicking::MotionLaw::kPaper}, {"exact", kicking::MotionLaw::kExact}}};
@@ -109,6 +115,7 @@ template <class V>
 void fields(V& v, PredictiveConfig& p) {
   using config::Degrees, config::Range;
   v("threshold", p.threshold, Range{0.0, 1.0});
+  v("goal_threshold", p.goal_threshold, Range{0.0, 1.0});
   v("horizon_s", p.horizon_s, Range{0.0, 5.0});
   v("step_s", p.step_s, Range{0.005, 0.5});
   v("bounce_ratio", p.bounce_ratio, Range{0.0, 1.0});
@@ -140,8 +147,23 @@ void fields(V& v, KickerChange& c) {
 }
 
 template <class V>
+void fields(V& v, KeeperConfig& k) {
+  using config::Range;
+  v("reaction_s", k.reaction_s, Range{0.0, 2.0});
+  v("speed_mps", k.speed_mps, Range{0.0, 20.0});
+  v("acceleration_mps2", k.acceleration_mps2, Range{0.0, 50.0});
+  v("half_width_m", k.half_width_m, Range{0.0, 2.0});
+  v("height_m", k.height_m, Range{0.0, 3.0});
+  v("sd_m", k.sd_m, Range{0.0, 2.0});
+  v("miss_ratio", k.miss_ratio, Range{0.0, 1.0});
+}
+
+template <class V>
 void fields(V& v, PolicyConfig& p) {
   using config::Degrees, config::Range;
+  v("objective", p.objective);
+  v("corner_margin_m", p.corner_margin_m, Range{0.0, 1.0});
+  v("goal_dribble_mps", p.goal_dribble_mps, Range{0.0, 10.0});
   v("height_law", p.height_law);
   v("motion_law", p.motion_law);
   v("alpha_law", p.alpha_law);
@@ -165,6 +187,7 @@ void fields(V& v, PolicyConfig& p) {
   v("half_line_margin_m", p.half_line_margin_m, Range{0.0, 5.0});
   v("carry_margin_m", p.carry_margin_m, Range{0.0, 5.0});
   v("alignment", p.alignment);
+  v("keeper", p.keeper);
   v("predictive", p.predictive);
   v("test_drive", p.test_drive);
 }

@@ -292,6 +292,7 @@ TrueState Match::true_state() const {
           .charge = s.world.kicker().charge(),
           .opponent_distance_m = s.challenger().distance_m(),
           .opponent_closing_mps = s.challenger().closing_mps(),
+          .keeper_x_m = s.scenario.keeper.enabled ? kicking::Maybe(0.0) : std::nullopt,
           .dispute_t_ns = s.dispute_t_ns};
 }
 

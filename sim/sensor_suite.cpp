@@ -117,7 +117,8 @@ WheelSample SensorSuite::wheels(const World& world) const {
 
 VisionFrame SensorSuite::vision(const World& world) const {
   const Vision& v = scenario_.vision;
-  VisionFrame frame{.t_exposure_ns = world.t_ns() - vision_latency_ns_, .pose = {}, .ball = {}, .opponent = {}};
+  VisionFrame frame{
+      .t_exposure_ns = world.t_ns() - vision_latency_ns_, .pose = {}, .ball = {}, .opponent = {}, .keeper = {}};
   const auto seen = at(frame.t_exposure_ns);
   if (!seen) return frame;
   const auto [pose_luck, ball_luck, opponent_luck, spare] = draws_.uniforms(kicking::Role::kVisionDropout, cycle_);
@@ -140,7 +141,17 @@ VisionFrame SensorSuite::vision(const World& world) const {
     frame.opponent =
         PlanPoint{opponent.x_m + v.opponent_sd_m * opponent_x, opponent.y_m + v.opponent_sd_m * opponent_y};
   }
+  if (scenario_.keeper.enabled) frame.keeper = keeper(*seen, spare);
   return frame;
+}
+
+/// It stands in the middle of its line until a ball comes.
+std::optional<PlanPoint> SensorSuite::keeper(const Snapshot& seen, double luck) const {
+  const Vision& v = scenario_.vision;
+  const PlanPoint there = in_robot(seen.pose, seen.axis, 0.0, scenario_.field.goal_line_y_m);
+  if (luck < v.dropout_ratio || length(there) > v.opponent_range_m) return std::nullopt;
+  const auto [x, y, unused, more] = draws_.normals(kicking::Role::kKeeperSight, cycle_);
+  return PlanPoint{there.x_m + v.opponent_sd_m * x, there.y_m + v.opponent_sd_m * y};
 }
 
 FlightFrame SensorSuite::flight(const World& world) const {

@@ -53,6 +53,8 @@ class SensorSuite {
   std::optional<Snapshot> at(std::int64_t t_ns) const;
   static Snapshot between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns);
 
+  std::optional<PlanPoint> keeper(const Snapshot& seen, double luck) const;
+
   /// The camera's slow error of this cycle.
   const kicking::Pose& slow_error() const;
 

@@ -36,6 +36,7 @@ struct VisionFrame {
   std::optional<kicking::Pose> pose;  ///< self-localisation in F
   std::optional<PlanPoint> ball;      ///< in R
   std::optional<PlanPoint> opponent;  ///< in R
+  std::optional<PlanPoint> keeper;    ///< the opponents', in R
 };
 
 /// One observation of the ball by the flight camera, in F, z above the floor.

@@ -59,6 +59,7 @@ struct TrueState {
   double charge = 1.0;                ///< capacitor energy, 0..1
   double opponent_distance_m = 0.0;   ///< from the ball; of whoever is there first
   double opponent_closing_mps = 0.0;  ///< its rate
+  kicking::Maybe keeper_x_m;          ///< the opponents' keeper along its line; none: there is none
   std::int64_t dispute_t_ns = 0;      ///< when an opponent is at the ball, if it stays
 };
 

@@ -62,6 +62,10 @@ msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame
   const auto opponent = frame.opponent.value_or(kNoPoint);
   out.opponent_x_m = opponent.x_m;
   out.opponent_y_m = opponent.y_m;
+  out.keeper_seen = frame.keeper.has_value();
+  const auto keeper = frame.keeper.value_or(kNoPoint);
+  out.keeper_x_m = keeper.x_m;
+  out.keeper_y_m = keeper.y_m;
   return out;
 }
 

@@ -41,7 +41,8 @@ sim::Exit world_exit(const config::Robot& robot, const sim::Scenario& world, con
                      double distance_m) {
   kicking::PolicyInput input;
   input.pose = {settings.policy.target_x_m, settings.goal.y_m - distance_m, 0.0};
-  const auto shot = kicking::stopped_shot(settings.policy, robot.model, settings.goal, input);
+  const auto shot = kicking::stopped_shot(settings.policy, robot.model, settings.goal, input,
+                                          kicking::target_on_line(settings.policy, settings.goal));
   sim::Exit exit = sim::exit_at(world.kicker, shot.power.value_or(robot.model.table.front().power));
   exit.speed_mps *= world.kicker.speed_scale_ratio;
   return exit;

@@ -44,6 +44,14 @@ kicking::PolicyConfig oracle_config(const kicking::PolicyConfig& config, const s
   own.dispute_distance_m = scenario.opponent.dispute_distance_m;
   own.opponent_radius_m = scenario.opponent.body_radius_m;
   own.opponent_height_m = scenario.opponent.body_height_m;
+  const sim::Guard& guard = scenario.keeper.guard;
+  told.keeper = {.reaction_s = guard.reaction_s,
+                 .speed_mps = guard.speed_mps,
+                 .acceleration_mps2 = guard.acceleration_mps2,
+                 .half_width_m = guard.half_width_m + scenario.keeper.side_extension_m - guard.overlap_m,
+                 .height_m = guard.height_m + scenario.keeper.up_extension_m - guard.overlap_m,
+                 .sd_m = 0.02,
+                 .miss_ratio = config.keeper.miss_ratio};
   own.hazard_per_s = 0.02;  // so that it does not wait for nothing
   return told;
 }
@@ -60,6 +68,7 @@ kicking::PolicyInput oracle_input(const sim::TrueState& state, std::int64_t t_ns
   input.kicker_ready = kicker_ready;
   input.opponent_distance_m = state.opponent_distance_m;
   input.opponent_closing_mps = state.opponent_closing_mps;
+  if (state.keeper_x_m) input.keeper = kicking::KeeperPlace{*state.keeper_x_m, 0.0};
   return input;
 }
 

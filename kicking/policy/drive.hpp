@@ -11,11 +11,12 @@ namespace trivela::kicking {
 /// actual, in [-pi, pi].
 double turn_rate_for(double heading_error_rad, double gain_hz, const PolicyConfig& config);
 
-/// Dribbling velocity in R [m/s] towards a point of R: as fast as it can still brake at keep_off_m, within the limits
-/// with the ball.
-Eigen::Vector2d dribble_towards(const Eigen::Vector2d& ahead_m, const PolicyConfig& config);
+/// Dribbling velocity in R [m/s] towards a point of R: dribble_mps, or as fast as it can still brake at keep_off_m,
+/// within the limits with the ball.
+Eigen::Vector2d dribble_towards(const Eigen::Vector2d& ahead_m, const PolicyConfig& config, double dribble_mps);
 
 /// The same towards a point of F.
-Eigen::Vector2d dribble_towards(const Pose& robot, const Eigen::Vector2d& point_m, const PolicyConfig& config);
+Eigen::Vector2d dribble_towards(const Pose& robot, const Eigen::Vector2d& point_m, const PolicyConfig& config,
+                                double dribble_mps);
 
 }  // namespace trivela::kicking

@@ -34,22 +34,25 @@ Direction expected_direction(const PolicyConfig& config, const RobotModel& robot
 
 PolicyOutput evaluate_moving(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                              const PolicyInput& input, MovingMemory& memory) {
-  const Shot shot = moving_shot(config, robot, goal, input);
+  const Eigen::Vector2d target = target_past(config, robot, goal, input, memory);
+  const Shot shot = moving_shot(config, robot, goal, input, target);
   PolicyOutput output = describe(config, goal, shot);
-  const Eigen::Vector2d target = target_on_line(config, goal);
+  output.target_x_m = target.x();
+  AlignmentRule rule = config.alignment;
+  if (plays_past(config, input)) rule.half_width_m = std::min(rule.half_width_m, config.corner_margin_m);
   const double v_kick_mps = shot.power ? robot.table.speed_for(*shot.power) : robot.table.back().speed_mps;
   const Direction expected = expected_direction(config, robot, input, shot, v_kick_mps);
   output.alpha_rad = expected.alpha_rad;
   output.beta_rad = expected.beta_rad;
   output.alignment() =
-      align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target, config.alignment);
+      align(expected.start, expected.alpha_rad, expected.beta_rad, input.twist.omega_radps, target, rule);
 
-  const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
+  const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config, dribble_mps(config, input));
   const double wanted_heading = bearing({expected.start.x_m, expected.start.y_m}, target) + expected.alpha_rad;
   const double error = wrap_angle(wanted_heading - input.pose.heading_rad);
   output.drive = {velocity.x(), velocity.y(), turn_rate_for(error, config.moving_turn_gain_hz, config)};
 
-  const bool extended = std::max(output.left_m, output.right_m) > config.alignment.half_width_m;
+  const bool extended = std::max(output.left_m, output.right_m) > rule.half_width_m;
   const bool entered = output.aligned && !memory.aligned_before;
   memory.aligned_before = output.aligned;
   if (!shot.reachable) {

@@ -5,6 +5,7 @@
 #include "kicking/alignment/alignment.hpp"
 #include "kicking/ballistics/height_law.hpp"
 #include "kicking/geometry/angle.hpp"
+#include "kicking/outcome/keeper.hpp"
 #include "kicking/policy/learned_model.hpp"
 #include "kicking/policy/match_rules.hpp"
 #include "kicking/policy/predictive/predictive_config.hpp"
@@ -20,6 +21,10 @@ enum class MotionLaw { kPaper, kExact };
 /// kPhysical: alpha by velocity addition at the ball's point, beta the turn until the release (delay and half a cycle).
 enum class AlphaLaw { kPaperLine, kPhysical };
 
+/// What a kick is for. kGoal where a keeper is tracked: past it, into a corner; elsewhere, and kOnTarget always:
+/// between the posts and below the bar, as the paper counts.
+enum class Objective { kOnTarget, kGoal };
+
 /// How to decide and to drive. The defaults are those that play best in the default world
 /// (config/policies/tuned_*.toml, docs/decisions/0021): heights by the paper's range law, speeds by the exact one,
 /// direction by the paper's lines. The paper as printed is kPaper, kPaper, kPaperLine and half a width of 0.1 m
@@ -30,6 +35,13 @@ struct PolicyConfig {
   AlphaLaw alpha_law = AlphaLaw::kPaperLine;
   /// S1 and S2 of the moving policy (paper, section 3.4).
   AlignmentRule alignment{.half_width_m = 0.8};
+
+  Objective objective = Objective::kGoal;
+  KeeperConfig keeper{};  ///< of the opponents
+  /// Past a keeper a kick is aimed so far inside of a post (ball's centre from where it is clean; tuned).
+  double corner_margin_m = 0.15;
+  /// In place of dribble_mps, since near the goal a keeper has less time (tuned).
+  double goal_dribble_mps = 2.0;
 
   /// Aim point on the goal line: x in F; height of the ball's centre over the floor (kicker.map: 0.70 m), which the
   /// paper's height law does not have. Test drives aim at it by the exact law.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "kicking/geometry/time.hpp"
@@ -16,6 +17,21 @@ inline PolicyOutput describe(const PolicyConfig& config, const Goal& goal, const
   output.target_z_m = config.target_height_m;
   output.shot() = shot;
   return output;
+}
+
+/// Whether it plays past a keeper.
+inline bool plays_past(const PolicyConfig& config, const PolicyInput& input) {
+  return config.objective == Objective::kGoal && input.keeper;
+}
+
+/// Speed over ground towards the goal.
+inline double dribble_mps(const PolicyConfig& config, const PolicyInput& input) {
+  return plays_past(config, input) ? config.goal_dribble_mps : config.dribble_mps;
+}
+
+/// Where a kick into a corner is aimed along the goal line, in F [m]: side -1 left, 1 right.
+inline double corner_x_m(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, double side) {
+  return side * std::max(0.0, goal.clean_half_width_m(robot.ball) - config.corner_margin_m);
 }
 
 /// How far the robot may still go with the ball that it took at memory.taken_m. However it turns, the ball is at most

@@ -12,6 +12,7 @@
 #include "kicking/geometry/goal.hpp"
 #include "kicking/maybe.hpp"
 #include "kicking/model/robot_model.hpp"
+#include "kicking/outcome/keeper.hpp"
 #include "kicking/policy/policy_config.hpp"
 
 namespace trivela::kicking {
@@ -63,6 +64,7 @@ struct PolicyInput {
   double sd_heading_rad = 0.0;
   Maybe opponent_distance_m;          ///< nearest opponent to the ball; stopped and moving do not look at it
   Maybe opponent_closing_mps;         ///< how fast it comes, where both are known exactly: the oracle alone
+  std::optional<KeeperPlace> keeper;  ///< that is tracked
   std::optional<SeenKick> last_kick;  ///< the latest one with an outcome; the turn drive alone looks at it
   Maybe set_piece_left_s;             ///< a kick that takes our set piece is released until then
 };
@@ -86,6 +88,7 @@ struct PolicyOutput : Alignment, ShotNumbers {
   double alpha_rad = 0.0;     ///< right positive
   double beta_rad = 0.0;      ///< with the sign of omega
   Maybe p_on_target;          ///< predicted probability that this kick is on target; none: not computed
+  Maybe p_goal;               ///< the same, and past the keeper; none: no keeper is tracked
   double fire_after_s = 0.0;  ///< energise the coil so much later than the input's instant, within a cycle
   Twist drive{};              ///< command until the next cycle, in R
 
@@ -128,6 +131,7 @@ inline constexpr std::tuple kRecordedFields{
     RecordedField{"predicted_z_cross_m", predicted<&PredictedCrossing::z_m>},
     RecordedField{"predicted_t_flight_s", predicted<&PredictedCrossing::t_flight_s>},
     RecordedField{"p_on_target", &PolicyOutput::p_on_target},
+    RecordedField{"p_goal", &PolicyOutput::p_goal},
     RecordedField{"fire_after_s", &PolicyOutput::fire_after_s}};
 
 /// What every policy remembers of a possession. One that remembers more derives from it.
@@ -135,6 +139,7 @@ struct PossessionMemory {
   std::optional<std::uint32_t> possession_id;
   std::optional<std::int64_t> fired_t_ns;  ///< last order
   std::optional<Eigen::Vector2d> taken_m;  ///< the ball's centre in F when it was first had
+  double corner = 0.0;                     ///< that it aims at: -1 left, 1 right, 0 none chosen yet
 
   /// Nothing may be decided in this cycle.
   void interrupt() {}

@@ -5,6 +5,7 @@
 #include "kicking/ballistics/aim_exact.hpp"
 #include "kicking/ballistics/height_law.hpp"
 #include "kicking/ballistics/moving_kick.hpp"
+#include "kicking/policy/policy_output.hpp"
 
 namespace trivela::kicking {
 namespace {
@@ -96,6 +97,19 @@ void set_power(Shot& shot, const RobotModel& robot, const Goal& goal, const Poli
 
 Eigen::Vector2d target_on_line(const PolicyConfig& config, const Goal& goal) { return {config.target_x_m, goal.y_m}; }
 
+Eigen::Vector2d target_past(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
+                            const PolicyInput& input, PossessionMemory& memory) {
+  if (!plays_past(config, input)) return target_on_line(config, goal);
+  if (memory.corner == 0.0) {
+    const auto turn = [&](double side) {
+      const Eigen::Vector2d corner{corner_x_m(config, robot, goal, side), goal.y_m};
+      return std::abs(wrap_angle(bearing({input.pose.x_m, input.pose.y_m}, corner) - input.pose.heading_rad));
+    };
+    memory.corner = turn(1.0) < turn(-1.0) ? 1.0 : -1.0;
+  }
+  return {corner_x_m(config, robot, goal, memory.corner), goal.y_m};
+}
+
 Eigen::Vector2d held_ball(const Pose& robot, const RobotModel& model) {
   return to_field(robot, {0.0, model.ball_offset_m});
 }
@@ -107,10 +121,10 @@ Eigen::Vector2d held_ball(const TurnedPose& robot, const RobotModel& model) {
 namespace {
 
 Shot shot_at_rest(HeightLaw law, const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
-                  const PolicyInput& input) {
+                  const PolicyInput& input, const Eigen::Vector2d& target_m) {
   Shot shot;
   shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
-  shot.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  shot.distance_m = (target_m - held_ball(input.pose, robot)).norm();
   const FlightPoint target{shot.distance_m, config.target_height_m - robot.ball.radius_m};
   set_speeds(shot, robot, [&](const Elevation& angle) {
     const auto v0_mps = crossing_speed(point_by(law, target, angle), angle);
@@ -122,20 +136,21 @@ Shot shot_at_rest(HeightLaw law, const PolicyConfig& config, const RobotModel& r
 
 }  // namespace
 
-Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
-  return shot_at_rest(config.height_law, config, robot, goal, input);
+Shot stopped_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                  const Eigen::Vector2d& target_m) {
+  return shot_at_rest(config.height_law, config, robot, goal, input, target_m);
 }
 
 Shot drive_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
-  return shot_at_rest(HeightLaw::kExact, config, robot, goal, input);
+  return shot_at_rest(HeightLaw::kExact, config, robot, goal, input, target_on_line(config, goal));
 }
 
-Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input) {
+Shot moving_shot(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const PolicyInput& input,
+                 const Eigen::Vector2d& target_m) {
   const bool exact = config.motion_law == MotionLaw::kExact;
   Shot shot;
   shot.release = TurnedPose{advance(input.pose, input.twist, robot.delay_s)};
-  const Eigen::Vector2d line =
-      target_on_line(config, goal) - (exact ? held_ball(shot.release, robot) : held_ball(input.pose, robot));
+  const Eigen::Vector2d line = target_m - (exact ? held_ball(shot.release, robot) : held_ball(input.pose, robot));
   shot.distance_m = line.norm();
   const FlightPoint target{shot.distance_m, config.target_height_m - robot.ball.radius_m};
   set_speeds(shot, robot, [&](const Elevation& angle) {

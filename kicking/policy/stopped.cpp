@@ -36,15 +36,16 @@ Reason stopped_phase(const PolicyConfig& config, const PolicyInput& input, doubl
 
 PolicyOutput evaluate_stopped(const PolicyConfig& config, const RobotModel& robot, const Goal& goal,
                               const PolicyInput& input, StoppedMemory& memory) {
-  const Shot shot = stopped_shot(config, robot, goal, input);
+  const Eigen::Vector2d target = target_past(config, robot, goal, input, memory);
+  const Shot shot = stopped_shot(config, robot, goal, input, target);
   PolicyOutput output = describe(config, goal, shot);
-  const Eigen::Vector2d target = target_on_line(config, goal);
+  output.target_x_m = target.x();
   output.alignment() = align(input.pose, 0.0, 0.0, 0.0, target, config.alignment);
 
   const double error = wrap_angle(bearing({input.pose.x_m, input.pose.y_m}, target) - input.pose.heading_rad);
   output.drive.omega_radps = turn_rate_for(error, config.stopped_turn_gain_hz, config);
   if (shot.too_far) {
-    const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config);
+    const Eigen::Vector2d velocity = dribble_towards(input.pose, target, config, dribble_mps(config, input));
     output.drive.vx_mps = velocity.x();
     output.drive.vy_mps = velocity.y();
     output.reason = velocity.isZero() ? Reason::kOutOfRange : Reason::kApproaching;

@@ -31,6 +31,7 @@ enum class Role : std::uint32_t {
   kTeam,
   kKeeper,
   kDefender,
+  kKeeperSight,
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

@@ -119,6 +119,9 @@ CREATE TABLE vision_frames (               -- what the robot's vision saw in one
   opponent_seen INTEGER NOT NULL CHECK (opponent_seen IN (0, 1)), -- 1: an opponent was seen
   opponent_x_m REAL,                       -- nearest opponent in R, m
   opponent_y_m REAL,                       -- nearest opponent in R, m
+  keeper_seen INTEGER NOT NULL CHECK (keeper_seen IN (0, 1)), -- 1: the opponents' keeper was seen
+  keeper_x_m REAL,                         -- keeper in R, m
+  keeper_y_m REAL,                         -- keeper in R, m
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -180,6 +183,8 @@ CREATE TABLE world_states (                -- the robot's belief
   ball_age_s REAL,                         -- since the ball was last seen, s
   possession INTEGER NOT NULL CHECK (possession IN (0, 1)), -- 1: the ball lies in the robot's handler
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
+  keeper_x_m REAL,                         -- the opponents' keeper along their goal line, in F, m; NULL: none is tracked
+  keeper_sd_m REAL,                        -- its standard deviation, m
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -264,6 +269,7 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   predicted_z_cross_m REAL,                -- height of that crossing, m
   predicted_t_flight_s REAL,               -- time of that flight, s
   p_on_target REAL,                        -- predicted probability that this kick is on target
+  p_goal REAL,                             -- the same, and past the keeper; NULL: no keeper is tracked
   fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
   assignment_probability REAL NOT NULL,    -- with which the policy was put in charge; 1: not at random
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
@@ -294,6 +300,7 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   left_m REAL,                             -- reach of S2 to the left of the target, m
   right_m REAL,                            -- reach of S2 to the right of the target, m
   p_on_target REAL,                        -- predicted probability that its kick is on target
+  p_goal REAL,                             -- the same, and past the keeper; NULL: no keeper is tracked
   fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
   PRIMARY KEY (session_id, robot_id, seq, shadow_index)
 ) STRICT, WITHOUT ROWID;

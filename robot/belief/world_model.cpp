@@ -14,6 +14,7 @@ using kicking::TurnedPose;
 namespace {
 
 const TurnedPose kOrigin;
+constexpr double kSeen_m = 0.15;  // standard deviation of a robot in a picture; match log of 2016: 0.14 m an axis
 
 /// Neither NaN nor farther from 0 than any robot comes.
 bool sound(const msg::Odometry& odometry) {
@@ -64,6 +65,7 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
     } else if (kicking::seconds(frame->t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
       opponent_m_.reset();
     }
+    if (frame->keeper_seen) see_keeper(*frame);
   }
   if (frame) ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
   msg::WorldState out = describe(odometry.t_ns);
@@ -72,6 +74,14 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   if (kicker && kicker->last_accepted) kick_id_ = kicker->last_kick_id;
   if (referee) out.possession_id = count(out.t_ns, *referee, out.possession);
   return out;
+}
+
+void WorldModel::see_keeper(const msg::VisionFrame& frame) {
+  const auto pose = pose_.pose_at(frame.t_exposure_ns);
+  if (!pose) return;
+  const double distance_m = std::hypot(frame.keeper_x_m, frame.keeper_y_m);
+  keeper_.observe(frame.t_exposure_ns, pose->to_field(frame.keeper_x_m, frame.keeper_y_m).x(),
+                  std::hypot(kSeen_m, pose_.sd_position_m(), distance_m * pose_.sd_heading_rad()));
 }
 
 msg::WorldState WorldModel::describe(std::int64_t t_ns) const {
@@ -90,7 +100,11 @@ msg::WorldState WorldModel::describe(std::int64_t t_ns) const {
   out.sd_position_m = pose_.sd_position_m();
   out.sd_heading_rad = pose_.sd_heading_rad();
   out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
-      msg::kNone;
+      out.keeper_x_m = out.keeper_sd_m = msg::kNone;
+  if (const auto keeper = keeper_.at(t_ns)) {
+    out.keeper_x_m = keeper->x_m;
+    out.keeper_sd_m = keeper->sd_m;
+  }
   out.possession = ball_.possession();
   const auto& ball = ball_.position_m();
   out.ball_known = ball.has_value();

@@ -7,6 +7,7 @@
 #include "idl/messages.hpp"
 #include "robot/belief/ball_filter.hpp"
 #include "robot/belief/decay.hpp"
+#include "robot/belief/keeper_track.hpp"
 #include "robot/belief/pose_filter.hpp"
 #include "robot/belief/possession_count.hpp"
 
@@ -36,6 +37,8 @@ class WorldModel {
 
  private:
   std::uint32_t count(std::int64_t t_ns, const msg::Referee& word, bool possession);
+  /// The keeper in a picture, where the robot then was.
+  void see_keeper(const msg::VisionFrame& frame);
   /// What is believed of robot, ball and opponent, all predicted to t_ns.
   msg::WorldState describe(std::int64_t t_ns) const;
 
@@ -50,6 +53,7 @@ class WorldModel {
   std::int64_t last_exposure_ns_ = 0;
   std::optional<Eigen::Vector2d> opponent_m_;  // in R
   std::int64_t opponent_t_ns_ = 0;
+  KeeperTrack keeper_;
 };
 
 }  // namespace trivela::robot

@@ -63,6 +63,8 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
   in.sd_position_m = world.sd_position_m;
   in.sd_heading_rad = world.sd_heading_rad;
   in.opponent_distance_m = world.opponent_distance_m;
+  if (std::isfinite(world.keeper_x_m) && world.keeper_sd_m > 0.0)
+    in.keeper = kicking::KeeperPlace{world.keeper_x_m, world.keeper_sd_m};
   return in;
 }
 

@@ -55,9 +55,11 @@ BENCHMARK_CAPTURE(moving_kick_decision, physical, HeightLaw::kExact, MotionLaw::
 void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, PolicyName::kStopped, {}); }
 BENCHMARK(stopped_kick_decision);
 
-/// Opponents from near to far, watched for a while: what a cycle of play looks like.
+/// Opponents from near to far, watched for a while: what a cycle of play looks like. With an argument past a keeper.
 void predictive_kick_decision(benchmark::State& state) {
   auto inputs = situations();
+  if (state.range(0) != 0)
+    for (PolicyInput& input : inputs) input.keeper = KeeperPlace{0.1, 0.1};
   std::array<PolicyMemory, 64> watched;
   const PolicyConfig config;
   const RobotModel robot;
@@ -79,7 +81,7 @@ void predictive_kick_decision(benchmark::State& state) {
     i = (i + 1) % inputs.size();
   }
 }
-BENCHMARK(predictive_kick_decision);
+BENCHMARK(predictive_kick_decision)->ArgName("keeper")->Arg(0)->Arg(1);
 
 void solve_moving_kick(benchmark::State& state) {
   FlightPoint point{5.73, 0.59};

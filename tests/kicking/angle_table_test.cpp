@@ -54,7 +54,7 @@ TEST(ShotWithAngles, PassesTheTargetHeightWithThePowersOwnAngle) {
   config.height_law = HeightLaw::kExact;
   int solved = 0;
   for (double d = 3.0; d <= 8.0; d += 0.1) {
-    const Shot shot = stopped_shot(config, robot, {}, at(d));
+    const Shot shot = stopped_shot(config, robot, {}, at(d), {0.0, Goal{}.y_m});
     ASSERT_TRUE(shot.power) << d;
     if (!shot.reachable || *shot.power <= 15.0) continue;
     ++solved;
@@ -74,7 +74,7 @@ TEST(ShotWithAngles, OfAMovingRobotPassesItToo) {
   int solved = 0;
   for (const double vy : {-1.0, 0.5, 1.5}) {
     for (double d = 4.0; d <= 7.0; d += 0.25) {
-      const Shot shot = moving_shot(config, robot, {}, at(d, {0.0, vy, 0.0}));
+      const Shot shot = moving_shot(config, robot, {}, at(d, {0.0, vy, 0.0}), {0.0, Goal{}.y_m});
       if (!shot.reachable || *shot.power <= 15.0) continue;
       ++solved;
       EXPECT_NEAR(shot.predicted->z_m, 0.70, 1e-9) << d << " " << vy;
@@ -90,8 +90,8 @@ TEST(ShotWithAngles, OfOneAngleForAllIsTheShotWithout) {
   for (const SetPoint& point : plain.table.set_points()) points.push_back({point.power, plain.exit_angle_rad});
   same.exit_angles.emplace(points);
   for (double d = 2.0; d <= 12.0; d += 0.25) {
-    const Shot a = moving_shot({}, plain, {}, at(d, {0.3, 1.0, 0.2}));
-    const Shot b = moving_shot({}, same, {}, at(d, {0.3, 1.0, 0.2}));
+    const Shot a = moving_shot({}, plain, {}, at(d, {0.3, 1.0, 0.2}), {0.0, Goal{}.y_m});
+    const Shot b = moving_shot({}, same, {}, at(d, {0.3, 1.0, 0.2}), {0.0, Goal{}.y_m});
     EXPECT_EQ(a.power, b.power) << d;
     EXPECT_EQ(a.v_kick_mps, b.v_kick_mps) << d;
     EXPECT_EQ(a.reachable, b.reachable) << d;
@@ -100,7 +100,7 @@ TEST(ShotWithAngles, OfOneAngleForAllIsTheShotWithout) {
 }
 
 TEST(ShotWithAngles, BeyondTheStrongestKickIsTooFar) {
-  const Shot shot = stopped_shot({}, with_angles(), {}, at(14.0));
+  const Shot shot = stopped_shot({}, with_angles(), {}, at(14.0), {0.0, Goal{}.y_m});
   EXPECT_TRUE(shot.too_far);
   EXPECT_FALSE(shot.reachable);
   EXPECT_EQ(shot.power, 50.0);
@@ -112,7 +112,7 @@ TEST(ShotWithAngles, FlatterThanTheHeightAtEveryPowerHasNoShot) {
   robot.exit_angles.emplace(flat);
   PolicyConfig config;
   config.height_law = HeightLaw::kExact;
-  const Shot shot = stopped_shot(config, robot, {}, at(4.0));  // 4 m * tan(6 degrees) = 0.42 m
+  const Shot shot = stopped_shot(config, robot, {}, at(4.0), {0.0, Goal{}.y_m});  // 4 m * tan(6 degrees) = 0.42 m
   EXPECT_FALSE(shot.v_kick_mps);
   EXPECT_FALSE(shot.power);
   EXPECT_FALSE(shot.reachable);

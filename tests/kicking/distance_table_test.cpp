@@ -17,7 +17,7 @@ TEST(DistanceTable, ARobotAtRestKicksWithItsPowerByEveryLaw) {
     for (const DistancePoint& point : kTable.points) {
       PolicyInput input;
       input.pose = {0.0, Goal{}.y_m - point.distance_m - robot.ball_offset_m, 0.0};
-      const Shot shot = stopped_shot(config, robot, Goal{}, input);
+      const Shot shot = stopped_shot(config, robot, Goal{}, input, {0.0, Goal{}.y_m});
       ASSERT_TRUE(shot.power);
       EXPECT_NEAR(*shot.power, point.power, 1e-9) << static_cast<int>(law) << " from " << point.distance_m;
     }

@@ -38,8 +38,9 @@ TEST(DriveMotion, GivesBackItsTwist) {
 
 TEST(DrivePlan, ThroughTurnsAtFullRateWhereOntoBrakes) {
   const DriveMotion near({0, 3, 0.2}, {});
-  EXPECT_EQ(command_of(DrivePlan::kThrough, near, kConfig, {0, 9}, 1.0, 6.0).omega_radps, -kConfig.max_turn_rate_radps);
-  const double onto = command_of(DrivePlan::kOnto, near, kConfig, {0, 9}, 1.0, 6.0).omega_radps;
+  EXPECT_EQ(command_of(DrivePlan::kThrough, near, kConfig, {0, 9}, kConfig.dribble_mps, 1.0, 6.0).omega_radps,
+            -kConfig.max_turn_rate_radps);
+  const double onto = command_of(DrivePlan::kOnto, near, kConfig, {0, 9}, kConfig.dribble_mps, 1.0, 6.0).omega_radps;
   EXPECT_LT(onto, 0.0);
   EXPECT_GT(onto, -kConfig.max_turn_rate_radps);
 }
@@ -47,9 +48,13 @@ TEST(DrivePlan, ThroughTurnsAtFullRateWhereOntoBrakes) {
 TEST(DrivePlan, KeepsTurningTheLongWayWhenTurningBackTakesLonger) {
   const DriveMotion past({0, 3, 3.3}, {0, 0, 2.5});  // turns left, the target is a little nearer on the right
   for (const DrivePlan plan : kDrivePlans) {
-    EXPECT_GT(command_of(plan, past, kConfig, {0, 9}, 1.0, 6.0).omega_radps, 0.0);
-    EXPECT_GT(command_of(plan, DriveMotion({0, 3, 2.9}, {0, 0, 2.5}), kConfig, {0, 9}, 1.0, 6.0).omega_radps, 0.0);
-    EXPECT_LT(command_of(plan, DriveMotion({0, 3, 2.9}, {}), kConfig, {0, 9}, 1.0, 6.0).omega_radps, 0.0);
+    EXPECT_GT(command_of(plan, past, kConfig, {0, 9}, kConfig.dribble_mps, 1.0, 6.0).omega_radps, 0.0);
+    EXPECT_GT(command_of(plan, DriveMotion({0, 3, 2.9}, {0, 0, 2.5}), kConfig, {0, 9}, kConfig.dribble_mps, 1.0, 6.0)
+                  .omega_radps,
+              0.0);
+    EXPECT_LT(
+        command_of(plan, DriveMotion({0, 3, 2.9}, {}), kConfig, {0, 9}, kConfig.dribble_mps, 1.0, 6.0).omega_radps,
+        0.0);
   }
 }
 

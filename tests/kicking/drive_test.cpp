@@ -21,18 +21,18 @@ TEST(TurnRate, HasTheErrorsSignAndStaysWithinTheLimits) {
 
 TEST(Dribble, GoesToThePointAndStopsShortOfIt) {
   const PolicyConfig config;
-  const Eigen::Vector2d ahead = dribble_towards({0, 0, 0}, {0, 9}, config);
+  const Eigen::Vector2d ahead = dribble_towards({0, 0, 0}, {0, 9}, config, config.dribble_mps);
   EXPECT_DOUBLE_EQ(ahead.x(), 0.0);
   EXPECT_DOUBLE_EQ(ahead.y(), config.dribble_mps);
-  EXPECT_EQ(dribble_towards({0, 9 - config.keep_off_m, 0}, {0, 9}, config).norm(), 0.0);
-  const double near = dribble_towards({0, 9 - config.keep_off_m - 0.05, 0}, {0, 9}, config).y();
+  EXPECT_EQ(dribble_towards({0, 9 - config.keep_off_m, 0}, {0, 9}, config, config.dribble_mps).norm(), 0.0);
+  const double near = dribble_towards({0, 9 - config.keep_off_m - 0.05, 0}, {0, 9}, config, config.dribble_mps).y();
   EXPECT_NEAR(near, std::sqrt(2 * config.max_brake_mps2 * 0.05), 1e-9);
 }
 
 TEST(Dribble, HoldsTheBallSidewaysAndBackwards) {
   const PolicyConfig config;
-  EXPECT_DOUBLE_EQ(dribble_towards({0, 0, M_PI / 2}, {0, 9}, config).x(), config.max_sideways_mps);
-  EXPECT_DOUBLE_EQ(dribble_towards({0, 0, M_PI}, {0, 9}, config).y(), -config.max_sideways_mps);
+  EXPECT_DOUBLE_EQ(dribble_towards({0, 0, M_PI / 2}, {0, 9}, config, config.dribble_mps).x(), config.max_sideways_mps);
+  EXPECT_DOUBLE_EQ(dribble_towards({0, 0, M_PI}, {0, 9}, config, config.dribble_mps).y(), -config.max_sideways_mps);
 }
 
 }  // namespace

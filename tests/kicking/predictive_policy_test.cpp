@@ -58,7 +58,7 @@ TEST(PredictivePolicy, PowerIsTheBestOverASweep) {
     const ReleaseState release{{0.3, y}, direction(-0.02), {0.2, 0.8}, 0.4};
     ShotGuess guess;
     guess.exit_angle = Elevation(robot.exit_angle_rad);
-    const ShotModel model(config.predictive, robot, goal, state);
+    const ShotModel model(config, robot, goal, state);
     model.chance(release, guess);  // finds the spread that the height is chosen for
     const ShotChance best = model.chance(release, guess);
     for (double power = 15.0; power <= 50.0; power += 0.5) {
@@ -197,11 +197,11 @@ TEST(PredictivePolicy, DrivesOnAsReckonedUntilTheBallHasLeft) {
     input.t_ns += 20'000'000;
   }
   ASSERT_TRUE(fired);
-  const DrivePlan plan = own(memory).plan;
+  const DrivePlan plan = own(memory).way.plan;
   const PolicyOutput pending = evaluate(kPredictive, {}, {}, {}, input, memory);
   EXPECT_FALSE(pending.fire);
   EXPECT_EQ(pending.reason, Reason::kOrderPending);
-  EXPECT_EQ(own(memory).plan, plan);
+  EXPECT_EQ(own(memory).way.plan, plan);
 }
 
 TEST(LearnedPolicy, WithAnEmptyModelDecidesByThePhysicalProbability) {

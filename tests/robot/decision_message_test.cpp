@@ -95,6 +95,20 @@ TEST(PolicyInput, TellsThePoliciesWhatTheMessagesSay) {
   EXPECT_EQ(input.opponent_distance_m, 1.5);
 }
 
+TEST(PolicyInput, HasAKeeperWhereOneIsTracked) {
+  auto state = world();
+  EXPECT_FALSE(policy_input(state, nullptr).keeper) << "a message that says nothing of one";
+  state.keeper_x_m = kNaN;
+  state.keeper_sd_m = kNaN;
+  EXPECT_FALSE(policy_input(state, nullptr).keeper);
+  state.keeper_x_m = -0.2;
+  state.keeper_sd_m = 0.1;
+  const auto keeper = policy_input(state, nullptr).keeper;
+  ASSERT_TRUE(keeper);
+  EXPECT_EQ(keeper->x_m, -0.2);
+  EXPECT_EQ(keeper->sd_m, 0.1);
+}
+
 TEST(PolicyInput, WithoutAStatusTheKickerIsNotReady) { EXPECT_FALSE(policy_input(world(), nullptr).kicker_ready); }
 
 double number_of(bool value) { return value; }

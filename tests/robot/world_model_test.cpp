@@ -35,6 +35,7 @@ struct Play {
   }();
   std::optional<Eigen::Vector2d> ball_in_robot_m = Eigen::Vector2d{0.0, kBallOffset_m};
   std::optional<Eigen::Vector2d> opponent_in_robot_m;
+  std::optional<Eigen::Vector2d> keeper_m;  // in F
   std::optional<msg::KickerStatus> kicker;
   bool localises = true;
   bool sees = true;
@@ -52,6 +53,12 @@ struct Play {
     out.opponent_seen = opponent_in_robot_m.has_value();
     out.opponent_x_m = opponent_in_robot_m ? opponent_in_robot_m->x() : kNaN;
     out.opponent_y_m = opponent_in_robot_m ? opponent_in_robot_m->y() : kNaN;
+    out.keeper_seen = keeper_m.has_value();
+    if (keeper_m) {
+      const Eigen::Vector2d seen = kicking::to_robot(truth, *keeper_m);
+      out.keeper_x_m = seen.x();
+      out.keeper_y_m = seen.y();
+    }
     return out;
   }
 
@@ -263,6 +270,21 @@ TEST(WorldModel, GoesOnWithoutAnyCamera) {
   EXPECT_TRUE(world.playing);
   EXPECT_NEAR(world.x_m, play.truth.x_m, 1e-9);
   EXPECT_NEAR(world.y_m, play.truth.y_m, 1e-9);
+}
+
+TEST(WorldModel, FollowsTheKeeperAlongItsLineWhileTheRobotDrivesAndTurns) {
+  Play play;
+  EXPECT_TRUE(std::isnan(play.cycle(5).keeper_x_m)) << "none was ever seen";
+  play.keeper_m = Eigen::Vector2d{0.4, 9.0};
+  play.twist = {0.3, 0.8, 1.0};
+  msg::WorldState world = play.cycle(40);
+  EXPECT_NEAR(world.keeper_x_m, 0.4, 0.05);
+  EXPECT_GT(world.keeper_sd_m, 0.0);
+  EXPECT_LT(world.keeper_sd_m, 0.15);
+  play.keeper_m.reset();
+  world = play.cycle(100);
+  EXPECT_LT(world.keeper_x_m, 0.35) << "a keeper that nobody sees goes back to the middle";
+  EXPECT_GT(world.keeper_sd_m, 0.15);
 }
 
 }  // namespace

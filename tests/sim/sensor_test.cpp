@@ -80,6 +80,26 @@ TEST(Vision, ShowsTheWorldOfOneLatencyAgo) {
   EXPECT_NEAR(flight.ball->z_m, 0.11, 1e-9);
 }
 
+TEST(Vision, ShowsTheKeeperWhereThereIsOneAndItIsNear) {
+  for (const bool enabled : {false, true}) {
+    Scenario s = noiseless();
+    s.keeper.enabled = enabled;
+    World world{s};
+    SensorSuite suite{s};
+    for (const double y_m : {4.0, 2.0}) {
+      world.place(standing(1.0, y_m, 0.0), 1.0, kDraws);
+      suite.begin(kDraws);
+      suite.remember(world);
+      run(world, suite, 10);
+      const auto keeper = suite.vision(world).keeper;
+      ASSERT_EQ(keeper.has_value(), enabled && y_m > 3.0) << "it is seen up to 6 m";
+      if (!keeper) continue;
+      EXPECT_NEAR(keeper->x_m, -1.0, 1e-9);
+      EXPECT_NEAR(keeper->y_m, 5.0, 1e-9);
+    }
+  }
+}
+
 TEST(Vision, LatencyMayLieBetweenSteps) {
   Scenario s = noiseless();
   s.vision.latency_s = 0.0123456;

@@ -31,14 +31,14 @@ double turn_rate(DrivePlan plan, const DriveMotion& base, const PolicyConfig& co
 }  // namespace
 
 Twist command_of(DrivePlan plan, const DriveMotion& base, const PolicyConfig& config, const Eigen::Vector2d& target_m,
-                 double lateral_transfer, double ball_speed_mps) {
+                 double dribble_mps, double lateral_transfer, double ball_speed_mps) {
   const Eigen::Vector2d line = target_m - base.position_m;
   const Eigen::Vector2d right(base.forward.y(), -base.forward.x());
   const Eigen::Vector2d ahead(line.dot(right), line.dot(base.forward));
   const double alpha = lateral_transfer * base.velocity_mps.dot(right) / ball_speed_mps;
   Twist command;
   command.omega_radps = turn_rate(plan, base, config, ahead, alpha);
-  const Eigen::Vector2d velocity = dribble_towards(ahead, config);
+  const Eigen::Vector2d velocity = dribble_towards(ahead, config, dribble_mps);
   command.vx_mps = velocity.x();
   command.vy_mps = velocity.y();
   return command;

@@ -9,8 +9,9 @@
 namespace trivela::kicking {
 namespace {
 
-constexpr double kBetter = 2e-3;           // a plan must promise so much more than the one before it
-constexpr double kLastShare = 1.0 - 1e-3;  // of a cycle: its end is the next decision's beginning
+constexpr double kBetter = 2e-3;               // a plan must promise so much more than the one before it
+constexpr std::uint32_t kCyclesOfACorner = 4;  // after so many the other one is looked at, too
+constexpr double kLastShare = 1.0 - 1e-3;      // of a cycle: its end is the next decision's beginning
 
 DriveMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
   DriveMotion base(input.pose, input.twist);
@@ -33,27 +34,31 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       goal_(goal),
       input_(input),
       learned_(learned),
+      past_keeper_(plays_past(config, input)),
       reach_(carry_reach(config, robot, memory)),
       start_(settled(config, input, memory)),
-      model_(config.predictive, robot, goal, spread_of(config.predictive, input, memory)),
+      model_(config, robot, goal, spread_of(config.predictive, input, memory),
+             past_keeper_ ? input.keeper : std::nullopt),
       survival_(config.predictive, memory.opponent),
       opponent_(memory.opponent),
+      way_(memory.way),
+      looks_at_both_(past_keeper_ && memory.cycles_past % kCyclesOfACorner == 1),
       last_fire_after_s_(last_fire_after_s(robot, input)) {
   guess_.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
   ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
 }
 
-Twist LookaheadSearch::command_at(DrivePlan plan, const DriveMotion& base) const {
-  const Twist command =
-      command_of(plan, base, config_, target_on_line(config_, goal_), robot_.transfer_exact.lateral, ball_speed_mps_);
+Twist LookaheadSearch::command_at(const Way& way, const DriveMotion& base) const {
+  const Twist command = command_of(way.plan, base, config_, {way.aim_x_m, goal_.y_m}, dribble_mps(config_, input_),
+                                   robot_.transfer_exact.lateral, ball_speed_mps_);
   return reach_.keep(command, base.position_m, base.forward);
 }
 
 /// Cycle by cycle, as the policy itself will steer.
-void LookaheadSearch::drive_for(DrivePlan plan, DriveMotion& base, double time_s) const {
+void LookaheadSearch::drive_for(const Way& way, DriveMotion& base, double time_s) const {
   while (time_s > 1e-6) {
     const double step_s = std::min(time_s, config_.cycle_s);
-    base.step(command_at(plan, base), config_, step_s);
+    base.step(command_at(way, base), config_, step_s);
     time_s -= step_s;
   }
 }
@@ -75,32 +80,36 @@ ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedSho
 }
 
 PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
-  PlannedShot out{fire_after_s, {}, base.release(robot_.ball_offset_m), 0.0};
+  PlannedShot out{.fire_after_s = fire_after_s, .release = base.release(robot_.ball_offset_m)};
   if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
   out.shot = model_.chance(out.release, guess_);
   out.p_on_target = out.shot.p;
+  out.p_goal = out.shot.p_goal;
   if (!(out.shot.p > 0.0)) return out;
   if (opponent_.seen) {
     const double distance_m = opponent_.distance_after_m(fire_after_s + robot_.delay_s);
-    out.p_on_target *= 1.0 - p_blocked(config_.predictive, distance_m, out.shot, robot_.ball);
+    const double passes = 1.0 - p_blocked(config_.predictive, distance_m, out.shot, robot_.ball);
+    out.p_on_target *= passes;
+    out.p_goal *= passes;
   }
   if (learned_) out.p_on_target = learned_->p_on_target(features(base, out));
   return out;
 }
 
 double LookaheadSearch::value(const PlannedShot& planned, double survival) const {
-  return planned.p_on_target >= config_.predictive.threshold ? survival * planned.p_on_target : 0.0;
+  const double p = past_keeper_ ? planned.p_goal : planned.p_on_target;
+  return p >= (past_keeper_ ? config_.predictive.goal_threshold : config_.predictive.threshold) ? survival * p : 0.0;
 }
 
 /// The plans part where their commands do.
 void LookaheadSearch::go_on(Ways& ways, double time_s) const {
   std::array<Twist, kDrivePlans.size()> commands;
   for (std::size_t i = 0; i < kDrivePlans.size(); ++i) {
-    commands[i] = command_at(kDrivePlans[i], ways.bases[std::min(i, ways.count - 1)]);
+    commands[i] = command_at({kDrivePlans[i], ways.candidates[0].way.aim_x_m}, ways.bases[std::min(i, ways.count - 1)]);
     if (i < ways.count || commands[i].omega_radps == commands[0].omega_radps) continue;
     ways.bases[i] = ways.bases[0];
     ways.candidates[i] = ways.candidates[0];
-    ways.candidates[i].plan = kDrivePlans[i];
+    ways.candidates[i].way.plan = kDrivePlans[i];
     ways.count = i + 1;
   }
   for (std::size_t i = 0; i < ways.count; ++i) ways.bases[i].step(commands[i], config_, time_s);
@@ -119,7 +128,7 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
       if (instant == 0) ways.candidates[i].now = shot;
     }
   }
-  for (CandidatePlan& candidate : ways.candidates) {
+  for (CandidateWay& candidate : ways.candidates) {
     candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
     candidate.value_later = config_.cycle_s <= last_fire_after_s_ ? candidate.values[2] : 0.0;
   }
@@ -145,27 +154,36 @@ void LookaheadSearch::look_ahead(Ways& ways) {
 
 /// The vertex of the parabola through the three values, where there is one; the end of the cycle belongs to the next
 /// decision.
-void LookaheadSearch::schedule(CandidatePlan& candidate) {
+void LookaheadSearch::schedule(CandidateWay& candidate) {
   const auto [first, middle, last] = candidate.values;
   const double bend = first - 2.0 * middle + last;
   double share = first >= last ? 0.0 : 1.0;
   if (bend < 0.0) share = std::clamp(0.5 - 0.25 * (last - first) / bend, 0.0, 1.0);
   const double fire_after_s = std::min(share, kLastShare) * config_.cycle_s;
   DriveMotion base = start_;
-  drive_for(candidate.plan, base, robot_.delay_s + fire_after_s);
+  drive_for(candidate.way, base, robot_.delay_s + fire_after_s);
   candidate.now = planned_shot(base, fire_after_s);
   candidate.value_now = value(candidate.now, survival_(fire_after_s));
 }
 
-CandidatePlan LookaheadSearch::best() {
+CandidateWay LookaheadSearch::best_to(double aim_x_m) {
   Ways ways{{start_, start_}};
+  ways.candidates[0].way.aim_x_m = aim_x_m;
   look_at_this_cycle(ways);
   look_ahead(ways);
   std::size_t best = 0;
   for (std::size_t i = 1; i < ways.count; ++i) {
     if (ways.candidates[i].value() > ways.candidates[best].value() + kBetter) best = i;
   }
-  CandidatePlan& chosen = ways.candidates[best];
+  return ways.candidates[best];
+}
+
+CandidateWay LookaheadSearch::best() {
+  CandidateWay chosen = best_to(way_.aim_x_m);
+  if (looks_at_both_) {
+    const CandidateWay other = best_to(-way_.aim_x_m);
+    if (other.value() > chosen.value() + kBetter) chosen = other;
+  }
   if (chosen.value_now > 0.0 && chosen.value_now >= chosen.value_later) schedule(chosen);
   return chosen;
 }

@@ -21,7 +21,8 @@ double speed_jump(const PolicyConfig& config, const PolicyInput& input, const Pr
   return std::max(0.0, change - possible);
 }
 
-void describe_shot(PolicyOutput& output, const PlannedShot& now, const RobotModel& robot, const Goal& goal) {
+void describe_shot(PolicyOutput& output, const PlannedShot& now, bool past_keeper, const RobotModel& robot,
+                   const Goal& goal) {
   if (!(now.shot.exit.v_kick_mps > 0.0)) return;
   const CrossingSpread& crossing = now.shot.crossing;
   output.target_z_m = now.shot.aim_height_m;
@@ -30,6 +31,7 @@ void describe_shot(PolicyOutput& output, const PlannedShot& now, const RobotMode
   output.v0_mps = crossing_speed({output.distance_m, now.shot.aim_height_m - robot.ball.radius_m},
                                  now.shot.exit.exit_angle.angle_rad);
   output.p_on_target = now.p_on_target;
+  if (past_keeper) output.p_goal = now.p_goal;
   output.fire_after_s = now.fire_after_s;
   if (!std::isfinite(crossing.x_m)) return;
   output.predicted =
@@ -42,7 +44,7 @@ void describe_shot(PolicyOutput& output, const PlannedShot& now, const RobotMode
   output.aligned = std::abs(crossing.x_m) < goal.clean_half_width_m(robot.ball);
 }
 
-Reason reason_of(const CandidatePlan& best) {
+Reason reason_of(const CandidateWay& best) {
   if (best.now.shot.out_of_range && !(best.value_later > 0.0)) return Reason::kOutOfRange;
   if (best.value_now > 0.0 && best.value_now >= best.value_later) return Reason::kFire;
   return best.value_later > 0.0 ? Reason::kWaiting : Reason::kUnlikely;
@@ -50,20 +52,24 @@ Reason reason_of(const CandidatePlan& best) {
 
 PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot,
                          const Goal& goal, const PolicyInput& input, PredictiveMemory& own) {
+  const bool past_keeper = plays_past(config, input);
+  own.cycles_past = past_keeper ? own.cycles_past + 1 : 0;
+  if (own.cycles_past <= 1) own.way.aim_x_m = target_past(config, robot, goal, input, own).x();
   LookaheadSearch search(config, robot, goal, input, own, learned);
   const bool pending = order_pending(config, input, own);
-  CandidatePlan best{};
+  CandidateWay best{};
   if (pending) {
-    best.plan = own.plan;  // the kick was reckoned with this way of driving
+    best.way = own.way;  // the kick was reckoned with this way of driving
   } else {
     best = search.best();
-    own.plan = best.plan;
+    own.way = best.way;
   }
   PolicyOutput output = describe(config, goal, {});
-  output.distance_m = (target_on_line(config, goal) - held_ball(input.pose, robot)).norm();
+  output.target_x_m = best.way.aim_x_m;
+  output.distance_m = (Eigen::Vector2d{output.target_x_m, goal.y_m} - held_ball(input.pose, robot)).norm();
   output.left_m = output.right_m = goal.clean_half_width_m(robot.ball);
-  describe_shot(output, best.now, robot, goal);
-  output.drive = search.command(best.plan);
+  describe_shot(output, best.now, past_keeper, robot, goal);
+  output.drive = search.command(best.way);
   own.command = output.drive;
   output.reason = pending ? Reason::kOrderPending : reason_of(best);
   return output;

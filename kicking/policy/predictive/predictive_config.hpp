@@ -9,6 +9,8 @@ namespace trivela::kicking {
 struct PredictiveConfig {
   /// Least probability of a ball on target that it fires at. Raising it trades kicks for efficiency.
   double threshold = 0.3;
+  /// The same of a goal past a tracked keeper.
+  double goal_threshold = 0.02;
   /// How far ahead it looks for a better moment than now, and in which steps.
   double horizon_s = 1.2;
   double step_s = 0.05;

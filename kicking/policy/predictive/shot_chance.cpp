@@ -35,7 +35,15 @@ ShotChance ShotModel::chance(const ReleaseState& release, ShotGuess& guess) cons
   if (!std::isfinite(out.crossing.x_m)) return out;
   guess.sd_z_m = out.crossing.sd_z_m;
   out.out_of_range = reading.range == PowerRange::kAbove && out.crossing.z_m < robot_.ball.radius_m;
-  if (!out.out_of_range) out.p = p_on_target(out.crossing, config_.bounce_ratio, goal_, robot_.ball);
+  if (out.out_of_range) return out;
+  const double bounce_ratio = config_.predictive.bounce_ratio;
+  if (keeper_) {
+    const GoalChance chance = goal_chance(out.crossing, bounce_ratio, config_.keeper, *keeper_, goal_, robot_.ball);
+    out.p = chance.p_on_target;
+    out.p_goal = chance.p_goal;
+  } else {
+    out.p = p_on_target(out.crossing, bounce_ratio, goal_, robot_.ball);
+  }
   return out;
 }
 

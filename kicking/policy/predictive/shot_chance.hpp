@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "kicking/model/robot_model.hpp"
 #include "kicking/outcome/crossing_spread.hpp"
 #include "kicking/policy/policy_config.hpp"
@@ -8,7 +10,8 @@ namespace trivela::kicking {
 
 /// The best kick of a robot in one state of motion, and what it is worth.
 struct ShotChance {
-  double p = 0.0;  ///< on target, nobody in the way
+  double p = 0.0;       ///< on target, nobody in the way
+  double p_goal = 0.0;  ///< and past the keeper, where one is tracked
   double power = 0.0;
   double aim_height_m = 0.0;  ///< over the goal line
   KickExit exit{};            ///< that the power gives
@@ -26,21 +29,25 @@ struct ShotGuess {
 /// maximises P (BestHeight), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target.
 class ShotModel {
  public:
-  ShotModel(const PredictiveConfig& config, const RobotModel& robot, const Goal& goal, const StateSpread& state)
+  /// `keeper`: to be passed; none: nobody.
+  ShotModel(const PolicyConfig& config, const RobotModel& robot, const Goal& goal, const StateSpread& state,
+            const std::optional<KeeperPlace>& keeper = std::nullopt)
       : config_(config),
         robot_(robot),
         goal_(goal),
         state_(state),
-        best_height_(config.bounce_ratio, goal, robot.ball) {}
+        keeper_(keeper),
+        best_height_(config.predictive.bounce_ratio, goal, robot.ball) {}
 
   /// The guess is improved.
   ShotChance chance(const ReleaseState& release, ShotGuess& guess) const;
 
  private:
-  const PredictiveConfig& config_;
+  const PolicyConfig& config_;
   const RobotModel& robot_;
   const Goal& goal_;
   StateSpread state_;
+  std::optional<KeeperPlace> keeper_;
   BestHeight best_height_;
 };
 

@@ -1,0 +1,62 @@
+#include "kicking/outcome/keeper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kicking/outcome/p_inside.hpp"
+
+namespace trivela::kicking {
+namespace {
+
+struct Node {
+  double sds, weight;
+};
+const std::array<Node, 3> kNodes{{{-std::sqrt(3.0), 1.0 / 6.0}, {0.0, 2.0 / 3.0}, {std::sqrt(3.0), 1.0 / 6.0}}};
+
+/// Probability that a ball which crosses at N(mean, sd^2) lies to the right of an edge at N(edge, edge_sd^2), but not
+/// of the right post, of which `inside` is the probability; `inside_left` that of the left one.
+double p_beside(double mean_m, double sd_m, double edge_m, double edge_sd_m, double post_m, double inside,
+                double inside_left) {
+  double p = 0.0;
+  for (const Node& node : kNodes) {
+    const double from_m = edge_m + node.sds * edge_sd_m;
+    if (from_m >= post_m) continue;
+    p += node.weight * (inside - (from_m <= -post_m ? inside_left : normal_below(from_m - mean_m, sd_m)));
+  }
+  return p;
+}
+
+}  // namespace
+
+double keeper_reach_m(const KeeperConfig& keeper, double flight_s, const Ball& ball) {
+  const double h = keeper.half_width_m + ball.radius_m;
+  const double a = keeper.acceleration_mps2, v = keeper.speed_mps, tau = flight_s - keeper.reaction_s;
+  if (!(tau > 0.0 && a > 0.0 && v > 0.0)) return h;
+  const double now_mps = std::min(v, a * tau);
+  if (h >= now_mps * now_mps / (2.0 * a)) return h + (a * tau <= v ? 0.5 * a * tau * tau : v * (tau - 0.5 * v / a));
+  const double stops_s = tau + std::sqrt(2.0 * h / a);
+  return stops_s <= 2.0 * v / a ? 0.25 * a * stops_s * stops_s : v * (stops_s - v / a);
+}
+
+GoalChance goal_chance(const CrossingSpread& crossing, double bounce_ratio, const KeeperConfig& keeper,
+                       const KeeperPlace& place, const Goal& goal, const Ball& ball) {
+  const double post_m = goal.clean_half_width_m(ball), x = crossing.x_m, sd_x = crossing.sd_x_m;
+  const double inside_right = normal_below(post_m - x, sd_x), outside_left = normal_below(-post_m - x, sd_x);
+  const double between = inside_right - outside_left;
+  const double below = normal_below(goal.clean_height_m(ball) - crossing.z_m, crossing.sd_z_m);
+  const double in_height = below - (1.0 - bounce_ratio) * normal_below(ball.radius_m - crossing.z_m, crossing.sd_z_m);
+  GoalChance chance{.p_on_target = std::max(0.0, between * in_height)};
+  if (!(chance.p_on_target > 0.0)) return chance;
+  const double reach_m = keeper_reach_m(keeper, crossing.t_flight_s, ball), sd_m = std::hypot(keeper.sd_m, place.sd_m);
+  const double beside = p_beside(x, sd_x, place.x_m + reach_m, sd_m, post_m, inside_right, outside_left) +
+                        p_beside(-x, sd_x, reach_m - place.x_m, sd_m, post_m, 1.0 - outside_left, 1.0 - inside_right);
+  const double covered = std::max(0.0, between - beside);
+  const double over =
+      std::max(0.0, below - normal_below(keeper.height_m + ball.radius_m - crossing.z_m, crossing.sd_z_m));
+  const double past = over + keeper.miss_ratio * std::max(0.0, in_height - over);
+  chance.p_goal = std::max(0.0, std::min(beside, between) * in_height + covered * past);
+  return chance;
+}
+
+}  // namespace trivela::kicking
