@@ -22,7 +22,6 @@ constexpr double kBeforeFrame_m = 0.15;    // the frame and the net turn a ball 
 constexpr double kSlowestClimb_mps = 1.5;  // of a ball that leaves the floor by a kick
 // What happens how often, before anything is seen.
 constexpr double kBlockedAtOnce = 0.65;   // of them: before the ball was first seen in flight
-constexpr double kSaved = 0.005;          // a ball between posts and bar comes back
 constexpr double kStopped_per_s = 0.004;  // the referee stops the game for something else while the ball flies
 constexpr double kAgainstTheEnd = 1e-4;   // the tracker saw the ball on the other side of the line
 constexpr double kSystematic_m = 0.01;    // of the crossing: goal, camera and ball are not known better
@@ -99,7 +98,7 @@ struct Weights {
 };
 
 /// The ball crossed the line: clean, or it met the frame.
-void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log_back, double share,
+void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log_back, double share, double save_ratio,
                     const kicking::Goal& goal, Weights& weights) {
   const double sd_x_m = std::hypot(crossing.sd_x_m, kSystematic_m), sd_z_m = std::hypot(crossing.sd_z_m, kSystematic_m);
   OutcomeProbabilities p = kicking::crossing_probabilities(crossing.x_m, sd_x_m, crossing.z_m, sd_z_m, goal);
@@ -107,7 +106,7 @@ void weigh_crossing(const PlaneCrossing& crossing, double log_passed, double log
   for (const Outcome outcome : {Outcome::kWideLeft, Outcome::kWideRight, Outcome::kOver})
     of(weights.outcome, outcome) = passed * of(p, outcome);
   for (const Outcome outcome : {Outcome::kPost, Outcome::kBar}) of(weights.outcome, outcome) = back * of(p, outcome);
-  of(weights.outcome, Outcome::kOnTarget) = (passed + kSaved * back) * of(p, Outcome::kOnTarget);
+  of(weights.outcome, Outcome::kOnTarget) = (passed + save_ratio * back) * of(p, Outcome::kOnTarget);
 }
 
 /// Probability that the ball had come to the line when the sightings ended.
@@ -131,7 +130,8 @@ Weights weigh(const FlightHypotheses& told, const ShotTrack& track, const kickin
   double best = told.seen_after_crossing ? std::max(log_passed, log_back) : 0.0;
   for (const Turn& turn : told.turns) best = std::max(best, turn.log_likelihood);
   const double free = std::exp(-best);
-  if (there > 0.0) weigh_crossing(*told.crossing, log_passed - best, log_back - best, there, goal, weights);
+  if (there > 0.0)
+    weigh_crossing(*told.crossing, log_passed - best, log_back - best, there, track.save_ratio, goal, weights);
 
   const bool ended_free = !told.seen_after_crossing && there < 1.0;
   if (ended_free && track.end == FlightEnd::kAtRest) of(weights.outcome, Outcome::kShort) = (1.0 - there) * free;
@@ -184,6 +184,8 @@ ShotVerdict judge_shot(const ShotTrack& track, const kicking::Goal& goal, const 
     verdict.sd_cross_m = std::max(told->crossing->sd_x_m, told->crossing->sd_z_m);
   }
   verdict.probabilities = weights.outcome;
+  verdict.came_back =
+      track.end == FlightEnd::kThrownBack || (told->seen_after_crossing && told->log_thrown_back > told->log_passed);
   if (of(weights.outcome, Outcome::kBlocked) < 1.0 - kUntouched)
     verdict.parabola = parabola_of(airborne, track.ball_sd_m, goal.y_m);
   return verdict;

@@ -110,8 +110,11 @@ TrackedShot ShotTracker::settle(FlightEnd end, std::int64_t t_ns) {
                         .end_t_ns = t_ns,
                         .expected_speed_mps = shot.expected_speed_mps,
                         .expected_climb_mps = shot.expected_climb_mps,
-                        .ball_sd_m = noise_.sd_m()};
-  return {shot.kick_id, t_ns, shot.sightings.size(), judge_shot(track, goal_, settings_)};
+                        .ball_sd_m = noise_.sd_m(),
+                        .save_ratio = saves_.ratio()};
+  const ShotVerdict verdict = judge_shot(track, goal_, settings_);
+  saves_.learn(verdict);
+  return {shot.kick_id, t_ns, shot.sightings.size(), verdict};
 }
 
 }  // namespace trivela::robot

@@ -7,6 +7,7 @@
 
 #include "kicking/maybe.hpp"
 #include "robot/observer/camera_noise.hpp"
+#include "robot/observer/save_watch.hpp"
 #include "robot/observer/shot_judge.hpp"
 
 namespace trivela::robot {
@@ -64,6 +65,7 @@ class ShotTracker {
   config::ShotObserver settings_;
   kicking::Goal goal_;
   CameraNoise noise_;
+  SaveWatch saves_;
   std::deque<kicking::Sighting> history_;
   std::optional<Open> open_;
 };

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "robot/observer/save_watch.hpp"
+
 namespace trivela::robot {
 namespace {
 
@@ -46,6 +48,42 @@ TEST(ShotJudge, ABallThrownBackHitTheNearerOfPostAndBar) {
   EXPECT_EQ(judged(towards(-1.25, 0.4), FlightEnd::kThrownBack), Outcome::kPost);
   EXPECT_EQ(judged(towards(0.2, 0.88), FlightEnd::kThrownBack), Outcome::kBar);
   EXPECT_EQ(judged(towards(0.2, 1.25), FlightEnd::kThrownBack), Outcome::kBar);
+}
+
+TEST(ShotJudge, WhereAKeeperSavesABallThatComesBackFromNearThePostMayBeASave) {
+  const auto seen = towards(0.88, 0.4);
+  ShotTrack track{.sightings = seen,
+                  .end = FlightEnd::kThrownBack,
+                  .end_t_ns = seen.back().t_ns + 20'000'000,
+                  .expected_speed_mps = 8.0,
+                  .ball_sd_m = 0.01};
+  const auto p_on_target = [&](double save_ratio) {
+    track.save_ratio = save_ratio;
+    return judge_shot(track, kGoal, kSettings).probabilities->front();
+  };
+  EXPECT_LT(p_on_target(0.005), 0.3);
+  EXPECT_GT(p_on_target(0.9), 0.6);
+  EXPECT_TRUE(judge_shot(track, kGoal, kSettings).came_back);
+  track.end = FlightEnd::kBeyondLine;
+  EXPECT_FALSE(judge_shot(track, kGoal, kSettings).came_back);
+}
+
+TEST(SaveWatch, LearnsFromBallsThatAreSurelyOnTarget) {
+  SaveWatch watch;
+  ShotVerdict saved, post;
+  saved.outcome = Outcome::kOnTarget;
+  saved.came_back = true;
+  post.outcome = Outcome::kPost;
+  post.came_back = true;
+  watch.learn(saved);
+  for (int i = 0; i < 9; ++i) watch.learn(post);
+  EXPECT_EQ(watch.ratio(), 0.005) << "one may be chance";
+  watch.learn(saved);
+  EXPECT_EQ(watch.ratio(), 1.0);
+  ShotVerdict in;
+  in.outcome = Outcome::kOnTarget;
+  for (int i = 0; i < 6; ++i) watch.learn(in);
+  EXPECT_EQ(watch.ratio(), 0.25);
 }
 
 TEST(ShotJudge, TheSameBallBeyondTheLineIsJudgedByItsCrossing) {
