@@ -50,8 +50,8 @@ class TimelineLog {
 
   void opponent(Int t_ns, double x_m, double y_m) {
     writer_.push(writer_.table("vision_frames", {"robot_id", "seq", "t_ns", "t_exposure_ns", "pose_seen", "ball_seen",
-                                                 "opponent_seen", "opponent_x_m", "opponent_y_m"}),
-                 {Int{2}, ++seq_, t_ns + kMs, t_ns, Int{0}, Int{0}, Int{1}, x_m, y_m});
+                                                 "opponent_seen", "opponent_x_m", "opponent_y_m", "keeper_seen"}),
+                 {Int{2}, ++seq_, t_ns + kMs, t_ns, Int{0}, Int{0}, Int{1}, x_m, y_m, Int{0}});
   }
 
   /// From (0, 4), straight on, its S1 meeting the goal line 0.5 m right of (0, 9).

@@ -161,7 +161,7 @@ class Generator {
     world.seq = worlds_.size() + 1;
     worlds_.push_back(world);
     const LogicDecision decided =
-        logic.decide(world, {kicker_.latest(decides_ns), referee_.latest(decides_ns), nullptr, stalled, 0});
+        logic.decide(world, {kicker_.latest(decides_ns), referee_.latest(decides_ns), nullptr, nullptr, stalled, 0});
     if (world.possession) decisions_.push_back(decided.record);
   }
 
