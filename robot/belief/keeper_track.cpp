@@ -9,6 +9,8 @@ namespace trivela::robot {
 namespace {
 
 constexpr double kAnywhere_m = 0.3, kForgets_s = 5.0;  // assumptions
+constexpr double kNotIt_sd =
+    5.0;  // farther from where it may be the robot does not know its own place, or it is another
 
 }  // namespace
 
@@ -22,6 +24,7 @@ std::optional<kicking::KeeperPlace> KeeperTrack::at(std::int64_t t_ns) const {
 void KeeperTrack::observe(std::int64_t t_ns, double x_m, double seen_sd_m) {
   if (!std::isfinite(x_m) || !(seen_sd_m > 0.0) || (var_m2_ > 0.0 && t_ns <= t_ns_)) return;
   const kicking::KeeperPlace before = at(t_ns).value_or(kicking::KeeperPlace{0.0, kAnywhere_m});
+  if (std::abs(x_m - before.x_m) > kNotIt_sd * std::hypot(kAnywhere_m, seen_sd_m)) return;
   const double before_m2 = before.sd_m * before.sd_m, gain = before_m2 / (before_m2 + seen_sd_m * seen_sd_m);
   x_m_ = before.x_m + gain * (x_m - before.x_m);
   var_m2_ = (1.0 - gain) * before_m2;

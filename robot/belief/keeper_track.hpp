@@ -14,7 +14,7 @@ namespace trivela::robot {
 class KeeperTrack {
  public:
   /// A picture of t_ns shows it at x_m in F, an error of seen_sd_m; one that is not newer than the last counts for
-  /// nothing.
+  /// nothing, nor one that shows it where no keeper stands.
   void observe(std::int64_t t_ns, double x_m, double seen_sd_m);
 
   /// As known at t_ns; none: it was never seen.

@@ -66,5 +66,15 @@ TEST(KeeperTrack, AnOlderPictureChangesNothing) {
   EXPECT_EQ(track.at(kFrame_ns)->x_m, before);
 }
 
+TEST(KeeperTrack, APictureOfARobotThatDoesNotKnowItsPlaceChangesNothing) {
+  KeeperTrack track;
+  track.observe(1, 6.0, 0.2);
+  EXPECT_FALSE(track.at(2));
+  track.observe(kFrame_ns, 0.2, 0.1);
+  const double before = track.at(kFrame_ns)->x_m;
+  track.observe(2 * kFrame_ns, -6.0, 0.2);
+  EXPECT_NEAR(track.at(2 * kFrame_ns)->x_m, before, 0.01);
+}
+
 }  // namespace
 }  // namespace trivela::robot
