@@ -23,9 +23,10 @@ struct KeeperPlace {
   double sd_m = 0.0;  ///< standard deviation
 };
 
-/// How far from where it stood a keeper has a ball that comes to the line after `flight_s`, measured at the ball's
-/// centre [m]. With tau = flight_s - reaction_s, the acceleration a, the speed v and h = half_width + ball radius, it
-/// has the greatest W whose end is h or less away when the ball is there:
+/// How far from its place a keeper still stops a ball that comes to the line after `flight_s` [m], by the ball's
+/// centre. tau = flight_s - reaction_s, a is the acceleration, v the speed, h = half_width + ball radius. The keeper
+/// drives to where the ball crosses. It stops the ball if it is h or less away by then; W is the farthest such
+/// crossing:
 ///
 ///     it still speeds up or drives on:  W = h + a tau^2 / 2, from v on h + v (tau - v / (2 a))
 ///     it brakes, as for its own stop:   T = tau + sqrt(2 h / a),  W = a T^2 / 4 up to T = 2 v / a, then v (T - v / a)
@@ -37,10 +38,13 @@ struct GoalChance {
   double p_goal = 0.0;
 };
 
-/// Of a ball whose crossing is spread like that: p_on_target(), and that it is not the keeper's, either. It passes
-/// beside an edge at place +- reach + N(0, sd^2), in which the keeper's and the tracking's errors are one (three nodes
-/// of Gauss and Hermite), or over it where its lower side is above height_m; of the others the keeper misses a share. x
-/// and z are independent.
+/// Of a ball whose crossing is spread like that. p_on_target is p_on_target(); a goal is also past the keeper:
+/// - beside it: beyond an edge at place +- reach + N(0, sd^2), by three nodes of Gauss and Hermite; sd^2 is the sum of
+///   the keeper's and the tracking's variances;
+/// - over it: the ball's lower side is above height_m;
+/// - or the keeper misses it, with miss_ratio.
+///
+/// x and z are independent.
 GoalChance goal_chance(const CrossingSpread& crossing, double bounce_ratio, const KeeperConfig& keeper,
                        const KeeperPlace& place, const Goal& goal, const Ball& ball = {});
 

@@ -9,8 +9,8 @@ namespace trivela::robot {
 namespace {
 
 constexpr double kAnywhere_m = 0.3, kForgets_s = 5.0;  // assumptions
-constexpr double kNotIt_sd =
-    5.0;  // farther from where it may be the robot does not know its own place, or it is another
+// A picture that shows it farther off is of another robot, or taken by one that does not know its own place.
+constexpr double kNotIt_sd = 5.0;
 
 }  // namespace
 

@@ -33,5 +33,15 @@ TEST(Told, WhatItSeesAndWhoComesAreNearTheWorlds) {
   EXPECT_NEAR(told.closing_sd_mps, (opponent.closing_max_mps - opponent.closing_min_mps) / std::sqrt(12.0), 0.16);
 }
 
+TEST(Told, TheKeeperIsTheWorldsWithHalfOfItsFrame) {
+  const kicking::KeeperConfig told = Settings{}.policy.keeper;
+  const sim::Keeper keeper;
+  EXPECT_EQ(told.reaction_s, keeper.guard.reaction_s);
+  EXPECT_EQ(told.speed_mps, keeper.guard.speed_mps);
+  EXPECT_EQ(told.acceleration_mps2, keeper.guard.acceleration_mps2);
+  EXPECT_NEAR(told.half_width_m, keeper.guard.half_width_m + 0.5 * keeper.side_extension_m, 1e-9);
+  EXPECT_NEAR(told.height_m, keeper.guard.height_m + 0.5 * keeper.up_extension_m, 1e-9);
+}
+
 }  // namespace
 }  // namespace trivela::config

@@ -61,9 +61,12 @@ TEST(LearningWitness, HearsOnStockTypesWhatIsRecordedAndWhatIsSo) {
   })) << witness.errors();
   match.program().signal(SIGINT);
   match.program().wait();
-  const Heard heard{witness.output()};
-
   const Reader log{match.log()};
+  const std::int64_t last = number_of(log, "SELECT max(seq) FROM kicker_estimates");
+  ASSERT_TRUE(wait_for_change(folder.path(), witness.watch(), [&] {
+    return Heard{witness.output()}.estimates.back().seq >= last;
+  })) << "nothing is recorded that was not heard";
+  const Heard heard{witness.output()};
   std::int64_t next = heard.estimates.front().seq;
   for (const HeardEstimate& e : heard.estimates) {
     EXPECT_EQ(e.seq, next++);
@@ -72,8 +75,7 @@ TEST(LearningWitness, HearsOnStockTypesWhatIsRecordedAndWhatIsSo) {
     ASSERT_EQ(rows.size(), 1u) << e.seq;
     EXPECT_EQ(rows[0], (Row{e.kick_id, e.kicks, e.speed_ln, e.delay_s})) << e.seq;
   }
-  EXPECT_EQ(number_of(log, "SELECT max(seq) FROM kicker_estimates"), next - 1)
-      << "nothing is recorded that was not heard";
+  EXPECT_EQ(next - 1, last);
 
   int compared = 0;
   for (const auto& [kick_id, late_s] : heard.release_late_s) {

@@ -18,6 +18,7 @@ TEST(Testimony, TakesInWhatAWitnessSays) {
   seen.note("1006 outcome 17");
   seen.note("1007 outcome 17");
   seen.note("1008 sample device/drive");
+  seen.note("1009 estimate 3 17 2 0.05 0.01");
   ASSERT_EQ(seen.orders.size(), 1u);
   EXPECT_EQ(seen.orders[0].arrival_ns, 1000);
   EXPECT_EQ(seen.orders[0].t_ns, 900);
@@ -37,6 +38,7 @@ TEST(Testimony, TakesInWhatAWitnessSays) {
   EXPECT_EQ(seen.truths[0].release_t_ns, 970);
   EXPECT_EQ(seen.outcome_arrival_ns.at(17), 1006) << "the first one";
   EXPECT_EQ(seen.last_sample_ns.at("device/drive"), 1008);
+  EXPECT_EQ(seen.last_sample_ns.at("kicker_estimate"), 1009);
 }
 
 TEST(Testimony, RefusesALineThatIsNone) {

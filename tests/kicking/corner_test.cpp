@@ -94,5 +94,19 @@ TEST(Corner, StoppedAndMovingKeepTheirCorner) {
   }
 }
 
+TEST(Corner, AKeeperThatIsFirstSeenAfterTheOrderChangesNoAim) {
+  PolicyMemory memory;
+  PolicyInput input = ready_at({0, 4, 0}, {0, 1.2, 0});
+  const PolicyOutput fired = evaluate(PolicyName::kPredictive, {}, {}, {}, input, memory);
+  ASSERT_TRUE(fired.fire);
+  input.keeper = KeeperPlace{0.0, 0.05};
+  input.t_ns += 20'000'000;
+  const PolicyOutput pending = evaluate(PolicyName::kPredictive, {}, {}, {}, input, memory);
+  EXPECT_EQ(pending.reason, Reason::kOrderPending);
+  EXPECT_EQ(pending.target_x_m, fired.target_x_m) << "the kick was reckoned with this way of driving";
+  input.t_ns += 1'000'000'000;  // it was refused
+  EXPECT_NE(evaluate(PolicyName::kPredictive, {}, {}, {}, input, memory).target_x_m, 0.0) << "a corner";
+}
+
 }  // namespace
 }  // namespace trivela::kicking

@@ -53,10 +53,12 @@ Reason reason_of(const CandidateWay& best) {
 PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config, const RobotModel& robot,
                          const Goal& goal, const PolicyInput& input, PredictiveMemory& own) {
   const bool past_keeper = plays_past(config, input);
-  own.cycles_past = past_keeper ? own.cycles_past + 1 : 0;
-  if (own.cycles_past <= 1) own.way.aim_x_m = target_past(config, robot, goal, input, own).x();
-  LookaheadSearch search(config, robot, goal, input, own, learned);
   const bool pending = order_pending(config, input, own);
+  if (!pending) {
+    own.cycles_past = past_keeper ? own.cycles_past + 1 : 0;
+    if (own.cycles_past <= 1) own.way.aim_x_m = target_past(config, robot, goal, input, own).x();
+  }
+  LookaheadSearch search(config, robot, goal, input, own, learned);
   CandidateWay best{};
   if (pending) {
     best.way = own.way;  // the kick was reckoned with this way of driving
