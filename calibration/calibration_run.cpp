@@ -231,11 +231,43 @@ DriveSummary CalibrationRun::straight() {
   return summary;
 }
 
+DriveSummary CalibrationRun::low_kind(std::size_t kind) {
+  DriveSummary summary;
+  summary.name = update_.robot().kinds.at(kind - 1).name;
+  std::vector<double> powers;
+  for (const kicking::SetPoint& point : update_.robot().model.kind(kind).table.set_points())
+    powers.push_back(point.power);
+  const DriveRecord record =
+      play(summary, fmt::format("{}_{}", 5 + kind, summary.name), kicking::PolicyName::kStandingDrive,
+           standing_to_goal_m_, false, powers.size() * effort_.kind_kicks,
+           {fmt::format("policy.test_drive.kick_kind = {}", kind), "policy.test_drive.powers = " + list_of(powers),
+            fmt::format("policy.test_drive.kicks_per_level = {}", effort_.kind_kicks)});
+  summary.kicks = record.kicks.size();
+  kicking::RobotModel model = update_.robot().model.kind(kind);
+  const auto delays = release_delays(record.drives);
+  const kicking::DelayFit delay = kicking::fit_delay(delays.rows);
+  model.delay_s = delay.mean_s.value;
+  const auto kicks = low_kicks(record.drives, model);
+  summary.left_out = kicks.left_out;
+  summary.used = kicks.rows.size();
+  const kicking::TableFit table = fit_rising(kicks.rows, summary.left_out);
+  const kicking::DirectionFit direction = kicking::fit_direction(launch_directions(record.drives, model).rows);
+  update_.set_kind(kind, table, delay, direction, names(summary.logs));
+  summary.found = fmt::format("{} set-points, {:.2f} to {:.2f} m/s, delay {}", table.set_points.size(),
+                              table.set_points.front().exit_speed_mps.mean, table.set_points.back().exit_speed_mps.mean,
+                              figure(1e3 * delay.mean_s.value, 1e3 * delay.mean_s.se, "ms"));
+  return summary;
+}
+
 std::vector<DriveSummary> CalibrationRun::calibration(const std::function<void(const DriveSummary&)>& said) {
   std::vector<DriveSummary> drives;
   for (const auto step : {&CalibrationRun::standing, &CalibrationRun::delay, &CalibrationRun::direction,
                           &CalibrationRun::lateral, &CalibrationRun::turn, &CalibrationRun::straight}) {
     drives.push_back((this->*step)());
+    if (said) said(drives.back());
+  }
+  for (std::size_t kind = 1; kind < update_.robot().model.kinds(); ++kind) {
+    drives.push_back(low_kind(kind));
     if (said) said(drives.back());
   }
   return drives;

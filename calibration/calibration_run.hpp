@@ -21,6 +21,7 @@ struct CalibrationEffort {
   std::uint32_t lobs = 3;          ///< accepted ones that each set-point shall have; more rounds until it has them
   std::uint32_t rounds = 4;        ///< at most
   std::uint32_t drive_kicks = 8;   ///< lateral, straight: with each velocity
+  std::uint32_t kind_kicks = 4;    ///< of each further kind of kick: with each set-point
   std::uint32_t turn_kicks = 3;    ///< turn: with each step of the bisection
   std::uint32_t check_kicks = 40;  ///< possessions of the check
 };
@@ -54,7 +55,10 @@ class CalibrationRun {
   DriveSummary turn();       ///< beta (section 3.3)
   DriveSummary straight();   ///< transfer, forward and backward
 
-  /// All of them in that order, each said when it is done.
+  /// A further kind of kick, standing as for the first, by the flight camera: table, delay, scatter.
+  DriveSummary low_kind(std::size_t kind);
+
+  /// All of them in that order, each said when it is done; then each further kind of kick of the robot.
   std::vector<DriveSummary> calibration(const std::function<void(const DriveSummary&)>& said);
 
   const RobotUpdate& robot() const { return update_; }

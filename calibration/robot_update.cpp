@@ -1,6 +1,7 @@
 #include "calibration/robot_update.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -267,6 +268,33 @@ void RobotUpdate::set_delay(const kicking::DelayFit& fit, const std::vector<std:
   robot_.model.spreads.delay_sd_s = figure(fit.sd_s);
   robot_.model.spreads.delay_se_s = 0.0;
   calibration().delay = {origin(kicks, files), error(fit.mean_s.se), error(fit.sd_s)};
+}
+
+void RobotUpdate::set_kind(std::size_t kind, const kicking::TableFit& table, const kicking::DelayFit& delay,
+                           const kicking::DirectionFit& direction, const std::vector<std::string>& files) {
+  kicking::RobotModel& model = robot_.model.further_kinds.at(kind - 1);
+  const std::string key = fmt::format("kinds[{}].", kind - 1);
+  std::vector<kicking::SetPoint> points = table.table();
+  for (kicking::SetPoint& point : points) point.speed_mps = figure(point.speed_mps);
+  const double before_mps = model.table.back().speed_mps;
+  model.table = kicking::EffectiveTable{points};
+  const std::size_t kicks = table.residual_mps.size();
+  changed(key + "table, fastest", before_mps, model.table.back().speed_mps, fmt::format("{} kicks", kicks));
+  changed(key + "kicker.delay_s", model.delay_s, delay.mean_s.value, certainty(delay.mean_s.se, kicks));
+  model.delay_s = figure(delay.mean_s.value);
+  model.transfer_exact = robot_.model.transfer_exact;
+  kicking::KickSpreads& spreads = model.spreads;
+  spreads.delay_sd_s = figure(delay.sd_s);
+  if (table.exit_speed_sd_ratio > 0.0) spreads.speed_sd_ratio = figure(table.exit_speed_sd_ratio);
+  if (table.exit_speed_se_ratio > 0.0) spreads.table_sd_ratio = figure(table.exit_speed_se_ratio);
+  if (direction.sd_rad.value > 0.0) {
+    changed(key + "kicker.spreads.direction_sd_deg", degrees(spreads.direction_sd_rad), degrees(direction.sd_rad.value),
+            certainty(degrees(direction.sd_rad.se), kicks));
+    spreads.direction_sd_rad = figure_deg(direction.sd_rad.value);
+  }
+  robot_.kinds.at(kind - 1).source =
+      fmt::format("{} on {}: table, delay and spreads of {} kicks ({}); the angle was not measured", tool_, date_,
+                  kicks, fmt::join(files, ", "));
 }
 
 void RobotUpdate::set_play(const kicking::KickerEstimate& estimate, const std::vector<std::string>& files) {

@@ -50,6 +50,11 @@ class RobotUpdate {
   /// kicker.spreads.direction_sd_deg, which stays where the kicks do not show it.
   void set_direction(const kicking::DirectionFit& fit, std::size_t kicks, const std::vector<std::string>& files);
 
+  /// Of a further kind of kick, model.kind(kind): its table, delay and spreads; its angle stays, and its transfer is
+  /// that of the first kind. Throws std::invalid_argument for a table that does not rise.
+  void set_kind(std::size_t kind, const kicking::TableFit& table, const kicking::DelayFit& delay,
+                const kicking::DirectionFit& direction, const std::vector<std::string>& files);
+
   /// Table, angles, direction, delay, transfer, the lines of the paper and all spreads, as kicks in play show them.
   void set_play(const kicking::KickerEstimate& estimate, const std::vector<std::string>& files);
 

@@ -44,6 +44,8 @@ struct IoBoardDevice {
   double pulse_us_per_power = 128.0;    ///< the coil's pulse for one unit of the table's set-points
   std::optional<std::uint8_t> lever{};  ///< height, 0 home to 205; none: the table's (Robot::lever), if it says one
   double charge_time_s = 3.0;           ///< from empty to full (assumed): the board does not say its charge
+  std::vector<std::uint8_t> levers{};  ///< heights of all kinds of kick, by hal_for() from the robot's file; one: empty
+  double lever_s = 0.0;                ///< how long the lever moves, from there too
   friend std::unique_ptr<hal::Kicker> kicker_of(const IoBoardDevice&, const Hal&, const hal::Owner&);
 };
 

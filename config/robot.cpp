@@ -78,6 +78,29 @@ Robot with_height_table(Robot robot, const Settings& settings, const std::string
   throw Error{fmt::format("{}: height_table: {}", whose, error.what())};
 }
 
+/// The kinds of kick beside the first. Throws Error naming the file and the kind.
+void take_kinds(const RobotFile& file, Robot& robot, const std::string& name) {
+  if (file.kinds.size() + 1 > kicking::kMostKickKinds)
+    throw Error{fmt::format("{}: a robot has {} kinds of kick at most", name, kicking::kMostKickKinds)};
+  for (const KindFile& of : file.kinds) {
+    const std::string which = fmt::format("{}: kinds[{}]", name, robot.kinds.size());
+    if (!of.table) throw Error{which + " has no [kinds.table]"};
+    if (of.table->kind != kicking::TableKind::kEffective) throw Error{which + ": table.kind must be \"effective\""};
+    const kicking::RobotModel& first = robot.model;
+    if (of.model.ball_offset_m != first.ball_offset_m || of.model.ball.radius_m != first.ball.radius_m ||
+        of.model.ball.mass_kg != first.ball.mass_kg)
+      throw Error{which + ": ball and ball_offset_m are the robot's: they stand in [kicker] alone"};
+    kicking::RobotModel model = of.model;
+    model.table = table_of<kicking::EffectiveTable>(*of.table, which);
+    model.exit_angles = angles_of(*of.table, which);
+    robot.kinds.push_back(of.kind);
+    robot.kinds.back().lever = lever_of(*of.table, which);
+    if (robot.kinds.back().lever.has_value() != robot.lever.has_value())
+      throw Error{which + ": either each kind of kick has table.levers, or none"};
+    robot.model.further_kinds.push_back(std::move(model));
+  }
+}
+
 template <class Table>
 void write_table(const Table& table, TableColumns& columns) {
   columns.kind = Table::kKind;
@@ -85,6 +108,24 @@ void write_table(const Table& table, TableColumns& columns) {
     columns.powers.push_back(point.power);
     columns.exit_speeds_mps.push_back(point.speed_mps);
   }
+}
+
+/// Table, exit angles and lever of a kind of kick.
+TableColumns columns_of(const kicking::RobotModel& model, const std::optional<kicking::TrueTable>& true_table,
+                        std::optional<std::uint8_t> lever) {
+  TableColumns table;
+  if (true_table) {
+    write_table(*true_table, table);
+  } else {
+    write_table(model.table, table);
+  }
+  if (lever) table.levers.emplace(table.powers.size(), static_cast<double>(*lever));
+  if (model.exit_angles) {
+    auto& angles_deg = table.exit_angles_deg.emplace();
+    for (const kicking::AnglePoint& point : model.exit_angles->points())
+      angles_deg.push_back(std::round(kicking::degrees(point.exit_angle_rad) * 1e9) / 1e9);  // rad holds no more
+  }
+  return table;
 }
 
 }  // namespace
@@ -98,6 +139,8 @@ Robot load_robot_of_any_table(const std::filesystem::path& path) {
     throw Error{fmt::format("{}: a robot needs one table: [table] (exit speeds) or [height_table] (distances){}",
                             source.file, file.table ? ", not both" : "")};
   }
+  if (file.height_table && !file.kinds.empty())
+    throw Error{fmt::format("{}: a robot with [height_table] has no further [[kinds]]", source.file)};
   if (file.height_table) {
     robot.height_table = height_table_of(*file.height_table, source.file);
     return with_height_table(robot, {}, source.file);
@@ -110,6 +153,7 @@ Robot load_robot_of_any_table(const std::filesystem::path& path) {
   }
   robot.model.exit_angles = angles_of(table, source.file);
   robot.lever = lever_of(table, source.file);
+  take_kinds(file, robot, source.file);
   return robot;
 }
 
@@ -145,11 +189,20 @@ Hal hal_for(Hal devices, const Robot& robot) {
     throw Error{fmt::format("hal.ioboard.lever = {}, but the table of robot {} was measured with the lever at {}",
                             *board->lever, robot.name, *robot.lever)};
   board->lever = robot.lever;
+  if (!robot.kinds.empty()) {
+    board->levers = {*robot.lever};
+    for (const KickKind& kind : robot.kinds) board->levers.push_back(*kind.lever);
+    board->lever_s = robot.model.lever_s;
+  }
   return devices;
 }
 
 std::string to_toml_text(const Robot& robot) {
-  RobotFile file{robot, {}, {}};
+  RobotFile file{robot, {}, {}, {}};
+  for (std::size_t i = 0; i < robot.kinds.size(); ++i) {
+    const kicking::RobotModel& model = robot.model.kind(i + 1);
+    file.kinds.push_back({robot.kinds[i], model, columns_of(model, {}, robot.kinds[i].lever)});
+  }
   if (robot.height_table) {
     auto& columns = file.height_table.emplace();
     for (const kicking::DistancePoint& point : robot.height_table->points) {
@@ -158,18 +211,7 @@ std::string to_toml_text(const Robot& robot) {
     }
     return to_toml(file);
   }
-  TableColumns& table = file.table.emplace();
-  if (robot.true_table) {
-    write_table(*robot.true_table, table);
-  } else {
-    write_table(robot.model.table, table);
-  }
-  if (robot.lever) table.levers.emplace(table.powers.size(), static_cast<double>(*robot.lever));
-  if (robot.model.exit_angles) {
-    auto& angles_deg = table.exit_angles_deg.emplace();
-    for (const kicking::AnglePoint& point : robot.model.exit_angles->points())
-      angles_deg.push_back(std::round(kicking::degrees(point.exit_angle_rad) * 1e9) / 1e9);  // rad holds no more
-  }
+  file.table = columns_of(robot.model, robot.true_table, robot.lever);
   return to_toml(file);
 }
 

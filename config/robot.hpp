@@ -16,6 +16,13 @@ namespace trivela::config {
 
 using kicking::WheelBase;
 
+/// What a robot's file says of a kind of kick beside the first, whose model is of model.further_kinds.
+struct KickKind {
+  std::string name = "flat";
+  std::string source = "not measured";
+  std::optional<std::uint8_t> lever{};  ///< height of the kicker's lever, as Robot::lever
+};
+
 /// One robot's file: who it is, where its numbers come from, its kick model and its wheels.
 struct Robot {
   std::string name = "cambada_1";
@@ -26,6 +33,7 @@ struct Robot {
   std::optional<kicking::DistanceTable> height_table{};  ///< what model.table was made from, where the file has it
   std::optional<Calibration> calibration{};              ///< where measured figures come from
   std::optional<std::uint8_t> lever{};  ///< height of the kicker's lever at which the table was measured
+  std::vector<KickKind> kinds{};        ///< beside the first: [[kinds]], in the order of model.further_kinds
 };
 
 /// Reads config/robots/NAME.toml; what the file does not name keeps the default, but for the table, which must be

@@ -29,7 +29,7 @@ void fields(V& v, KickSpreads& s) {
 
 template <class V>
 void fields(V& v, RobotModel& m) {
-  v("exit_angle_deg", config::Degrees{m.exit_angle_rad}, config::Range{5.0, 80.0});
+  v("exit_angle_deg", config::Degrees{m.exit_angle_rad}, config::Range{0.0, 80.0});
   v("direction_deg", config::Degrees{m.direction_rad}, config::Range{-20.0, 20.0});
   v("delay_s", m.delay_s, config::Range{0.0, 0.5});
   v("ball_offset_m", m.ball_offset_m, config::Range{0.1, 0.6});
@@ -39,6 +39,7 @@ void fields(V& v, RobotModel& m) {
   v("ball_radius_m", m.ball.radius_m, config::Range{0.02, 0.25});
   v("transfer_paper", m.transfer_paper);
   v("transfer_exact", m.transfer_exact);
+  v("lever_s", m.lever_s, config::Range{0.0, 5.0});
   v("spreads", m.spreads);
 }
 
@@ -74,8 +75,16 @@ struct DistanceColumns {
   std::vector<double> powers;
 };
 
+/// [[kinds]]: a kind of kick beside the first one.
+struct KindFile {
+  KickKind kind;
+  kicking::RobotModel model;  ///< of the first kind, where the kind says nothing else
+  std::optional<TableColumns> table;
+};
+
 struct RobotFile {
   Robot robot;
+  std::vector<KindFile> kinds;
   std::optional<TableColumns> table;
   std::optional<DistanceColumns> height_table;
 };
@@ -91,8 +100,16 @@ void fields(V& v, TableColumns& t) {
   v("kind", t.kind);
   v("powers", t.powers, Range{0.0, 1e6});
   v("exit_speeds_mps", t.exit_speeds_mps, Range{0.1, 40.0});
-  v("exit_angles_deg", t.exit_angles_deg, Range{5.0, 80.0});
+  v("exit_angles_deg", t.exit_angles_deg, Range{0.0, 80.0});
   v("levers", t.levers, Range{0.0, 205.0});
+}
+
+template <class V>
+void fields(V& v, KindFile& k) {
+  v("name", k.kind.name);
+  v("source", k.kind.source);
+  v("table", k.table);
+  v("kicker", k.model);
 }
 
 template <class V>
@@ -102,6 +119,7 @@ void fields(V& v, RobotFile& f) {
   v("table", f.table);
   v("height_table", f.height_table);
   v("kicker", f.robot.model);
+  v("kinds", f.kinds, KindFile{.kind{}, .model = f.robot.model, .table{}});
   v("base", f.robot.base);
   v("calibration", f.robot.calibration);
 }

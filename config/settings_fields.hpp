@@ -98,6 +98,7 @@ void fields(V& v, TestDriveConfig& t) {
   v("rest_speed_mps", t.rest_speed_mps, Range{0.0, 2.0});
   v("rest_turn_rate_radps", t.rest_turn_rate_radps, Range{0.0, 5.0});
   v("powers", t.powers, Range{0.0, 1000.0});
+  v("kick_kind", t.kick_kind, Range{0, kMostKickKinds - 1});
   v("distance_m", t.distance_m, Range{1.0, 20.0});
   v("straight_distance_m", t.straight_distance_m, Range{1.0, 20.0});
   v("run_up_m", t.run_up_m, Range{0.3, 8.0});
@@ -119,6 +120,8 @@ void fields(V& v, PredictiveConfig& p) {
   v("horizon_s", p.horizon_s, Range{0.0, 5.0});
   v("step_s", p.step_s, Range{0.005, 0.5});
   v("bounce_ratio", p.bounce_ratio, Range{0.0, 1.0});
+  v("low_bounce_ratio", p.low_bounce_ratio, Range{0.0, 1.0});
+  v("floor_friction_ratio", p.floor_friction_ratio, Range{0.0, 2.0});
   v("position_sd_m", p.position_sd_m, Range{0.0, 5.0});
   v("heading_sd_deg", Degrees{p.heading_sd_rad}, Range{0.0, 45.0});
   v("speed_sd_mps", p.speed_sd_mps, Range{0.0, 5.0});
@@ -133,6 +136,7 @@ void fields(V& v, PredictiveConfig& p) {
   v("hazard_per_s", p.hazard_per_s, Range{0.0, 10.0});
   v("opponent_radius_m", p.opponent_radius_m, Range{0.0, 2.0});
   v("opponent_height_m", p.opponent_height_m, Range{0.0, 3.0});
+  v("opponent_places", p.opponent_places);
 }
 
 template <class V>

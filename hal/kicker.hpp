@@ -24,14 +24,16 @@ struct KickerSample {
   bool charge_modelled = false;  ///< the device measures no charge: it was computed from the time since the last shot
   kicking::Maybe voltage_v{};    ///< of the capacitor; none, or not finite: not measured
   bool emulated = false;         ///< the board is a program
+  std::uint8_t lever_kind = 0;   ///< kind of kick that the lever stands for; kicking::kLeverMoves: for none
 };
 
 /// What a device can do beyond firing and saying whether it may. Aligned so that an atomic one needs no lock.
-struct alignas(4) KickerCapabilities {
+struct alignas(8) KickerCapabilities {
   bool charge_control = false;  ///< charging is switched on and off by its host
   bool voltage = false;         ///< it measures its capacitor
   bool discharge = false;       ///< it empties its capacitor when told
   bool watchdog = false;        ///< it makes itself safe when its host falls silent
+  bool lever = false;           ///< it has a lever for several kinds of kick, which moves when told
   bool operator==(const KickerCapabilities&) const = default;
 };
 
@@ -48,6 +50,7 @@ struct Shot {
   std::int64_t t_ns = 0;                    ///< when the coil is to be energised
   std::int64_t until_ns = kNoDeadline_ns;   ///< the coil is not energised after it
   std::int64_t judged_ns = kNoDeadline_ns;  ///< when the order was judged, see hold_when()
+  std::uint8_t kick_kind = 0;               ///< for which the lever stood then
 };
 
 /// What became of a shot.
@@ -108,6 +111,9 @@ class Kicker {
   /// What the capacitor shall do from now on, where the device can be told: kCharge and kHold need charge_control,
   /// kDischarge needs discharge. Said again with each sample. By default nobody listens.
   virtual void charge(ChargeCommand word) { static_cast<void>(word); }
+
+  /// The lever shall stand for that kind of kick. Said again in each cycle. By default nobody listens.
+  virtual void lever(std::uint8_t kick_kind) { static_cast<void>(kick_kind); }
 
   /// Nothing is energised from now on. May be called again.
   virtual void make_safe() noexcept = 0;

@@ -1,6 +1,7 @@
 // What the code generated from the IDL says about each message type.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -69,21 +70,39 @@ template <class T, class F>
 requires Struct<std::remove_reference_t<T>>
 constexpr void visit_fields(T&& message, F&& f) { meta<std::remove_cvref_t<T>>::visit(message, f); }
 
-/// Calls f(name, field) for each field that is a value, no array and no struct: the columns of the message in a table.
+/// Calls f(field) for each value of the message: the columns of the message in a table. An array of doubles is as many
+/// columns; other arrays and structs are none.
 template <class T, class F>
 requires Struct<std::remove_reference_t<T>>
-constexpr void visit_columns(T&& message, F&& f) {
-  visit_fields(message, [&](std::string_view name, std::string_view, auto& field) {
+constexpr void visit_values(T&& message, F&& f) {
+  visit_fields(message, [&](std::string_view, std::string_view, auto& field) {
     using Value = std::remove_cvref_t<decltype(field)>;
-    if constexpr (!std::is_array_v<Value> && !Struct<Value>) f(name, field);
+    if constexpr (std::is_array_v<Value> && std::is_floating_point_v<std::remove_extent_t<Value>>) {
+      for (auto& value : field) f(value);
+    } else if constexpr (!std::is_array_v<Value> && !Struct<Value>) {
+      f(field);
+    }
   });
+}
+
+/// The name of an array's column: "speed_2_mps" of "speed_mps".
+inline std::string column_of(std::string_view name, std::size_t index) {
+  const std::size_t unit = std::min(name.rfind('_'), name.size());
+  return std::string{name.substr(0, unit)} + '_' + std::to_string(index) + std::string{name.substr(unit)};
 }
 
 /// The names of these columns.
 template <Struct T>
 std::vector<std::string> columns_of() {
   std::vector<std::string> columns;
-  visit_columns(T{}, [&](std::string_view name, const auto&) { columns.emplace_back(name); });
+  visit_fields(T{}, [&](std::string_view name, std::string_view, const auto& field) {
+    using Value = std::remove_cvref_t<decltype(field)>;
+    if constexpr (std::is_array_v<Value> && std::is_floating_point_v<std::remove_extent_t<Value>>) {
+      for (std::size_t i = 0; i < std::extent_v<Value>; ++i) columns.push_back(column_of(name, i));
+    } else if constexpr (!std::is_array_v<Value> && !Struct<Value>) {
+      columns.emplace_back(name);
+    }
+  });
   return columns;
 }
 

@@ -96,7 +96,7 @@ const std::vector<Rights>& all_rights() {
       rights("goal_camera", {}),
       rights("team", {}),
       rights_together("chain", {odometry, world_state, kick_decision}),
-      rights("simulator", these<DeviceDrive, DeviceFire, KickReceipt, StepDone>(), Runs::kWhereAskedFor),
+      rights("simulator", these<DeviceDrive, DeviceFire, DeviceCharge, KickReceipt, StepDone>(), Runs::kWhereAskedFor),
   };
   return all;
 }

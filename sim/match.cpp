@@ -271,7 +271,9 @@ Sensors Match::sense(const SensorChoice& choice) const {
   return {.t_ns = s.world.t_ns(),
           .carrier = s.opportunity.robot,
           .wheels = choice.wheels ? s.sensors.wheels(s.world) : WheelSample{},
-          .kicker = {.charge = s.world.kicker().charge()},
+          .kicker = {.charge = s.world.kicker().charge(),
+                     .lever = s.scenario.kicker.flat.enabled,
+                     .lever_kind = s.world.kicker().lever_kind(s.world.t_ns())},
           .vision = choice.vision ? s.sensors.vision(s.world) : VisionFrame{},
           .flight = choice.flight ? s.sensors.flight(s.world) : FlightFrame{},
           .referee = s.word(),
@@ -286,14 +288,18 @@ Kicker Match::true_kicker(std::uint32_t robot) const {
 
 TrueState Match::true_state() const {
   const State& s = *state_;
-  return {.pose = s.world.body().pose(),
-          .twist = s.world.body().twist(),
-          .ball_held = !s.world.shot(),
-          .charge = s.world.kicker().charge(),
-          .opponent_distance_m = s.challenger().distance_m(),
-          .opponent_closing_mps = s.challenger().closing_mps(),
-          .keeper_x_m = s.scenario.keeper.enabled ? kicking::Maybe(0.0) : std::nullopt,
-          .dispute_t_ns = s.dispute_t_ns};
+  TrueState state{.pose = s.world.body().pose(),
+                  .twist = s.world.body().twist(),
+                  .ball_held = !s.world.shot(),
+                  .charge = s.world.kicker().charge(),
+                  .lever_kind = s.world.kicker().lever_kind(s.world.t_ns()),
+                  .opponent_distance_m = s.challenger().distance_m(),
+                  .opponent_closing_mps = s.challenger().closing_mps(),
+                  .keeper_x_m = s.scenario.keeper.enabled ? kicking::Maybe(0.0) : std::nullopt,
+                  .dispute_t_ns = s.dispute_t_ns};
+  for (const OpponentBody& body : s.world.opponents().all())
+    state.opponents[state.opponent_count++] = {{body.position().x_m, body.position().y_m}, body.closing_mps(), 0.0};
+  return state;
 }
 
 StepEvents Match::step(const Commands& commands) {

@@ -52,19 +52,21 @@ std::optional<Problem> team_problem(const Team& team) {
   return Problem{"team.speed_scale_ratios", fmt::format("{} values for {} robots", ratios.size(), team.robots)};
 }
 
-std::optional<Problem> table_problem(const Kicker& k) {
-  if (k.powers.size() < 2) return Problem{"kicker.powers", "fewer than two set-points"};
+/// Of Kicker or FlatKick, whose keys begin with `section`.
+template <class Table>
+std::optional<Problem> table_problem(const Table& k, const std::string& section) {
+  if (k.powers.size() < 2) return Problem{section + "powers", "fewer than two set-points"};
   for (std::size_t i = 1; i < k.powers.size(); ++i) {
     if (!(k.powers[i] > k.powers[i - 1])) {
-      return Problem{"kicker.powers", fmt::format("{} does not rise above {}", k.powers[i], k.powers[i - 1])};
+      return Problem{section + "powers", fmt::format("{} does not rise above {}", k.powers[i], k.powers[i - 1])};
     }
   }
   const auto of_length = [&](const char* key, std::size_t size) -> std::optional<Problem> {
     if (size == k.powers.size()) return std::nullopt;
-    return Problem{key, fmt::format("{} values for {} powers", size, k.powers.size())};
+    return Problem{section + key, fmt::format("{} values for {} powers", size, k.powers.size())};
   };
-  if (auto problem = of_length("kicker.exit_speeds_mps", k.exit_speeds_mps.size())) return problem;
-  return of_length("kicker.exit_elevations_rad", k.exit_elevations_rad.size());
+  if (auto problem = of_length("exit_speeds_mps", k.exit_speeds_mps.size())) return problem;
+  return of_length("exit_elevations_rad", k.exit_elevations_rad.size());
 }
 
 }  // namespace
@@ -74,7 +76,8 @@ std::optional<Problem> first_problem(const Scenario& scenario) {
   RangeCheck check;
   fields(check, copy);
   if (check.problem) return check.problem;
-  if (auto problem = table_problem(scenario.kicker)) return problem;
+  if (auto problem = table_problem(scenario.kicker, "kicker.")) return problem;
+  if (auto problem = table_problem(scenario.kicker.flat, "kicker.flat.")) return problem;
   const Possession& p = scenario.possession;
   const Opponent& o = scenario.opponent;
   if (auto problem = ordered("possession.goal_distance_min_m", p.goal_distance_min_m, p.goal_distance_max_m))

@@ -21,8 +21,10 @@ struct BallPhysics {
   double retention_ratio = 0.8;            ///< horizontal speed kept in a bounce; Hawk-Eye flights on grass
   double roll_below_mps = 0.3;             ///< a bounce slower than this ends in rolling; assumption
   double rolling_deceleration_mps2 = 0.5;  ///< assumption
-  double frame_restitution_ratio = 0.5;    ///< speed kept when post or bar throws the ball back; assumption
-  double body_restitution_ratio = 0.3;     ///< speed kept when an opponent's body throws the ball back; assumption
+  /// Above 0 the floor acts by friction in place of retention_ratio, and the ball has spin (sim/kicker/flight.hpp).
+  double sliding_friction_ratio = 0.0;
+  double frame_restitution_ratio = 0.5;  ///< speed kept when post or bar throws the ball back; assumption
+  double body_restitution_ratio = 0.3;   ///< speed kept when an opponent's body throws the ball back; assumption
 };
 
 /// The robot's base while it dribbles.
@@ -37,6 +39,21 @@ struct Robot {
   std::vector<double> wheel_angles_rad{0.5235987755982988, 2.6179938779914944, 4.71238898038469};
   double wheel_distance_m = 0.22;  ///< assumption for a base of 0.52 m
   double wheel_radius_m = 0.05;    ///< assumption
+};
+
+/// What the kicker does with its lever down. Its table is true as the lob's.
+struct FlatKick {
+  bool enabled = false;
+  std::vector<double> powers{15, 20, 25, 30, 35, 40, 45, 50};
+  /// Assumption: a little faster than the lob. Published: 10.3 m/s at 14 degrees (Falcons).
+  std::vector<double> exit_speeds_mps{6.0, 7.4, 8.6, 9.5, 10.2, 10.6, 10.9, 11.0};
+  /// 6 degrees; assumption.
+  std::vector<double> exit_elevations_rad{0.1047, 0.1047, 0.1047, 0.1047, 0.1047, 0.1047, 0.1047, 0.1047};
+  double delay_s = 0.060;                          ///< as the lob's
+  double delay_sd_s = 0.015;                       ///< as the lob's
+  double speed_sd_ratio = 0.02;                    ///< as the lob's
+  double direction_sd_rad = 0.026179938779914945;  ///< 1.5 degrees, as the lob's
+  double lever_s = 0.25;                           ///< that the lever takes: Falcons' ioBoard, 205 positions of 1.2 ms
 };
 
 /// The electromagnetic kicker. The table is *true*: what leaves the robot at rest, before drag. Its default is the one
@@ -62,8 +79,9 @@ struct Kicker {
       1.0;  ///< ball-point velocity that the ball keeps; assumption, 1: rigid body, no floor loss
   double transfer_backward_ratio = 1.0;  ///< the same when driving backwards; assumption
   double transfer_lateral_ratio = 1.0;   ///< the same sideways; assumption, Table 1 of the paper is explained by 1
-  double charge_per_kick_ratio = 0.5;    ///< capacitor energy that the highest power takes; assumption
-  double recharge_per_s = 0.333;         ///< capacitor energy regained a second; assumption: 3 s from empty to full
+  FlatKick flat;
+  double charge_per_kick_ratio = 0.5;  ///< capacitor energy that the highest power takes; assumption
+  double recharge_per_s = 0.333;       ///< capacitor energy regained a second; assumption: 3 s from empty to full
 };
 
 /// How the robot gains the ball: the distributions that each opportunity is drawn from.

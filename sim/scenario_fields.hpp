@@ -26,6 +26,7 @@ void fields(V& v, BallPhysics& b) {
   v("retention_ratio", b.retention_ratio, kRatio);
   v("roll_below_mps", b.roll_below_mps, Range{0.05, 5.0});
   v("rolling_deceleration_mps2", b.rolling_deceleration_mps2, Range{0.0, 20.0});
+  v("sliding_friction_ratio", b.sliding_friction_ratio, Range{0.0, 2.0});
   v("frame_restitution_ratio", b.frame_restitution_ratio, kRatio);
   v("body_restitution_ratio", b.body_restitution_ratio, kRatio);
 }
@@ -40,6 +41,19 @@ void fields(V& v, Robot& r) {
   v("wheel_angles_rad", r.wheel_angles_rad, Range{-6.3, 6.3});
   v("wheel_distance_m", r.wheel_distance_m, Range{0.02, 0.6});
   v("wheel_radius_m", r.wheel_radius_m, Range{0.005, 0.3});
+}
+
+template <class V>
+void fields(V& v, FlatKick& k) {
+  v("enabled", k.enabled);
+  v("powers", k.powers, Range{0.0, 1000.0});
+  v("exit_speeds_mps", k.exit_speeds_mps, Range{0.1, 40.0});
+  v("exit_elevations_rad", k.exit_elevations_rad, Range{0.0, 1.5});
+  v("delay_s", k.delay_s, Range{0.0, 1.0});
+  v("delay_sd_s", k.delay_sd_s, Range{0.0, 0.5});
+  v("speed_sd_ratio", k.speed_sd_ratio, Range{0.0, 0.3});
+  v("direction_sd_deg", Degrees{k.direction_sd_rad}, Range{0.0, 30.0});
+  v("lever_s", k.lever_s, Range{0.0, 5.0});
 }
 
 template <class V>
@@ -58,6 +72,7 @@ void fields(V& v, Kicker& k) {
   v("transfer_forward_ratio", k.transfer_forward_ratio, Range{0.0, 1.5});
   v("transfer_backward_ratio", k.transfer_backward_ratio, Range{0.0, 1.5});
   v("transfer_lateral_ratio", k.transfer_lateral_ratio, Range{0.0, 1.5});
+  v("flat", k.flat);
   v("charge_per_kick_ratio", k.charge_per_kick_ratio, kRatio);
   v("recharge_per_s", k.recharge_per_s, Range{0.0, 100.0});
 }

@@ -60,6 +60,15 @@ void SensorSuite::remember(const World& world) {
   kept_ = std::min(kept_ + 1, past_.size());
   past_[newest_] = {world.t_ns(), world.body().pose(), world.body().axis(), world.ball_m(),
                     world.opponents().nearest().position()};
+  further_count_ = 0;
+  const auto add = [&](const PlanPoint& place) {
+    if (further_count_ < kMostFurther) past_[newest_].further[further_count_++] = place;
+  };
+  for (const OpponentBody& body : world.opponents().all()) {
+    if (&body != &world.opponents().nearest()) add(body.position());
+  }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(scenario_.defenders.count); ++i)
+    add(defender_place(scenario_, draws_, world.ball_m(), i));
 }
 
 void SensorSuite::next_cycle() { ++cycle_; }
@@ -95,7 +104,8 @@ SensorSuite::Snapshot SensorSuite::between(const Snapshot& a, const Snapshot& b,
           {std::cos(heading), std::sin(heading)},
           {std::lerp(a.ball.x(), b.ball.x(), part), std::lerp(a.ball.y(), b.ball.y(), part),
            std::lerp(a.ball.z(), b.ball.z(), part)},
-          {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)}};
+          {std::lerp(a.opponent.x_m, b.opponent.x_m, part), std::lerp(a.opponent.y_m, b.opponent.y_m, part)},
+          b.further};  // who of them is which may change between the two
 }
 
 WheelSample SensorSuite::wheels(const World& world) const {
@@ -141,8 +151,20 @@ VisionFrame SensorSuite::vision(const World& world) const {
     frame.opponent =
         PlanPoint{opponent.x_m + v.opponent_sd_m * opponent_x, opponent.y_m + v.opponent_sd_m * opponent_y};
   }
+  if (further_count_ > 0) see_further(*seen, frame);
   if (scenario_.keeper.enabled) frame.keeper = keeper(*seen, spare);
   return frame;
+}
+
+void SensorSuite::see_further(const Snapshot& seen, VisionFrame& frame) const {
+  const Vision& v = scenario_.vision;
+  for (std::uint32_t i = 0; i < further_count_; ++i) {
+    const PlanPoint there = in_robot(seen.pose, seen.axis, seen.further[i].x_m, seen.further[i].y_m);
+    const double luck = draws_.uniform(kicking::Role::kFurtherSight, cycle_, kMostFurther + i);
+    if (luck < v.dropout_ratio || length(there) > v.opponent_range_m) continue;
+    const auto [x, y, unused, more] = draws_.normals(kicking::Role::kFurtherSight, cycle_, i);
+    frame.further[frame.further_count++] = {there.x_m + v.opponent_sd_m * x, there.y_m + v.opponent_sd_m * y};
+  }
 }
 
 /// It stands in the middle of its line until a ball comes.

@@ -42,6 +42,7 @@ class SensorSuite {
     PlanVector axis;
     Eigen::Vector3d ball{0.0, 0.0, 0.0};
     PlanPoint opponent;
+    std::array<PlanPoint, kMostFurther> further{};  // of as many as the world has
   };
 
   /// One wheel of the base: what it turns at a unit of each velocity [1/m, 1/m, 1].
@@ -53,6 +54,7 @@ class SensorSuite {
   std::optional<Snapshot> at(std::int64_t t_ns) const;
   static Snapshot between(const Snapshot& a, const Snapshot& b, std::int64_t t_ns);
 
+  void see_further(const Snapshot& seen, VisionFrame& frame) const;
   std::optional<PlanPoint> keeper(const Snapshot& seen, double luck) const;
 
   /// The camera's slow error of this cycle.
@@ -74,6 +76,7 @@ class SensorSuite {
   std::vector<Snapshot> past_;  // a ring
   std::size_t newest_ = 0;
   std::size_t kept_ = 0;
+  std::size_t further_count_ = 0;  // opponents beside the nearest, and defenders
 
   mutable kicking::Pose slow_error_;  // a function of draws_ and slow_cycle_, carried on when a frame is asked for
   mutable std::uint32_t slow_cycle_ = 0;

@@ -20,8 +20,10 @@ struct WheelSample {
 
 /// The kicker's own state.
 struct KickerSample {
-  double charge = 1.0;  ///< capacitor energy, 0..1
-  bool armed = true;    ///< the arm switch
+  double charge = 1.0;          ///< capacitor energy, 0..1
+  bool armed = true;            ///< the arm switch
+  bool lever = false;           ///< it has a lever
+  std::uint8_t lever_kind = 0;  ///< kind of kick that it stands for; kicking::kLeverMoves: it moves
 };
 
 /// A point of the floor plan.
@@ -30,13 +32,17 @@ struct PlanPoint {
   double y_m = 0.0;
 };
 
+inline constexpr std::size_t kMostFurther = 4;
+
 /// One frame of the robot's camera.
 struct VisionFrame {
   std::int64_t t_exposure_ns = 0;
-  std::optional<kicking::Pose> pose;  ///< self-localisation in F
-  std::optional<PlanPoint> ball;      ///< in R
-  std::optional<PlanPoint> opponent;  ///< in R
-  std::optional<PlanPoint> keeper;    ///< the opponents', in R
+  std::optional<kicking::Pose> pose;              ///< self-localisation in F
+  std::optional<PlanPoint> ball;                  ///< in R
+  std::optional<PlanPoint> opponent;              ///< the nearest to the ball, in R
+  std::array<PlanPoint, kMostFurther> further{};  ///< other opponents that are seen, in R
+  std::size_t further_count = 0;
+  std::optional<PlanPoint> keeper;  ///< the opponents', in R
 };
 
 /// One observation of the ball by the flight camera, in F, z above the floor.

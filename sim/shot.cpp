@@ -116,7 +116,15 @@ bool Shot::keeper_has(const Crossing& crossing, double flown_s) const {
                      {crossing, flown_s, scenario_.ball.radius_m}, {noise[0], noise[1]});
 }
 
-/// Each defender stands where the line from the ball to the goal's middle crosses theirs, give or take its spread.
+PlanPoint defender_place(const Scenario& scenario, const kicking::Draws& draws, const Eigen::Vector3d& ball_m,
+                         std::uint32_t i) {
+  const Defenders& defenders = scenario.defenders;
+  const double goal_y_m = scenario.field.goal_line_y_m;
+  const double middle_x_m = ball_m.x() * defenders.line_distance_m / (goal_y_m - ball_m.y());
+  return {middle_x_m + defenders.spread_sd_m * draws.normals(kicking::Role::kDefender, 0, i)[2],
+          goal_y_m - defenders.line_distance_m};
+}
+
 void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, double dt_s) {
   const Defenders& defenders = scenario_.defenders;
   const double goal_y_m = scenario_.field.goal_line_y_m, line_y_m = goal_y_m - defenders.line_distance_m;
@@ -126,11 +134,9 @@ void Shot::meet_defenders(const BallMotion& before, std::int64_t before_t_ns, do
   const std::int64_t t_ns = before_t_ns + kicking::nanoseconds(until_s);
   const GuardedBall ball{
       {there.position_m.x(), there.position_m.z()}, kicking::seconds(t_ns - release_t_ns_), scenario_.ball.radius_m};
-  const Eigen::Vector3d& from = released_.position_m;
-  const double middle_x_m = from.x() * defenders.line_distance_m / (goal_y_m - from.y());
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(defenders.count); ++i) {
     const auto noise = draws_.normals(kicking::Role::kDefender, 0, i);
-    const double place_m = middle_x_m + defenders.spread_sd_m * noise[2];
+    const double place_m = defender_place(scenario_, draws_, released_.position_m, i).x_m;
     if (!guard_stops(defenders.guard, {}, place_m, ball, {noise[0], noise[1]})) continue;
     ball_ = there;
     ball_.velocity_mps.y() *= -scenario_.ball.body_restitution_ratio;

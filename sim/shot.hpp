@@ -66,6 +66,11 @@ class Shot {
   std::optional<ShotResult> result_;
 };
 
+/// Where defender `i` stands when a ball is shot from `ball_m`: where the line from the ball to the goal's middle
+/// crosses theirs, give or take its spread.
+PlanPoint defender_place(const Scenario& scenario, const kicking::Draws& draws, const Eigen::Vector3d& ball_m,
+                         std::uint32_t i);
+
 /// Distance of a crossing from the nearest edge beyond which kicking::classify() says something else [m]. The edges are
 /// those of the bands in which the ball overlaps posts and bar, and the floor has none.
 double margin_m(const Crossing& crossing, const kicking::Goal& goal, const kicking::Ball& ball);

@@ -8,6 +8,7 @@
 
 #include "kicking/geometry/frames.hpp"
 #include "kicking/maybe.hpp"
+#include "kicking/outcome/blocking.hpp"
 #include "kicking/outcome/outcome.hpp"
 
 namespace trivela::sim {
@@ -57,10 +58,13 @@ struct TrueState {
   kicking::Twist twist;               ///< in R
   bool ball_held = false;             ///< no ball has left in this possession
   double charge = 1.0;                ///< capacitor energy, 0..1
+  std::uint8_t lever_kind = 0;        ///< kind of kick that the lever stands for; kicking::kLeverMoves: it moves
   double opponent_distance_m = 0.0;   ///< from the ball; of whoever is there first
   double opponent_closing_mps = 0.0;  ///< its rate
-  kicking::Maybe keeper_x_m;          ///< the opponents' keeper along its line; none: there is none
-  std::int64_t dispute_t_ns = 0;      ///< when an opponent is at the ball, if it stays
+  std::array<kicking::BodyPlace, kicking::kMostBodies> opponents{};
+  std::size_t opponent_count = 0;
+  kicking::Maybe keeper_x_m;      ///< the opponents' keeper along its line; none: there is none
+  std::int64_t dispute_t_ns = 0;  ///< when an opponent is at the ball, if it stays
 };
 
 /// What was settled during one step.

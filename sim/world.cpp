@@ -30,6 +30,7 @@ void World::stop_play() {
 
 void World::command(const Commands& commands) {
   if (playing_) body_.follow(commands.drive);
+  kicker_.lever(commands.lever_kind, t_ns_);
   if (commands.fire) kicker_.order(*commands.fire);
 }
 

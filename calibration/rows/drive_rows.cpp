@@ -90,6 +90,27 @@ std::optional<kicking::LaunchDirection> launch_direction(const std::vector<kicki
   return kicking::LaunchDirection{-std::atan(slope), std::sqrt(residual_square / yy) / (1.0 + slope * slope)};
 }
 
+/// None: fewer than five sightings.
+std::optional<double> low_speed_mps(const std::vector<kicking::Sighting>& sightings, const DriveKick& kick,
+                                    const kicking::RobotModel& model) {
+  constexpr double kLeft_s = 0.06, kSeen_s = 0.25;
+  constexpr std::size_t kFewest = 5;
+  std::vector<kicking::Sighting> seen;
+  for (const kicking::Sighting& sighting : sightings) {
+    const double t_s = kicking::seconds(sighting.t_ns - kick.order_t_ns) - model.delay_s;
+    if (t_s < kLeft_s || t_s > kLeft_s + kSeen_s || sighting.ball_m.y() > kick.goal_line_y_m - kCarriedBack_m) continue;
+    seen.push_back(sighting);
+  }
+  if (seen.size() < kFewest) return std::nullopt;
+  const auto elapsed_s = [&](const kicking::Sighting& s) { return kicking::seconds(s.t_ns - kick.order_t_ns); };
+  const auto track = kicking::fit_line(std::span<const kicking::Sighting>{seen}, elapsed_s,
+                                       [](const kicking::Sighting& s) { return s.ball_m; });
+  if (!track) return std::nullopt;
+  const double v_mps = track->velocity_mps.head<2>().norm();
+  const double since_s = 0.5 * (elapsed_s(seen.front()) + elapsed_s(seen.back())) - model.delay_s;
+  return v_mps + kicking::drag_per_m(model.ball, {}) * v_mps * v_mps * since_s;
+}
+
 constexpr const char* kBackwards = "the robot pointed away from the goal line";
 
 }  // namespace
@@ -175,6 +196,25 @@ DriveKicks<kicking::LaunchDirection> launch_directions(const RecordedDrives& dri
     const auto direction = seen == sightings.end() ? std::nullopt : launch_direction(seen->second, kick, model);
     if (direction) {
       result.rows.push_back(*direction);
+    } else {
+      ++unseen;
+    }
+  }
+  count_out(result.left_out, unseen, "the flight camera saw too little of the flight");
+  return result;
+}
+
+DriveKicks<kicking::Trial> low_kicks(const RecordedDrives& drives, const kicking::RobotModel& model) {
+  DriveKicks<kicking::Trial> result;
+  std::size_t unseen = 0;
+  for (const DriveKick& kick : drives.kicks) {
+    if (kick.policy != "standing_drive") continue;
+    const auto seen = drives.sightings.find(kick.robot);
+    const auto v_mps = seen == drives.sightings.end() ? std::nullopt : low_speed_mps(seen->second, kick, model);
+    const double angle_rad = model.exit_angle_at(kick.power);
+    if (v_mps) {
+      result.rows.push_back(
+          {.power = kick.power, .exit_angle_rad = angle_rad, .exit_speed_mps = *v_mps / std::cos(angle_rad)});
     } else {
       ++unseen;
     }

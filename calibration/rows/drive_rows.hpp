@@ -8,6 +8,7 @@
 #include "kicking/fit/deflection_fit.hpp"
 #include "kicking/fit/direction_fit.hpp"
 #include "kicking/fit/rotation_fit.hpp"
+#include "kicking/fit/table_fit.hpp"
 #include "kicking/fit/transfer_fit.hpp"
 #include "kicking/model/robot_model.hpp"
 
@@ -51,6 +52,12 @@ DriveKicks<TrackedSpeed> standing_kicks(const RecordedDrives& drives, const kick
 /// through the flight camera's sightings of the ball in flight, x over y. Neither the robot's localisation nor its
 /// filters are in it.
 DriveKicks<kicking::LaunchDirection> launch_directions(const RecordedDrives& drives, const kicking::RobotModel& model);
+
+/// Kicks of policy "standing_drive" that stay low: exit speed by the flight camera, and the exit angle of `model`,
+/// which a ball near the floor does not show. The speed is the slope of a line through the sightings of the first
+/// quarter of a second in flight, with the drag until its middle, by the cosine of that angle. Where the ball slides
+/// meanwhile it comes out too slow: friction times g times half of that time, 0.4 m/s for a friction of 0.3.
+DriveKicks<kicking::Trial> low_kicks(const RecordedDrives& drives, const kicking::RobotModel& model);
 
 /// Order to release [s] of every accepted kick of a robot that does not turn, by the flight camera alone: the instant
 /// at which the ball's track in flight meets its track in the handler.

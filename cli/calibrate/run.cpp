@@ -44,13 +44,16 @@ struct Worlds {
   sim::Scenario check;  // without noise
 };
 
-/// The worlds of drives and check, with a kicker as fast as the team's robot where one is named.
+/// The worlds of drives and check, with a kicker as fast as the team's robot where one is named, and with a lever where
+/// the robot has several kinds of kick.
 Worlds worlds_of(const RunFlags& flags) {
   Worlds worlds{config::load_scenario(flags.scenario), config::load_scenario(flags.check)};
   if (!flags.team.empty()) {
     const sim::Kicker kicker = sim::team_kicker(config::load_scenario(flags.team), flags.number);
     worlds.drives.kicker.speed_scale_ratio = worlds.check.kicker.speed_scale_ratio = kicker.speed_scale_ratio;
   }
+  if (config::load_robot(flags.start).model.kinds() > 1)
+    worlds.drives.kicker.flat.enabled = worlds.check.kicker.flat.enabled = true;
   return worlds;
 }
 

@@ -105,7 +105,7 @@ int fire_test_kick(hal::Kicker& kicker, const config::Settings& settings, const 
                    SignalInbox& signals) {
   const SafeAfterwards safe{kicker};
   const kicking::Range powers{robot.model.table.front().power, robot.model.table.back().power};
-  robot::OrderGate gate{settings.kicker_driver, powers, settings.run.cycle_s};
+  robot::OrderGate gate{settings.kicker_driver, {powers}, settings.run.cycle_s};
   gate.referee(robot::RefereeSays::kPlay);
   std::optional<hal::KickerSample> newest;
   if (!listen(kicker, gate, newest, KickClock::now() + kKickerTimeout, signals,

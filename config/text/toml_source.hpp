@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fmt/core.h>
 #include <toml++/toml.h>
 #include <cmath>
 #include <filesystem>
@@ -99,6 +100,19 @@ class TableReader {
         },
         device);
     (read_where<Backends>(key), ...);
+  }
+  /// [[key]]: an element for each, which begins as `prototype`.
+  template <Section S>
+  void operator()(std::string_view key, std::vector<S>& sections, const S& prototype) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    sections.clear();
+    for (const toml::node& element : array_of(key, *node)) {
+      TableReader inner{file_, table_of(key, element),
+                        fmt::format("{}{}[{}]", section_.empty() ? "" : section_ + ".", key, sections.size())};
+      fields(inner, sections.emplace_back(prototype));
+      inner.refuse_unknown_keys();
+    }
   }
   template <Section S>
   void operator()(std::string_view key, S& section) {

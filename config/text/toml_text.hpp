@@ -59,6 +59,14 @@ class TableText {
         device);
   }
   template <Section S>
+  void operator()(std::string_view key, std::vector<S>& sections, auto&&...) {
+    for (S& section : sections) {
+      TableText inner{section_.empty() ? std::string{key} : section_ + "." + std::string{key}};
+      fields(inner, section);
+      tables_ += fmt::format("\n[[{}]]\n{}{}", inner.section_, inner.keys_, inner.tables_);
+    }
+  }
+  template <Section S>
   void operator()(std::string_view key, S& section) {
     TableText inner{section_.empty() ? std::string{key} : section_ + "." + std::string{key}};
     fields(inner, section);

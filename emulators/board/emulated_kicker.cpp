@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "emulators/ioboard/emulated_board.hpp"
 #include "emulators/rekick/emulated_board.hpp"
 
@@ -18,6 +20,12 @@ void stand(rekick::EmulatedBoard& board, double charge, bool armed) {
   board.measured_energy = charge;
 }
 
+std::uint8_t lever_kind_of(const ioboard::EmulatedBoard& board, const config::IoBoardDevice& host) {
+  const auto height = std::ranges::find(host.levers, board.lever());
+  return height == host.levers.end() ? std::uint8_t{0} : static_cast<std::uint8_t>(height - host.levers.begin());
+}
+std::uint8_t lever_kind_of(const rekick::EmulatedBoard&, const config::ReKickDevice&) { return 0; }
+
 /// `Emulator` for a host with the settings `Host`.
 template <class Emulator, class Host>
 class KickerOf final : public EmulatedKicker {
@@ -32,6 +40,12 @@ class KickerOf final : public EmulatedKicker {
 
   void show(double charge, bool armed) override {
     emulator_.with_board([&](auto& board) { stand(board, charge, armed); });
+  }
+
+  std::uint8_t lever_kind() override {
+    std::uint8_t kind = 0;
+    emulator_.with_board([&](const auto& board) { kind = lever_kind_of(board, host_); });
+    return kind;
   }
 
   std::vector<CoilPulse> take_pulses() override {

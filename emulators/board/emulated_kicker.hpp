@@ -33,6 +33,9 @@ class EmulatedKicker {
   /// arm switch.
   virtual void show(double charge, bool armed) = 0;
 
+  /// Kind of kick for which the lever was told to stand: of the host's heights. 0 for a board without a lever.
+  virtual std::uint8_t lever_kind() = 0;
+
   /// The pulses since the last call, in their order.
   virtual std::vector<CoilPulse> take_pulses() = 0;
 };

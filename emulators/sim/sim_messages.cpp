@@ -42,6 +42,8 @@ msg::DeviceKicker kicker_message(const sim::Sensors& sensors) {
   out.fault = msg::FAULT_NONE;
   out.voltage_v = msg::kNone;
   out.emulated = true;
+  out.lever = sensors.kicker.lever;
+  out.lever_kind = sensors.kicker.lever_kind;
   return out;
 }
 
@@ -62,6 +64,11 @@ msg::VisionFrame vision_message(std::int64_t t_ns, const sim::VisionFrame& frame
   const auto opponent = frame.opponent.value_or(kNoPoint);
   out.opponent_x_m = opponent.x_m;
   out.opponent_y_m = opponent.y_m;
+  out.further_count = static_cast<std::uint8_t>(frame.further_count);
+  for (std::size_t i = 0; i < sim::kMostFurther; ++i) {
+    out.further_x_m[i] = i < frame.further_count ? frame.further[i].x_m : msg::kNone;
+    out.further_y_m[i] = i < frame.further_count ? frame.further[i].y_m : msg::kNone;
+  }
   out.keeper_seen = frame.keeper.has_value();
   const auto keeper = frame.keeper.value_or(kNoPoint);
   out.keeper_x_m = keeper.x_m;

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kWatchedKicksSql = R"(
 SELECT k.session_id, s.uuid, s.simulated, k.robot_id, k.kick_id, k.t_ns, k.t_ns + u.utc_offset_ns AS utc_ns, k.release_t_ns,
   k.outcome, k.bounced, k.policy, k.z_cross_m, k.exit_speed_mps, d.x_m, d.y_m, d.heading_rad, d.vx_mps, d.vy_mps, d.omega_radps,
-  d.target_y_m, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
+  d.target_y_m, d.kick_kind, d.predicted_x_cross_m, d.predicted_z_cross_m, d.predicted_t_flight_s
 FROM counted_kicks AS k
 CROSS JOIN kick_decisions AS d ON d.session_id = k.session_id AND d.robot_id = k.robot_id AND d.seq = k.seq  -- this order
 JOIN sessions AS s ON s.session_id = k.session_id
@@ -57,7 +57,7 @@ std::vector<Row> watched_rows(const log::Reader& reader, std::size_t log, const 
                     .twist = {row.get<double>("vx_mps"), row.get<double>("vy_mps"), row.get<double>("omega_radps")},
                     .policy = kicking::row_of(row.get<std::string>("policy")).value_or(-1),
                     .goal_y_m = row.get<double>("target_y_m")};
-    if (!predicted_x_m || !predicted_z_m || !t_flight_s) return;
+    if (!predicted_x_m || !predicted_z_m || !t_flight_s || row.get<int>("kick_kind") != 0) return;
     watched.kick.x_m = *predicted_x_m;
     watched.kick.z_m = *predicted_z_m;
     watched.kick.t_flight_s = *t_flight_s;

@@ -54,6 +54,8 @@ int main(int argc, char** argv) {
     seen.ball_seen = true;  // in the robot's frame: forward of its middle
     seen.ball_y_m = 0.3;
     seen.opponent_x_m = seen.opponent_y_m = NAN;  // none is seen
+    for (int i = 0; i < 4; ++i) seen.further_x_m[i] = seen.further_y_m[i] = NAN;
+    seen.keeper_x_m = seen.keeper_y_m = NAN;
     dds_write(vision, &seen);
     trivela_msg_FlightFrame goal = {.robot_id = kRobot, .seq = seq, .t_ns = now_ns(), .t_exposure_ns = exposure_ns};
     goal.ball_seen = true;  // the ball on the floor, in the field's frame

@@ -18,6 +18,13 @@ SimulatedCalibrationOptions default_simulated_calibration() {
           .start = config::load_robot(config::shipped("robots/uncalibrated.toml"))};
 }
 
+void add_guessed_kinds(config::Robot& robot) {
+  const config::Robot guess = config::load_robot(config::shipped("robots/lob_flat_1.toml"));
+  robot.kinds = guess.kinds;
+  robot.model.lever_s = guess.model.lever_s;
+  robot.model.further_kinds = guess.model.further_kinds;
+}
+
 sim::Scenario calibration_scenario(const sim::Scenario& calibration, const sim::Scenario& world, std::uint32_t number) {
   sim::Scenario scenario = world;
   scenario.kicker = sim::team_kicker(world, number);
@@ -83,6 +90,7 @@ config::Robot calibrated_robot(const sim::Scenario& world, std::int64_t seed, st
   options.scenario = calibration_scenario(options.scenario, world, number);
   options.seed = seed;
   options.name = fmt::format("calibration_{}", seed);
+  if (world.kicker.flat.enabled) add_guessed_kinds(options.start);
   return play_calibration(options).robot.robot();
 }
 

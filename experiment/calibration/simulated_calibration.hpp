@@ -32,6 +32,9 @@ struct SimulatedCalibration {
 /// config/default.toml, config/robots/uncalibrated.toml and config/scenarios/calibration.toml.
 SimulatedCalibrationOptions default_simulated_calibration();
 
+/// The further kinds of kick of config/robots/lob_flat_1.toml, as guessed there.
+void add_guessed_kinds(config::Robot& robot);
+
 /// The calibration before a match in `world`: `calibration` (who stands where, an empty field, the laser) with the
 /// field, ball, base, sensors and kicker of `world`; the kicker as fast as that of its robot `number` (from 1), before
 /// the day drifts.
@@ -54,7 +57,8 @@ SimulatedCalibration play_calibration(const SimulatedCalibrationOptions& options
 /// seed. For any number of threads.
 SimulatedCalibration play_calibration(const SimulatedCalibrationOptions& options);
 
-/// The robot of a calibration of this world for an experiment: seed alone decides.
+/// The robot of a calibration of this world for an experiment: seed alone decides. Where the world's kicker has a flat
+/// kick the robot has one too, which the calibration begins with as config/robots/lob_flat_1.toml guesses it.
 config::Robot calibrated_robot(const sim::Scenario& world, std::int64_t seed, std::uint32_t number = 1);
 
 /// Calibrations with the seeds options.seed, options.seed + 1, ..., played by `jobs` threads. `progress`: calibrations

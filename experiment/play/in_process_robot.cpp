@@ -14,7 +14,10 @@ hal::WheelSample wheel_sample(const sim::Sensors& sensors) {
 }
 
 hal::KickerSample kicker_sample(const sim::Sensors& sensors) {
-  return {sensors.t_ns, sensors.kicker.charge, sensors.kicker.armed, hal::KickerFault::kNone};
+  return {.t_ns = sensors.t_ns,
+          .charge = sensors.kicker.charge,
+          .armed = sensors.kicker.armed,
+          .lever_kind = sensors.kicker.lever_kind};
 }
 
 }  // namespace

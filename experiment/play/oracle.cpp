@@ -6,7 +6,10 @@
 
 namespace trivela::experiment {
 
-kicking::RobotModel oracle_robot(const sim::Scenario& scenario, const sim::Kicker& kicker) {
+namespace {
+
+/// One kind of kick.
+kicking::RobotModel oracle_kind(const sim::Scenario& scenario, const sim::Kicker& kicker) {
   std::vector<kicking::SetPoint> speeds;
   std::vector<kicking::AnglePoint> angles;
   for (std::size_t i = 0; i < kicker.powers.size(); ++i) {
@@ -32,6 +35,16 @@ kicking::RobotModel oracle_robot(const sim::Scenario& scenario, const sim::Kicke
   return robot;
 }
 
+}  // namespace
+
+kicking::RobotModel oracle_robot(const sim::Scenario& scenario, const sim::Kicker& kicker, std::size_t kinds) {
+  kicking::RobotModel robot = oracle_kind(scenario, kicker);
+  if (!kicker.flat.enabled || kinds == 1) return robot;
+  robot.lever_s = kicker.flat.lever_s;
+  robot.further_kinds.push_back(oracle_kind(scenario, sim::kicker_of_kind(kicker, 1)));
+  return robot;
+}
+
 kicking::PolicyConfig oracle_config(const kicking::PolicyConfig& config, const sim::Scenario& scenario) {
   kicking::PolicyConfig told = config;
   told.cycle_s = scenario.cycle_s;
@@ -52,6 +65,7 @@ kicking::PolicyConfig oracle_config(const kicking::PolicyConfig& config, const s
                  .height_m = guard.height_m + scenario.keeper.up_extension_m - guard.overlap_m,
                  .sd_m = 0.02,
                  .miss_ratio = config.keeper.miss_ratio};
+  if (scenario.ball.sliding_friction_ratio > 0.0) own.floor_friction_ratio = scenario.ball.sliding_friction_ratio;
   own.hazard_per_s = 0.02;  // so that it does not wait for nothing
   return told;
 }
@@ -66,8 +80,11 @@ kicking::PolicyInput oracle_input(const sim::TrueState& state, std::int64_t t_ns
   input.possession = state.ball_held;
   input.possession_id = possession_id;
   input.kicker_ready = kicker_ready;
+  input.lever_kind = state.lever_kind;
   input.opponent_distance_m = state.opponent_distance_m;
   input.opponent_closing_mps = state.opponent_closing_mps;
+  input.opponents = state.opponents;
+  input.opponent_count = state.opponent_count;
   if (state.keeper_x_m) input.keeper = kicking::KeeperPlace{*state.keeper_x_m, 0.0};
   return input;
 }

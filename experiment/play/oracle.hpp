@@ -8,12 +8,13 @@
 
 /// What the policy `oracle` is given in place of a robot's belief: everything here is the simulator's truth, which no
 /// other policy may see. It says what better knowledge could buy the rule of `predictive`, with its steps and its blind
-/// spot (the opponent's bearing); other rules may be better than it.
+/// spot (the opponents' bearings, without policy.predictive.opponent_places); other rules may be better than it.
 namespace trivela::experiment {
 
 /// A robot that knows its kicker: the true table as the effective one that its flights would be measured as
-/// (sim::effective_exit), true delay and transfer, and the spreads that each kick is drawn from.
-kicking::RobotModel oracle_robot(const sim::Scenario& scenario, const sim::Kicker& kicker);
+/// (sim::effective_exit), true delay and transfer, and the spreads that each kick is drawn from. It has as many kinds
+/// of kick as the robot whose place it takes, 2 at most.
+kicking::RobotModel oracle_robot(const sim::Scenario& scenario, const sim::Kicker& kicker, std::size_t kinds = 1);
 
 /// The settings of a robot that knows its own state and the opponent's exactly: no spread, no lag; the referee's time
 /// limit is the only other hazard.

@@ -83,6 +83,7 @@ class Game {
     if (oracle_) truth = match_.true_state();
     if (const robot::CycleDecision* decision = chain.cycle(sensors, referee, outcome_, truth ? &*truth : nullptr)) {
       commands.drive = chain.drive().twist;
+      commands.lever_kind = decision->output.lever_kind;
       note_assignment(chain, decision->in_charge);
       if (record_ && chain.world().possession && (options_.every_cycle || decision->order))
         record_->decisions.push_back(chain.record());
@@ -167,6 +168,7 @@ class Game {
     kick.omega_radps = world.omega_radps;
     kick.opponent_distance_m = world.opponent_distance_m;
     kick.power = receipt.power;
+    kick.kind = receipt.kick_kind;
     kick.v_kick_mps = output.v_kick_mps.value_or(0.0);
     kick.p_on_target = output.p_on_target;
     kick.predicted = output.predicted;
@@ -231,8 +233,8 @@ class Game {
     if (players_.size() <= index) players_.resize(index + 1);
     if (players_[index]) return *players_[index];
     const config::Robot robot = robot_of(scenario_, arm_, seed_, match_id_, robot_id);
-    players_[index].reset(
-        new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id)}, .learning = std::nullopt});
+    players_[index].reset(new Player{.chain{settings_, robot, robot_id, session_, seat(robot_id, robot.model.kinds())},
+                                     .learning = std::nullopt});
     Player& player = *players_[index];
     player.chain.hear(*first_word_);
     if (settings_.self_calibration.mode == config::SelfCalibrationMode::kOff) return player;
@@ -245,10 +247,10 @@ class Game {
 
   InProcessRobot& chain_of(std::uint8_t robot_id) { return player_of(robot_id).chain; }
 
-  std::optional<robot::GroundTruthPolicy> seat(std::uint8_t robot_id) const {
+  std::optional<robot::GroundTruthPolicy> seat(std::uint8_t robot_id, std::size_t kinds) const {
     if (!knows_the_truth(settings_.kick_decision, robot_id)) return std::nullopt;
     return robot::GroundTruthPolicy{oracle_config(settings_.policy, scenario_),
-                                    oracle_robot(scenario_, match_.true_kicker(robot_id))};
+                                    oracle_robot(scenario_, match_.true_kicker(robot_id), kinds)};
   }
 
   /// Whose kick it is: of this possession, or of one before, where it was seen late.

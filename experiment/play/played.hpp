@@ -19,6 +19,7 @@ struct PlayedKick {
   double omega_radps = 0.0;
   kicking::Maybe opponent_distance_m;  ///< of the nearest opponent from the ball
   double power = 0.0;
+  std::uint8_t kind = 0;  ///< of the robot's kinds of kick
   double v_kick_mps = 0.0;
   kicking::Maybe p_on_target;                              ///< predicted
   std::optional<kicking::PredictedCrossing> predicted;     ///< crossing of the goal line

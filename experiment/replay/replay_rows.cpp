@@ -37,7 +37,8 @@ void ReplayRows::write_cycle(msg::WorldState world, const LogicDecision& decided
                                                 .t_ns = world.t_ns,
                                                 .vx_mps = decided.drive.vx_mps,
                                                 .vy_mps = decided.drive.vy_mps,
-                                                .omega_radps = decided.drive.omega_radps}));
+                                                .omega_radps = decided.drive.omega_radps,
+                                                .lever_kind = decided.record.lever_kind}));
   if (world.possession) write_decision(decided.record);
   if (!decided.order) return;
   ++orders_made_;

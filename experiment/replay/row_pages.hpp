@@ -34,7 +34,7 @@ T message_of(std::span<const log::Value> cells) {
   using log::cell_as;
   T message{};
   std::size_t column = 0;
-  bus::visit_columns(message, [&](std::string_view, auto& field) {
+  bus::visit_values(message, [&](auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (bus::Enumeration<Field>) {
       const auto value = bus::from_label<Field>(cell_as<std::string>(cells[column], column));

@@ -111,6 +111,7 @@ void BoardKicker::run() {
   ::pthread_setname_np(::pthread_self(), "kicker board");
   ::prctl(PR_SET_TIMERSLACK, 1UL);  // ns; without a real-time priority it would wake up 50 us late
   while (fire_due()) {
+    board_->lever(lever_kind_);
     if (next_shot_ns() - kQuiet_ns > steady_ns()) board_->step(steady_ns());
     publish();
     wait();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -38,6 +39,7 @@ class BoardKicker final : public Kicker {
   void call_when_written(const std::function<void()>& written) override;
   std::optional<ShotResult> take_result() override;
   std::string beyond(double power) const override { return board_->beyond(power); }
+  void lever(std::uint8_t kick_kind) override { lever_kind_ = kick_kind; }
   void make_safe() noexcept override;
   KickerCapabilities capabilities() const override { return capabilities_; }
   std::string status() const override;
@@ -55,6 +57,7 @@ class BoardKicker final : public Kicker {
   const std::unique_ptr<KickerBoard> board_;  // the thread's
   const KickerCapabilities capabilities_;
   const Descriptor wake_;
+  std::atomic<std::uint8_t> lever_kind_ = 0;
 
   mutable std::mutex mutex_;  // of all that follows
   std::condition_variable changed_;

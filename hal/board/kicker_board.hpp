@@ -34,6 +34,9 @@ class KickerBoard {
   /// also that the line has been doubtful for kDoubt_ns.
   virtual std::string shoot(double power, std::int64_t now_ns) = 0;
 
+  /// Kicker::lever(): the next step() tells the board.
+  virtual void lever(std::uint8_t kick_kind) { static_cast<void>(kick_kind); }
+
   /// Kicker::beyond(). For any thread.
   virtual std::string beyond(double power) const = 0;
 

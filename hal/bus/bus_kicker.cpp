@@ -53,14 +53,16 @@ std::optional<KickerSample> BusKicker::read(std::chrono::nanoseconds timeout) {
   capabilities_ = {.charge_control = received->charge_control,
                    .voltage = voltage_v.has_value(),
                    .discharge = received->discharge,
-                   .watchdog = received->watchdog};
+                   .watchdog = received->watchdog,
+                   .lever = received->lever};
   return KickerSample{.t_ns = received->t_ns,
                       .charge = received->charge,
                       .armed = received->armed,
                       .fault = contested_ ? KickerFault::kLink : fault_of(received->fault),
                       .charge_modelled = received->charge_modelled,
                       .voltage_v = voltage_v,
-                      .emulated = received->emulated};
+                      .emulated = received->emulated,
+                      .lever_kind = received->lever_kind};
 }
 
 void BusKicker::fire(const Shot& shot) {
@@ -70,6 +72,7 @@ void BusKicker::fire(const Shot& shot) {
   order.t_ns = shot.t_ns;
   order.kick_id = shot.kick_id;
   order.power = shot.power;
+  order.kick_kind = shot.kick_kind;
   if (safe_) return;
   const bool late = shot.until_ns != kNoDeadline_ns && now_ns() > shot.until_ns;
   if (late || (hold_ && hold_(shot.judged_ns))) {
@@ -111,7 +114,7 @@ void BusKicker::make_safe() noexcept {
 
 void BusKicker::write_charge(ChargeCommand word) {
   const KickerCapabilities can = capabilities_;
-  if (!can.charge_control && !can.discharge) return;
+  if (!can.charge_control && !can.discharge && !can.lever) return;
   msg::DeviceCharge out{};
   out.robot_id = robot_id_;
   out.seq = ++charge_seq_;
@@ -119,6 +122,7 @@ void BusKicker::write_charge(ChargeCommand word) {
   out.word = word == ChargeCommand::kCharge      ? msg::CHARGE_UP
              : word == ChargeCommand::kDischarge ? msg::CHARGE_EMPTY
                                                  : msg::CHARGE_HOLD;
+  out.lever_kind = lever_kind_;
   charges_.write(out);
 }
 

@@ -33,6 +33,8 @@ class BusKicker final : public Kicker {
   void call_when_written(const std::function<void()>& written) override { written_ = written; }
   std::optional<ShotResult> take_result() override;
   void charge(ChargeCommand word) override;
+  /// Said with the next charge().
+  void lever(std::uint8_t kick_kind) override { lever_kind_ = kick_kind; }
   void make_safe() noexcept override;
   /// That several bridges write, which is a fault of the link while it lasts.
   std::string status() const override;
@@ -52,6 +54,7 @@ class BusKicker final : public Kicker {
   std::uint64_t fire_seq_ = 0;
   std::atomic<std::uint64_t> charge_seq_ = 0;
   std::atomic<KickerCapabilities> capabilities_{};
+  std::atomic<std::uint8_t> lever_kind_ = 0;
   std::atomic<bool> safe_ = false;
   Hold hold_;
   std::function<void()> written_;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "hal/board/board_kicker.hpp"
 #include "hal/open.hpp"
 #include "kicking/geometry/time.hpp"
+#include "kicking/model/robot_model.hpp"
 
 namespace trivela::hal::ioboard {
 namespace {
@@ -19,6 +21,7 @@ constexpr std::int64_t kPending_ns = 10'000'000;      // an opening that takes i
 constexpr std::int64_t kFaultPeriod_ns = 50'000'000;  // of samples while the line is down
 constexpr int kReadsPerStep = 16;                     // so that a flood keeps no shot waiting
 constexpr double kLongestPulse = 255.0;
+constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
 constexpr Line::Deadline kNow{};  // does not wait
 
 std::string name_of(Command command) { return fmt::format("{:02X}", static_cast<unsigned>(command)); }
@@ -46,6 +49,11 @@ void IoBoard::step(std::int64_t now_ns) {
   if (closed && now_ns >= next_ns_) open(now_ns);
   if (phase_ > Phase::kOpening) receive(now_ns);
   if (phase_ > Phase::kOpening) time_out(now_ns);
+  if (up() && !question_ && wanted_kind_ != told_kind_ && now_ns >= lever_stands_ns_) {
+    told_kind_ = wanted_kind_;
+    lever_stands_ns_ = kNever_ns;
+    ask(frame_of(Command::kHeight, *height()), now_ns);
+  }
   if (up() && !question_ && now_ns >= next_ns_) {
     next_ns_ = now_ns + kPollPeriod_ns;
     ask(frame_of(Command::kStatus), now_ns);
@@ -54,7 +62,9 @@ void IoBoard::step(std::int64_t now_ns) {
 }
 
 std::int64_t IoBoard::next_ns() const {
-  const std::int64_t asked = question_ ? question_->last_ns + kAnswer_ns : next_ns_;
+  const bool lever_waits = up() && !question_ && wanted_kind_ != told_kind_;
+  const std::int64_t step = lever_waits ? std::min(next_ns_, lever_stands_ns_) : next_ns_;
+  const std::int64_t asked = question_ ? question_->last_ns + kAnswer_ns : step;
   const std::int64_t shot = shot_unanswered_ns_ ? *shot_unanswered_ns_ + kAnswer_ns : asked;
   const std::int64_t fault = fault_said_ns_ ? *fault_said_ns_ + kFaultPeriod_ns : asked;
   return std::min({asked, shot, fault});
@@ -117,10 +127,7 @@ void IoBoard::take(const Frame& answer, std::int64_t now_ns) {
     case Command::kVersion:
       return take_version(answer, now_ns);
     case Command::kHeight:
-      if (answer.payload[0] == settings_.lever) return come_up(now_ns);
-      return lose(
-          fmt::format("{}: the lever was told {} and answered {}", line_->name(), *settings_.lever, answer.payload[0]),
-          now_ns);
+      return take_height(answer, now_ns);
     case Command::kStatus:
       return take_switches(answer, question.first_ns);
     default:
@@ -130,9 +137,31 @@ void IoBoard::take(const Frame& answer, std::int64_t now_ns) {
 
 void IoBoard::take_version(const Frame& answer, std::int64_t now_ns) {
   version_ = text_of(answer.payload);
-  if (!settings_.lever) return come_up(now_ns);
+  told_kind_ = wanted_kind_;
+  if (!height()) return come_up(now_ns);
   phase_ = Phase::kHeight;
-  ask(frame_of(Command::kHeight, *settings_.lever), now_ns);
+  ask(frame_of(Command::kHeight, *height()), now_ns);
+}
+
+void IoBoard::lever(std::uint8_t kick_kind) {
+  if (kick_kind < settings_.levers.size()) wanted_kind_ = kick_kind;
+}
+
+/// That the board was told last.
+std::optional<std::uint8_t> IoBoard::height() const {
+  return settings_.levers.empty() ? settings_.lever : settings_.levers[told_kind_];
+}
+
+void IoBoard::take_height(const Frame& answer, std::int64_t now_ns) {
+  if (answer.payload[0] != height())
+    return lose(fmt::format("{}: the lever was told {} and answered {}", line_->name(), *height(), answer.payload[0]),
+                now_ns);
+  lever_stands_ns_ = now_ns + kicking::nanoseconds(settings_.lever_s);
+  if (phase_ == Phase::kHeight) come_up(now_ns);
+}
+
+std::uint8_t IoBoard::lever_kind(std::int64_t now_ns) const {
+  return now_ns >= lever_stands_ns_ ? told_kind_ : kicking::kLeverMoves;
 }
 
 void IoBoard::come_up(std::int64_t now_ns) {
@@ -150,7 +179,8 @@ void IoBoard::take_switches(const Frame& answer, std::int64_t asked_ns) {
                          .armed = closed && closed_once_,
                          .fault = KickerFault::kNone,
                          .charge_modelled = true,
-                         .emulated = version_ == kEmulatedVersion};
+                         .emulated = version_ == kEmulatedVersion,
+                         .lever_kind = lever_kind(asked_ns)};
   closed_once_ = closed;
 }
 

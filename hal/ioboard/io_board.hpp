@@ -13,7 +13,9 @@
 namespace trivela::hal::ioboard {
 
 /// The Falcons' ioBoard. Where its line is opened it is asked for its version, told the lever's height once, and asked
-/// for its switches every kPollPeriod_ns from then on.
+/// for its switches every kPollPeriod_ns from then on. Of a robot with several kinds of kick it is told the height of
+/// another kind when that is wanted and the lever stands: the board ignores a height while the lever moves, and does
+/// not say how long that is. It is taken to take lever_s.
 ///
 /// A question is asked again, kRetries times, where no answer comes within kAnswer_ns; then the line is lost, and
 /// opened again between pauses. A shot and a height are never sent twice: the board may have done what it did not
@@ -37,7 +39,8 @@ class IoBoard final : public KickerBoard {
   std::string shoot(double power, std::int64_t now_ns) override;
   std::string beyond(double power) const override;
   std::optional<KickerSample> take_sample() override;
-  KickerCapabilities capabilities() const override { return {}; }
+  void lever(std::uint8_t kick_kind) override;
+  KickerCapabilities capabilities() const override { return {.lever = settings_.levers.size() > 1}; }
   const std::string& status() const override { return status_; }
 
  private:
@@ -58,6 +61,9 @@ class IoBoard final : public KickerBoard {
   void time_out(std::int64_t now_ns);
   void ask(const Frame& frame, std::int64_t now_ns);
   void send(const Frame& frame, std::int64_t now_ns);
+  std::optional<std::uint8_t> height() const;
+  void take_height(const Frame& answer, std::int64_t now_ns);
+  std::uint8_t lever_kind(std::int64_t now_ns) const;
   void come_up(std::int64_t now_ns);
   void lose(const std::string& why, std::int64_t now_ns);
   void say_link_fault(std::int64_t now_ns);
@@ -73,6 +79,9 @@ class IoBoard final : public KickerBoard {
   std::optional<std::int64_t> shot_unanswered_ns_;  // when it was sent
   bool closed_once_ = false;                        // both switches, in the last answer
   std::int64_t charging_since_ns_ = 0;
+  std::uint8_t wanted_kind_ = 0;      // for which the lever shall stand
+  std::uint8_t told_kind_ = 0;        // that the board was told last
+  std::int64_t lever_stands_ns_ = 0;  // from then on it does
   std::optional<KickerSample> sample_;
   std::string version_;
   std::string status_;

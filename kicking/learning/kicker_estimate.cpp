@@ -13,7 +13,9 @@ constexpr double kFlattest_rad = radians(5.0), kSteepest_rad = radians(80.0);
 constexpr double kMostTurned_rad = radians(20.0);
 constexpr double kPaperPerExact = 0.7;  // k of kicker.map against the exact law's full transfer
 
-double elevation(double file_rad, double by_rad) { return std::clamp(file_rad + by_rad, kFlattest_rad, kSteepest_rad); }
+double elevation(double file_rad, double by_rad) {
+  return std::clamp(file_rad + by_rad, std::min(file_rad, kFlattest_rad), kSteepest_rad);
+}
 
 double share(double file, double by) { return std::clamp(file + by, 0.0, kMostTransfer); }
 
@@ -74,6 +76,12 @@ RobotModel corrected(const RobotModel& file, const KickerEstimate& estimate) {
   spreads.delay_sd_s = std::hypot(estimate.delay_sd_s, se[kDelayPart]);
   spreads.transfer_sd_ratio = std::max(se[kAlongPart], se[kSidewaysPart]);
   spreads.exit_angle_se_rad = spreads.direction_se_rad = spreads.delay_se_s = 0.0;
+  // One coil drives every kind, and its ball lies in the same handler; angle and direction are of the lever's position.
+  for (RobotModel& further : model.further_kinds) {
+    further.table = faster(further.table, factor);
+    further.delay_s = std::clamp(further.delay_s + mean[kDelayPart], 0.0, kLongestDelay_s);
+    further.transfer_exact = model.transfer_exact;
+  }
   return model;
 }
 

@@ -56,7 +56,8 @@ bool sound(const KickerEstimate& estimate);
 ///
 ///     alpha_slope' = alpha_slope e^-s + side / (V c),   beta_slope' = beta_slope + delay + side r / (V c)
 ///
-/// with s the logarithm of the speed, V and c the speed and cosine in the middle of the table, r the ball's offset.
+/// with s the logarithm of the speed, V and c the speed and cosine in the middle of the table, r the ball's offset. Of
+/// further kinds of kick speed, delay and transfer are corrected alike, and nothing else.
 RobotModel corrected(const RobotModel& file, const KickerEstimate& estimate);
 
 }  // namespace trivela::kicking

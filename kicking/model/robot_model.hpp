@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "kicking/ballistics/moving_kick.hpp"
 #include "kicking/constants.hpp"
@@ -23,6 +25,10 @@ struct KickSpreads {
   double direction_se_rad = 0.0;
   double delay_se_s = 0.0;
 };
+
+/// How many kinds of kick a robot may have, and what says that its lever is on the way from one to another.
+inline constexpr std::size_t kMostKickKinds = 4;
+inline constexpr std::uint8_t kLeverMoves = 255;
 
 /// What a decision knows of its robot. The defaults are robot 1 of CAMBADA (release 1.0, config/kicker.map; laser
 /// calibration).
@@ -54,6 +60,15 @@ struct RobotModel {
   double beta_slope_s = 0.12;
   Ball ball{};
   KickSpreads spreads{};
+  /// Kinds of kick beside this one: other positions of a lever. Each is a whole model with a table, an angle, a delay
+  /// and spreads of its own; ball and ball offset are the same.
+  std::vector<RobotModel> further_kinds{};
+  /// How long the lever takes from one kind to another: the 205 positions of the Falcons' ioBoard at 1.2 ms each.
+  double lever_s = 0.25;
+
+  std::size_t kinds() const { return 1 + further_kinds.size(); }
+  /// Of kick kind `i`, below kinds().
+  const RobotModel& kind(std::size_t i) const { return i == 0 ? *this : further_kinds[i - 1]; }
 
   /// Elevation of a kick of this power [rad].
   double exit_angle_at(double power) const { return exit_angles ? exit_angles->angle_for(power) : exit_angle_rad; }

@@ -12,6 +12,7 @@
 #include "kicking/geometry/goal.hpp"
 #include "kicking/maybe.hpp"
 #include "kicking/model/robot_model.hpp"
+#include "kicking/outcome/blocking.hpp"
 #include "kicking/outcome/keeper.hpp"
 #include "kicking/policy/policy_config.hpp"
 
@@ -62,7 +63,10 @@ struct PolicyInput {
   double state_age_s = 0.0;    ///< of the older of world state and kicker status
   double sd_position_m = 0.0;  ///< of the pose by its filter, each axis
   double sd_heading_rad = 0.0;
-  Maybe opponent_distance_m;          ///< nearest opponent to the ball; stopped and moving do not look at it
+  std::uint8_t lever_kind = 0;  ///< kind of kick that the lever stands for; kLeverMoves: for none
+  Maybe opponent_distance_m;    ///< nearest opponent to the ball; stopped and moving do not look at it
+  std::array<BodyPlace, kMostBodies> opponents{};  ///< that are tracked, the keeper aside
+  std::size_t opponent_count = 0;                  ///< of them; 0: their places are not known
   Maybe opponent_closing_mps;         ///< how fast it comes, where both are known exactly: the oracle alone
   std::optional<KeeperPlace> keeper;  ///< that is tracked
   std::optional<SeenKick> last_kick;  ///< the latest one with an outcome; the turn drive alone looks at it
@@ -85,12 +89,14 @@ struct PolicyOutput : Alignment, ShotNumbers {
   double target_x_m = 0.0;  ///< aim point in F
   double target_y_m = 0.0;
   double target_z_m = 0.0;
-  double alpha_rad = 0.0;     ///< right positive
-  double beta_rad = 0.0;      ///< with the sign of omega
-  Maybe p_on_target;          ///< predicted probability that this kick is on target; none: not computed
-  Maybe p_goal;               ///< the same, and past the keeper; none: no keeper is tracked
-  double fire_after_s = 0.0;  ///< energise the coil so much later than the input's instant, within a cycle
-  Twist drive{};              ///< command until the next cycle, in R
+  double alpha_rad = 0.0;       ///< right positive
+  double beta_rad = 0.0;        ///< with the sign of omega
+  Maybe p_on_target;            ///< predicted probability that this kick is on target; none: not computed
+  Maybe p_goal;                 ///< the same, and past the keeper; none: no keeper is tracked
+  double fire_after_s = 0.0;    ///< energise the coil so much later than the input's instant, within a cycle
+  std::uint8_t kick_kind = 0;   ///< of the kick, as in RobotModel::kind()
+  std::uint8_t lever_kind = 0;  ///< for which the lever shall stand until the next cycle
+  Twist drive{};                ///< command until the next cycle, in R
 
   Alignment& alignment() { return *this; }
   ShotNumbers& shot() { return *this; }
@@ -132,7 +138,9 @@ inline constexpr std::tuple kRecordedFields{
     RecordedField{"predicted_t_flight_s", predicted<&PredictedCrossing::t_flight_s>},
     RecordedField{"p_on_target", &PolicyOutput::p_on_target},
     RecordedField{"p_goal", &PolicyOutput::p_goal},
-    RecordedField{"fire_after_s", &PolicyOutput::fire_after_s}};
+    RecordedField{"fire_after_s", &PolicyOutput::fire_after_s},
+    RecordedField{"kick_kind", &PolicyOutput::kick_kind},
+    RecordedField{"lever_kind", &PolicyOutput::lever_kind}};
 
 /// What every policy remembers of a possession. One that remembers more derives from it.
 struct PossessionMemory {

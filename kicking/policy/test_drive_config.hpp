@@ -24,6 +24,8 @@ struct TestDriveConfig {
 
   /// Standing: set-points of the kicker (those of CAMBADA's kicker.map).
   std::vector<double> powers{15, 20, 25, 30, 35, 40, 45, 50};
+  /// Standing: kind of kick, as in RobotModel::kind().
+  std::uint32_t kick_kind = 0;
 
   /// Lateral: robot's centre to target at the kick (paper, Table 1: d = 6.0 m).
   double distance_m = 6.0;

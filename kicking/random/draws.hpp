@@ -32,6 +32,7 @@ enum class Role : std::uint32_t {
   kKeeper,
   kDefender,
   kKeeperSight,
+  kFurtherSight,  // opponents beside the nearest one
 };
 
 /// The random numbers of one opportunity: fixed by (seed, opportunity, role, counter, index), in whatever order and

@@ -192,7 +192,8 @@ std::optional<std::vector<Column>> columns_of(SQLite::Database& database, std::s
   SQLite::Statement query(database, fmt::format("PRAGMA table_info(\"{}\")", quoted));
   std::vector<Column> columns;
   while (query.executeStep())
-    columns.push_back({query.getColumn("name").getString(), query.getColumn("notnull").getInt() != 0});
+    columns.push_back({query.getColumn("name").getString(), query.getColumn("notnull").getInt() != 0,
+                       !query.getColumn("dflt_value").isNull()});
   if (columns.empty()) return std::nullopt;
   return columns;
 }

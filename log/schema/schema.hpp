@@ -26,6 +26,7 @@ inline constexpr LogKind kStudyResults{"results file", "a study that was played"
 struct Column {
   std::string name;
   bool not_null = false;
+  bool has_default = false;  ///< what a row has that leaves it out
 };
 
 /// The statements that make a log.

@@ -119,6 +119,15 @@ CREATE TABLE vision_frames (               -- what the robot's vision saw in one
   opponent_seen INTEGER NOT NULL CHECK (opponent_seen IN (0, 1)), -- 1: an opponent was seen
   opponent_x_m REAL,                       -- nearest opponent in R, m
   opponent_y_m REAL,                       -- nearest opponent in R, m
+  further_count INTEGER NOT NULL DEFAULT 0, -- further opponents that are seen, the keeper aside
+  further_x_0_m REAL,                      -- of further opponent 0, in R, m
+  further_x_1_m REAL,                      -- of further opponent 1, in R, m
+  further_x_2_m REAL,                      -- of further opponent 2, in R, m
+  further_x_3_m REAL,                      -- of further opponent 3, in R, m
+  further_y_0_m REAL,                      -- of further opponent 0, in R, m
+  further_y_1_m REAL,                      -- of further opponent 1, in R, m
+  further_y_2_m REAL,                      -- of further opponent 2, in R, m
+  further_y_3_m REAL,                      -- of further opponent 3, in R, m
   keeper_seen INTEGER NOT NULL CHECK (keeper_seen IN (0, 1)), -- 1: the opponents' keeper was seen
   keeper_x_m REAL,                         -- keeper in R, m
   keeper_y_m REAL,                         -- keeper in R, m
@@ -183,6 +192,37 @@ CREATE TABLE world_states (                -- the robot's belief
   ball_age_s REAL,                         -- since the ball was last seen, s
   possession INTEGER NOT NULL CHECK (possession IN (0, 1)), -- 1: the ball lies in the robot's handler
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
+  opponent_count INTEGER NOT NULL DEFAULT 0, -- opponents that are tracked, the keeper aside
+  opponent_x_0_m REAL,                     -- of opponent 0: position in F, m
+  opponent_x_1_m REAL,                     -- of opponent 1: position in F, m
+  opponent_x_2_m REAL,                     -- of opponent 2: position in F, m
+  opponent_x_3_m REAL,                     -- of opponent 3: position in F, m
+  opponent_x_4_m REAL,                     -- of opponent 4: position in F, m
+  opponent_y_0_m REAL,                     -- of opponent 0: position in F, m
+  opponent_y_1_m REAL,                     -- of opponent 1: position in F, m
+  opponent_y_2_m REAL,                     -- of opponent 2: position in F, m
+  opponent_y_3_m REAL,                     -- of opponent 3: position in F, m
+  opponent_y_4_m REAL,                     -- of opponent 4: position in F, m
+  opponent_vx_0_mps REAL,                  -- of opponent 0: velocity in F, m/s
+  opponent_vx_1_mps REAL,                  -- of opponent 1: velocity in F, m/s
+  opponent_vx_2_mps REAL,                  -- of opponent 2: velocity in F, m/s
+  opponent_vx_3_mps REAL,                  -- of opponent 3: velocity in F, m/s
+  opponent_vx_4_mps REAL,                  -- of opponent 4: velocity in F, m/s
+  opponent_vy_0_mps REAL,                  -- of opponent 0: velocity in F, m/s
+  opponent_vy_1_mps REAL,                  -- of opponent 1: velocity in F, m/s
+  opponent_vy_2_mps REAL,                  -- of opponent 2: velocity in F, m/s
+  opponent_vy_3_mps REAL,                  -- of opponent 3: velocity in F, m/s
+  opponent_vy_4_mps REAL,                  -- of opponent 4: velocity in F, m/s
+  opponent_sd_0_m REAL,                    -- of opponent 0: standard deviation of its x and of its y, m
+  opponent_sd_1_m REAL,                    -- of opponent 1: standard deviation of its x and of its y, m
+  opponent_sd_2_m REAL,                    -- of opponent 2: standard deviation of its x and of its y, m
+  opponent_sd_3_m REAL,                    -- of opponent 3: standard deviation of its x and of its y, m
+  opponent_sd_4_m REAL,                    -- of opponent 4: standard deviation of its x and of its y, m
+  opponent_sd_0_mps REAL,                  -- of opponent 0: standard deviation of its velocity, each axis, m/s
+  opponent_sd_1_mps REAL,                  -- of opponent 1: standard deviation of its velocity, each axis, m/s
+  opponent_sd_2_mps REAL,                  -- of opponent 2: standard deviation of its velocity, each axis, m/s
+  opponent_sd_3_mps REAL,                  -- of opponent 3: standard deviation of its velocity, each axis, m/s
+  opponent_sd_4_mps REAL,                  -- of opponent 4: standard deviation of its velocity, each axis, m/s
   keeper_x_m REAL,                         -- the opponents' keeper along their goal line, in F, m; NULL: none is tracked
   keeper_sd_m REAL,                        -- its standard deviation, m
   PRIMARY KEY (session_id, robot_id, seq)
@@ -196,6 +236,7 @@ CREATE TABLE drive_commands (              -- how the robot shall move until the
   vx_mps REAL NOT NULL,                    -- in R, right, m/s
   vy_mps REAL NOT NULL,                    -- in R, forward, m/s
   omega_radps REAL NOT NULL,               -- counter-clockwise, rad/s
+  lever_kind INTEGER NOT NULL DEFAULT 0,   -- kind of kick for which the kicker's lever shall stand
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -227,6 +268,7 @@ CREATE TABLE kicker_status (               -- the state of the kicker
   last_accepted INTEGER NOT NULL CHECK (last_accepted IN (0, 1)), -- 1: the last order was accepted
   orders_handled INTEGER NOT NULL,         -- orders so far
   orders_refused INTEGER NOT NULL,         -- refused orders so far
+  lever_kind INTEGER NOT NULL DEFAULT 0,   -- kind of kick that the lever stands for; 255: it moves
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -271,6 +313,8 @@ CREATE TABLE kick_decisions (              -- one cycle with the ball: fire or h
   p_on_target REAL,                        -- predicted probability that this kick is on target
   p_goal REAL,                             -- the same, and past the keeper; NULL: no keeper is tracked
   fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
+  kick_kind INTEGER NOT NULL DEFAULT 0,    -- of the robot's kinds of kick, in the order of its file
+  lever_kind INTEGER NOT NULL DEFAULT 0,   -- kind of kick for which the kicker's lever shall stand
   assignment_probability REAL NOT NULL,    -- with which the policy was put in charge; 1: not at random
   opponent_distance_m REAL,                -- from the ball to the nearest opponent, m
   charge REAL NOT NULL,                    -- capacitor energy, 0..1
@@ -302,6 +346,7 @@ CREATE TABLE shadow_decisions (            -- what a policy that is not in charg
   p_on_target REAL,                        -- predicted probability that its kick is on target
   p_goal REAL,                             -- the same, and past the keeper; NULL: no keeper is tracked
   fire_after_s REAL NOT NULL,              -- coil energised so much after t_ns, s
+  kick_kind INTEGER NOT NULL DEFAULT 0,    -- of the robot's kinds of kick, in the order of its file
   PRIMARY KEY (session_id, robot_id, seq, shadow_index)
 ) STRICT, WITHOUT ROWID;
 
@@ -315,6 +360,7 @@ CREATE TABLE kick_orders (                 -- the command to kick
   fire_t_ns INTEGER NOT NULL,              -- earliest instant to energise the coil
   valid_until_t_ns INTEGER NOT NULL,       -- afterwards the driver refuses it
   possession INTEGER NOT NULL CHECK (possession IN (0, 1)), -- 1: the ball lay in the handler in the world state
+  kick_kind INTEGER NOT NULL DEFAULT 0,    -- of the robot's kinds of kick, in the order of its file
   PRIMARY KEY (session_id, robot_id, seq)
 ) STRICT, WITHOUT ROWID;
 
@@ -329,11 +375,13 @@ CREATE TABLE kick_receipts (               -- the driver's answer to an order
   accepted INTEGER NOT NULL CHECK (accepted IN (0, 1)), -- 1: the device was told, or may have been
   refusal TEXT NOT NULL CHECK (refusal = 'none' OR refusal = 'stale' OR refusal = 'out_of_range'
     OR refusal = 'unarmed' OR refusal = 'double' OR refusal = 'charging' OR refusal = 'fault'
-    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger' OR refusal = 'not_known'), -- why it was refused; not_known: accepted, and nobody knows whether it fired
+    OR refusal = 'referee_silent' OR refusal = 'no_ball' OR refusal = 'stranger' OR refusal = 'not_known'
+    OR refusal = 'lever'), -- why it was refused; not_known: accepted, and nobody knows whether it fired
   order_t_ns INTEGER NOT NULL,             -- t_ns of the order
   fired_t_ns INTEGER NOT NULL,             -- coil energised; 0: refused
   release_t_ns INTEGER NOT NULL,           -- expected release of the ball; 0: refused
   power REAL NOT NULL,                     -- set-point given to the device
+  kick_kind INTEGER NOT NULL DEFAULT 0,    -- of the robot's kinds of kick, in the order of its file
   received_steady_ns INTEGER NOT NULL,     -- steady clock: the order was taken; 0: lockstep
   fired_steady_ns INTEGER NOT NULL,        -- steady clock: the device was told; 0: refused, or lockstep
   PRIMARY KEY (session_id, robot_id, seq)
@@ -587,7 +635,7 @@ CREATE TABLE tallied_sessions (            -- sessions that were counted when th
 CREATE VIEW kicks AS
 SELECT
   d.session_id, d.robot_id, d.seq, d.kick_id, d.t_ns, d.half, d.possession_id, d.policy,
-  d.distance_m, d.power, d.v_kick_mps, d.p_on_target, d.predicted_x_cross_m, d.predicted_z_cross_m,
+  d.distance_m, d.power, d.kick_kind, d.v_kick_mps, d.p_on_target, d.predicted_x_cross_m, d.predicted_z_cross_m,
   o.seq AS order_seq,
   r.accepted, r.refusal, r.fired_t_ns, r.release_t_ns,
   c.outcome, c.on_target, c.x_cross_m, c.z_cross_m, c.sd_cross_m, c.exit_speed_mps,

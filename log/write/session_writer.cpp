@@ -37,7 +37,8 @@ RowTable SessionWriter::describe(std::string_view name, const std::vector<std::s
     table.not_null.push_back(found->not_null);
   }
   for (const Column& column : schema->second) {
-    if (column.not_null && column.name != "session_id" && std::ranges::find(columns, column.name) == columns.end()) {
+    const bool needed = column.not_null && !column.has_default && column.name != "session_id";
+    if (needed && std::ranges::find(columns, column.name) == columns.end()) {
       throw std::runtime_error(fmt::format("column '{}' of table '{}' must not be left out", column.name, name));
     }
   }

@@ -102,7 +102,8 @@ void KickDecisionNode::on_world(const msg::WorldState& world) {
     decider_.commit();
     say(world, kicker, decision);
   }
-  step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders());
+  step_done(step_done_, context_.robot_id(), msg::STEP_KICK_DECISION, world.t_ns, decider_.orders(), 0,
+            decision.output.lever_kind);
 }
 
 /// Goes by what the observer has learned up to the cycle before; in lockstep the first estimate has to be there.
@@ -174,6 +175,7 @@ void KickDecisionNode::drive(const msg::WorldState& world, const kicking::Policy
   command.vx_mps = output.drive.vx_mps;
   command.vy_mps = output.drive.vy_mps;
   command.omega_radps = output.drive.omega_radps;
+  command.lever_kind = output.lever_kind;
   drive_out_.write(command);
 }
 

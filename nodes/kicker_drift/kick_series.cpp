@@ -66,7 +66,7 @@ evaluator::WatchedKick KickSeries::watched(const Words& words) {
                               .goal_y_m = decision.target_y_m};
   const kicking::Maybe x_m = decision.predicted_x_cross_m, z_m = decision.predicted_z_cross_m,
                        t_flight_s = decision.predicted_t_flight_s;
-  if (!words.outcome || !x_m || !z_m || !t_flight_s) return kick;
+  if (!words.outcome || !x_m || !z_m || !t_flight_s || decision.kick_kind != 0) return kick;
   kick.x_m = *x_m;
   kick.z_m = *z_m;
   kick.t_flight_s = *t_flight_s;

@@ -49,7 +49,8 @@ KickerDriverNode::KickerDriverNode(NodeContext& context, std::unique_ptr<hal::Ki
       [this](const hal::KickerSample& sample) { on_sample(sample); },
       bus::writes<msg::KickerStatus, msg::KickReceipt, msg::DeviceFire, msg::DeviceCharge, msg::DeviceEmulated,
                   msg::StepDone>());
-  node_.on<msg::DriveCommand>([this](const msg::DriveCommand&, const bus::SampleInfo& info) { on_drive(info); });
+  node_.on<msg::DriveCommand>(
+      [this](const msg::DriveCommand& drive, const bus::SampleInfo& info) { on_drive(drive, info); });
   bus::ReaderOptions orders, words;
   if (context_.settings.run.lockstep) {
     // The word of a cycle comes with its sample, when no order's instant lies ahead; a cycle takes as long as it takes.
@@ -98,6 +99,7 @@ void KickerDriverNode::on_sample(const hal::KickerSample& sample) {
     expect_readers(context_, receipt_out_);
   });
   demand_capabilities();
+  if (sample.fault != hal::KickerFault::kLink) demand_lever();
   std::optional<msg::Referee> word;
   if (referee_of_cycle_) word = input_of_cycle(context_, *referee_of_cycle_, sample.t_ns);
   const std::lock_guard lock{mutex_};
@@ -132,13 +134,23 @@ void KickerDriverNode::demand_capabilities() const {
                                        config::text_of(context_.settings.hal.kicker), lacking)};
 }
 
+/// A robot of several kinds of kick needs a lever that its driver can move.
+void KickerDriverNode::demand_lever() const {
+  if (context_.robot.model.kinds() == 1 || kicker_->capabilities().lever) return;
+  throw std::runtime_error{fmt::format("robot {} has {} kinds of kick, but the kicker \"{}\" has no lever",
+                                       context_.robot.name, context_.robot.model.kinds(),
+                                       config::text_of(context_.settings.hal.kicker))};
+}
+
 /// A set-point of the robot's table that the device has no pulse for would be a kick that is accepted and never fired.
 void KickerDriverNode::demand_pulses() const {
-  const auto& table = context_.robot.model.table;
-  for (const double power : {table.front().power, table.back().power}) {
-    if (const std::string why = kicker_->beyond(power); !why.empty())
-      throw std::runtime_error{fmt::format("the robot's table and the kicker \"{}\" do not fit: {}",
-                                           config::text_of(context_.settings.hal.kicker), why)};
+  for (std::size_t kind = 0; kind < context_.robot.model.kinds(); ++kind) {
+    const auto& table = context_.robot.model.kind(kind).table;
+    for (const double power : {table.front().power, table.back().power}) {
+      if (const std::string why = kicker_->beyond(power); !why.empty())
+        throw std::runtime_error{fmt::format("the robot's table and the kicker \"{}\" do not fit: {}",
+                                             config::text_of(context_.settings.hal.kicker), why)};
+    }
   }
 }
 
@@ -263,8 +275,15 @@ void KickerDriverNode::take_results() {
 }
 
 /// Two programs in the decision node's name: nobody can tell whose orders are the robot's, and none is fired.
-void KickerDriverNode::on_drive(const bus::SampleInfo& info) {
+void KickerDriverNode::on_drive(const msg::DriveCommand& drive, const bus::SampleInfo& info) {
   if (!owns_decisions(info)) return;
+  hear_drive(info);
+  const std::lock_guard lock{mutex_};
+  // A lever that began to move under an accepted order would make another kick of it.
+  if (decision_heard_ns_ != 0 && !desk_.firing()) kicker_->lever(drive.lever_kind);
+}
+
+void KickerDriverNode::hear_drive(const bus::SampleInfo& info) {
   const std::int64_t now_ns = context_.steady_ns();
   const std::lock_guard lock{drives_mutex_};
   bus::WriterWatch& drives = drives_.try_emplace(std::string(info.owner)).first->second;
@@ -312,7 +331,8 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
                    .power = receipt.power,
                    .t_ns = receipt.fired_t_ns,
                    .until_ns = real_time ? deadline_ns(order) : hal::kNoDeadline_ns,
-                   .judged_ns = judged_ns});
+                   .judged_ns = judged_ns,
+                   .kick_kind = receipt.kick_kind});
     if (real_time) receipt.fired_steady_ns = context_.steady_ns();
     context_.logger->info("kick {} fired with power {:.2f}", order.kick_id, order.power);
   } else {

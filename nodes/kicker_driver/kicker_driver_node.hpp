@@ -38,7 +38,8 @@ class KickerDriverNode {
   void begin_in_real_time();
   void on_sample(const hal::KickerSample& sample);
   void on_order(const msg::KickOrder& order, robot::OrderBy by);
-  void on_drive(const bus::SampleInfo& info);
+  void on_drive(const msg::DriveCommand& drive, const bus::SampleInfo& info);
+  void hear_drive(const bus::SampleInfo& info);
   bool by_own_decision(const bus::SampleInfo& info);
   bool owns_decisions(const bus::SampleInfo& info) const;
   void on_referee(const msg::Referee& word, const bus::SampleInfo& info);
@@ -54,6 +55,7 @@ class KickerDriverNode {
   void check_clock(const hal::KickerSample& sample);
   void say_link(bool lost);
   void demand_capabilities() const;
+  void demand_lever() const;
   void demand_pulses() const;
   void tell_charge();
   void look_for_decision();

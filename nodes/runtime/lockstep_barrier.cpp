@@ -25,7 +25,7 @@ bool LockstepBarrier::wait_for(std::int64_t t_ns, const bus::Stop& stop) {
   for (;;) {
     const std::size_t taken = reader_.take([this](const msg::StepDone& done) {
       if (done.robot_id == robot_id_ && done.node < nodes_.size())
-        nodes_[done.node] = {done.t_ns, done.orders, done.fires};
+        nodes_[done.node] = {done.t_ns, done.orders, done.fires, done.lever_kind};
     });
     if (finished(t_ns)) return true;
     if (stop.requested()) return false;

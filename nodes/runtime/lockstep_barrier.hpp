@@ -26,6 +26,9 @@ class LockstepBarrier {
   /// Kicks that the driver has given to its device so far.
   std::uint32_t fires() const { return nodes_[msg::STEP_KICKER_DRIVER].fires; }
 
+  /// Kind of kick for which the decision wants the lever to stand.
+  std::uint8_t lever_kind() const { return nodes_[msg::STEP_KICK_DECISION].lever_kind; }
+
  private:
   bool finished(std::int64_t t_ns) const;
   /// What a node must have reported for the cycle of t_ns to be over.
@@ -37,6 +40,7 @@ class LockstepBarrier {
     std::int64_t t_ns = -1;
     std::uint32_t orders = 0;
     std::uint32_t fires = 0;
+    std::uint8_t lever_kind = 0;
   };
   bus::Reader<msg::StepDone> reader_;
   std::uint8_t robot_id_;

@@ -13,9 +13,10 @@ inline std::optional<bus::Output<msg::StepDone>> step_done_writer(const NodeCont
 }
 
 /// Tells the simulator, where it waits, that `node` has finished the cycle of t_ns with so many orders sent or handled
-/// and kicks given to the device.
+/// and kicks given to the device, and for which kind of kick the lever shall stand.
 inline void step_done(const std::optional<bus::Output<msg::StepDone>>& writer, std::uint8_t robot_id,
-                      msg::StepNode node, std::int64_t t_ns, std::uint32_t orders = 0, std::uint32_t fires = 0) {
+                      msg::StepNode node, std::int64_t t_ns, std::uint32_t orders = 0, std::uint32_t fires = 0,
+                      std::uint8_t lever_kind = 0) {
   if (!writer) return;
   msg::StepDone done{};
   done.robot_id = robot_id;
@@ -23,6 +24,7 @@ inline void step_done(const std::optional<bus::Output<msg::StepDone>>& writer, s
   done.t_ns = t_ns;
   done.orders = orders;
   done.fires = fires;
+  done.lever_kind = lever_kind;
   writer->write(done);
 }
 

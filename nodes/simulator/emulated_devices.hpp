@@ -48,6 +48,9 @@ class EmulatedDevices {
   /// What the drives are told; only where there are any.
   kicking::Twist set_point() { return base_->set_point(); }
 
+  /// Kind of kick for which the board's lever was told to stand.
+  std::uint8_t lever_kind() { return kicker_ ? kicker_->lever_kind() : std::uint8_t{0}; }
+
   /// The board's pulses since the last call.
   std::vector<hal::CoilPulse> take_pulses();
 

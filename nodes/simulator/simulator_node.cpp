@@ -66,6 +66,7 @@ SimulatorNode::SimulatorNode(NodeContext& context, EmulatedDevices* devices)
       referee_repeats_(kicking::nanoseconds(context.settings.refbox.period_s)),
       drive_(context.participant, context.robot_id()),
       fire_(context.participant),
+      charge_(context.participant, context.robot_id()),
       barrier_(context.participant, context.robot_id()) {
   if (scenario_.laser.enabled) scan_.emplace(context.participant);
   if (devices_ != nullptr && devices_->has_board()) {
@@ -228,8 +229,10 @@ std::optional<sim::Commands> SimulatorNode::commands(std::int64_t t_ns) {
     if (!ready_before_stop(context_.stop, driven, "no drive command has reached the simulator") ||
         !ready_before_stop(context_.stop, fired, "a kick has not reached the simulator"))
       return std::nullopt;
+    out.lever_kind = barrier_.lever_kind();
   } else {
     drive = fresh_drive();
+    out.lever_kind = wanted_lever_kind();
     take_fires();
     take_pulses(out);
   }
@@ -290,6 +293,14 @@ std::optional<msg::DeviceDrive> SimulatorNode::fresh_drive() {
   return fresh ? drive : std::nullopt;
 }
 
+/// By the board, or as the driver says on device/charge.
+std::uint8_t SimulatorNode::wanted_lever_kind() {
+  if (devices_ != nullptr && devices_->has_board()) return devices_->lever_kind();
+  charge_.keep_hearing();
+  const auto word = charge_.latest();
+  return word ? word->lever_kind : std::uint8_t{0};
+}
+
 void SimulatorNode::publish_truth(const sim::StepEvents& events) {
   for (const sim::KickTruth& kick : events.kicks) {
     msg::KickTruth truth = hal::truth_message(kick);
@@ -310,7 +321,11 @@ int simulator_main(int argc, char** argv) {
   std::optional<EmulatedDevices> devices;  // where the node joins the bus again they stay where its nodes look for them
   return node_main(argc, argv, "simulator", [&devices](NodeContext& context) {
     const bool emulated = context.settings.simulator.devices == config::SimulatedDevices::kEmulated;
-    if (emulated && !devices) devices.emplace(context.settings, context.robot.base, context.logger);
+    if (emulated && !devices) {
+      config::Settings settings = context.settings;
+      settings.hal = config::hal_for(settings.hal, context.robot);
+      devices.emplace(settings, context.robot.base, context.logger);
+    }
     SimulatorNode node{context, devices ? &*devices : nullptr};
     node.run();
     context.logger->info("played {:.1f} s", node.played_s());

@@ -62,6 +62,7 @@ class SimulatorNode {
   void take_pulses(sim::Commands& out);
   std::int64_t kick_of_pulse(std::int64_t t_ns);
   std::optional<msg::DeviceDrive> fresh_drive();
+  std::uint8_t wanted_lever_kind();
 
   NodeContext& context_;
   EmulatedDevices* const devices_;  // of this or an earlier stay on the bus
@@ -80,6 +81,7 @@ class SimulatorNode {
   RefereeRepeats referee_repeats_;
   bus::Mailbox<msg::DeviceDrive> drive_;
   bus::Reader<msg::DeviceFire> fire_;
+  bus::Mailbox<msg::DeviceCharge> charge_;
   LockstepBarrier barrier_;
   std::int64_t t_ns_ = 0;
   std::uint64_t cycle_ = 0;

@@ -1,8 +1,10 @@
 #include "robot/belief/world_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 
 #include "idl/none.hpp"
 #include "kicking/geometry/time.hpp"
@@ -26,6 +28,24 @@ bool sound(const msg::Odometry& odometry) {
   return within(kFastest, {odometry.vx_mps, odometry.vy_mps, odometry.omega_radps}) &&
          within(kFarthest, {odometry.x_m, odometry.y_m, odometry.heading_rad, odometry.var_position_m2,
                             odometry.var_heading_rad2});
+}
+
+/// The tracked opponents at t_ns; NaN where there is none.
+void describe(const OpponentTracks& opponents, std::int64_t t_ns, msg::WorldState& out) {
+  for (std::size_t i = 0; i < kicking::kMostBodies; ++i) {
+    out.opponent_x_m[i] = out.opponent_y_m[i] = out.opponent_vx_mps[i] = out.opponent_vy_mps[i] = msg::kNone;
+    out.opponent_sd_m[i] = out.opponent_sd_mps[i] = msg::kNone;
+  }
+  for (const OpponentTrack& track : opponents.tracks()) {
+    const OpponentTrack now = track.at(t_ns);
+    const std::size_t i = out.opponent_count++;
+    out.opponent_x_m[i] = now.position_m.x();
+    out.opponent_y_m[i] = now.position_m.y();
+    out.opponent_vx_mps[i] = now.velocity_mps.x();
+    out.opponent_vy_mps[i] = now.velocity_mps.y();
+    out.opponent_sd_m[i] = std::sqrt(now.var_m2);
+    out.opponent_sd_mps[i] = std::sqrt(now.var_m2ps2);
+  }
 }
 
 }  // namespace
@@ -65,6 +85,7 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
     } else if (kicking::seconds(frame->t_exposure_ns - opponent_t_ns_) > settings_.ball_forget_s) {
       opponent_m_.reset();
     }
+    see_opponents(*frame);
     if (frame->keeper_seen) see_keeper(*frame);
   }
   if (frame) ball_.silence(kicking::seconds(odometry.t_ns - frame->t_ns));
@@ -74,6 +95,18 @@ msg::WorldState WorldModel::update(const msg::Odometry& odometry, const msg::Vis
   if (kicker && kicker->last_accepted) kick_id_ = kicker->last_kick_id;
   if (referee) out.possession_id = count(out.t_ns, *referee, out.possession);
   return out;
+}
+
+void WorldModel::see_opponents(const msg::VisionFrame& frame) {
+  const auto pose = pose_.pose_at(frame.t_exposure_ns);
+  if (!pose) return;
+  std::array<Eigen::Vector2d, kicking::kMostBodies> seen_m;
+  std::size_t count = 0;
+  if (frame.opponent_seen) seen_m[count++] = pose->to_field(frame.opponent_x_m, frame.opponent_y_m);
+  const std::size_t further = std::min<std::size_t>(frame.further_count, std::size(frame.further_x_m));
+  for (std::size_t i = 0; i < further; ++i)
+    seen_m[count++] = pose->to_field(frame.further_x_m[i], frame.further_y_m[i]);
+  opponents_.observe(frame.t_exposure_ns, {seen_m.data(), count}, kSeen_m);
 }
 
 void WorldModel::see_keeper(const msg::VisionFrame& frame) {
@@ -101,6 +134,7 @@ msg::WorldState WorldModel::describe(std::int64_t t_ns) const {
   out.sd_heading_rad = pose_.sd_heading_rad();
   out.ball_x_m = out.ball_y_m = out.ball_vx_mps = out.ball_vy_mps = out.ball_age_s = out.opponent_distance_m =
       out.keeper_x_m = out.keeper_sd_m = msg::kNone;
+  robot::describe(opponents_, t_ns, out);
   if (const auto keeper = keeper_.at(t_ns)) {
     out.keeper_x_m = keeper->x_m;
     out.keeper_sd_m = keeper->sd_m;

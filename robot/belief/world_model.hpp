@@ -8,6 +8,7 @@
 #include "robot/belief/ball_filter.hpp"
 #include "robot/belief/decay.hpp"
 #include "robot/belief/keeper_track.hpp"
+#include "robot/belief/opponent_tracks.hpp"
 #include "robot/belief/pose_filter.hpp"
 #include "robot/belief/possession_count.hpp"
 
@@ -39,6 +40,8 @@ class WorldModel {
   std::uint32_t count(std::int64_t t_ns, const msg::Referee& word, bool possession);
   /// The keeper in a picture, where the robot then was.
   void see_keeper(const msg::VisionFrame& frame);
+  /// The other opponents in a picture, the same.
+  void see_opponents(const msg::VisionFrame& frame);
   /// What is believed of robot, ball and opponent, all predicted to t_ns.
   msg::WorldState describe(std::int64_t t_ns) const;
 
@@ -54,6 +57,7 @@ class WorldModel {
   std::optional<Eigen::Vector2d> opponent_m_;  // in R
   std::int64_t opponent_t_ns_ = 0;
   KeeperTrack keeper_;
+  OpponentTracks opponents_;
 };
 
 }  // namespace trivela::robot

@@ -103,6 +103,7 @@ const CycleDecision& Decider::decide(const msg::WorldState& world, const msg::Ki
   order.fire_t_ns = fire_t_ns(world.t_ns, output.fire_after_s);
   order.valid_until_t_ns = world.t_ns + validity_ns_;
   order.possession = world.possession;
+  order.kick_kind = output.kick_kind;
   return decision_;
 }
 

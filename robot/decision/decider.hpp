@@ -43,7 +43,7 @@ struct CycleDecision {
 };
 
 /// One robot's decisions, without a bus: who is in charge, the memories of all policies, the shadows, and the order
-/// that a fire becomes. Nothing allocates after the constructor.
+/// that a fire becomes. Nothing allocates after the constructor but learn() of a robot with several kinds of kick.
 class Decider {
  public:
   /// `session`: upper 15 bits of every kick_id. `model` must outlive the decider. Throws config::Error where the

@@ -1,5 +1,6 @@
 #include "robot/decision/decision_message.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -16,6 +17,7 @@ static_assert(bus::has_labels<msg::DecisionReason>(kicking::kReasonNames));
 
 constexpr bool wire(bool value) { return value; }
 constexpr double wire(double value) { return value; }
+constexpr std::uint8_t wire(std::uint8_t value) { return value; }
 constexpr double wire(kicking::Maybe value) { return value.wire(); }
 msg::DecisionReason wire(kicking::Reason reason) { return to_wire(reason); }
 
@@ -59,10 +61,20 @@ kicking::PolicyInput policy_input(const msg::WorldState& world, const msg::Kicke
   in.possession = world.possession;
   in.possession_id = world.possession_id;
   in.kicker_ready = kicker != nullptr && kicker->ready;
+  if (kicker != nullptr) in.lever_kind = kicker->lever_kind;
   if (kicker != nullptr) in.state_age_s = std::abs(kicking::seconds(world.t_ns - kicker->t_ns));
   in.sd_position_m = world.sd_position_m;
   in.sd_heading_rad = world.sd_heading_rad;
   in.opponent_distance_m = world.opponent_distance_m;
+  const Eigen::Vector2d ball_m{world.ball_x_m, world.ball_y_m}, ball_mps{world.ball_vx_mps, world.ball_vy_mps};
+  const std::size_t tracked = std::min<std::size_t>(world.opponent_count, kicking::kMostBodies);
+  for (std::size_t i = 0; i < tracked; ++i) {
+    kicking::BodyPlace place{{world.opponent_x_m[i], world.opponent_y_m[i]}, 0.0, world.opponent_sd_m[i]};
+    const Eigen::Vector2d apart_m = place.position_m - ball_m;
+    const Eigen::Vector2d apart_mps = Eigen::Vector2d{world.opponent_vx_mps[i], world.opponent_vy_mps[i]} - ball_mps;
+    place.closing_mps = -apart_mps.dot(apart_m) / std::max(0.1, apart_m.norm());
+    if (std::isfinite(place.closing_mps + place.sd_m)) in.opponents[in.opponent_count++] = place;
+  }
   if (std::isfinite(world.keeper_x_m) && world.keeper_sd_m > 0.0)
     in.keeper = kicking::KeeperPlace{world.keeper_x_m, world.keeper_sd_m};
   return in;

@@ -10,18 +10,23 @@ namespace {
 
 static_assert(bus::has_labels<msg::KickerFault>(hal::kKickerFaultNames));
 
-kicking::Range power_range(const kicking::EffectiveTable& table) { return {table.front().power, table.back().power}; }
+std::vector<kicking::Range> power_ranges(const kicking::RobotModel& model) {
+  std::vector<kicking::Range> ranges;
+  for (std::size_t i = 0; i < model.kinds(); ++i)
+    ranges.push_back({model.kind(i).table.front().power, model.kind(i).table.back().power});
+  return ranges;
+}
 
 }  // namespace
 
 KickerController::KickerController(const config::KickerDriver& settings, double cycle_s,
                                    const kicking::RobotModel& model, std::uint8_t robot_id, DecisionNode decision)
-    : gate_(settings, power_range(model.table), cycle_s),
+    : gate_(settings, power_ranges(model), cycle_s),
       voltage_(settings.voltage_rise_v, settings.voltage_rise_s),
       decision_(decision),
       cycle_ns_(kicking::nanoseconds(cycle_s)),
-      delay_ns_(kicking::nanoseconds(model.delay_s)),
       robot_id_(robot_id) {
+  for (std::size_t i = 0; i < model.kinds(); ++i) delays_ns_.push_back(kicking::nanoseconds(model.kind(i).delay_s));
   gate_.decision_node(decision_ == DecisionNode::kThere);
 }
 
@@ -50,6 +55,7 @@ msg::KickerStatus KickerController::status(const hal::KickerSample& sample, Refe
   out.last_accepted = gate_.last_accepted();
   out.orders_handled = gate_.handled();
   out.orders_refused = gate_.refused();
+  out.lever_kind = delays_ns_.size() > 1 ? sample.lever_kind : std::uint8_t{0};
   return out;
 }
 
@@ -89,11 +95,12 @@ msg::KickReceipt KickerController::answer(const msg::KickOrder& order, std::int6
   receipt.accepted = refusal == msg::REFUSAL_NONE;
   receipt.refusal = refusal;
   receipt.order_t_ns = order.t_ns;
+  receipt.kick_kind = order.kick_kind;
   if (!receipt.accepted) return receipt;
   happened(KickerEvent::kAccepted);
   receipt.power = order.power;
   receipt.fired_t_ns = std::max(now_t_ns, order.fire_t_ns);
-  receipt.release_t_ns = receipt.fired_t_ns + delay_ns_;
+  receipt.release_t_ns = receipt.fired_t_ns + delays_ns_[order.kick_kind];
   return receipt;
 }
 

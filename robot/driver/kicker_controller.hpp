@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "config/settings.hpp"
 #include "hal/kicker.hpp"
@@ -38,6 +39,9 @@ class KickerController {
   /// What is known of the decision node by now; an order alone is no sign that it lives. To be followed by
   /// charge_command().
   void decision_node(DecisionNode known, std::int64_t now_t_ns);
+
+  /// An accepted order's instant lies ahead, or its pulse runs.
+  bool firing() const { return stand_.state == msg::STATE_FIRING; }
 
   /// What the capacitor shall do by now.
   hal::ChargeCommand charge_command() const { return stand_.word; }
@@ -79,7 +83,7 @@ class KickerController {
   bool over_voltage_ = false;
   DecisionNode decision_;
   std::int64_t cycle_ns_;
-  std::int64_t delay_ns_;
+  std::vector<std::int64_t> delays_ns_;  // of each kind of kick
   std::uint8_t robot_id_;
   std::uint64_t statuses_ = 0;
   std::uint64_t receipts_ = 0;

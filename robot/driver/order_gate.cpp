@@ -17,7 +17,7 @@ double seconds_from(std::int64_t from_t_ns, std::int64_t to_t_ns) {
 bool same(const msg::KickOrder& a, const msg::KickOrder& b) {
   const bool same_power = a.power == b.power || (std::isnan(a.power) && std::isnan(b.power));
   return a.kick_id == b.kick_id && a.t_ns == b.t_ns && same_power && a.fire_t_ns == b.fire_t_ns &&
-         a.valid_until_t_ns == b.valid_until_t_ns && a.possession == b.possession;
+         a.valid_until_t_ns == b.valid_until_t_ns && a.possession == b.possession && a.kick_kind == b.kick_kind;
 }
 
 }  // namespace
@@ -64,7 +64,9 @@ msg::Refusal OrderGate::disarmed() const {
 msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const {
   if (by == OrderBy::kStranger) return msg::REFUSAL_STRANGER;
   if (sample_ && !sound(now_t_ns)) return msg::REFUSAL_FAULT;
-  if (!power_.contains(order.power) || order.kick_id <= 0) return msg::REFUSAL_OUT_OF_RANGE;
+  const bool kind_known = order.kick_kind < powers_.size();
+  if (!kind_known || !powers_[order.kick_kind].contains(order.power) || order.kick_id <= 0)
+    return msg::REFUSAL_OUT_OF_RANGE;
   if (!order.possession) return msg::REFUSAL_NO_BALL;
   if (!armed() || !decision_there_) return disarmed();
   if (seconds_from(order.t_ns, now_t_ns) > settings_.max_order_age_s) return msg::REFUSAL_STALE;
@@ -74,6 +76,7 @@ msg::Refusal OrderGate::reason(const msg::KickOrder& order, std::int64_t now_t_n
   if (!(after_s >= 0.0 && after_s <= cycle_s_ + kClockStep_s)) return msg::REFUSAL_STALE;
   if (known(order) || under_way(now_t_ns) || !rested(now_t_ns)) return msg::REFUSAL_DOUBLE;
   if (!charged()) return msg::REFUSAL_CHARGING;
+  if (powers_.size() > 1 && sample_->lever_kind != order.kick_kind) return msg::REFUSAL_LEVER;
   return msg::REFUSAL_NONE;
 }
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "config/settings.hpp"
 #include "hal/kicker.hpp"
@@ -19,22 +21,23 @@ enum class OrderBy { kOwnDecision, kStranger };
 /// The last word on every order: the one place that decides whether the coil may be energised.
 ///
 /// An order passes when, in this order, the robot's own decision node wrote it, the device is sound (no fault, samples
-/// neither older than link_timeout_s nor from more than future_tolerance_s ahead), the power is finite and inside the
-/// set-points and the kick_id above 0, the ball lay in the handler where it was judged, the kicker is armed (switch on,
-/// referee heard and playing) and the decision node lives, the order was judged at most max_order_age_s ago and is not
-/// older than its valid_until_t_ns nor was judged or is to be fired more than future_tolerance_s ahead nor is to be
-/// fired before it was judged or more than a cycle after, its kick_id is not among the last kRemembered accepted and
-/// the last kick is over and at least min_interval_s ago, and the capacitor holds min_charge_ratio. The first condition
-/// that fails is the refusal. A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is
-/// a double. A stranger's order is counted and leaves nothing else behind.
+/// neither older than link_timeout_s nor from more than future_tolerance_s ahead), the robot has the kind of
+/// kick, the power is finite and inside its set-points and the kick_id above 0, the ball lay in the handler where it
+/// was judged, the kicker is armed (switch on, referee heard and playing) and the decision node lives, the order was
+/// judged at most max_order_age_s ago and is not older than its valid_until_t_ns nor was judged or is to be fired more
+/// than future_tolerance_s ahead nor is to be fired before it was judged or more than a cycle after, its kick_id is not
+/// among the last kRemembered accepted and the last kick is over and at least min_interval_s ago, the capacitor holds
+/// min_charge_ratio, and the lever stands for the kind of kick. The first condition that fails is the refusal. A
+/// refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A stranger's order
+/// is counted and leaves nothing else behind.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.
   static constexpr std::size_t kRemembered = 64;
 
-  /// `power`: the set-points that the robot's kicker accepts.
-  OrderGate(const config::KickerDriver& settings, kicking::Range power, double cycle_s)
-      : settings_(settings), power_(power), cycle_s_(cycle_s) {}
+  /// `powers`: the set-points that the robot's kicker accepts, of each kind of kick.
+  OrderGate(const config::KickerDriver& settings, std::vector<kicking::Range> powers, double cycle_s)
+      : settings_(settings), powers_(std::move(powers)), cycle_s_(cycle_s) {}
 
   /// Somebody before it may have fired at `t_ns`: the next kick is min_interval_s after that.
   void rest_from(std::int64_t t_ns) { last_fire_t_ns_ = t_ns; }
@@ -98,7 +101,7 @@ class OrderGate {
   msg::Refusal reason(const msg::KickOrder& order, std::int64_t now_t_ns, OrderBy by) const;
 
   config::KickerDriver settings_;
-  kicking::Range power_;
+  std::vector<kicking::Range> powers_;
   double cycle_s_;
   std::optional<hal::KickerSample> sample_;
   RefereeSays referee_ = RefereeSays::kNothing;

@@ -16,6 +16,7 @@ constexpr double kBounceDoubt = 0.1;                     // of either
 constexpr double kSoft_mps = 1.0;                        // a softer bounce takes less of the horizontal speed
 constexpr double kRollBelow_mps = 0.3;
 constexpr double kRolling_mps2 = 0.5, kRollingDoubt_mps2 = 0.3;  // deceleration; assumption
+constexpr double kSliding_mps2 = 2.5, kSlidingDoubt_mps2 = 2.5;  // the same of a low kick; friction of 0 to 0.4
 constexpr double kOnFloor_m = 0.02;                              // standard deviation of a rolling ball's height
 
 void predict(AxisState& s, double dt_s, double acceleration_mps2, double doubt_mps2) {
@@ -47,12 +48,12 @@ void keep(AxisState& s, double ratio, double sd) {
 }  // namespace
 
 FlightFilter::FlightFilter(const kicking::Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
-                           const Eigen::Vector3d& sd_mps, bool rolls)
-    : rolling_(rolls) {
+                           const Eigen::Vector3d& sd_mps, Way way)
+    : rolling_(way != Way::kFlies), slides_(way == Way::kSlides), bounced_(slides_) {
   AxisState* const axes[] = {&x_, &y_, &z_};
   for (int i = 0; i < 3; ++i)
     *axes[i] = {first.ball_m[i], velocity_mps[i], ball_sd_m * ball_sd_m, 0.0, sd_mps[i] * sd_mps[i]};
-  if (rolls) z_ = {kBall.radius_m, 0.0, kOnFloor_m * kOnFloor_m, 0.0, 0.0};
+  if (rolling_) z_ = {kBall.radius_m, 0.0, kOnFloor_m * kOnFloor_m, 0.0, 0.0};
 }
 
 double FlightFilter::speed_mps() const { return std::sqrt(x_.v_mps * x_.v_mps + y_.v_mps * y_.v_mps); }
@@ -85,10 +86,10 @@ void FlightFilter::fly(double dt_s) {
 void FlightFilter::roll(double dt_s) {
   const double speed = speed_mps();
   if (speed <= 0.0) return;
-  const double deceleration = kRolling_mps2 + kDrag_per_m * speed * speed;
+  const double deceleration = (slides_ ? kSliding_mps2 : kRolling_mps2) + kDrag_per_m * speed * speed;
   const double moves_s = std::min(dt_s, speed / deceleration);
   for (AxisState* const axis : {&x_, &y_}) {
-    predict(*axis, moves_s, -deceleration * axis->v_mps / speed, kRollingDoubt_mps2);
+    predict(*axis, moves_s, -deceleration * axis->v_mps / speed, slides_ ? kSlidingDoubt_mps2 : kRollingDoubt_mps2);
     if (moves_s < dt_s) axis->v_mps = 0.0;
   }
 }

@@ -23,10 +23,13 @@ struct AxisState {
 /// Drag is that of a ball in air (kicking::Air) +- 50 %.
 class FlightFilter {
  public:
-  /// A ball seen at `first` that has `velocity_mps` with the standard deviations `sd_mps`. `rolls`: it is on the floor
-  /// and stays there.
+  /// How a ball goes: through the air, or on the floor, where it stays. One that was kicked low slides at first, with
+  /// low bounces, and is slowed by 2.5 +- 2.5 m/s^2 in place of 0.5 +- 0.3.
+  enum class Way { kFlies, kRolls, kSlides };
+
+  /// A ball seen at `first` that has `velocity_mps` with the standard deviations `sd_mps`.
   FlightFilter(const kicking::Sighting& first, double ball_sd_m, const Eigen::Vector3d& velocity_mps,
-               const Eigen::Vector3d& sd_mps, bool rolls);
+               const Eigen::Vector3d& sd_mps, Way way);
 
   void advance(double dt_s);
 
@@ -54,6 +57,7 @@ class FlightFilter {
   AxisState x_, y_, z_;
   double log_variance_ = 0.0;
   bool rolling_ = false;
+  bool slides_ = false;
   bool bounced_ = false;
 };
 

@@ -18,6 +18,8 @@ constexpr double kLateRelease = 0.05;      // how often, before anything is seen
 constexpr double kCarried_mps = 2.5;       // as fast as a robot carries the ball, along either axis
 constexpr std::size_t kFewestInFlight = 3;
 constexpr double kOnFloorBelow_m = 0.25;  // a ball that never was higher rolls
+constexpr double kNoise_sd = 4.0;         // a sighting so far off is not noise
+constexpr double kLowClimb_mps = 1.65;    // which rises as high as that
 constexpr double kMostMisfit = 30.0;      // squared, of one sighting: more is a false detection
 constexpr double kTurnKeeps = 0.2;        // of the speed over ground, on average over where the body is hit ...
 constexpr double kTurnSd = 0.5;           // ... and its spread along either axis, in speeds of the ball
@@ -29,6 +31,22 @@ constexpr double kNetArea_m2 = 6.0;                         // where a ball behi
 double log_density(const std::array<double, 3>& misfit, double log_variance) {
   const double square = std::min(misfit[0] + misfit[1], kMostMisfit);
   return -0.5 * (square + log_variance) - std::log(2.0 * std::numbers::pi);
+}
+
+bool is_low(const kicking::Sighting& sighting) { return sighting.ball_m.z() < kOnFloorBelow_m; }
+
+/// A kick that was not expected to rise over kOnFloorBelow_m.
+bool kicked_low(const ShotTrack& track) {
+  return track.expected_climb_mps && *track.expected_climb_mps < kLowClimb_mps;
+}
+
+FlightFilter::Way way_of(const ShotTrack& track, std::span<const kicking::Sighting> seen) {
+  if (kicked_low(track)) {
+    const double below_m = kOnFloorBelow_m + kNoise_sd * track.ball_sd_m;
+    const bool stays = std::ranges::all_of(seen, [=](const auto& s) { return s.ball_m.z() < below_m; });
+    return stays ? FlightFilter::Way::kSlides : FlightFilter::Way::kFlies;
+  }
+  return std::ranges::all_of(seen, is_low) ? FlightFilter::Way::kRolls : FlightFilter::Way::kFlies;
 }
 
 /// The crossing ahead of a ball, or just behind it; none: it does not come there within `within_s`.
@@ -62,11 +80,7 @@ class Hypotheses {
  public:
   /// Of a ball that left at `launch_t_ns`, seen from then on.
   Hypotheses(const ShotTrack& track, std::span<const kicking::Sighting> seen, double goal_y_m, std::int64_t launch_t_ns)
-      : track_(track),
-        seen_(seen),
-        goal_y_m_(goal_y_m),
-        launch_t_ns_(launch_t_ns),
-        rolls_(std::ranges::all_of(seen, [](const kicking::Sighting& s) { return s.ball_m.z() < kOnFloorBelow_m; })) {
+      : track_(track), seen_(seen), goal_y_m_(goal_y_m), launch_t_ns_(launch_t_ns), way_(way_of(track, seen)) {
     free_.reserve(seen.size());
     misfit_.reserve(seen.size());
     log_free_.reserve(seen.size());
@@ -122,9 +136,9 @@ class Hypotheses {
     const double flown_s = kicking::seconds(seen_[0].t_ns - launch_t_ns_);
     const double climb = track_.expected_climb_mps.value_or(4.0) - kicking::kGravity_mps2 * flown_s;
     const double sd_climb = track_.expected_climb_mps ? 0.1 * *track_.expected_climb_mps + 0.3 : 5.0;
-    // The robot's own speed, and where it aims. What never left the floor was no kick as expected.
-    const double sd = rolls_ ? v + 1.0 : 0.1 * v + 1.2;
-    return {seen_.front(), track_.ball_sd_m, {v * to_goal.x(), v * to_goal.y(), climb}, {sd, sd, sd_climb}, rolls_};
+    // The robot's own speed, and where it aims. A lob that never left the floor was no kick as expected.
+    const double sd = way_ == FlightFilter::Way::kRolls ? v + 1.0 : 0.1 * v + 1.2;
+    return {seen_.front(), track_.ball_sd_m, {v * to_goal.x(), v * to_goal.y(), climb}, {sd, sd, sd_climb}, way_};
   }
 
   void free_flight() {
@@ -197,7 +211,7 @@ class Hypotheses {
   std::span<const kicking::Sighting> seen_;
   double goal_y_m_;
   std::int64_t launch_t_ns_;
-  bool rolls_;
+  FlightFilter::Way way_;
   std::vector<FlightFilter> free_;  // after each sighting before the line
   std::vector<double> misfit_;
   std::vector<double> log_free_;  // of all sightings up to this one
@@ -217,15 +231,14 @@ double log_moved(const kicking::Sighting& from, const kicking::Sighting& to, dou
 /// How many of the first sightings may show the ball in the handler still: on the floor, and no faster than a robot.
 std::size_t held_at_first(const ShotTrack& track, std::span<const kicking::Sighting> seen) {
   std::size_t held = 0;
-  for (; held < seen.size() && seen[held].ball_m.z() < kOnFloorBelow_m; ++held) {
+  for (; held < seen.size() && is_low(seen[held]); ++held) {
     if (kicking::seconds(seen[held].t_ns - track.release_t_ns) > kLatestRelease_s) break;
     if (held == 0) continue;
     const double dt_s = kicking::seconds(seen[held].t_ns - seen[held - 1].t_ns);
     const double moved_m = (seen[held].ball_m - seen[held - 1].ball_m).head<2>().norm();
     if (moved_m > kCarried_mps * dt_s + 4.0 * track.ball_sd_m) break;
   }
-  const bool flies = std::ranges::any_of(seen, [](const auto& s) { return s.ball_m.z() >= kOnFloorBelow_m; });
-  return flies ? held : 0;
+  return kicked_low(track) || !std::ranges::all_of(seen, is_low) ? held : 0;
 }
 
 }  // namespace

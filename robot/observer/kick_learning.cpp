@@ -81,6 +81,7 @@ std::optional<msg::KickerEstimate> KickLearning::seen(const msg::KickOutcome& ou
   const auto receipt = std::ranges::find(receipts_, outcome.kick_id, &msg::KickReceipt::kick_id);
   const kicking::Maybe speed_mps = outcome.flight_speed_mps;
   if (decision == decisions_.end() || receipt == receipts_.end() || !speed_mps) return std::nullopt;
+  if (receipt->kick_kind != 0) return std::nullopt;  // a ball on the floor shows neither its speed nor its angle
   const kicking::Twist twist{decision->vx_mps, decision->vy_mps, decision->omega_radps};
   const bool learned =
       learner_.learn({.power = receipt->power,

@@ -48,7 +48,8 @@ void append(std::vector<msg::KickOutcome>& outcomes, const std::vector<TrackedSh
 std::vector<msg::KickOutcome> Observer::receipt(const msg::KickReceipt& receipt, const kicking::RobotModel& model) {
   std::vector<msg::KickOutcome> outcomes;
   if (!msg::begins_kick(receipt)) return outcomes;
-  const double v_mps = model.table.speed_for(receipt.power), angle_rad = model.exit_angle_at(receipt.power);
+  const kicking::RobotModel& kind = model.kind(receipt.kick_kind < model.kinds() ? receipt.kick_kind : 0);
+  const double v_mps = kind.table.speed_for(receipt.power), angle_rad = kind.exit_angle_at(receipt.power);
   append(outcomes, tracker_.release(receipt.kick_id, receipt.release_t_ns, v_mps * std::cos(angle_rad),
                                     v_mps * std::sin(angle_rad)));
   return outcomes;

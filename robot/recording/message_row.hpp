@@ -24,7 +24,7 @@ std::string table_of() {
 /// their label, booleans as 0 and 1.
 template <bus::Struct T>
 void write_cells(auto& sink, const T& message) {
-  bus::visit_columns(message, [&](std::string_view, const auto& field) {
+  bus::visit_values(message, [&](const auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (bus::Enumeration<Field>) {
       sink.text(bus::label(field));

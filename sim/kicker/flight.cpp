@@ -18,6 +18,31 @@ void roll(BallMotion& m, const BallPhysics& ball, double drag, double dt) {
   if (time < dt) m.velocity_mps.setZero();
 }
 
+/// Slides for dt [s] at most. Returns what is left of it when the ball begins to roll.
+double slide(BallMotion& m, const BallPhysics& ball, double drag, double dt) {
+  const double speed = std::hypot(m.velocity_mps.x(), m.velocity_mps.y()), slip = speed - m.rim_mps;
+  if (!(slip > 1e-9)) return dt;
+  const double grip = ball.sliding_friction_ratio * ball.gravity_mps2, deceleration = grip + drag * speed * speed;
+  const double time = std::min(dt, slip / (deceleration + 1.5 * grip));
+  const double next = std::max(0.0, speed - deceleration * time);
+  m.position_m += 0.5 * (speed + next) / speed * time * m.velocity_mps;
+  m.velocity_mps *= next / speed;
+  m.rim_mps = std::min(next, m.rim_mps + 1.5 * grip * time);
+  return dt - time;
+}
+
+/// The velocity over ground after a touch with the floor's friction.
+void grip(BallMotion& m, const BallPhysics& ball) {
+  Eigen::Vector3d& v = m.velocity_mps;
+  const double speed = std::hypot(v.x(), v.y());
+  if (!(speed > 0.0)) return;
+  const double push = ball.sliding_friction_ratio * (1.0 + ball.restitution_ratio) * std::abs(v.z());
+  const double lost = std::clamp(0.4 * (speed - m.rim_mps), -push, push);
+  v.x() *= (speed - lost) / speed;
+  v.y() *= (speed - lost) / speed;
+  m.rim_mps += 1.5 * lost;
+}
+
 /// Time until z falls to `height` under a constant vertical acceleration, which holds for a control cycle.
 double time_to_height(const BallMotion& m, double height, double drag, double gravity) {
   const double a = -kicking::drag_acceleration(m.velocity_mps, drag, gravity).z();
@@ -35,7 +60,10 @@ double drag_per_m(const BallPhysics& ball) {
 void advance(BallMotion& motion, const BallPhysics& ball, double dt_s) {
   const double drag = drag_per_m(ball);
   while (dt_s > 0.0) {
-    if (motion.rolling) return roll(motion, ball, drag, dt_s);
+    if (motion.rolling) {
+      if (ball.sliding_friction_ratio > 0.0) dt_s = slide(motion, ball, drag, dt_s);
+      return roll(motion, ball, drag, dt_s);
+    }
     BallMotion next = motion;
     kicking::fly(next, dt_s, drag, ball.gravity_mps2);
     if (next.position_m.z() >= ball.radius_m) {
@@ -48,9 +76,12 @@ void advance(BallMotion& motion, const BallPhysics& ball, double dt_s) {
     motion.position_m.z() = ball.radius_m;
     motion.bounced = true;
     Eigen::Vector3d& v = motion.velocity_mps;
+    if (ball.sliding_friction_ratio > 0.0) grip(motion, ball);
     if (-v.z() < ball.roll_below_mps) {
       motion.rolling = true;
       v.z() = 0.0;
+    } else if (ball.sliding_friction_ratio > 0.0) {
+      v.z() *= -ball.restitution_ratio;
     } else {
       v = {ball.retention_ratio * v.x(), ball.retention_ratio * v.y(), -ball.restitution_ratio * v.z()};
     }

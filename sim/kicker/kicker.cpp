@@ -31,6 +31,19 @@ double worn_ratio(const Kicker& kicker, std::uint32_t kicks) {
   return kicks < kicker.drop_after_kicks ? 1.0 : 1.0 - kicker.drop_ratio;
 }
 
+Kicker kicker_of_kind(const Kicker& kicker, std::size_t kind) {
+  Kicker of = kicker;
+  if (kind == 0 || !kicker.flat.enabled) return of;
+  of.powers = kicker.flat.powers;
+  of.exit_speeds_mps = kicker.flat.exit_speeds_mps;
+  of.exit_elevations_rad = kicker.flat.exit_elevations_rad;
+  of.delay_s = kicker.flat.delay_s;
+  of.delay_sd_s = kicker.flat.delay_sd_s;
+  of.speed_sd_ratio = kicker.flat.speed_sd_ratio;
+  of.direction_sd_rad = kicker.flat.direction_sd_rad;
+  return of;
+}
+
 Exit exit_at(const Kicker& kicker, double power) {
   const auto& powers = kicker.powers;
   const auto above = std::upper_bound(powers.begin(), powers.end(), power);

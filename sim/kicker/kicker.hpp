@@ -17,6 +17,9 @@ Kicker match_kicker(const Scenario& scenario, std::uint32_t robot, std::uint64_t
 /// drop_after_kicks on.
 double worn_ratio(const Kicker& kicker, std::uint32_t kicks);
 
+/// The kicker with its lever for that kind of kick: 0 is the lob, any other the flat kick where there is one.
+Kicker kicker_of_kind(const Kicker& kicker, std::size_t kind);
+
 /// Speed and elevation with which a ball leaves the robot at rest.
 struct Exit {
   double speed_mps = 0.0;

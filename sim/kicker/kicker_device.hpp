@@ -21,13 +21,13 @@ struct Stroke {
   bool live = false;            ///< the ball was in the handler and the game on when the coil was energised
 };
 
-/// The kicker: capacitor, coil and plunger. A kick of exit speed v takes charge_per_kick (v / v_top)^2 of the
+/// The kicker: capacitor, coil, plunger and lever. A kick of exit speed v takes charge_per_kick (v / v_top)^2 of the
 /// capacitor; with less than that left the ball leaves slower, by the square root of what is there.
 class KickerDevice {
  public:
-  explicit KickerDevice(const Kicker& values) : values_(values) {}
+  explicit KickerDevice(const Kicker& values);
 
-  /// A full capacitor, no kick under way, and the table's speeds times `speed_scale_ratio`.
+  /// A full capacitor, no kick under way, the lever at the lob, and the table's speeds times `speed_scale_ratio`.
   void reset(double speed_scale_ratio);
 
   double charge() const { return charge_; }
@@ -36,6 +36,11 @@ class KickerDevice {
   /// Takes a fire order, to be energised at its instant. Ignored if the power is not finite, or while a kick is under
   /// way.
   void order(const Fire& fire);
+
+  /// The lever shall stand for that kind. Ignored while it moves, and where the kicker has no such kind.
+  void lever(std::uint8_t kind, std::int64_t t_ns);
+  /// Kind that it stands for; kicking::kLeverMoves: for none.
+  std::uint8_t lever_kind(std::int64_t t_ns) const;
 
   /// Instant at which something happens next: the coil is energised or the plunger reaches the ball.
   std::optional<std::int64_t> next_event_t_ns() const;
@@ -50,6 +55,10 @@ class KickerDevice {
 
  private:
   Kicker values_;
+  Kicker flat_;
+  std::uint8_t lever_from_ = 0;
+  std::uint8_t lever_to_ = 0;
+  std::int64_t lever_stands_t_ns_ = 0;  // there
   double charge_ = 1.0;
   std::optional<Fire> order_;
   std::optional<Stroke> stroke_;

@@ -13,7 +13,12 @@ using namespace trivela;
 
 double percent(double part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; }
 
-void sweep_beliefs(std::uint32_t matches, std::uint32_t possessions, std::uint64_t seed) {
+void say_confused(const experiment::LabelCounts& counts) {
+  for (const auto& [what, n] : counts.confused)
+    fmt::print("      {} called {}: {}\n", kicking::name(what.first), kicking::name(what.second), n);
+}
+
+void sweep_beliefs(std::uint32_t matches, std::uint32_t possessions, std::uint64_t seed, bool confused) {
   fmt::print("SIMULATED: {} matches of {} possessions a world, seed {}\n", matches, possessions, seed);
   fmt::print("{:<80} kicks  unknown  right of given  too good  too bad  bounds hold\n", "world");
   for (const experiment::OtherWorld& world : experiment::kOtherWorlds) {
@@ -23,6 +28,7 @@ void sweep_beliefs(std::uint32_t matches, std::uint32_t possessions, std::uint64
     fmt::print("{:<79} {:6d}  {:5.1f} %  {:12.2f} %  {:8d} {:8d}  {:9.1f} %\n", world.what, counts.kicks,
                percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given), counts.too_good,
                counts.too_bad, percent(counts.covered, counts.matches));
+    if (confused) say_confused(counts);
   }
 }
 
@@ -43,7 +49,7 @@ int main(int argc, char** argv) {
   app.add_flag("--beliefs", beliefs, "worlds that are not what robot and observer believe, with the default camera");
   CLI11_PARSE(app, argc, argv);
   if (beliefs) {
-    sweep_beliefs(matches, possessions, seed);
+    sweep_beliefs(matches, possessions, seed, confused);
     return 0;
   }
 
@@ -63,9 +69,7 @@ int main(int argc, char** argv) {
                    percent(counts.unknown(), counts.kicks), percent(counts.right, counts.given),
                    100.0 - percent(counts.doubt, counts.given), counts.too_good, counts.too_bad,
                    percent(counts.covered, counts.matches));
-        if (!confused) continue;
-        for (const auto& [what, n] : counts.confused)
-          fmt::print("      {} called {}: {}\n", kicking::name(what.first), kicking::name(what.second), n);
+        if (confused) say_confused(counts);
       }
     }
   }

@@ -48,9 +48,9 @@ TEST(Messages, ANestedStructHasFieldsButNoTopic) {
 
 TEST(Messages, FieldNamesAreKnownAtCompileTimeInTheOrderOfTheIdl) {
   constexpr auto names = field_names<msg::KickOrder>();
-  static_assert(names.size() == 8);
-  EXPECT_THAT(
-      names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns", "possession"));
+  static_assert(names.size() == 9);
+  EXPECT_THAT(names, ElementsAre("robot_id", "seq", "t_ns", "kick_id", "power", "fire_t_ns", "valid_until_t_ns",
+                                 "possession", "kick_kind"));
 }
 
 TEST(Messages, KeysAreMarked) {
@@ -87,11 +87,13 @@ struct Text {
 };
 
 TEST(Messages, TheVisitorSeesNamesUnitsAndValuesInOrder) {
-  const msg::DriveCommand drive{.robot_id = 3, .seq = 4, .t_ns = 5, .vx_mps = 1, .vy_mps = 2, .omega_radps = -1};
+  const msg::DriveCommand drive{
+      .robot_id = 3, .seq = 4, .t_ns = 5, .vx_mps = 1, .vy_mps = 2, .omega_radps = -1, .lever_kind = 1};
   Text text;
   visit_fields(drive, text);
-  EXPECT_EQ(text.out,
-            "robot_id=3;seq=4;t_ns=5;vx_mps[m/s]=1.000000;vy_mps[m/s]=2.000000;omega_radps[rad/s]=-1.000000;");
+  EXPECT_EQ(
+      text.out,
+      "robot_id=3;seq=4;t_ns=5;vx_mps[m/s]=1.000000;vy_mps[m/s]=2.000000;omega_radps[rad/s]=-1.000000;lever_kind=1;");
 }
 
 TEST(Messages, TheVisitorSeesArraysEnumsAndNestedStructs) {

@@ -92,7 +92,7 @@ TEST_F(CalibratedRobot, NamesAnglesThatDoNotFitTheTable) {
   EXPECT_THAT([&] { load_robot(file(kTable + "exit_angles_deg = [44.0]\n")); },
               ThrowsMessage<Error>(HasSubstr("table.powers has 2 entries, table.exit_angles_deg 1")));
   EXPECT_THAT([&] { load_robot(file(kTable + "exit_angles_deg = [44.0, 95.0]\n")); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml:5"), HasSubstr("must lie in [5, 80]"))));
+              ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml:5"), HasSubstr("must lie in [0, 80]"))));
 }
 
 TEST_F(CalibratedRobot, HasTheLeversHeightOfItsTable) {
@@ -122,6 +122,50 @@ TEST_F(CalibratedRobot, PutsItsLeverWhereTheTableWasMeasured) {
   std::get<IoBoardDevice>(devices.kicker).lever = 100;
   EXPECT_THAT([&] { hal_for(devices, robot); },
               ThrowsMessage<Error>(HasSubstr("hal.ioboard.lever = 100, but the table of robot")));
+}
+
+const std::string kFlat =
+    "[[kinds]]\nname = \"flat\"\n[kinds.table]\npowers = [12.0, 22.0, 30.0]\nexit_speeds_mps = [6.0, 8.0, 9.0]\n"
+    "[kinds.kicker]\nexit_angle_deg = 6.0\ndelay_s = 0.05\n";
+
+TEST_F(CalibratedRobot, HasAWholeModelForEachKindOfKick) {
+  const Robot robot = load_robot(file(kTable + "[kicker]\ndelay_s = 0.07\nball_offset_m = 0.25\n" + kFlat));
+  ASSERT_EQ(robot.model.kinds(), 2u);
+  const kicking::RobotModel& flat = robot.model.kind(1);
+  EXPECT_EQ(robot.model.delay_s, 0.07);
+  EXPECT_EQ(flat.delay_s, 0.05);
+  EXPECT_EQ(flat.table.back().power, 30.0);
+  EXPECT_NEAR(flat.exit_angle_rad, kicking::radians(6.0), 1e-12);
+  EXPECT_EQ(flat.ball_offset_m, 0.25) << "what the kind does not name is the first one's";
+  EXPECT_EQ(flat.spreads.direction_sd_rad, robot.model.spreads.direction_sd_rad);
+  const std::string text = to_toml_text(robot);
+  EXPECT_EQ(to_toml_text(load_robot(file(text))), text);
+  EXPECT_THAT(text, HasSubstr("\n[[kinds]]\nname = \"flat\""));
+}
+
+TEST_F(CalibratedRobot, NamesTheKindOfKickThatDoesNotFit) {
+  const auto refuses = [&](const std::string& kinds, const std::string& words) {
+    EXPECT_THAT([&] { load_robot(file(kTable + kinds)); },
+                ThrowsMessage<Error>(AllOf(HasSubstr("robot.toml"), HasSubstr(words))));
+  };
+  refuses("[[kinds]]\nname = \"flat\"\n", "kinds[0] has no [kinds.table]");
+  refuses(kFlat + "ball_offset_m = 0.3\n", "kinds[0]: ball and ball_offset_m are the robot's");
+  refuses(kFlat + "exit_angel_deg = 3.0\n", "exit_angel_deg");
+  refuses(kFlat + kFlat + kFlat + kFlat, "a robot has 4 kinds of kick at most");
+  refuses("[kinds]\nname = \"flat\"\n", "expected an array");
+  EXPECT_THAT([&] { load_robot(file(kTable + "levers = [120, 120]\n" + kFlat)); },
+              ThrowsMessage<Error>(HasSubstr("either each kind of kick has table.levers, or none")));
+}
+
+TEST_F(CalibratedRobot, TellsABoardTheLeversOfAllKinds) {
+  std::string flat = kFlat;
+  flat.insert(flat.find("[kinds.kicker]"), "levers = [20, 20, 20]\n");
+  const Robot robot = load_robot(file(kTable + "levers = [120, 120]\n[kicker]\nlever_s = 0.15\n" + flat));
+  Hal devices;
+  devices.kicker = IoBoardDevice{};
+  const auto board = std::get<IoBoardDevice>(hal_for(devices, robot).kicker);
+  EXPECT_THAT(board.levers, testing::ElementsAre(120, 20));
+  EXPECT_EQ(board.lever_s, 0.15);
 }
 
 TEST_F(CalibratedRobot, OfATrueTableIsForTheToolsAlone) {

@@ -238,6 +238,64 @@ TEST_P(EmulatedMatch, TheGyrosTurnRateReachesOdometry) {
 INSTANTIATE_TEST_SUITE_P(Over, EmulatedMatch, testing::Values(ioboard(), rekick_on_drives()),
                          [](const auto& of) { return of.param.name; });
 
+/// config/robots/lob_flat_1.toml with the lever's heights.
+std::string lever_robot() {
+  std::ifstream in{std::filesystem::path{TRIVELA_SOURCE_DIR} / "config/robots/lob_flat_1.toml"};
+  std::string text, height = "120";
+  for (std::string line; std::getline(in, line);) {
+    text += line + "\n";
+    if (!line.starts_with("exit_speeds_mps")) continue;
+    std::string levers = height;
+    for (int i = 1; i < 8; ++i) levers += ", " + height;
+    text += "levers = [" + levers + "]\n";
+    height = "20";
+  }
+  return text;
+}
+
+// The wish goes from the decision by the driver and the serial line to the board, whose lever the world's kicker obeys;
+// the simulator's truth is the witness of which kick came out.
+TEST(EmulatedMatchWithALever, EachOrderOfAFlatKickIsAFlatBallAndEachOfALobALob) {
+  const tests::Folder folder;
+  sim::Scenario world = undisturbed();
+  world.keeper.enabled = world.kicker.flat.enabled = true;
+  world.ball.sliding_friction_ratio = 0.3;
+  std::ofstream{folder / "world.toml"} << config::to_toml_text(world);
+  std::ofstream{folder / "robot.toml"} << lever_robot();
+  Program match{"trivela",
+                {"match",
+                 "--half",
+                 "predictive",
+                 "--half",
+                 "moving",
+                 "--minutes",
+                 "2",
+                 "--seed",
+                 "3",
+                 "--devices",
+                 "emulated",
+                 "--set",
+                 "run.scenario='world.toml'",
+                 "--set",
+                 "run.robot='robot.toml'",
+                 "--set",
+                 "simulator.max_possessions=4",
+                 "--set",
+                 "hal.ioboard.charge_time_s=0",
+                 "--out",
+                 "flat.db"},
+                folder.path()};
+  ASSERT_EQ(match.wait(), 0) << match.errors();
+  const Reader log{folder / "flat.db"};
+  const std::string kicked = "FROM kick_orders AS o JOIN kick_truths AS t USING (session_id, robot_id, kick_id) ";
+  EXPECT_GE(number_of(log, "SELECT count(*) " + kicked + "WHERE o.kick_kind = 1"), 2);
+  EXPECT_GE(number_of(log, "SELECT count(*) " + kicked + "WHERE o.kick_kind = 0"), 3);
+  EXPECT_EQ(number_of(log, "SELECT count(*) " + kicked + "WHERE (o.kick_kind = 1) <> (t.release_vz_mps < 2.0)"), 0);
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM kick_receipts WHERE refusal = 'lever'"), 0);
+  EXPECT_GT(number_of(log, "SELECT count(*) FROM kicker_status WHERE lever_kind = 255"), 0) << "it moves";
+  EXPECT_EQ(number_of(log, "SELECT count(*) FROM kicks WHERE outcome = 'unknown'"), 0);
+}
+
 TEST(EmulatedMatchUsage, ABoxHasNoWordsForAFifthHalf) {
   const tests::Folder folder;
   std::vector<std::string> words{"match", "--devices", "emulated", "--minutes", "0.01", "--out", "match.db"};

@@ -59,7 +59,8 @@ class Wire {
                      .t_ns = static_cast<std::int64_t>(sent_),
                      .vx_mps = 0.0,
                      .vy_mps = 0.0,
-                     .omega_radps = 0.0});
+                     .omega_radps = 0.0,
+                     .lever_kind = 0});
       reader_.wait(std::chrono::milliseconds{1});
       poll(nullptr, 0, 1);  // the pace
       note();

@@ -181,6 +181,22 @@ TEST(Simulate, DecidesLikeTheNodesOnTheBus) {
   }
 }
 
+TEST(Simulate, MovesALeverAndKicksFlatLikeTheNodesOnTheBus) {
+  const tests::Folder folder;
+  const std::string config = TRIVELA_SOURCE_DIR "/config/";
+  const std::string robot = config + "robots/lob_flat_1.toml", world = config + "scenarios/flat_keeper.toml";
+  run(folder, {"simulate", "--arms", "predictive", "--matches", "1", "--possessions", "8", "--robot", robot,
+               "--scenario", world, "--shadows", "--every-cycle", "--out", "in.db"});
+  const Reader log{folder / "in.db"};
+  EXPECT_GE(number_of(log, "SELECT count(*) FROM kicks WHERE kick_kind = 1"), 2);
+  EXPECT_THAT(differing_on_the_bus(folder, {"--half", "predictive", "--set", fmt::format("run.robot='{}'", robot),
+                                            "--set", fmt::format("run.scenario='{}'", world)}),
+              IsEmpty());
+  run(folder, {"replay", "bus.db", "--out", "again.db"});
+  EXPECT_EQ(number_of(Reader{folder / "again.db"}, "SELECT count(*) FROM kick_orders WHERE kick_kind = 1"),
+            number_of(Reader{folder / "bus.db"}, "SELECT count(*) FROM kick_orders WHERE kick_kind = 1"));
+}
+
 TEST(Simulate, LearnsAKickerAndDecidesByItLikeTheNodesOnTheBus) {
   const tests::Folder folder;
   const std::string on = "self_calibration.mode='on'";

@@ -26,20 +26,29 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace trivela::experiment {
 namespace {
 
-TEST(InProcessAllocation, IsCounted) {
+TEST(InProcessAllocations, AreCounted) {
   const std::size_t before = allocations;
   const auto text = std::make_unique<std::string>(100, 'x');
   EXPECT_GT(allocations, before);
 }
 
-TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
+class InProcessAllocation : public testing::TestWithParam<bool> {};
+
+TEST_P(InProcessAllocation, ARobotsCycleNeedsNone) {
+  const bool lever = GetParam();
   for (const auto policy :
        {kicking::PolicyName::kStopped, kicking::PolicyName::kMoving, kicking::PolicyName::kPredictive}) {
     config::Settings settings;
     settings.kick_decision.policy_by_half = {policy};
-    const config::Robot robot;
+    config::Robot robot;
+    sim::Scenario world;
+    if (lever) {
+      robot.model.further_kinds.push_back(robot.model);
+      robot.model.further_kinds.front().exit_angle_rad = kicking::radians(6.0);
+      world.keeper.enabled = world.kicker.flat.enabled = true;
+    }
     InProcessRobot chain{settings, robot, 1, 1, std::nullopt};
-    sim::Match match{{}, 1, 1, 1e6, 10};
+    sim::Match match{world, 1, 1, 1e6, 10};
     std::size_t inside = 0;
     int orders = 0;
     while (!match.done()) {
@@ -49,7 +58,7 @@ TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
       const robot::CycleDecision* decision = chain.cycle(sensors, referee, std::nullopt, nullptr);
       inside += allocations - before;
       ASSERT_NE(decision, nullptr);
-      sim::Commands commands{decision->output.drive, std::nullopt};
+      sim::Commands commands{.drive = decision->output.drive, .lever_kind = decision->output.lever_kind, .fire{}};
       if (const auto& receipt = chain.receipt(); receipt && receipt->accepted) {
         commands.fire = sim::Fire{receipt->fired_t_ns, receipt->kick_id, receipt->power};
         ++orders;
@@ -61,7 +70,9 @@ TEST(InProcessAllocation, ARobotsCycleNeedsNone) {
   }
 }
 
-TEST(InProcessAllocation, AMatchNeedsAFewForEachPossessionAndNoneForItsCycles) {
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutALever, InProcessAllocation, testing::Bool());
+
+TEST(InProcessAllocations, AMatchNeedsAFewForEachPossessionAndNoneForItsCycles) {
   const auto needed = [](std::uint32_t possessions) {
     const std::size_t before = allocations;
     play_match({}, Arm{}, 1, 0, possessions);

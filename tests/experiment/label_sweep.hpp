@@ -36,7 +36,14 @@ struct LabelCounts {
 struct OtherWorld {
   const char* what = "";
   void (*change)(sim::Scenario&) = [](sim::Scenario&) {};
+  bool flat = false;  ///< the robots know one kind of kick, of 6 degrees
 };
+
+/// A kicker of flat kicks on a floor with friction.
+inline void kick_flat(sim::Scenario& w, double friction_ratio, double elevation_rad = 0.1047) {
+  for (double& e : w.kicker.exit_elevations_rad) e = elevation_rad;
+  w.ball.sliding_friction_ratio = friction_ratio;
+}
 
 /// Each belief by some three times of what is plausible, and several at once.
 inline constexpr OtherWorld kOtherWorlds[] = {
@@ -81,9 +88,21 @@ inline constexpr OtherWorld kOtherWorlds[] = {
        w.ball.radius_m = 0.108;
        w.flight_camera.bias_x_m = w.flight_camera.bias_y_m = w.flight_camera.bias_z_m = 0.04;
      }},
+    {"flat kicks", [](sim::Scenario& w) { kick_flat(w, 0.3); }, true},
+    {"flat kicks, hardly any friction", [](sim::Scenario& w) { kick_flat(w, 0.05); }, true},
+    {"flat kicks, twice the friction", [](sim::Scenario& w) { kick_flat(w, 0.6); }, true},
+    {"flat kicks of 12 degrees", [](sim::Scenario& w) { kick_flat(w, 0.3, 0.21); }, true},
+    {"flat kicks that roll, 0.1 s later, 15 % faster, 4 degrees, 6 cm, 20 % dropouts",
+     [](sim::Scenario& w) {
+       kick_flat(w, 0.5, 0.0);
+       w.kicker.delay_s = 0.16, w.kicker.speed_scale_ratio = 1.15, w.kicker.direction_sd_rad = 0.07;
+       w.flight_camera.position_sd_m = 0.06, w.flight_camera.dropout_ratio = 0.2;
+     },
+     true},
 };
 
-/// Adds one match of `possessions` possessions; odd matches are played by moving, even ones by predictive.
+/// Adds one match of `possessions` possessions; odd matches are played by moving, even ones and all with flat kicks by
+/// predictive.
 inline void add_match(const GoalCamera& camera, std::uint64_t seed, std::uint32_t match_id, std::uint32_t possessions,
                       LabelCounts& counts, const OtherWorld& world = {}) {
   sim::Scenario scenario;
@@ -93,6 +112,10 @@ inline void add_match(const GoalCamera& camera, std::uint64_t seed, std::uint32_
   world.change(scenario);
   Arm arm;
   arm.policy = match_id % 2 == 0 ? kicking::PolicyName::kPredictive : kicking::PolicyName::kMoving;
+  if (world.flat) {
+    arm.policy = kicking::PolicyName::kPredictive;
+    arm.robots.front().model.exit_angle_rad = kicking::radians(6.0);
+  }
   if (camera.frames_per_s > 50.0) scenario.cycle_s = arm.settings.run.cycle_s = 1.0 / camera.frames_per_s;
   MatchRecord record;
   play_match(scenario, arm, seed, match_id, possessions, {}, &record);

@@ -1,6 +1,7 @@
 // The ioBoard's backend with its thread, on a pseudo-terminal, against an emulated board: its clock is the witness.
 #include <gtest/gtest.h>
 
+#include "kicking/model/robot_model.hpp"
 #include "tests/hal/board_on_a_line.hpp"
 
 namespace trivela::hal::ioboard {
@@ -120,6 +121,29 @@ TEST_F(IoBoardKickerTest, DestructionFiresNothing) {
   ASSERT_TRUE(kicker->connected(kTimeout));
   wait_for_looks(30);
   EXPECT_EQ(board().shots_told(), 0u);
+}
+
+TEST_F(IoBoardKickerTest, TheLeverStandsForTheKindOfKickThatIsWantedAlsoOnANewLine) {
+  const auto kicker = open({.lever = 100, .levers = {100, 20}, .lever_s = 0.1});
+  const auto stands_for = [&](std::uint8_t kind) {
+    const std::int64_t until_ns = steady_ns() + std::chrono::nanoseconds(kTimeout).count();
+    while (steady_ns() < until_ns) {
+      const auto sample = kicker->read(kTimeout);
+      if (sample && sample->fault == KickerFault::kNone && sample->lever_kind == kind) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(stands_for(0));
+  EXPECT_EQ(board().lever(), 100);
+  kicker->lever(1);
+  EXPECT_TRUE(stands_for(kicking::kLeverMoves));
+  EXPECT_TRUE(stands_for(1));
+  EXPECT_EQ(board().lever(), 20);
+  emulator_.line().pull();
+  EXPECT_TRUE(until_link_fault(*kicker));
+  emulator_.line().plug();
+  EXPECT_TRUE(stands_for(1));
+  EXPECT_EQ(board().lever(), 20);
 }
 
 TEST_F(IoBoardKickerTest, APulledCableIsALinkFaultAndIsOpenedAgainByItself) {

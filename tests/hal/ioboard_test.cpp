@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "kicking/model/robot_model.hpp"
 #include "tests/hal/scripted_line.hpp"
 
 namespace trivela::hal::ioboard {
@@ -169,6 +170,32 @@ TEST_F(IoBoardTest, TheLeverIsToldOnceAndItsAnswerIsChecked) {
   EXPECT_EQ(std::ranges::count(end_.written, encode(frame_of(Command::kHeight, 120))), 1);
 }
 
+TEST_F(IoBoardTest, TheLeverMovesToAnotherKindOfKickAndStandsThereAfterItsTime) {
+  make({.lever = 120, .levers = {120, 20}, .lever_s = 0.1});
+  step(0);
+  answer(version(), 1);
+  answer(encode(frame_of(Command::kHeight, 120)), 2);
+  ASSERT_TRUE(board_->up());
+  answer(switches(1, 1), 3);
+  EXPECT_EQ(sample().lever_kind, kicking::kLeverMoves) << "where it stood before nobody knows";
+  board_->lever(1);
+  step(50);
+  EXPECT_EQ(std::ranges::count(end_.written, encode(frame_of(Command::kHeight, 20))), 0) << "it would be ignored";
+  answer(switches(1, 1), 60);
+  sample();
+  step(110);
+  EXPECT_EQ(std::ranges::count(end_.written, encode(frame_of(Command::kHeight, 20))), 1);
+  answer(encode(frame_of(Command::kHeight, 20)), 112);
+  answer(switches(1, 1), 113);
+  EXPECT_EQ(sample().lever_kind, kicking::kLeverMoves);
+  step(213);
+  answer(switches(1, 1), 214);
+  EXPECT_EQ(sample().lever_kind, 1);
+  board_->lever(7);
+  step(240);
+  EXPECT_EQ(std::ranges::count(end_.written, encode(frame_of(Command::kHeight, 20))), 1) << "no such kind";
+}
+
 TEST_F(IoBoardTest, ALeverThatAnswersAnotherHeightOrNoneIsALostLine) {
   make({.lever = 120});
   step(0);
@@ -232,9 +259,11 @@ TEST(IoBoardPulse, IsTheSetPointInItsUnits) {
   EXPECT_EQ(pulse_of(256.0, 128.0), std::nullopt);
 }
 
-TEST(IoBoardCapabilities, AreNone) {
+TEST(IoBoardCapabilities, AreNoneButTheLeverOfARobotWithSeveralKindsOfKick) {
   tests::ScriptedEnd end;
   EXPECT_EQ(IoBoard(std::make_unique<tests::ScriptedLine>(end), {}).capabilities(), KickerCapabilities{});
+  const config::IoBoardDevice two{.lever = 1, .levers = {1, 2}};
+  EXPECT_TRUE(IoBoard(std::make_unique<tests::ScriptedLine>(end), two).capabilities().lever);
 }
 
 }  // namespace

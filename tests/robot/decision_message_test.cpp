@@ -113,6 +113,7 @@ TEST(PolicyInput, WithoutAStatusTheKickerIsNotReady) { EXPECT_FALSE(policy_input
 
 double number_of(bool value) { return value; }
 double number_of(double value) { return value; }
+double number_of(std::uint8_t value) { return value; }
 double number_of(const std::optional<double>& value) { return *value; }
 double number_of(kicking::Reason reason) { return to_wire(reason); }
 
@@ -140,7 +141,10 @@ kicking::PolicyOutput whole_output() {
 template <class Message>
 std::map<std::string_view, double> numbers_of(const Message& message) {
   std::map<std::string_view, double> numbers;
-  bus::visit_columns(message, [&](std::string_view name, const auto& field) { numbers[name] = double(field); });
+  bus::visit_fields(message, [&](std::string_view name, std::string_view, const auto& field) {
+    using Field = std::remove_cvref_t<decltype(field)>;
+    if constexpr (std::is_arithmetic_v<Field> || std::is_enum_v<Field>) numbers[name] = double(field);
+  });
   return numbers;
 }
 

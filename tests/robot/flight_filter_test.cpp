@@ -10,12 +10,13 @@
 namespace trivela::robot {
 namespace {
 
-sim::BallMotion kicked() { return {{{0.5, 3.0, 0.11}, {-0.7, 6.0, 4.5}}, false}; }
+sim::BallMotion kicked() { return {{{0.5, 3.0, 0.11}, {-0.7, 6.0, 4.5}}}; }
 
 FlightFilter filter_of(const sim::BallMotion& ball, double sd_mps = 0.01) {
   const kicking::Sighting first{0, ball.position_m};
   const auto& v = ball.velocity_mps;
-  return {first, 0.001, v, {sd_mps, sd_mps, sd_mps}, ball.rolling};
+  return {
+      first, 0.001, v, {sd_mps, sd_mps, sd_mps}, ball.rolling ? FlightFilter::Way::kRolls : FlightFilter::Way::kFlies};
 }
 
 void fly(sim::BallMotion& ball, double dt_s) {
@@ -62,7 +63,7 @@ TEST(FlightFilter, SaysHowFarItMayBeOff) {
       return Eigen::Vector3d{ball.position_m.x() + noise(random), ball.position_m.y() + noise(random),
                              ball.position_m.z() + noise(random)};
     };
-    FlightFilter filter{{0, see()}, kSd_m, {0.0, 5.0, 4.0}, {3.0, 3.0, 3.0}, false};
+    FlightFilter filter{{0, see()}, kSd_m, {0.0, 5.0, 4.0}, {3.0, 3.0, 3.0}, FlightFilter::Way::kFlies};
     for (int i = 1; i <= 55; ++i) {
       fly(ball, 0.02);
       filter.advance(0.02);

@@ -92,7 +92,7 @@ TEST_F(MessageRowTest, TheSchemaAllowsTheLabelsOfTheMessages) {
   const log::Reader reader{path()};
   int enums = 0;
   for_each_recorded([&]<class T>(const std::string& table) {
-    bus::visit_columns(T{}, [&](std::string_view name, const auto& field) {
+    bus::visit_fields(T{}, [&](std::string_view name, std::string_view, const auto& field) {
       using Field = std::remove_cvref_t<decltype(field)>;
       if constexpr (bus::Enumeration<Field>) {
         ++enums;

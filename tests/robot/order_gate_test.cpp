@@ -43,9 +43,10 @@ struct Case {
   std::vector<msg::KickOrder> before{};
   msg::KickOrder order = order_at(kNow_ns);
   std::int64_t now_ns = kNow_ns;
+  std::vector<kicking::Range> powers{{15.0, 50.0}};
 
   OrderGate gate() const {
-    OrderGate gate{settings, {15.0, 50.0}, kCycle_s};
+    OrderGate gate{settings, powers, kCycle_s};
     if (!before.empty()) {  // answered while everything was well
       for (const auto& past : before) {
         gate.device({past.t_ns, 1.0, true, hal::KickerFault::kNone});
@@ -75,6 +76,7 @@ std::vector<std::string> first_cells(const std::string& file, const std::string&
 
 TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
   Case c;  // everything is wrong with it; each step mends what was refused
+  c.powers = {{15.0, 50.0}, {15.0, 50.0}};
   c.sample = {kNow_ns - 10'000 * kMs, 0.0, false, hal::KickerFault::kCoil};
   c.referee = RefereeSays::kSilent;
   c.before = {order_at(kNow_ns - 5'000 * kMs, 7)};
@@ -100,7 +102,13 @@ TEST(OrderGate, RefusesInTheOrderOfTheTableInTheDocuments) {
       {msg::REFUSAL_REFEREE_SILENT, {"referee_silent", [&] { c.referee = RefereeSays::kPlay; }}},
       {msg::REFUSAL_STALE, {"stale", [&] { c.order = order_at(kNow_ns, 7); }}},
       {msg::REFUSAL_DOUBLE, {"double", [&] { c.order.kick_id = 8; }}},
-      {msg::REFUSAL_CHARGING, {"charging", [&] { c.sample.charge = 1.0; }}}};
+      {msg::REFUSAL_CHARGING,
+       {"charging",
+        [&] {
+          c.sample.charge = 1.0;
+          c.sample.lever_kind = kicking::kLeverMoves;
+        }}},
+      {msg::REFUSAL_LEVER, {"lever", [&] { c.sample.lever_kind = 0; }}}};
   std::vector<std::string> names;
   for (const auto& [refusal, step] : steps) {
     EXPECT_EQ(c.gate().judge(c.order, c.now_ns, by), refusal) << step.first;
@@ -122,6 +130,29 @@ TEST(OrderGate, LetsAnOrderPassWhenEverythingIsWell) {
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "valid to the last instant";
   c.order = order_at(kNow_ns + 5 * kMs);
   EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "clocks differ a little";
+}
+
+TEST(OrderGate, RefusesAKindOfKickForWhichTheLeverDoesNotStand) {
+  Case c;
+  c.powers = {{15.0, 50.0}, {20.0, 60.0}};
+  c.order.kick_kind = 1;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_LEVER);
+  c.sample.lever_kind = kicking::kLeverMoves;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_LEVER);
+  c.sample.lever_kind = 1;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
+  c.order.power = 55.0;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE) << "each kind has set-points of its own";
+  c.order.power = 15.0;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_OUT_OF_RANGE);
+  c.order.kick_kind = 2;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_OUT_OF_RANGE) << "the robot has no such kind";
+}
+
+TEST(OrderGate, OfOneKindDoesNotAskForTheLever) {
+  Case c;
+  c.sample.lever_kind = kicking::kLeverMoves;
+  EXPECT_EQ(c.answer(), msg::REFUSAL_NONE);
 }
 
 TEST(OrderGate, RefusesAnOrderThatWasGivenWithoutTheBall) {
@@ -481,7 +512,7 @@ TEST(OrderGate, AcceptsNoOrderTwiceAndNoTwoWithinTheInterval) {
   std::mt19937_64 random{23};
   const auto chance = [&](double p) { return std::bernoulli_distribution{p}(random); };
   config::KickerDriver settings;
-  OrderGate gate{settings, {15.0, 50.0}, kCycle_s};
+  OrderGate gate{settings, {{15.0, 50.0}}, kCycle_s};
   std::set<std::int64_t> accepted;
   std::int64_t now_ns = kNow_ns, last_fire_ns = 0, next_id = 1;
   int repeats = 0;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "kicking/ballistics/floor_way.hpp"
 #include "tests/vector_rows.hpp"
 
 namespace trivela::sim {
@@ -54,6 +55,42 @@ TEST(Flight, LandsWhereTheDragVectorsSay) {
     EXPECT_NEAR(t - kStep_s + part * kStep_s, row.number("time_s"), 1e-4);
     EXPECT_NEAR(apex, row.number("apex_m"), 1e-4);
   }
+}
+
+TEST(Flight, ALowBallOnAFloorWithFrictionTakesTheTimeThatThePolicyReckonsWith) {
+  for (const double friction : {0.1, 0.3, 0.5})
+    for (const double elevation : {0.0, 0.05, 0.1}) {
+      BallPhysics ball;
+      ball.drag_coefficient = 0.0;
+      ball.sliding_friction_ratio = friction;
+      BallMotion m = launch(10.0, elevation);
+      m.rolling = elevation == 0.0;
+      const Eigen::Vector3d v = m.velocity_mps;
+      double t = 0.0, before = 0.0;
+      for (double distance = 1.0; distance <= 8.0; distance += 1.0) {
+        for (; m.position_m.y() < distance; t += kStep_s) advance(m, ball, kStep_s);
+        const double reckoned = kicking::floor_time_s(v.y(), v.z(), distance, {.friction_ratio = friction});
+        EXPECT_NEAR(t, reckoned, 0.04 * reckoned + kStep_s) << friction << ' ' << elevation << ' ' << distance;
+        EXPECT_GT(t, before);
+        before = t;
+      }
+    }
+}
+
+TEST(Flight, WithFrictionABallWithoutSpinRollsAtThreeFifthsOfItsSpeed) {
+  BallPhysics ball;
+  ball.drag_coefficient = 0.0;
+  ball.rolling_deceleration_mps2 = 0.0;
+  for (const double friction : {0.05, 0.3, 1.0})
+    for (const double elevation : {0.0, 0.1, 0.5}) {
+      ball.sliding_friction_ratio = friction;
+      BallMotion m = launch(5.0, elevation);
+      m.rolling = elevation == 0.0;
+      for (int i = 0; i < 10000; ++i) advance(m, ball, kStep_s);
+      EXPECT_TRUE(m.rolling);
+      EXPECT_NEAR(m.velocity_mps.y(), kicking::kRollingShare * 5.0 * std::cos(elevation), 1e-6);
+      EXPECT_NEAR(m.rim_mps, m.velocity_mps.y(), 1e-6);
+    }
 }
 
 TEST(Flight, NeverGainsEnergyAndComesToRest) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kicking/geometry/time.hpp"
+#include "kicking/model/robot_model.hpp"
 #include "sim/kicker/kicker.hpp"
 #include "sim/kicker/kicker_device.hpp"
 #include "tests/vector_rows.hpp"
@@ -135,6 +136,44 @@ TEST(KickerDevice, HasTheNoiseThatTheScenarioNames) {
   EXPECT_NEAR(sd(speed, speed2), 0.02, 0.001);
   EXPECT_NEAR(turn / kCount, 0.0, 0.0018);
   EXPECT_NEAR(sd(turn, turn2), 1.5 * kDegree_rad, 0.0013);
+}
+
+Kicker with_lever() {
+  Kicker k = quiet();
+  k.flat.enabled = true;
+  k.flat.delay_sd_s = k.flat.speed_sd_ratio = k.flat.direction_sd_rad = 0.0;
+  k.flat.delay_s = 0.04;
+  k.flat.lever_s = 0.2;
+  return k;
+}
+
+TEST(KickerDevice, TheLeverTakesItsTimeAndThenTheKickIsFlat) {
+  KickerDevice device{with_lever()};
+  device.reset(1.0);
+  EXPECT_EQ(device.lever_kind(0), 0);
+  device.lever(1, 0);
+  EXPECT_EQ(device.lever_kind(kicking::nanoseconds(0.19)), kicking::kLeverMoves);
+  device.lever(0, kicking::nanoseconds(0.1));
+  EXPECT_EQ(device.lever_kind(kicking::nanoseconds(0.2)), 1) << "a moving lever ignores another wish";
+  const std::int64_t t_ns = kicking::nanoseconds(0.2);
+  device.order({.t_ns = t_ns, .kick_id = 9, .power = 50.0});
+  device.energise_due(t_ns, true, kDraws, 0);
+  const Stroke flat = device.take_released(std::numeric_limits<std::int64_t>::max()).value();
+  EXPECT_DOUBLE_EQ(flat.exit_elevation_rad, with_lever().flat.exit_elevations_rad.back());
+  EXPECT_DOUBLE_EQ(flat.exit_speed_mps, 11.0);
+  EXPECT_EQ(flat.release_t_ns, t_ns + kicking::nanoseconds(0.04));
+  device.reset(1.0);
+  EXPECT_EQ(stroke_of(device, 50.0).exit_elevation_rad, Kicker{}.exit_elevations_rad.back()) << "back at the lob";
+}
+
+TEST(KickerDevice, KicksAsBeforeWhileTheLeverMovesOrWhereThereIsNone) {
+  KickerDevice moving{with_lever()}, none{quiet()};
+  for (KickerDevice* device : {&moving, &none}) {
+    device->reset(1.0);
+    device->lever(1, 0);
+    EXPECT_EQ(stroke_of(*device, 50.0).exit_elevation_rad, Kicker{}.exit_elevations_rad.back());
+  }
+  EXPECT_EQ(none.lever_kind(kicking::nanoseconds(10.0)), 0);
 }
 
 TEST(Release, AddsTheVelocityOfTheBallsPoint) {

@@ -37,6 +37,12 @@ void DriveMotion::hasten(const Twist& command, const PolicyConfig& config, doubl
   omega_radps += std::clamp(command.omega_radps - omega_radps, -turn, turn);
 }
 
+void DriveMotion::coast(double dt_s) {
+  position_m += dt_s * velocity_mps;
+  heading_rad += dt_s * omega_radps;
+  forward = turned(forward, dt_s * omega_radps);
+}
+
 void DriveMotion::step(const Twist& command, const PolicyConfig& config, double dt_s) {
   const Eigen::Vector2d velocity_before = velocity_mps;
   const double omega_before = omega_radps;

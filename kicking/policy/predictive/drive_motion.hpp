@@ -26,6 +26,9 @@ struct DriveMotion {
   /// Changes the velocities alone, as dt [s] of the command would.
   void hasten(const Twist& command, const PolicyConfig& config, double dt_s);
 
+  /// Goes on as it moves for dt [s], which may be negative.
+  void coast(double dt_s);
+
   /// Moves for dt [s], by the mean velocities of its ends.
   void step(const Twist& command, const PolicyConfig& config, double dt_s);
 };

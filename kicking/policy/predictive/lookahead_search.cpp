@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/shot.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kBetter = 2e-3;               // a plan must promise so much more than the one before it
 constexpr std::uint32_t kCyclesOfACorner = 4;  // after so many the other one is looked at, too
+constexpr double kMovesLever = 0.85;           // worth of a kick for which the lever moves first; tuned
 constexpr double kLastShare = 1.0 - 1e-3;      // of a cycle: its end is the next decision's beginning
 
 DriveMotion settled(const PolicyConfig& config, const PolicyInput& input, const PredictiveMemory& memory) {
@@ -37,15 +39,31 @@ LookaheadSearch::LookaheadSearch(const PolicyConfig& config, const RobotModel& r
       past_keeper_(plays_past(config, input)),
       reach_(carry_reach(config, robot, memory)),
       start_(settled(config, input, memory)),
-      model_(config, robot, goal, spread_of(config.predictive, input, memory),
-             past_keeper_ ? input.keeper : std::nullopt),
+      spread_(spread_of(config.predictive, input, memory)),
+      kind_count_(learned != nullptr ? 1 : std::min(robot.kinds(), kMostKickKinds)),
       survival_(config.predictive, memory.opponent),
       opponent_(memory.opponent),
+      wanted_kind_(memory.lever_kind),
       way_(memory.way),
       looks_at_both_(past_keeper_ && memory.cycles_past % kCyclesOfACorner == 1),
       last_fire_after_s_(last_fire_after_s(robot, input)) {
-  guess_.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
-  ball_speed_mps_ = guess_.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
+  for (std::size_t i = 0; i < kind_count_; ++i) kinds_[i].emplace(kind_of(i, memory));
+  look_at_opponents();
+  ball_speed_mps_ =
+      kinds_[0]->guess.exit_angle.cosine * 0.5 * (robot.table.front().speed_mps + robot.table.back().speed_mps);
+}
+
+/// The lever is on its way to the kind that it was last told, since then.
+LookaheadSearch::Kind LookaheadSearch::kind_of(std::size_t i, const PredictiveMemory& memory) const {
+  const RobotModel& robot = robot_.kind(i);
+  Kind kind{.model{config_, robot, goal_, spread_, past_keeper_ ? input_.keeper : std::nullopt},
+            .later_s = robot.delay_s - robot_.delay_s};
+  kind.guess.exit_angle = Elevation(robot.exit_angle_at(0.5 * (robot.table.front().power + robot.table.back().power)));
+  if (input_.lever_kind == i) return kind;
+  kind.lever_s = (memory.stuck_kinds >> i & 1) != 0 ? HUGE_VAL : robot_.lever_s;
+  if (memory.lever_kind == i && kind.lever_s < HUGE_VAL)
+    kind.lever_s = std::max(0.0, robot_.lever_s - seconds(input_.t_ns - memory.lever_since_t_ns));
+  return kind;
 }
 
 Twist LookaheadSearch::command_at(const Way& way, const DriveMotion& base) const {
@@ -79,26 +97,93 @@ ShotFeatures LookaheadSearch::features(const DriveMotion& base, const PlannedSho
   return shot;
 }
 
-PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s) {
-  PlannedShot out{.fire_after_s = fire_after_s, .release = base.release(robot_.ball_offset_m)};
+PlannedShot LookaheadSearch::planned_shot(const DriveMotion& base, double fire_after_s, bool now) {
+  PlannedShot best;
+  bool found = false;
+  for (std::size_t i = 0; i < kind_count_; ++i) {
+    const bool stands = now ? input_.lever_kind == i : fire_after_s >= kinds_[i]->lever_s;
+    if (!stands) continue;
+    const PlannedShot shot = shot_of(static_cast<std::uint8_t>(i), base, fire_after_s);
+    if (!found || worth(shot) > worth(best)) best = shot;
+    found = true;
+  }
+  if (!found) best = {.fire_after_s = fire_after_s, .release = base.release(robot_.ball_offset_m)};
+  return best;
+}
+
+/// The distance of the nearest is watched for longer than its place.
+void LookaheadSearch::look_at_opponents() {
+  if (!config_.predictive.opponent_places) return;
+  const Eigen::Vector2d ball_m = held_ball(input_.pose, robot_);
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < input_.opponent_count; ++i) {
+    const BodyPlace& place = input_.opponents[i];
+    const Eigen::Vector2d apart_m = place.position_m - ball_m;
+    const double distance_m = apart_m.norm();
+    if (!(distance_m > 0.0)) continue;
+    bodies_[body_count_] = {apart_m / distance_m, distance_m, place.closing_mps, place.sd_m};
+    if (distance_m < bodies_[nearest].distance_m) nearest = body_count_;
+    ++body_count_;
+  }
+  if (body_count_ > 0 && opponent_.seen) bodies_[nearest].closing_mps = opponent_.closing_mps;
+}
+
+/// Probability that no opponent is in the way.
+double LookaheadSearch::passes(const PlannedShot& planned, double release_after_s) const {
+  const PredictiveConfig& settings = config_.predictive;
+  if (body_count_ == 0) {
+    if (!opponent_.seen) return 1.0;
+    return 1.0 - p_blocked(settings, opponent_.distance_after_m(release_after_s), planned.shot, robot_.ball);
+  }
+  const KickExit& exit = planned.shot.exit;
+  const ReleaseState& release = planned.release;
+  const CrossingSpread& crossing = planned.shot.crossing;
+  const double way_m = std::hypot(crossing.x_m - release.ball_m.x(), goal_.y_m - release.ball_m.y());
+  const KickPath path{
+      .velocity_mps = exit.v_kick_mps * exit.exit_angle.cosine * release.forward +
+                      release.carried_mps(robot_.kind(planned.kind).transfer_exact, robot_.ball_offset_m),
+      .v_z_mps = exit.v_kick_mps * exit.exit_angle.sine,
+      .sd_rad = crossing.sd_x_m / std::max(0.1, way_m)};
+  const Body body{settings.opponent_radius_m, settings.opponent_height_m};
+  double p = 1.0;
+  for (std::size_t i = 0; i < body_count_; ++i) {
+    const Opponent& other = bodies_[i];
+    const double then_m = std::max(settings.dispute_distance_m, other.distance_m - other.closing_mps * release_after_s);
+    p *= 1.0 - p_in_the_way(then_m * other.bearing, other.sd_m, path, body, robot_.ball);
+  }
+  return p;
+}
+
+PlannedShot LookaheadSearch::shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s) {
+  PlannedShot out{.fire_after_s = fire_after_s, .kind = kind, .release = base.release(robot_.ball_offset_m)};
+  Kind& of = *kinds_[kind];
+  if (of.later_s != 0.0) {
+    DriveMotion later = base;
+    later.coast(of.later_s);
+    out.release = later.release(robot_.ball_offset_m);
+  }
   if (!may_shoot_from(config_, out.release.ball_m.y())) return out;
-  out.shot = model_.chance(out.release, guess_);
+  out.shot = of.model.chance(out.release, of.guess);
   out.p_on_target = out.shot.p;
   out.p_goal = out.shot.p_goal;
   if (!(out.shot.p > 0.0)) return out;
-  if (opponent_.seen) {
-    const double distance_m = opponent_.distance_after_m(fire_after_s + robot_.delay_s);
-    const double passes = 1.0 - p_blocked(config_.predictive, distance_m, out.shot, robot_.ball);
-    out.p_on_target *= passes;
-    out.p_goal *= passes;
-  }
+  const double passed = passes(out, fire_after_s + robot_.delay_s + of.later_s);
+  out.p_on_target *= passed;
+  out.p_goal *= passed;
   if (learned_) out.p_on_target = learned_->p_on_target(features(base, out));
   return out;
 }
 
+/// While the lever moves nothing can be fired, which no instant looks at by itself.
+double LookaheadSearch::worth(const PlannedShot& planned) const {
+  return (planned.kind == wanted_kind_ ? 1.0 : kMovesLever) * chance(planned);
+}
+
 double LookaheadSearch::value(const PlannedShot& planned, double survival) const {
-  const double p = past_keeper_ ? planned.p_goal : planned.p_on_target;
-  return p >= (past_keeper_ ? config_.predictive.goal_threshold : config_.predictive.threshold) ? survival * p : 0.0;
+  const double p = chance(planned);
+  return p >= (past_keeper_ ? config_.predictive.goal_threshold : config_.predictive.threshold)
+             ? survival * worth(planned)
+             : 0.0;
 }
 
 /// The plans part where their commands do.
@@ -123,7 +208,7 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
     const double fire_after_s = static_cast<double>(instant) * half_s;
     if (instant > 0) go_on(ways, half_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
-      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s);
+      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s, true);
       ways.candidates[i].values[instant] = value(shot, survival_(fire_after_s));
       if (instant == 0) ways.candidates[i].now = shot;
     }
@@ -131,6 +216,7 @@ void LookaheadSearch::look_at_this_cycle(Ways& ways) {
   for (CandidateWay& candidate : ways.candidates) {
     candidate.value_now = std::max({candidate.values[0], candidate.values[1], candidate.values[2]});
     candidate.value_later = config_.cycle_s <= last_fire_after_s_ ? candidate.values[2] : 0.0;
+    candidate.kind_later = candidate.now.kind;
   }
 }
 
@@ -145,9 +231,9 @@ void LookaheadSearch::look_ahead(Ways& ways) {
     if (survival <= best) return;
     go_on(ways, settings.step_s);
     for (std::size_t i = 0; i < ways.count; ++i) {
-      double& later = ways.candidates[i].value_later;
-      later = std::max(later, value(planned_shot(ways.bases[i], fire_after_s), survival));
-      best = std::max(best, later);
+      const PlannedShot shot = planned_shot(ways.bases[i], fire_after_s, false);
+      ways.candidates[i].see_later(value(shot, survival), shot.kind);
+      best = std::max(best, ways.candidates[i].value_later);
     }
   }
 }
@@ -162,7 +248,7 @@ void LookaheadSearch::schedule(CandidateWay& candidate) {
   const double fire_after_s = std::min(share, kLastShare) * config_.cycle_s;
   DriveMotion base = start_;
   drive_for(candidate.way, base, robot_.delay_s + fire_after_s);
-  candidate.now = planned_shot(base, fire_after_s);
+  candidate.now = planned_shot(base, fire_after_s, true);
   candidate.value_now = value(candidate.now, survival_(fire_after_s));
 }
 

@@ -13,6 +13,7 @@ namespace trivela::kicking {
 /// A shot at one instant of a way.
 struct PlannedShot {
   double fire_after_s = 0.0;
+  std::uint8_t kind = 0;  ///< of the kick
   ShotChance shot{};
   ReleaseState release{};
   double p_on_target = 0.0;  ///< nobody in the way either; corrected by the learned model where there is one
@@ -26,7 +27,15 @@ struct CandidateWay {
   std::array<double, 3> values{};  ///< S P of a shot at the beginning, middle and end of the cycle
   double value_now = 0.0;          ///< of firing within this cycle: S P, nothing below the threshold
   double value_later = 0.0;        ///< of the best later instant, weighed with keeping the ball until then
+  std::uint8_t kind_later = 0;     ///< of the kick of that instant
   double value() const { return value_now > value_later ? value_now : value_later; }
+  std::uint8_t kind() const { return value_now >= value_later ? now.kind : kind_later; }
+  /// A later instant of that value.
+  void see_later(double value, std::uint8_t kind) {
+    if (value <= value_later) return;
+    value_later = value;
+    kind_later = kind;
+  }
 };
 
 /// Looks ahead from one cycle.
@@ -55,7 +64,12 @@ class LookaheadSearch {
   CandidateWay best_to(double aim_x_m);
   void go_on(Ways& ways, double time_s) const;
   ShotFeatures features(const DriveMotion& base, const PlannedShot& planned) const;
-  PlannedShot planned_shot(const DriveMotion& base, double fire_after_s);
+  /// The best of the kinds for which the lever stands by then.
+  PlannedShot planned_shot(const DriveMotion& base, double fire_after_s, bool now);
+  PlannedShot shot_of(std::uint8_t kind, const DriveMotion& base, double fire_after_s);
+  double chance(const PlannedShot& planned) const { return past_keeper_ ? planned.p_goal : planned.p_on_target; }
+  double passes(const PlannedShot& planned, double release_after_s) const;
+  double worth(const PlannedShot& planned) const;
   double value(const PlannedShot& planned, double survival) const;
   void look_at_this_cycle(Ways& ways);
   void look_ahead(Ways& ways);
@@ -69,13 +83,35 @@ class LookaheadSearch {
   bool past_keeper_;
   DribbleLimit reach_;
   DriveMotion start_;
-  ShotModel model_;
+  /// One kind of kick.
+  struct Kind {
+    ShotModel model;
+    ShotGuess guess{};
+    double lever_s = 0.0;  ///< until the lever stands for it
+    double later_s = 0.0;  ///< by which its ball leaves later than the first kind's
+  };
+  Kind kind_of(std::size_t i, const PredictiveMemory& memory) const;
+
+  /// An opponent as seen from the ball now. It keeps its bearing and comes nearer until the ball leaves.
+  struct Opponent {
+    Eigen::Vector2d bearing{0.0, 1.0};
+    double distance_m = 0.0;
+    double closing_mps = 0.0;
+    double sd_m = 0.0;
+  };
+  void look_at_opponents();
+
+  StateSpread spread_;
+  std::array<std::optional<Kind>, kMostKickKinds> kinds_;
+  std::size_t kind_count_;
   Survival survival_;
-  const OpponentWatch& opponent_;
+  const OpponentWatch& opponent_;  // the nearest
+  std::array<Opponent, kMostBodies> bodies_{};
+  std::size_t body_count_ = 0;
+  std::uint8_t wanted_kind_;  // for which the lever was told to stand
   Way way_;                   // of the last cycle
   bool looks_at_both_;        // corners
   double last_fire_after_s_;  // no plan waits longer
-  ShotGuess guess_{};
   double ball_speed_mps_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kicking/ballistics/crossing.hpp"
+#include "kicking/geometry/time.hpp"
 #include "kicking/policy/policy_output.hpp"
 #include "kicking/policy/predictive/lookahead_search.hpp"
 
@@ -28,6 +29,7 @@ void describe_shot(PolicyOutput& output, const PlannedShot& now, bool past_keepe
   output.target_z_m = now.shot.aim_height_m;
   output.v_kick_mps = now.shot.exit.v_kick_mps;
   output.power = now.shot.power;
+  output.kick_kind = now.kind;
   output.v0_mps = crossing_speed({output.distance_m, now.shot.aim_height_m - robot.ball.radius_m},
                                  now.shot.exit.exit_angle.angle_rad);
   output.p_on_target = now.p_on_target;
@@ -58,6 +60,7 @@ PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config
     own.cycles_past = past_keeper ? own.cycles_past + 1 : 0;
     if (own.cycles_past <= 1) own.way.aim_x_m = target_past(config, robot, goal, input, own).x();
   }
+  own.watch_lever(robot, input);
   LookaheadSearch search(config, robot, goal, input, own, learned);
   CandidateWay best{};
   if (pending) {
@@ -65,12 +68,14 @@ PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config
   } else {
     best = search.best();
     own.way = best.way;
+    own.want_lever(best.value() > 0.0 ? best.kind() : own.lever_kind, input.t_ns);
   }
   PolicyOutput output = describe(config, goal, {});
   output.target_x_m = best.way.aim_x_m;
   output.distance_m = (Eigen::Vector2d{output.target_x_m, goal.y_m} - held_ball(input.pose, robot)).norm();
   output.left_m = output.right_m = goal.clean_half_width_m(robot.ball);
   describe_shot(output, best.now, past_keeper, robot, goal);
+  output.lever_kind = own.lever_kind;
   output.drive = search.command(best.way);
   own.command = output.drive;
   output.reason = pending ? Reason::kOrderPending : reason_of(best);
@@ -78,6 +83,22 @@ PolicyOutput evaluate_by(const LearnedModel* learned, const PolicyConfig& config
 }
 
 }  // namespace
+
+void PredictiveMemory::want_lever(std::uint8_t kind, std::int64_t t_ns) {
+  if (kind == lever_kind) return;
+  lever_kind = kind;
+  lever_since_t_ns = t_ns;
+}
+
+void PredictiveMemory::watch_lever(const RobotModel& robot, const PolicyInput& input) {
+  if (lever_since_t_ns == 0) {  // the possession begins: it is wanted where it stands
+    lever_since_t_ns = input.t_ns;
+    if (input.lever_kind < robot.kinds()) lever_kind = input.lever_kind;
+  }
+  const double told_s = seconds(input.t_ns - lever_since_t_ns);
+  if (lever_kind == 0 || input.lever_kind == lever_kind || told_s < 2.0 * robot.lever_s + 0.2) return;
+  stuck_kinds |= static_cast<std::uint8_t>(1u << lever_kind);
+}
 
 void PredictiveMemory::watch(const PolicyConfig& config, const PolicyInput& input) {
   opponent.update(config.predictive, input.t_ns, input.playing, input.opponent_distance_m, input.opponent_closing_mps);

@@ -8,11 +8,19 @@ namespace trivela::kicking {
 
 struct PredictiveMemory : PossessionMemory {
   OpponentWatch opponent{};
-  Way way{};                      ///< that it drives by
-  std::uint32_t cycles_past = 0;  ///< in a row in which it looked past a keeper
-  std::optional<Twist> command;   ///< of the last cycle
-  std::optional<Twist> twist;     ///< of the robot in the last cycle
-  double speed_jump_mps = 0.0;    ///< by which the twist changed more than the base can
+  Way way{};                          ///< that it drives by
+  std::uint8_t lever_kind = 0;        ///< for which it wants the lever to stand ...
+  std::int64_t lever_since_t_ns = 0;  ///< ... since then
+  std::uint8_t stuck_kinds = 0;       ///< bit i: the lever did not come to kind i when it was told
+  std::uint32_t cycles_past = 0;      ///< in a row in which it looked past a keeper
+  std::optional<Twist> command;       ///< of the last cycle
+  std::optional<Twist> twist;         ///< of the robot in the last cycle
+  double speed_jump_mps = 0.0;        ///< by which the twist changed more than the base can
+
+  /// It wants the lever to stand for that kind of kick.
+  void want_lever(std::uint8_t kind, std::int64_t t_ns);
+  /// A lever that has not come to its kind within 2 lever_s + 0.2 s does not come in this possession.
+  void watch_lever(const RobotModel& robot, const PolicyInput& input);
 
   /// What is seen in every cycle, also while nothing may be decided: the opponent, the robot's own twist.
   void watch(const PolicyConfig& config, const PolicyInput& input);

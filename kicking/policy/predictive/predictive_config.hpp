@@ -17,6 +17,10 @@ struct PredictiveConfig {
   /// Chance that a ball which touches the floor before the line still goes in, against one that does not. Below 1 the
   /// best height is not the floor.
   double bounce_ratio = 0.9;
+  /// The same of a low kick, which meets the floor at a few degrees (low_kick()).
+  double low_bounce_ratio = 0.98;
+  /// Sliding friction of ball and floor, for the time that a low kick takes.
+  double floor_friction_ratio = 0.3;
 
   /// What the robot does not know of itself, beside what its filters say: they cannot see the slow errors of
   /// self-localisation (0.12 m is the published localisation noise).
@@ -40,6 +44,8 @@ struct PredictiveConfig {
   /// An opponent is a cylinder (rules: 52 x 52 x 80 cm) that a ball must pass or clear.
   double opponent_radius_m = 0.26;
   double opponent_height_m = 0.8;
+  /// Whether it goes by where tracked opponents stand; else the nearest is somewhere around the ball.
+  bool opponent_places = false;
 };
 
 }  // namespace trivela::kicking

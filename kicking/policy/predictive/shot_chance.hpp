@@ -25,8 +25,13 @@ struct ShotGuess {
   Elevation exit_angle{};
 };
 
+/// Whether no kick of this kind rises to the bar at full power, v_z^2 / (2 g) + 2 r below it. Such a kind has no height
+/// to choose: it is kicked at full power, and its ball may touch the floor.
+bool low_kick(const RobotModel& robot, const Goal& goal);
+
 /// Aims a robot that is released in some state: direction and side are the state's, the height is the one that
-/// maximises P (BestHeight), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target.
+/// maximises P (BestHeight), the power follows in closed form (directed_kick), P by crossing_spread and p_on_target. A
+/// low kick has full power; where it falls to the floor before the line its time is floor_time_s().
 class ShotModel {
  public:
   /// `keeper`: to be passed; none: nobody.
@@ -37,18 +42,23 @@ class ShotModel {
         goal_(goal),
         state_(state),
         keeper_(keeper),
-        best_height_(config.predictive.bounce_ratio, goal, robot.ball) {}
+        best_height_(config.predictive.bounce_ratio, goal, robot.ball),
+        low_(low_kick(robot, goal)) {}
 
   /// The guess is improved.
   ShotChance chance(const ReleaseState& release, ShotGuess& guess) const;
 
  private:
+  bool aim(const ReleaseState& release, const Eigen::Vector2d& carried_mps, ShotGuess& guess, ShotChance& out) const;
+  void go_over_floor(const ReleaseState& release, const Eigen::Vector2d& carried_mps, ShotChance& out) const;
+
   const PolicyConfig& config_;
   const RobotModel& robot_;
   const Goal& goal_;
   StateSpread state_;
   std::optional<KeeperPlace> keeper_;
   BestHeight best_height_;
+  bool low_;
 };
 
 /// Probability that an opponent at this distance from the ball, anywhere around it, is in a ball's way: it covers
