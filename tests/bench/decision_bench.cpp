@@ -55,14 +55,24 @@ BENCHMARK_CAPTURE(moving_kick_decision, physical, HeightLaw::kExact, MotionLaw::
 void stopped_kick_decision(benchmark::State& state) { judge_cycles(state, PolicyName::kStopped, {}); }
 BENCHMARK(stopped_kick_decision);
 
-/// Opponents from near to far, watched for a while: what a cycle of play looks like. With an argument past a keeper.
+/// Opponents from near to far, watched for a while: what a cycle of play looks like. 1: past a keeper; 2: and with a
+/// lever for flat kicks, and opponents with a place.
 void predictive_kick_decision(benchmark::State& state) {
   auto inputs = situations();
   if (state.range(0) != 0)
     for (PolicyInput& input : inputs) input.keeper = KeeperPlace{0.1, 0.1};
   std::array<PolicyMemory, 64> watched;
-  const PolicyConfig config;
-  const RobotModel robot;
+  PolicyConfig config;
+  RobotModel robot;
+  if (state.range(0) == 2) {
+    config.predictive.opponent_places = true;
+    robot.further_kinds.push_back(robot);
+    robot.further_kinds.front().exit_angle_rad = radians(6.0);
+    for (PolicyInput& input : inputs) {
+      input.opponents[0] = {Eigen::Vector2d{input.pose.x_m + 0.5, input.pose.y_m + 1.0}, 1.3, 0.1};
+      input.opponent_count = 1;
+    }
+  }
   const Goal goal;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     for (int cycle = 10; cycle > 0; --cycle) {
@@ -81,7 +91,7 @@ void predictive_kick_decision(benchmark::State& state) {
     i = (i + 1) % inputs.size();
   }
 }
-BENCHMARK(predictive_kick_decision)->ArgName("keeper")->Arg(0)->Arg(1);
+BENCHMARK(predictive_kick_decision)->ArgName("keeper")->Arg(0)->Arg(1)->Arg(2);
 
 void solve_moving_kick(benchmark::State& state) {
   FlightPoint point{5.73, 0.59};
