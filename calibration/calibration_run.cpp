@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "calibration/rows/drive_rows.hpp"
@@ -245,6 +246,11 @@ DriveSummary CalibrationRun::low_kind(std::size_t kind) {
   summary.kicks = record.kicks.size();
   kicking::RobotModel model = update_.robot().model.kind(kind);
   const auto delays = release_delays(record.drives);
+  if (delays.rows.size() < 2) {
+    throw std::runtime_error{
+        fmt::format("kind of kick \"{}\": the goal camera saw {} of {} kicks leave, 2 are needed at least",
+                    summary.name, delays.rows.size(), summary.kicks)};
+  }
   const kicking::DelayFit delay = kicking::fit_delay(delays.rows);
   model.delay_s = delay.mean_s.value;
   const auto kicks = low_kicks(record.drives, model);

@@ -12,6 +12,12 @@ std::string placing(const DrivePlan& plan, const config::Settings& settings) {
   const double ball_m = plan.ball_to_goal_m.value_or(0.0);
   switch (plan.policy) {
     case PolicyName::kStandingDrive:
+      if (!plan.laser) {
+        return fmt::format(
+            "The lever moves: keep hands out of the kicker. Lay the ball {:.2f} m from the goal line and the robot\n"
+            "behind it, facing the goal. Its kicks stay low. Put both back there after each kick.",
+            ball_m);
+      }
       return fmt::format(
           "Lay the ball {:.2f} m from the goal line, in the scanner's plane, and the robot behind it, facing the "
           "goal.\n"

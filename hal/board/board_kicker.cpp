@@ -139,6 +139,8 @@ void BoardKicker::send(const Shot& shot) {
   if (now_ns > shot.until_ns)
     return drop(shot, What::kLate,
                 fmt::format("it was {:.3f} s too late", static_cast<double>(now_ns - shot.until_ns) / kNsPerS));
+  if (!board_->stands_for(shot.kick_kind, now_ns))
+    return drop(shot, What::kDevice, "the lever does not stand for its kind of kick");
   if (hold_ && hold_(shot.judged_ns)) return drop(shot, What::kCalledOff, "it was called off before its instant");
   if (const std::string why = board_->shoot(shot.power, now_ns); !why.empty()) return drop(shot, What::kDevice, why);
   if (written_) written_();

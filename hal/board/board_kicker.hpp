@@ -21,6 +21,7 @@ namespace trivela::hal {
 /// the board and holds each shot back until its instant; then it makes the one write, or none. It drops a shot:
 /// - whose instant comes while the board does not answer,
 /// - whose deadline is over when it looks at the clock, immediately before the write,
+/// - for whose kind of kick the lever does not stand,
 /// - that hold_when() holds.
 /// What was dropped stands in status() and in take_result(). read() gives the newest sample.
 class BoardKicker final : public Kicker {

@@ -37,6 +37,12 @@ class KickerBoard {
   /// Kicker::lever(): the next step() tells the board.
   virtual void lever(std::uint8_t kick_kind) { static_cast<void>(kick_kind); }
 
+  /// Whether the lever stands for that kind of kick now. A board without a lever says yes.
+  virtual bool stands_for(std::uint8_t kick_kind, std::int64_t now_ns) const {
+    static_cast<void>(now_ns);
+    return static_cast<void>(kick_kind), true;
+  }
+
   /// Kicker::beyond(). For any thread.
   virtual std::string beyond(double power) const = 0;
 

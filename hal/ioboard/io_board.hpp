@@ -40,6 +40,9 @@ class IoBoard final : public KickerBoard {
   std::string beyond(double power) const override;
   std::optional<KickerSample> take_sample() override;
   void lever(std::uint8_t kick_kind) override;
+  bool stands_for(std::uint8_t kick_kind, std::int64_t now_ns) const override {
+    return settings_.levers.size() < 2 || lever_kind(now_ns) == kick_kind;
+  }
   KickerCapabilities capabilities() const override { return {.lever = settings_.levers.size() > 1}; }
   const std::string& status() const override { return status_; }
 

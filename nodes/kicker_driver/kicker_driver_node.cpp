@@ -327,6 +327,7 @@ void KickerDriverNode::on_order(const msg::KickOrder& order, robot::OrderBy by) 
   receipt.received_steady_ns = received_ns;
   if (receipt.accepted) {
     if (pending_) pending_->accepted(receipt);
+    kicker_->lever(receipt.kick_kind);  // an earlier wish that the board has not heard yet is withdrawn
     kicker_->fire({.kick_id = receipt.kick_id,
                    .power = receipt.power,
                    .t_ns = receipt.fired_t_ns,

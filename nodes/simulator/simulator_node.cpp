@@ -265,6 +265,10 @@ void SimulatorNode::order(const msg::DeviceFire& fire, sim::Commands& out) {
     context_.logger->warn("kick {} reached the coil {:.3f} s after its instant: not fired", fire.kick_id, late_s);
     return;
   }
+  if (scenario_.kicker.flat.enabled && match_.true_state().lever_kind != fire.kick_kind) {
+    context_.logger->warn("kick {}: the lever does not stand for its kind of kick: not fired", fire.kick_id);
+    return;
+  }
   out.fire = sim::Fire{fire_t_ns, fire.kick_id, fire.power};
 }
 

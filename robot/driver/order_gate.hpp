@@ -20,16 +20,22 @@ enum class OrderBy { kOwnDecision, kStranger };
 
 /// The last word on every order: the one place that decides whether the coil may be energised.
 ///
-/// An order passes when, in this order, the robot's own decision node wrote it, the device is sound (no fault, samples
-/// neither older than link_timeout_s nor from more than future_tolerance_s ahead), the robot has the kind of
-/// kick, the power is finite and inside its set-points and the kick_id above 0, the ball lay in the handler where it
-/// was judged, the kicker is armed (switch on, referee heard and playing) and the decision node lives, the order was
-/// judged at most max_order_age_s ago and is not older than its valid_until_t_ns nor was judged or is to be fired more
-/// than future_tolerance_s ahead nor is to be fired before it was judged or more than a cycle after, its kick_id is not
-/// among the last kRemembered accepted and the last kick is over and at least min_interval_s ago, the capacitor holds
-/// min_charge_ratio, and the lever stands for the kind of kick. The first condition that fails is the refusal. A
-/// refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A stranger's order
-/// is counted and leaves nothing else behind.
+/// An order passes when all of this holds. The first that does not is the refusal:
+/// - the robot's own decision node wrote it;
+/// - the device is sound: no fault, and samples neither older than link_timeout_s nor from more than
+///   future_tolerance_s ahead;
+/// - the robot has its kind of kick, its power is finite and inside the set-points, its kick_id is above 0;
+/// - the ball lay in the handler where it was judged;
+/// - the kicker is armed (switch on, referee heard and playing), and the decision node lives;
+/// - it was judged at most max_order_age_s ago, is not past its valid_until_t_ns, and is neither judged nor to be fired
+///   more than future_tolerance_s ahead;
+/// - it is to be fired from the instant of its judgement on and within a cycle of that;
+/// - its kick_id is not among the last kRemembered accepted, the last kick is over and min_interval_s ago;
+/// - the capacitor holds min_charge_ratio;
+/// - the lever stands for its kind of kick.
+///
+/// A refused order keeps nobody's kick_id: it is known again only as a whole, and then it is a double. A stranger's
+/// order is counted and leaves nothing else behind.
 class OrderGate {
  public:
   /// How many accepted orders, and how many refused ones, are known again.

@@ -100,6 +100,27 @@ TEST_F(RealTime, NodesThatAreStartedOneByOneRecordAMatchAndStopOnSigterm) {
   EXPECT_EQ(number_of(log, "SELECT count(*) FROM kicks WHERE order_seq IS NULL OR accepted IS NULL"), 0);
 }
 
+// The lever hears device/charge here, which has no cycle; the simulator's truth says what became of each order.
+TEST_F(RealTime, ALeverStandsForTheKindOfEachOrderThatIsFired) {
+  const std::filesystem::path config = std::filesystem::path{TRIVELA_SOURCE_DIR} / "config";
+  settings_.run.robot = config / "robots/lob_flat_1.toml";
+  settings_.run.scenario = config / "scenarios/flat_keeper.toml";
+  settings_.kick_decision.policy_by_half = {kicking::PolicyName::kPredictive};
+  settings_.simulator.halves = 1;
+  settings_.simulator.half_minutes = 10.0;
+  start();
+  Program simulator{"trivela-simulator", kArguments, folder_.path()};
+  ASSERT_TRUE(wait_for_change(folder_.path(), nodes_[3].watch(), [&] { return fired() >= 4; })) << nodes_[3].errors();
+  simulator.signal(SIGTERM);
+  simulator.wait();
+  stop();
+  const Reader log{folder_ / "match.db"};
+  const std::string kicked = "FROM kick_orders AS o JOIN kick_truths AS t USING (session_id, robot_id, kick_id) ";
+  EXPECT_GE(number_of(log, "SELECT count(*) " + kicked + "WHERE o.kick_kind = 1"), 1);
+  EXPECT_EQ(number_of(log, "SELECT count(*) " + kicked + "WHERE (o.kick_kind = 1) <> (t.release_vz_mps < 2.0)"), 0);
+  EXPECT_GT(number_of(log, "SELECT count(*) FROM kicker_status WHERE lever_kind = 255"), 0);
+}
+
 TEST_F(RealTime, ASimulatorThatIsStartedAnewIsPlayedWithAtOnce) {
   settings_.simulator.half_minutes = 10.0;
   start();

@@ -50,6 +50,27 @@ TEST(SimulatedCalibration, FindsTheWorldsKickerAndNothingOfIt) {
   EXPECT_NEAR(robot.model.table.speed_for(30.0), 0.95 * 9.21, 0.1);
 }
 
+TEST(SimulatedCalibration, MeasuresAFurtherKindOfKickAndLeavesTheFirstAsItIs) {
+  sim::Scenario world;
+  const config::Robot lob = calibrated_robot(world, 3);
+  world.kicker.flat.enabled = true;
+  world.kicker.flat.delay_s = 0.09;
+  for (double& speed_mps : world.kicker.flat.exit_speeds_mps) speed_mps *= 1.15;
+  const config::Robot both = calibrated_robot(world, 3);
+  ASSERT_EQ(both.model.kinds(), 2u);
+  const kicking::RobotModel& flat = both.model.kind(1);
+  EXPECT_NEAR(flat.delay_s, 0.09, 0.012);
+  for (std::size_t i = 2; i < world.kicker.flat.powers.size(); ++i) {
+    const double v_mps = world.kicker.flat.exit_speeds_mps[i];
+    EXPECT_NEAR(flat.table.speed_for(world.kicker.flat.powers[i]), v_mps, 0.08 * v_mps) << "the file guesses 15 % less";
+  }
+  EXPECT_NEAR(flat.spreads.direction_sd_rad, world.kicker.flat.direction_sd_rad,
+              0.5 * world.kicker.flat.direction_sd_rad);
+  EXPECT_EQ(both.model.table.back().speed_mps, lob.model.table.back().speed_mps);
+  EXPECT_EQ(both.model.delay_s, lob.model.delay_s);
+  EXPECT_EQ(flat.transfer_exact.forward, lob.model.transfer_exact.forward);
+}
+
 TEST(SimulatedCalibration, DependsOnItsSeedAndNotOnTheThreads) {
   SimulatedCalibrationOptions options = default_simulated_calibration();
   options.seed = 20;

@@ -139,6 +139,12 @@ TEST_F(IoBoardKickerTest, TheLeverStandsForTheKindOfKickThatIsWantedAlsoOnANewLi
   EXPECT_TRUE(stands_for(kicking::kLeverMoves));
   EXPECT_TRUE(stands_for(1));
   EXPECT_EQ(board().lever(), 20);
+  kicker->fire({.kick_id = 1, .power = 100.0, .t_ns = steady_ns()});
+  EXPECT_TRUE(tests::until_status_says(*kicker, "kick 1 was not fired: the lever does not stand for its kind of kick"));
+  EXPECT_EQ(board().shots_told(), 0u) << "judged for the other kind";
+  EXPECT_EQ(kicker->take_result().value_or(ShotResult{}).what, ShotResult::What::kDevice);
+  kicker->fire({.kick_id = 2, .power = 100.0, .t_ns = steady_ns(), .kick_kind = 1});
+  EXPECT_TRUE(wait_for_pulses(1));
   emulator_.line().pull();
   EXPECT_TRUE(until_link_fault(*kicker));
   emulator_.line().plug();

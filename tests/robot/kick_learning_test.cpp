@@ -86,6 +86,11 @@ TEST_F(KickLearningTest, IsMovedByNoKickThatNobodySawOrGave) {
   EXPECT_FALSE(learning.seen(flown(9), 1)) << "another kick";
   learning.hear(decided(5, false));
   EXPECT_FALSE(learning.seen(flown(0), 1)) << "a decision that held";
+  msg::KickReceipt flat = answered(6);
+  flat.kick_kind = 1;
+  learning.hear(decided(6));
+  learning.hear(flat);
+  EXPECT_FALSE(learning.seen(flown(6), 1)) << "a further kind of kick";
 }
 
 TEST_F(KickLearningTest, ASecondOutcomeOfAKickSaysNothingNew) {
