@@ -135,13 +135,13 @@ void BoardKicker::send(const Shot& shot) {
   using What = ShotResult::What;
   dropped_.clear();
   if (!board_->up()) return drop(shot, What::kDevice, "the board did not answer at its instant");
+  if (hold_ && hold_(shot.judged_ns)) return drop(shot, What::kCalledOff, "it was called off before its instant");
   const std::int64_t now_ns = steady_ns();
   if (now_ns > shot.until_ns)
     return drop(shot, What::kLate,
                 fmt::format("it was {:.3f} s too late", static_cast<double>(now_ns - shot.until_ns) / kNsPerS));
   if (!board_->stands_for(shot.kick_kind, now_ns))
     return drop(shot, What::kDevice, "the lever does not stand for its kind of kick");
-  if (hold_ && hold_(shot.judged_ns)) return drop(shot, What::kCalledOff, "it was called off before its instant");
   if (const std::string why = board_->shoot(shot.power, now_ns); !why.empty()) return drop(shot, What::kDevice, why);
   if (written_) written_();
   results_.push_back({shot.kick_id, What::kFired, steady_ns()});
